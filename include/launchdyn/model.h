@@ -1,0 +1,245 @@
+/// The model: what a scenario says, validated, as plain data in SI units and radians.
+///
+/// A model is constant while it runs. It can be read from a scenario file (launchdyn/scenario.h) or
+/// filled by hand, starting from ld_model_init(). Counts say how many entries of a fixed array are
+/// used; tables are pointers to memory that the model owns (see ld_model_free()).
+/// Frames: `I` inertial (x forward, y up, z right), `B` rocket (origin at the rear adaptor's
+/// centre, x along the axis, forward), tube axes (origin at the undeformed tube's rear end, x along
+/// it).
+#ifndef LAUNCHDYN_MODEL_H
+#define LAUNCHDYN_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "launchdyn/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    LD_MAX_SECTIONS = 32,
+    LD_MAX_POINT_MASSES = 16,
+    LD_MAX_SUPPORTS = 8,
+    LD_MAX_ADAPTORS = 8,
+    LD_MAX_SINES = 16,
+    LD_MAX_FIRINGS = 1,
+    LD_MAX_BENDING_MODES = 24,
+    LD_MAX_TORSION_MODES = 8,
+    LD_MAX_AXIAL_MODES = 8,
+    LD_MAX_NAME = 64,
+};
+
+/// A numeric table, row by row, `rows` x `columns`, owned by its model. Empty: rows = 0.
+typedef struct ld_table {
+    size_t rows;
+    size_t columns;
+    double *data;
+} ld_table;
+
+/// One sinusoid `amplitude sin(2 pi frequency t + phase)`.
+typedef struct ld_sine {
+    double amplitude; ///< [m] or [rad]
+    double frequency; ///< [Hz], cycles per second
+    double phase;     ///< [rad]
+} ld_sine;
+
+typedef struct ld_sines {
+    int count;
+    ld_sine term[LD_MAX_SINES];
+} ld_sines;
+
+typedef enum ld_base_kind { LD_BASE_FIXED, LD_BASE_PRESCRIBED } ld_base_kind;
+
+/// The base that carries the tube: model.md, section 2.
+typedef struct ld_base {
+    ld_base_kind kind;
+    double azimuth;              ///< [rad] of the tube against the base, about +y
+    double elevation;            ///< [rad] of the tube against the base, about +z
+    double velocity[3];          ///< [m/s] constant velocity along I (prescribed)
+    ld_sines surge, heave, sway; ///< [m] along I's x, y, z (prescribed)
+    ld_sines yaw, pitch, roll;   ///< [rad] base pose Ry(yaw) Rz(pitch) Rx(roll) (prescribed)
+    ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
+} ld_base;
+
+/// A stretch of the tube with constant section, from `from` to the next section's or to the end.
+typedef struct ld_section {
+    double from;              ///< [m] station where it begins
+    double bore_radius;       ///< [m] inner radius
+    double mass_per_length;   ///< [kg/m]
+    double axial_stiffness;   ///< [N] E A
+    double bending_stiffness; ///< [N m2] E I, the same in both planes
+    double torsion_stiffness; ///< [N m2] G I_t
+    double polar_inertia;     ///< [kg m] rho I_p per length
+} ld_section;
+
+typedef struct ld_point_mass {
+    double at;   ///< [m] station
+    double mass; ///< [kg]
+} ld_point_mass;
+
+typedef enum ld_mode_span { LD_SPAN_SUPPORTED, LD_SPAN_CLAMPED, LD_SPAN_FREE_FREE } ld_mode_span;
+
+typedef struct ld_modes {
+    int bending; ///< modes per plane
+    int torsion;
+    int axial;
+    int elements; ///< finite elements along the tube (at least; section steps add nodes)
+    ld_mode_span span;
+    double damping; ///< [-] ratio, of the clamped modes of the bare tube
+} ld_modes;
+
+typedef struct ld_tail {
+    double mass;       ///< [kg], may be 0
+    double center;     ///< [m] x of the mass centre in the rear section's frame (negative: behind)
+    double inertia[3]; ///< [kg m2] about its own mass centre, tube axes
+} ld_tail;
+
+/// Spring-damper between the tube's section at `at` and the base: model.md, section 4.
+typedef struct ld_support {
+    double at;                      ///< [m] station
+    double stiffness[3];            ///< [N/m]
+    double damping[3];              ///< [N s/m]
+    double rotational_stiffness[3]; ///< [N m/rad]
+    double rotational_damping[3];   ///< [N m s/rad]
+} ld_support;
+
+typedef enum ld_slot_kind { LD_SLOT_NONE, LD_SLOT_HELIX } ld_slot_kind;
+
+typedef struct ld_slot {
+    ld_slot_kind kind;
+    ld_table angle;  ///< s [m], alpha [rad]; one row: constant; linear between, constant outside
+    double radius;   ///< [m] R_k, of the knob's circle
+    double friction; ///< [-] mu_s
+} ld_slot;
+
+typedef struct ld_layout {
+    int rows, columns;
+    double pitch;    ///< [m]
+    double first[3]; ///< [m] rear end of tube 1, platform axes
+} ld_layout;
+
+typedef struct ld_tubes {
+    ld_layout layout;
+    double length; ///< [m]
+    int section_count;
+    ld_section section[LD_MAX_SECTIONS];
+    int point_mass_count;
+    ld_point_mass point_mass[LD_MAX_POINT_MASSES];
+    ld_modes modes;
+    ld_tail tail;
+    int support_count;
+    ld_support support[LD_MAX_SUPPORTS];
+    ld_slot slot;
+} ld_tubes;
+
+/// Mass data of the rocket at one instant.
+typedef struct ld_mass_data {
+    double mass;       ///< [kg]
+    double center[3];  ///< [m] in B
+    double inertia[3]; ///< [kg m2] about the mass centre, in B
+} ld_mass_data;
+
+typedef struct ld_adaptor {
+    char name[LD_MAX_NAME];
+    double at;        ///< [m] l_i, from the rear adaptor
+    double clearance; ///< [m] radial
+} ld_adaptor;
+
+typedef enum ld_contact_law {
+    LD_CONTACT_HUNT_CROSSLEY,
+    LD_CONTACT_LANKARANI_NIKRAVESH,
+    LD_CONTACT_KELVIN_VOIGT,
+    LD_CONTACT_BILATERAL,
+} ld_contact_law;
+
+/// Contact between adaptors and tube: model.md, section 5.
+typedef struct ld_contact {
+    ld_contact_law law;
+    double stiffness;             ///< [N/m] k
+    double exponent;              ///< [-] n
+    double reference_penetration; ///< [m] d_0
+    double restitution;           ///< [-] e
+    double reference_speed;       ///< [m/s] v_0
+    double damping;               ///< [N s/m] c, of the laws kelvin-voigt and bilateral
+    double friction;              ///< [-] mu
+    double friction_speed;        ///< [m/s] v_eps, of tube contact and slot
+} ld_contact;
+
+typedef struct ld_lock {
+    bool present;
+    double release_force; ///< [N]
+} ld_lock;
+
+typedef struct ld_motor {
+    ld_table thrust;        ///< t [s], T [N]; linear between, 0 after the last; a double time jumps
+    double at[3];           ///< [m] x_T, e_y, e_z in B
+    double misalignment[2]; ///< [-] eps_y, eps_z
+    double thrust_scale;    ///< [-]
+    double time_scale;      ///< [-]
+} ld_motor;
+
+typedef struct ld_rocket {
+    double start_at; ///< [m] s of the rear adaptor at the start
+    ld_mass_data full;
+    ld_mass_data empty;
+    double propellant;      ///< [kg] burnt mass; full.mass - empty.mass unless given
+    double products[3];     ///< [kg m2] J_xy, J_xz, J_yz of the matrix, full and empty
+    double mass_error;      ///< [kg] at the mass centre, added to full and empty
+    double eccentricity[2]; ///< [m] y, z, added to full and empty
+    int adaptor_count;
+    ld_adaptor adaptor[LD_MAX_ADAPTORS]; ///< the first is the rear one
+    ld_contact contact;
+    double knob_angle; ///< [rad] gamma_b
+    ld_lock lock;
+    ld_motor motor;
+} ld_rocket;
+
+typedef struct ld_firing {
+    int tube;  ///< number from 1
+    double at; ///< [s] on the run's clock
+} ld_firing;
+
+typedef enum ld_start { LD_START_EQUILIBRIUM, LD_START_UNDEFORMED } ld_start;
+typedef enum ld_formulation { LD_FORMULATION_REDUCED, LD_FORMULATION_OVERALL } ld_formulation;
+typedef enum ld_run_end { LD_END_TIP, LD_END_TIME } ld_run_end;
+
+typedef struct ld_run_settings {
+    ld_start start;
+    ld_formulation formulation;
+    double lead_in; ///< [s]
+    ld_run_end end;
+    double end_time;            ///< [s] after the last ignition (LD_END_TIME)
+    double tolerance;           ///< [-] relative tolerance of the integrator
+    double output_step_lead_in; ///< [s]
+    double output_step_tube;    ///< [s]
+    double stuck_time; ///< [s] after ignition at which a rocket still in the tube is given up
+} ld_run_settings;
+
+typedef struct ld_model {
+    char *title;
+    double gravity; ///< [m/s2]
+    ld_base base;
+    ld_tubes tubes;
+    ld_rocket rocket;
+    int firing_count;
+    ld_firing firing[LD_MAX_FIRINGS];
+    ld_run_settings run;
+} ld_model;
+
+/// Fills `model` with the defaults of the scenario language (no tables, no title).
+void ld_model_init(ld_model *model);
+
+/// Frees the title and the tables of `model` and resets it to the defaults.
+void ld_model_free(ld_model *model);
+
+/// Checks that the values of `model` fit together and are finite and in range; for models filled by
+/// hand (the scenario reader has its own messages with line and column).
+ld_status ld_model_check(const ld_model *model, ld_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,55 @@
+/// Scenario files: reading, checking, printing. The language is in docs/scenario.md.
+#ifndef LAUNCHDYN_SCENARIO_H
+#define LAUNCHDYN_SCENARIO_H
+
+#include <stdio.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// One thing wrong with a scenario: where, which key, what was found and what is allowed.
+typedef struct ld_message {
+    char *file; ///< "" for --set
+    int line;   ///< from 1; 0 where there is none
+    int column; ///< from 1
+    char *path; ///< the key's full path, e.g. "rocket.adaptors[2].clearance"
+    char *text; ///< what was found, what is allowed, a suggestion
+} ld_message;
+
+typedef struct ld_messages {
+    size_t count;
+    ld_message *item;
+} ld_messages;
+
+void ld_messages_free(ld_messages *messages);
+
+/// Prints `file:line:column: error: path: text`, a line each (with the source line and a caret).
+void ld_messages_print(const ld_messages *messages, FILE *stream);
+
+/// Reads and checks a scenario file. All errors of the file come in one pass.
+/// @param path     file name; "-" is standard input
+/// @param sets     `count` texts "path=value" that override the file (as of --set)
+/// @param model    filled on success (free with ld_model_free()); untouched on failure
+/// @param messages filled on failure (free with ld_messages_free())
+/// @return LD_OK, LD_ERR_INPUT, LD_ERR_FILE or LD_ERR_MEMORY
+ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count, ld_model *model,
+                           ld_messages *messages);
+
+/// The same from text in memory; `name` stands for the file in messages, `folder` is where files
+/// that it names are looked for.
+ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
+                                const char *folder, const char *const *sets, size_t count,
+                                ld_model *model, ld_messages *messages);
+
+/// Prints what was understood, every key with its value in SI, as YAML that can be read again.
+void ld_model_print(const ld_model *model, FILE *stream);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,155 @@
+/// A launch: from a model to rows of a history and a summary.
+///
+/// A simulation holds what is computed once from the model (modes, inertia coefficients, tables)
+/// and the workspace of one thread. Nothing is allocated between the first and the last step.
+#ifndef LAUNCHDYN_SIMULATION_H
+#define LAUNCHDYN_SIMULATION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/results.h"
+#include "launchdyn/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES };
+
+/// Attitude, rates and forces of one rocket at its key instants. Instants in [s] from its ignition,
+/// NaN where the instant was not reached or does not exist.
+typedef struct ld_rocket_summary {
+    int tube;                       ///< number of the tube
+    double t_ignition;              ///< [s] on the run's clock
+    double t_release;               ///< lock release
+    double t_front;                 ///< front adaptor (the one farthest forward) passes the tip
+    double t_middle;                ///< middle adaptor (of exactly three) passes the tip
+    double t_rear;                  ///< rear adaptor passes the tip: the rocket has left
+    double t_exit[LD_MAX_ADAPTORS]; ///< the same for every adaptor, in the model's order
+    double muzzle_speed;            ///< [m/s] s_dot at t_rear, relative to the tube
+    double inertial_speed;          ///< [m/s] of O1 in I at t_rear
+    double spin_rate;               ///< [rad/s] x component of the rate of B against I, in B
+    double pitch, yaw;              ///< [rad] of B's x axis in I: model.md section 1
+    double pitch_rate, yaw_rate;    ///< [rad/s] their time derivatives
+    struct {
+        double y, z;              ///< [m] y_S, z_S
+        double psi, theta, gamma; ///< [rad] A_SB = Rz(psi) Ry(theta) Rx(gamma)
+        double w_x, w_y, w_z;     ///< [rad/s] rate of B against S, in S
+    } relative;                   ///< rocket against the tube's section at t_rear
+    struct {
+        double y, z;                 ///< [m]
+        double pitch, yaw;           ///< [rad]
+        double vy, vz;               ///< [m/s]
+        double pitch_rate, yaw_rate; ///< [rad/s]
+    } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
+    double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
+    double max_slot_force;                     ///< [N] |N|
+} ld_rocket_summary;
+
+/// Work by kind of force since the start [J]; positive: into the tube and the rocket.
+typedef struct ld_work {
+    double thrust;
+    double gravity_rocket;
+    double contact_normal;
+    double contact_friction;
+    double slot; ///< of the constraint force N: zero but for the step error
+    double slot_friction;
+    double lock; ///< zero but for the step error
+    double support_damping;
+    double modal_damping;
+    double base;        ///< by the moving base through the supports
+    double mass_change; ///< kinetic energy carried off by the burnt propellant: model.md section 5
+} ld_work;
+
+/// Energy of tube, tail, supports and rocket at the end [J]; `residual` is what the balance misses.
+typedef struct ld_energy {
+    double kinetic;
+    double potential; ///< of tube and tail in gravity, from the origin of I (rocket:
+                      ///< work.gravity_rocket)
+    double elastic;   ///< of the tube's modes and the support springs
+    ld_work work;
+    double residual;          ///< change of the three above less the sum of the works
+    double residual_relative; ///< the same over the largest single work
+} ld_energy;
+
+/// One natural frequency. `damping` is the ratio, `shape` says what moves most.
+typedef struct ld_mode {
+    double frequency; ///< [Hz]; 0 for an overdamped or rigid one
+    double damping;   ///< [-] ratio
+    double real;      ///< [1/s] real part of the eigenvalue
+    const char *shape;
+} ld_mode;
+
+typedef struct ld_statistics {
+    int64_t steps;
+    int64_t rhs_evaluations;
+    double cpu_seconds;       ///< of the run, without set-up
+    double cpu_seconds_setup; ///< modes, coefficients, tables
+} ld_statistics;
+
+/// Static equilibrium at the start.
+typedef struct ld_equilibrium_summary {
+    double lock_force;                     ///< [N] carried by the lock, along +x
+    double slot_force;                     ///< [N] N
+    double contact_force[LD_MAX_ADAPTORS]; ///< [N] normal
+    double tip_sag[2];                     ///< [m] y, z of the tip, undeformed tube axes
+    double residual;                       ///< [m/s2, rad/s2] largest acceleration while locked
+} ld_equilibrium_summary;
+
+typedef struct ld_summary {
+    int rocket_count;
+    ld_rocket_summary rocket[LD_MAX_FIRINGS];
+    ld_equilibrium_summary equilibrium;
+    ld_energy energy;
+    int mode_count;
+    ld_mode mode[LD_MAX_MODES]; ///< tube and tail on their supports
+    ld_statistics statistics;
+    double t_end;  ///< [s] where the run ended, on the run's clock
+    bool complete; ///< false: ended early, `stopped` says why
+    char stopped[LD_ERROR_TEXT];
+    int note_count; ///< remarks the user should see
+    char note[8][256];
+} ld_summary;
+
+typedef struct ld_simulation ld_simulation;
+
+/// Builds a simulation from a model (kept by reference: it must outlive the simulation).
+ld_status ld_simulation_create(const ld_model *model, ld_simulation **simulation, ld_error *error);
+void ld_simulation_free(ld_simulation *simulation);
+
+/// What the caller wants to hear while it runs; every member may be NULL or 0.
+typedef struct ld_run_options {
+    const ld_sink *sink; ///< rows of the history at the output steps and at the key instants
+    void *self;
+    /// Called about every millisecond of physics with the share done (0 to 1, an estimate);
+    /// return false to stop: the run then ends with LD_ERR_INTERRUPTED and keeps what it has.
+    bool (*progress)(void *self, double share);
+} ld_run_options;
+
+/// Runs from the start to the end that the model asks for. On failure the summary holds what was
+/// reached and why it stopped. Running again starts afresh and gives the same bits.
+/// @return LD_OK; LD_ERR_LAUNCH (never released, stuck, jammed), LD_ERR_NUMERIC,
+///         LD_ERR_INTERRUPTED, or what the sink returned.
+ld_status ld_simulation_run(ld_simulation *simulation, const ld_run_options *options,
+                            ld_summary *summary, ld_error *error);
+
+/// Natural frequencies of tube and tail on their supports (base held), from the finite elements.
+/// @return the number written to `modes` (at most `capacity`)
+int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity);
+
+/// Eigenvalues of the launching subsystem (tube, tail, rocket on its adaptors, lock closed)
+/// linearised at its static equilibrium, without Coulomb friction; ascending frequency.
+/// @return LD_OK or LD_ERR_NUMERIC
+ld_status ld_simulation_system_modes(ld_simulation *simulation, ld_mode *modes, int capacity,
+                                     int *count, ld_error *error);
+
+/// Columns of the history, in order.
+size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,47 @@
+/// Status codes and error messages, returned by every function that can fail.
+#ifndef LAUNCHDYN_STATUS_H
+#define LAUNCHDYN_STATUS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define LD_PRINTF(format_index, first_argument)                                                    \
+    __attribute__((format(printf, format_index, first_argument)))
+#else
+#define LD_PRINTF(format_index, first_argument)
+#endif
+
+/// What came of a call. `LD_OK` is zero, so `if (status)` means "it failed".
+typedef enum ld_status {
+    LD_OK = 0,
+    LD_ERR_INPUT,       ///< the scenario or an argument is wrong (exit code 2 of the command)
+    LD_ERR_FILE,        ///< a file cannot be read or written
+    LD_ERR_MEMORY,      ///< no memory
+    LD_ERR_NUMERIC,     ///< the numerics failed: NaN, singular matrix, no convergence
+    LD_ERR_LAUNCH,      ///< the launch cannot go on: stuck, jammed, never released
+    LD_ERR_INTERRUPTED, ///< stopped on request
+    LD_ERR_MISSING,     ///< a program or a feature needed is not there
+} ld_status;
+
+enum { LD_ERROR_TEXT = 640 };
+
+/// An error as one clear sentence. Functions take `ld_error *error`, which may be NULL.
+typedef struct ld_error {
+    ld_status status;
+    char text[LD_ERROR_TEXT];
+} ld_error;
+
+/// Short name of a status code, e.g. "input".
+const char *ld_status_name(ld_status status);
+
+/// Writes status and formatted text into `error` (if not NULL) and returns `status`, so that a
+/// failing function can end with `return ld_fail(error, LD_ERR_INPUT, "...", ...);`.
+ld_status ld_fail(ld_error *error, ld_status status, const char *format, ...) LD_PRINTF(3, 4);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

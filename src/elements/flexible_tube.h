@@ -1,0 +1,63 @@
+// The flexible tube as constant data: modes in tangent form and the inertia coefficients of
+// formulation.md, section 5, computed once from the finite-element model of the tube.
+//
+// Modal coordinates q = (q_y [nb], q_z [nb], q_t [nt], q_a [na]); the two planes share their
+// shapes.
+//   u_y = b . q_y,  u_z = b . q_z,  u_x = a . q_a;  phi_x = tau . q_t,  phi_y = -b' . q_z,  phi_z =
+//   b' . q_y
+// Tangent form: b(0) = b'(0) = 0, tau(0) = 0, a(0) = 0; int b b^T dm = E, int rho I_p tau tau^T dx
+// = E, int a a^T dm = E; stiffness diag(omega^2), damping diag(2 zeta omega). Lanes: counts padded
+// to multiples of 4 with zeros (nbp, ntp, nap), so that loops have fixed length.
+#ifndef LD_ELEMENTS_FLEXIBLE_TUBE_H
+#define LD_ELEMENTS_FLEXIBLE_TUBE_H
+
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
+
+enum { LD_NB = LD_MAX_BENDING_MODES, LD_NT = LD_MAX_TORSION_MODES, LD_NA = LD_MAX_AXIAL_MODES };
+
+// Shape functions of one finite element, as polynomials in xi = x - x0 [m]: cubic for bending,
+// linear for torsion and stretch. Row k holds the coefficients of xi^k of all modes.
+typedef struct tube_element {
+    double x0, x1;        // [m] the element's two ends
+    double b[4][LD_NB];   // bending
+    double tau[2][LD_NT]; // torsion
+    double a[2][LD_NA];   // stretch
+} tube_element;
+
+typedef struct flexible_tube {
+    int nb, nt, na;     // modes: bending per plane, torsion, axial
+    int nbp, ntp, nap;  // the same, padded
+    double length;      // [m]
+    double bore_radius; // [m] at the rear end
+    // int dm, int x dm, int x^2 dm, int rho I_p dx (point masses included in the first three)
+    double m, s0, j0, j;
+    double ct[LD_NB], c[LD_NB];        // int b dm, int x b dm
+    double at[LD_NA], ax[LD_NA];       // int a dm, int x a dm
+    double AB[LD_NA][LD_NB];           // int a b^T dm
+    double cp[LD_NT];                  // int rho I_p tau dx
+    double om2_b[LD_NB], dmp_b[LD_NB]; // omega^2 [1/s2], 2 zeta omega [1/s]
+    double om2_t[LD_NT], dmp_t[LD_NT];
+    double om2_a[LD_NA], dmp_a[LD_NA];
+    double ctct, ctc, cc, cpcp; // ct.ct, ct.c, c.c, cp.cp
+    int element_count;
+    tube_element *element; // 64-byte aligned, owned
+    // natural frequencies [rad/s] of the whole FE model of tube and tail on its support springs
+    // (base held), per family, ascending: for listing; as many as there are modes
+    double supported_bending[LD_NB];
+    double supported_torsion[LD_NT];
+    double supported_axial[LD_NA];
+    int support_count;
+    int support_element[LD_MAX_SUPPORTS]; // element that holds support k's station
+} flexible_tube;
+
+// Builds the tube of `model` (FE model, modes of the span asked for, tangent form, coefficients).
+// Fails with a sentence naming what is wrong (more modes than the mesh has, singular mass, ...).
+ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_error *error);
+void flexible_tube_free(flexible_tube *tube);
+
+// Index of the element that holds station x (the first one for x < 0, the last for x >= L; at an
+// inner node the one that begins there).
+int flexible_tube_find(const flexible_tube *tube, double x);
+
+#endif
