@@ -1,0 +1,35 @@
+// A whole launch on the independent equations of support/dense_launch.h: own equilibrium, own
+// base motion, own mass and thrust, classical Runge-Kutta at a fixed step, located events.
+#ifndef LD_TESTS_SUPPORT_DENSE_SIMULATION_H
+#define LD_TESTS_SUPPORT_DENSE_SIMULATION_H
+
+#include "support/dense_launch.h"
+
+// As ld_rocket_summary (same names, units, frames); NaN where an instant was not reached.
+typedef struct dense_summary {
+    double t_release, t_front, t_middle, t_rear; // [s] from ignition
+    double t_exit[LD_MAX_ADAPTORS];
+    double muzzle_speed, inertial_speed, spin_rate, pitch, yaw, pitch_rate, yaw_rate;
+    struct {
+        double y, z, psi, theta, gamma, w_x, w_y, w_z;
+    } relative;
+    struct {
+        double y, z, pitch, yaw, vy, vz, pitch_rate, yaw_rate;
+    } tip;
+    double max_contact_force[LD_MAX_ADAPTORS], max_slot_force;
+    struct {
+        double lock_force, slot_force, contact_force[LD_MAX_ADAPTORS], tip_sag[2];
+        double residual; // largest acceleration of the start, lock closed [m/s2, rad/s2, 1/s2]
+    } equilibrium;
+    double slot_drift; // [m/s] largest |n . v_rel|
+    int evaluations;
+    bool complete; // the rocket has left the tube
+} dense_summary;
+
+// Runs `model` (base fixed, or prescribed by sines and a velocity; not by a table) with steps of at
+// most `step` [s]. Returns false where the equilibrium or the dense system fails or the rocket is
+// still in the tube at the model's stuck time.
+bool dense_simulate(const ld_model *model, const flexible_tube *tube, double step,
+                    dense_summary *summary);
+
+#endif

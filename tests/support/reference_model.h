@@ -1,0 +1,14 @@
+// The reference launcher of docs (invented round numbers), filled by hand: fixed base, elevation
+// 19.8 deg, tube 8, no lead-in.
+#ifndef LD_TESTS_SUPPORT_REFERENCE_MODEL_H
+#define LD_TESTS_SUPPORT_REFERENCE_MODEL_H
+
+#include "launchdyn/model.h"
+
+// Fills `model`; free with ld_model_free().
+void reference_model(ld_model *model);
+
+// A table of its own copy of `data`, rows x columns.
+ld_table reference_table(size_t rows, size_t columns, const double *data);
+
+#endif
