@@ -1,0 +1,380 @@
+#include "simulation/integrator.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sundials/sundials_version.h>
+
+#if SUNDIALS_VERSION_MAJOR < 7
+#define LD_NO_COMMUNICATOR NULL
+#else
+#define LD_NO_COMMUNICATOR SUN_COMM_NULL
+#endif
+
+struct integrator {
+    integrator_settings settings;
+    SUNContext context;
+    void *erk;
+    N_Vector y, atol, work;
+    double *previous; // state where the last step began
+    double t, t_previous;
+    int *found;       // event flags of the last landing
+    double next_step; // size to begin with after a restart; 0: the library chooses
+    int failed_rhs;
+};
+
+// ---- vector operations. Debian's package is built without optimisation, so those that count in
+// every step are replaced by our own: plain loops over the elements.
+
+static double *data(N_Vector v)
+{
+    return NV_DATA_S(v);
+}
+
+#define FOR_EACH(i, v) for (sunindextype i = 0, end_##i = NV_LENGTH_S(v); i < end_##i; i++)
+
+static void vector_linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z)
+{
+    const double *px = data(x), *py = data(y);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = a * px[i] + b * py[i];
+}
+
+static void vector_const(double c, N_Vector z)
+{
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = c;
+}
+
+static void vector_prod(N_Vector x, N_Vector y, N_Vector z)
+{
+    const double *px = data(x), *py = data(y);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = px[i] * py[i];
+}
+
+static void vector_div(N_Vector x, N_Vector y, N_Vector z)
+{
+    const double *px = data(x), *py = data(y);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = px[i] / py[i];
+}
+
+static void vector_scale(double c, N_Vector x, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = c * px[i];
+}
+
+static void vector_abs(N_Vector x, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = fabs(px[i]);
+}
+
+static void vector_inv(N_Vector x, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = 1.0 / px[i];
+}
+
+static void vector_add_const(N_Vector x, double b, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = px[i] + b;
+}
+
+static double vector_min(N_Vector x)
+{
+    const double *px = data(x);
+    double m = px[0];
+    FOR_EACH(i, x)
+    m = px[i] < m ? px[i] : m;
+    return m;
+}
+
+static double vector_max_norm(N_Vector x)
+{
+    const double *px = data(x);
+    double m = 0;
+    FOR_EACH(i, x)
+    m = fabs(px[i]) > m ? fabs(px[i]) : m;
+    return m;
+}
+
+static double vector_wrms_norm(N_Vector x, N_Vector w)
+{
+    const double *px = data(x), *pw = data(w);
+    double sum = 0;
+    FOR_EACH(i, x)
+    sum += (px[i] * pw[i]) * (px[i] * pw[i]);
+    return sqrt(sum / (double)NV_LENGTH_S(x));
+}
+
+// z may be x[0] (the library's contract), so the sum of an element is complete before it is stored.
+static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector z)
+{
+    const double *px[16];
+    double *pz = data(z);
+    if (count > 16)
+        return -1;
+    for (int k = 0; k < count; k++)
+        px[k] = data(x[k]);
+    FOR_EACH(i, z)
+    {
+        double sum = c[0] * px[0][i];
+        for (int k = 1; k < count; k++)
+            sum += c[k] * px[k][i];
+        pz[i] = sum;
+    }
+    return 0;
+}
+
+static void replace_operations(N_Vector v)
+{
+    v->ops->nvlinearsum = vector_linear_sum;
+    v->ops->nvconst = vector_const;
+    v->ops->nvprod = vector_prod;
+    v->ops->nvdiv = vector_div;
+    v->ops->nvscale = vector_scale;
+    v->ops->nvabs = vector_abs;
+    v->ops->nvinv = vector_inv;
+    v->ops->nvaddconst = vector_add_const;
+    v->ops->nvmin = vector_min;
+    v->ops->nvmaxnorm = vector_max_norm;
+    v->ops->nvwrmsnorm = vector_wrms_norm;
+    v->ops->nvlinearcombination = vector_linear_combination;
+}
+
+// ---- callbacks
+
+static int call_rhs(double t, N_Vector y, N_Vector y_dot, void *user)
+{
+    integrator *self = user;
+    int failed = self->settings.rhs(t, data(y), data(y_dot), self->settings.self);
+    self->failed_rhs |= failed;
+    return failed ? -1 : 0;
+}
+
+static int call_events(double t, N_Vector y, double *g, void *user)
+{
+    integrator *self = user;
+    return self->settings.events(t, data(y), g, self->settings.self);
+}
+
+// The library's own messages are not for our users: fail() below says what happened.
+static void ignore_message(int code, const char *module, const char *function, char *message,
+                           void *user)
+{
+    (void)code, (void)module, (void)function, (void)message, (void)user;
+}
+
+// ---- life
+
+static ARKODE_ERKTableID table_of(integrator_method method)
+{
+    switch (method) {
+    case INTEGRATOR_BOGACKI_SHAMPINE:
+        return ARKODE_BOGACKI_SHAMPINE_4_2_3;
+    case INTEGRATOR_CASH_KARP:
+        return ARKODE_CASH_KARP_6_4_5;
+    default:
+        return ARKODE_DORMAND_PRINCE_7_4_5;
+    }
+}
+
+static int configure(integrator *self)
+{
+    const integrator_settings *settings = &self->settings;
+    self->erk = ERKStepCreate(call_rhs, 0.0, self->y, self->context);
+    if (!self->erk)
+        return -1;
+    int bad = 0;
+    bad |= ERKStepSetErrHandlerFn(self->erk, ignore_message, NULL);
+    bad |= ERKStepSetUserData(self->erk, self);
+    bad |= ERKStepSVtolerances(self->erk, settings->rtol, self->atol);
+    bad |= ERKStepSetTableNum(self->erk, table_of(settings->method));
+    bad |= ERKStepSetInterpolantDegree(self->erk, 3);
+    bad |= ERKStepSetMaxNumSteps(self->erk, -1);
+    if (settings->max_step > 0)
+        bad |= ERKStepSetMaxStep(self->erk, settings->max_step);
+    if (settings->events)
+        bad |= ERKStepRootInit(self->erk, settings->event_count, call_events);
+    return bad;
+}
+
+static int allocate(integrator *self)
+{
+    sunindextype n = (sunindextype)self->settings.n;
+    self->previous = calloc((size_t)n, sizeof(double));
+    self->found = calloc((size_t)self->settings.event_count + 1, sizeof(int));
+    if (!self->previous || !self->found || SUNContext_Create(LD_NO_COMMUNICATOR, &self->context))
+        return -1;
+    self->y = N_VNew_Serial(n, self->context);
+    if (!self->y)
+        return -1;
+    replace_operations(self->y);
+    vector_const(0, self->y);
+    self->atol = N_VClone(self->y);
+    self->work = N_VClone(self->y);
+    return self->atol && self->work ? 0 : -1;
+}
+
+ld_status integrator_create(const integrator_settings *settings, integrator **out, ld_error *error)
+{
+    integrator *self = calloc(1, sizeof *self);
+    if (self)
+        self->settings = *settings;
+    if (!self || allocate(self)) {
+        integrator_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the integrator");
+    }
+    memcpy(data(self->atol), settings->atol, settings->n * sizeof(double));
+    if (configure(self)) {
+        integrator_free(self);
+        return ld_fail(error, LD_ERR_NUMERIC, "the integrator refuses its settings");
+    }
+    *out = self;
+    return LD_OK;
+}
+
+void integrator_free(integrator *self)
+{
+    if (!self)
+        return;
+    if (self->erk)
+        ERKStepFree(&self->erk);
+    if (self->y)
+        N_VDestroy(self->y);
+    if (self->atol)
+        N_VDestroy(self->atol);
+    if (self->work)
+        N_VDestroy(self->work);
+    if (self->context)
+        SUNContext_Free(&self->context);
+    free(self->previous);
+    free(self->found);
+    free(self);
+}
+
+ld_status integrator_start(integrator *self, double t, const double *y, ld_error *error)
+{
+    if (y != data(self->y))
+        memcpy(data(self->y), y, self->settings.n * sizeof(double));
+    self->t = self->t_previous = t;
+    self->failed_rhs = 0;
+    if (ERKStepReset(self->erk, t, self->y) || ERKStepSetInitStep(self->erk, self->next_step))
+        return ld_fail(error, LD_ERR_NUMERIC, "the integrator cannot restart at t = %.9g s", t);
+    return LD_OK;
+}
+
+// ---- stepping
+
+static integrator_outcome fail(integrator *self, int flag, ld_error *error)
+{
+    if (self->failed_rhs)
+        ld_fail(error, LD_ERR_NUMERIC,
+                "the equations of motion gave no finite result at t = %.9g s", self->t);
+    else if (flag == ARK_ERR_FAILURE || flag == ARK_CONV_FAILURE || flag == ARK_TOO_CLOSE)
+        ld_fail(error, LD_ERR_NUMERIC, "the step size fell to nothing at t = %.9g s", self->t);
+    else
+        ld_fail(error, LD_ERR_NUMERIC, "the integrator gave up at t = %.9g s (code %d)", self->t,
+                flag);
+    return INTEGRATOR_FAILED;
+}
+
+// Takes the last step anew so that it ends at the event, now at self->t.
+static integrator_outcome land_on_event(integrator *self, ld_error *error)
+{
+    double t_event = self->t;
+    memcpy(data(self->y), self->previous, self->settings.n * sizeof(double));
+    int flag = ERKStepReset(self->erk, self->t_previous, self->y);
+    if (t_event <= self->t_previous)
+        return flag < 0 ? fail(self, flag, error) : INTEGRATOR_EVENT;
+    if (flag >= 0)
+        flag = ERKStepSetInitStep(self->erk, t_event - self->t_previous);
+    if (flag >= 0)
+        flag = ERKStepSetStopTime(self->erk, t_event);
+    if (flag >= 0)
+        flag = ERKStepEvolve(self->erk, t_event, self->y, &self->t, ARK_ONE_STEP);
+    if (flag < 0)
+        return fail(self, flag, error);
+    // a step that error control made shorter ends before the event, which the next ones will find
+    int landed = flag == ARK_TSTOP_RETURN || flag == ARK_ROOT_RETURN || self->t >= t_event;
+    return landed ? INTEGRATOR_EVENT : INTEGRATOR_STEPPED;
+}
+
+integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error)
+{
+    memcpy(self->previous, data(self->y), self->settings.n * sizeof(double));
+    self->t_previous = self->t;
+    int flag = ERKStepSetStopTime(self->erk, t_stop);
+    if (flag >= 0)
+        flag = ERKStepEvolve(self->erk, t_stop, self->y, &self->t, ARK_ONE_STEP);
+    if (flag < 0)
+        return fail(self, flag, error);
+    if (flag == ARK_ROOT_RETURN) {
+        ERKStepGetRootInfo(self->erk, self->found);
+        return land_on_event(self, error);
+    }
+    if (flag == ARK_TSTOP_RETURN || self->t >= t_stop)
+        return INTEGRATOR_STOPPED;
+    ERKStepGetCurrentStep(self->erk, &self->next_step);
+    return INTEGRATOR_STEPPED;
+}
+
+double integrator_time(const integrator *self)
+{
+    return self->t;
+}
+
+const double *integrator_state(const integrator *self)
+{
+    return data(self->y);
+}
+
+double integrator_previous_time(const integrator *self)
+{
+    return self->t_previous;
+}
+
+void integrator_interpolate(integrator *self, double t, double *y)
+{
+    N_Vector from = self->y;
+    if (t < self->t && ERKStepGetDky(self->erk, t, 0, self->work) == ARK_SUCCESS)
+        from = self->work;
+    memcpy(y, data(from), self->settings.n * sizeof(double));
+}
+
+int integrator_event(const integrator *self, int i)
+{
+    return self->found[i];
+}
+
+int64_t integrator_steps(const integrator *self)
+{
+    long steps = 0;
+    ERKStepGetNumSteps(self->erk, &steps);
+    return steps;
+}
+
+int64_t integrator_evaluations(const integrator *self)
+{
+    long evaluations = 0;
+    ERKStepGetNumRhsEvals(self->erk, &evaluations);
+    return evaluations;
+}
