@@ -1,0 +1,80 @@
+#include <string.h>
+
+#include "elements/tube_dynamics.h"
+#include "math/rotation_vector.h"
+
+// Columns of Phi (displacement) and Psi (rotation vector) of every mode at station x.
+static void shapes_at(const flexible_tube *tube, double x, v3 *Phi, v3 *Psi)
+{
+    int nb = tube->nb, z = nb, t = 2 * nb, a = t + tube->nt;
+    const tube_element *e = &tube->element[flexible_tube_find(tube, x)];
+    double xi = x - e->x0;
+    for (int i = 0; i < nb; i++) {
+        double b = e->b[0][i] + xi * (e->b[1][i] + xi * (e->b[2][i] + xi * e->b[3][i]));
+        double slope = e->b[1][i] + xi * (2 * e->b[2][i] + xi * 3 * e->b[3][i]);
+        Phi[i] = v3_make(0, b, 0);
+        Psi[i] = v3_make(0, 0, slope);
+        Phi[z + i] = v3_make(0, 0, b);
+        Psi[z + i] = v3_make(0, -slope, 0);
+    }
+    for (int i = 0; i < tube->nt; i++) {
+        Phi[t + i] = v3_zero();
+        Psi[t + i] = v3_make(e->tau[0][i] + xi * e->tau[1][i], 0, 0);
+    }
+    for (int i = 0; i < tube->na; i++) {
+        Phi[a + i] = v3_make(e->a[0][i] + xi * e->a[1][i], 0, 0);
+        Psi[a + i] = v3_zero();
+    }
+}
+
+static v3 combine(int n, const v3 *column, const double *factor)
+{
+    v3 sum = v3_zero();
+    for (int i = 0; i < n; i++)
+        sum = v3_axpy(sum, factor[i], column[i]);
+    return sum;
+}
+
+void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, const double *q_dot,
+                  tube_section_state *section)
+{
+    v3 Phi[LD_TUBE_MODES], Psi[LD_TUBE_MODES];
+    int modes = tube_mode_count(tube), n = 6 + modes;
+    shapes_at(tube, x, Phi, Psi);
+
+    // position, rotation and their rates against R
+    v3 p = combine(modes, Phi, q), u = combine(modes, Phi, q_dot);
+    v3 th = combine(modes, Psi, q), th_dot = combine(modes, Psi, q_dot);
+    p.x += x;
+    m3 Jl = rv_left_jacobian(th);
+    v3 spin = m3_apply(Jl, th_dot);
+    section->position = p;
+    section->velocity = u;
+    section->rotation = rv_exp(th);
+    section->rotation_vector = th;
+    section->spin = spin;
+
+    // gamma = (w x (w x p) + 2 w x Phi q_dot, Jl_dot Psi q_dot + w x Jl Psi q_dot)
+    v3_store(section->gamma, v3_cross(w, v3_axpy(v3_cross(w, p), 2, u)));
+    v3_store(section->gamma + 3,
+             v3_add(rv_left_jacobian_derivative(th, th_dot, th_dot), v3_cross(w, spin)));
+
+    // L = [E, -~p, Phi; 0, E, Jl Psi]
+    double *L = section->L;
+    m3 p_skew = m3_skew(p);
+    memset(L, 0, (size_t)(6 * n) * sizeof *L);
+    for (int i = 0; i < 3; i++) {
+        L[i * n + i] = L[(3 + i) * n + 3 + i] = 1;
+        for (int j = 0; j < 3; j++)
+            L[i * n + 3 + j] = -p_skew.a[i][j];
+    }
+    for (int k = 0; k < modes; k++) {
+        double shift[3], turn[3];
+        v3_store(shift, Phi[k]);
+        v3_store(turn, m3_apply(Jl, Psi[k]));
+        for (int i = 0; i < 3; i++) {
+            L[i * n + 6 + k] = shift[i];
+            L[(3 + i) * n + 6 + k] = turn[i];
+        }
+    }
+}
