@@ -19,10 +19,10 @@ enum { LD_NB = LD_MAX_BENDING_MODES, LD_NT = LD_MAX_TORSION_MODES, LD_NA = LD_MA
 // Shape functions of one finite element, as polynomials in xi = x - x0 [m]: cubic for bending,
 // linear for torsion and stretch. Row k holds the coefficients of xi^k of all modes.
 typedef struct tube_element {
-    double x0, x1;        // [m] the element's two ends
-    double b[4][LD_NB];   // bending
-    double tau[2][LD_NT]; // torsion
-    double a[2][LD_NA];   // stretch
+    double x0, x1;                   // [m] the element's two ends
+    _Alignas(64) double b[4][LD_NB]; // bending; aligned, and so is every row and every element
+    double tau[2][LD_NT];            // torsion
+    double a[2][LD_NA];              // stretch
 } tube_element;
 
 typedef struct flexible_tube {

@@ -1,0 +1,60 @@
+// Finite elements of the bare tube: a mesh along x, and on it three kinds of line (bending in one
+// plane, torsion, stretch), each with its consistent mass, and all its modes clamped at x = 0.
+//
+// Bending: Euler-Bernoulli beam, cubic Hermite shapes, nodal degrees of freedom (value, slope).
+// Torsion and stretch: bar, linear shapes, nodal value. The stiffness is never assembled: a tube
+// clamped at one end is statically determinate, so its flexibility is known in closed form (unit
+// load method), exact at the nodes of these elements as loads act at nodes and EI, GI_t, EA are
+// constant in an element (Przemieniecki, Theory of Matrix Structural Analysis, chapters 5 and 11).
+// Low modes keep all their digits on fine meshes that way, where a stiffness matrix loses h^4.
+#ifndef LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
+#define LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
+
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
+
+// Stations of the nodes: at section steps, point masses and supports, evenly between them.
+typedef struct tube_mesh {
+    int elements;
+    double *node; // [elements + 1] [m], owned
+    int *section; // [elements] index of the section an element lies in, owned
+} tube_mesh;
+
+typedef enum line_kind { LINE_BENDING, LINE_TORSION, LINE_STRETCH } line_kind;
+
+// One family of deformation. Nodal vectors have `width` numbers a node, first the value and then,
+// in bending, the slope; those of clamped shapes leave out the node at x = 0.
+typedef struct tube_line {
+    line_kind kind;
+    const tube_mesh *mesh;
+    int width;          // degrees of freedom a node, and rigid shapes (1, x): 2 bending, 1 bars
+    int n;              // modes of the clamped line
+    double *mode;       // [n][n] nodal vectors of the clamped modes, row by row; unit modal mass
+    double *om2;        // [n] omega^2 [1/s2], ascending
+    double *moment[2];  // [n] nodal vectors M 1 and M x: their products with a shape f are the
+                        // integrals of f and x f over mass (torsion: over polar inertia)
+    double rigid[2][2]; // integrals of 1, x; x, x^2 over the same
+} tube_line;
+
+// Lays the mesh: model->modes.elements elements, or as many as the stations ask for.
+ld_status tube_mesh_build(tube_mesh *mesh, const ld_tubes *model, ld_error *error);
+void tube_mesh_free(tube_mesh *mesh);
+
+// Index of the element that holds station x: the first for x < 0, the last for x >= L, the one
+// that begins there at an inner node.
+int tube_mesh_find(const tube_mesh *mesh, double x);
+
+// Assembles a line on `mesh` (which must outlive it) and solves for its clamped modes.
+ld_status tube_line_build(tube_line *line, line_kind kind, const tube_mesh *mesh,
+                          const ld_tubes *model, ld_error *error);
+void tube_line_free(tube_line *line);
+
+// Value at station x [m] of the shape with nodal vector `nodal` [n]; slope: its x-derivative.
+double tube_line_value(const tube_line *line, const double *nodal, double x);
+double tube_line_slope(const tube_line *line, const double *nodal, double x);
+
+// Coefficients of xi^k, xi = x - x0, of the shape with nodal vector `nodal` [n] in an element.
+void tube_line_polynomial(const tube_line *line, const double *nodal, int element,
+                          double coefficient[4]);
+
+#endif

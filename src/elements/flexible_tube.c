@@ -1,0 +1,430 @@
+#include "elements/flexible_tube.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/beam_finite_elements.h"
+#include "math/symmetric_eigen.h"
+
+// What is tied to one line of the tube besides itself: the tail's rigid mass at x = 0 and the
+// support springs.
+typedef struct line_ties {
+    double tail[2][2]; // tail's mass for the rigid shapes 1 and x (bars: 1 only)
+    int springs;
+    double at[LD_MAX_SUPPORTS];    // [m]
+    double value[LD_MAX_SUPPORTS]; // stiffness against the shape's value
+    double slope[LD_MAX_SUPPORTS]; // and, in bending, against its slope
+} line_ties;
+
+// The shapes chosen on a line, in tangent form, orthonormal, and the frequencies on the supports.
+typedef struct line_shapes {
+    int count;
+    double om2[LD_NB];
+    double supported[LD_NB]; // [rad/s]
+    double *nodal;           // [count][n] nodal vectors, owned
+} line_shapes;
+
+// Tail and springs as one line feels them. Both planes share their shapes: bending takes the mean
+// of their inertia and stiffness, which are equal as a rule.
+static line_ties ties_of(line_kind kind, const ld_tubes *model)
+{
+    const ld_tail *tail = &model->tail;
+    double m = tail->mass, s = m * tail->center;
+    double J = 0.5 * (tail->inertia[1] + tail->inertia[2]) + s * tail->center;
+    line_ties ties = {.springs = model->support_count};
+    if (kind == LINE_BENDING)
+        memcpy(ties.tail, (double[2][2]){{m, s}, {s, J}}, sizeof ties.tail);
+    else
+        ties.tail[0][0] = kind == LINE_TORSION ? tail->inertia[0] : m;
+    for (int k = 0; k < model->support_count; k++) {
+        const ld_support *support = &model->support[k];
+        const double *K = support->stiffness, *Kr = support->rotational_stiffness;
+        ties.at[k] = support->at;
+        ties.value[k] = kind == LINE_BENDING   ? 0.5 * (K[1] + K[2])
+                        : kind == LINE_TORSION ? Kr[0]
+                                               : K[0];
+        ties.slope[k] = kind == LINE_BENDING ? 0.5 * (Kr[1] + Kr[2]) : 0;
+    }
+    return ties;
+}
+
+static void add_outer(int n, double *A, double k, const double *s)
+{
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            A[i * n + j] += k * s[i] * s[j];
+}
+
+// Mass A and stiffness B of the free line with its ties, order N = width + n, in the coordinates
+// (rigid shapes, amplitudes of the clamped modes): elastic stiffness and elastic mass are diagonal
+// there. `s` [N] is room for one row.
+static void assemble_free(const tube_line *line, const line_ties *ties, double *A, double *B,
+                          double *s)
+{
+    int w = line->width, n = line->n, N = w + n;
+    for (int r = 0; r < w; r++) {
+        for (int k = 0; k < w; k++)
+            A[r * N + k] = line->rigid[r][k] + ties->tail[r][k];
+        for (int k = 0; k < n; k++) {
+            double sum = 0;
+            for (int i = 0; i < n; i++)
+                sum += line->moment[r][i] * line->mode[k * n + i];
+            A[r * N + w + k] = A[(w + k) * N + r] = sum;
+        }
+    }
+    for (int k = w; k < N; k++) {
+        A[k * (N + 1)] = 1;
+        B[k * (N + 1)] = line->om2[k - w];
+    }
+    for (int spring = 0; spring < ties->springs; spring++) {
+        double x = ties->at[spring];
+        s[0] = 1;
+        if (w == 2)
+            s[1] = x;
+        for (int k = 0; k < n; k++)
+            s[w + k] = tube_line_value(line, &line->mode[k * n], x);
+        add_outer(N, B, ties->value[spring], s);
+        s[0] = 0;
+        if (w == 2)
+            s[1] = 1;
+        for (int k = 0; k < n; k++)
+            s[w + k] = tube_line_slope(line, &line->mode[k * n], x);
+        add_outer(N, B, ties->slope[spring], s);
+    }
+}
+
+// Natural frequencies and modes of the free line with its ties: rows of `vector` [N][N] from the
+// highest to the lowest, omega^2 in `lambda` [N] in the same order. Solved for 1/(lambda + sigma),
+// which keeps the digits of the low ones and lets rigid motions be.
+static ld_status solve_free(const tube_line *line, const line_ties *ties, double *vector,
+                            double *lambda, ld_error *error)
+{
+    int N = line->width + line->n;
+    double sigma = line->om2[0], *B = calloc((size_t)N * (size_t)(N + 1), sizeof(double));
+    if (!B)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
+    memset(vector, 0, (size_t)N * (size_t)N * sizeof(double));
+    assemble_free(line, ties, vector, B, B + N * N);
+    for (int i = 0; i < N * N; i++)
+        B[i] += sigma * vector[i];
+    int info = symmetric_eigen(EIGEN_GENERALISED, N, vector, B, lambda);
+    free(B);
+    if (info || !(lambda[0] > 0))
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "the eigenproblem of the tube on its supports failed (LAPACK info %d): is "
+                       "a stiffness or a mass out of all proportion?",
+                       info);
+    for (int k = 0; k < N; k++)
+        lambda[k] = fmax(0, 1 / lambda[k] - sigma);
+    return LD_OK;
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+// Elastic parts of the modes from the lowest on, scaled to amplitudes e = omega c of the clamped
+// modes and made orthonormal in elastic energy: rows of `part` [wanted][n]. A mode whose part is
+// rounding, or depends on those before, is passed over: of a nearly rigid tube the first ones
+// may be. Returns how many were found.
+static int take_elastic_parts(const tube_line *line, const double *vector, int wanted, double *part)
+{
+    int w = line->width, n = line->n, N = w + n, found = 0;
+    for (int k = 0; k < N && found < wanted; k++) {
+        const double *mode = &vector[(N - 1 - k) * N + w];
+        double *e = &part[found * n];
+        for (int i = 0; i < n; i++)
+            e[i] = sqrt(line->om2[i]) * mode[i];
+        for (int pass = 0; pass < 2; pass++)
+            for (int j = 0; j < found; j++) {
+                double p = dot(n, e, &part[j * n]);
+                for (int i = 0; i < n; i++)
+                    e[i] -= p * part[j * n + i];
+            }
+        double size = sqrt(dot(n, e, e));
+        if (size < 1e-9)
+            continue;
+        for (int i = 0; i < n; i++)
+            e[i] /= size;
+        found++;
+    }
+    return found;
+}
+
+// Diagonalises the mass of the elastic parts, whose stiffness is E, and writes the tangent shapes:
+// unit modal mass, positive at the tip, ascending frequency.
+static ld_status diagonalise(const tube_line *line, const double *part, line_shapes *shapes,
+                             ld_error *error)
+{
+    int n = line->n, m = shapes->count, w = line->width;
+    double mass[LD_NB * LD_NB], value[LD_NB];
+    for (int k = 0; k < m; k++)
+        for (int l = 0; l < m; l++) {
+            mass[k * m + l] = 0;
+            for (int i = 0; i < n; i++)
+                mass[k * m + l] += part[k * n + i] * part[l * n + i] / line->om2[i];
+        }
+    int info = symmetric_eigen(EIGEN_STANDARD, m, mass, NULL, value);
+    if (info || !(value[0] > 0))
+        return ld_fail(error, LD_ERR_NUMERIC, "the tube's modes are not independent (info %d)",
+                       info);
+    for (int k = 0; k < m; k++) {
+        const double *mix = &mass[(m - 1 - k) * m];
+        double *nodal = &shapes->nodal[k * n], omega = 1 / sqrt(value[m - 1 - k]);
+        for (int i = 0; i < n; i++) {
+            double c = 0;
+            for (int l = 0; l < m; l++)
+                c += mix[l] * part[l * n + i];
+            c *= omega / sqrt(line->om2[i]);
+            for (int d = 0; d < n; d++)
+                nodal[d] += c * line->mode[i * n + d];
+        }
+        shapes->om2[k] = omega * omega;
+        if (nodal[n - w] < 0)
+            for (int d = 0; d < n; d++)
+                nodal[d] = -nodal[d];
+    }
+    return LD_OK;
+}
+
+// Shapes of the span on one line, `count` of them; `work` holds N (N + 1) + count n numbers.
+static ld_status choose_shapes(const tube_line *line, const ld_tubes *model, line_shapes *shapes,
+                               double *work, ld_error *error)
+{
+    int n = line->n, N = line->width + n, m = shapes->count, found = m;
+    double *vector = work, *lambda = work + N * N, *part = lambda + N;
+    line_ties ties = ties_of(line->kind, model), none = {0};
+    ld_status status = solve_free(line, &ties, vector, lambda, error);
+    if (status)
+        return status;
+    for (int k = 0; k < m; k++)
+        shapes->supported[k] = sqrt(lambda[N - 1 - k]);
+    switch (model->modes.span) {
+    case LD_SPAN_SUPPORTED:
+        found = take_elastic_parts(line, vector, m, part);
+        break;
+    case LD_SPAN_FREE_FREE:
+        status = solve_free(line, &none, vector, lambda, error);
+        if (status)
+            return status;
+        found = take_elastic_parts(line, vector, m, part);
+        break;
+    case LD_SPAN_CLAMPED:
+        for (int k = 0; k < m; k++)
+            part[k * n + k] = 1;
+        break;
+    }
+    if (found < m)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "only %d of %d modes are independent: take fewer modes or more elements",
+                       found, m);
+    return diagonalise(line, part, shapes, error);
+}
+
+// Line and shapes of one kind; shapes->count = 0 leaves both empty.
+static ld_status build_line(tube_line *line, line_shapes *shapes, line_kind kind,
+                            const tube_mesh *mesh, const ld_tubes *model, ld_error *error)
+{
+    static const char *const names[] = {"bending", "torsion", "axial"};
+    if (shapes->count == 0)
+        return LD_OK;
+    ld_status status = tube_line_build(line, kind, mesh, model, error);
+    if (status)
+        return status;
+    size_t n = (size_t)line->n, N = n + (size_t)line->width, m = (size_t)shapes->count;
+    if (m > n)
+        return ld_fail(error, LD_ERR_INPUT, "%d %s modes need a mesh of more than %d elements",
+                       shapes->count, names[kind], mesh->elements);
+    shapes->nodal = calloc(m * n, sizeof(double));
+    double *work = calloc(N * (N + 1) + m * n, sizeof(double));
+    status = shapes->nodal && work ? choose_shapes(line, model, shapes, work, error)
+                                   : ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    free(work);
+    return status;
+}
+
+// Copies the polynomials of all shapes of a line into the elements.
+static void fill_elements(flexible_tube *tube, const tube_line *line, const line_shapes *shapes)
+{
+    for (int e = 0; e < tube->element_count; e++)
+        for (int k = 0; k < shapes->count; k++) {
+            double p[4];
+            tube_element *element = &tube->element[e];
+            tube_line_polynomial(line, &shapes->nodal[k * line->n], e, p);
+            for (int i = 0; i < 2 * line->width; i++)
+                if (line->kind == LINE_BENDING)
+                    element->b[i][k] = p[i];
+                else if (line->kind == LINE_TORSION)
+                    element->tau[i][k] = p[i];
+                else
+                    element->a[i][k] = p[i];
+        }
+}
+
+// Frequencies, damping and the integrals of f and x f (the latter may be NULL) of a line's shapes.
+static void fill_family(const tube_line *line, const line_shapes *shapes, double zeta, double *om2,
+                        double *damping, double *supported, double *first, double *second)
+{
+    for (int k = 0; k < shapes->count; k++) {
+        const double *nodal = &shapes->nodal[k * line->n];
+        om2[k] = shapes->om2[k];
+        damping[k] = 2 * zeta * sqrt(om2[k]);
+        supported[k] = shapes->supported[k];
+        first[k] = dot(line->n, line->moment[0], nodal);
+        if (second)
+            second[k] = dot(line->n, line->moment[1], nodal);
+    }
+}
+
+// AB = int a b^T dm: Gauss with three points, exact for the product of linear and cubic.
+static void fill_cross(flexible_tube *tube, const tube_mesh *mesh, const ld_tubes *model)
+{
+    static const double at[3] = {-0.7745966692414833770, 0, 0.7745966692414833770};
+    static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+    int points = 3 * tube->element_count + model->point_mass_count;
+    for (int i = 0; i < points; i++) {
+        int e = i / 3;
+        double x, dm;
+        if (e < tube->element_count) {
+            double half = 0.5 * (tube->element[e].x1 - tube->element[e].x0);
+            x = tube->element[e].x0 + half * (1 + at[i % 3]);
+            dm = model->section[mesh->section[e]].mass_per_length * half * weight[i % 3];
+        } else {
+            const ld_point_mass *point = &model->point_mass[i - 3 * tube->element_count];
+            x = point->at;
+            dm = point->mass;
+            e = flexible_tube_find(tube, x);
+        }
+        const tube_element *element = &tube->element[e];
+        double xi = x - element->x0;
+        for (int l = 0; l < tube->nb; l++) {
+            double b = element->b[0][l] +
+                       xi * (element->b[1][l] + xi * (element->b[2][l] + xi * element->b[3][l]));
+            for (int k = 0; k < tube->na; k++)
+                tube->AB[k][l] += dm * (element->a[0][k] + xi * element->a[1][k]) * b;
+        }
+    }
+}
+
+static ld_status check_counts(const ld_tubes *model, ld_error *error)
+{
+    const ld_modes *modes = &model->modes;
+    if (modes->bending < 1 || modes->bending > LD_NB || modes->torsion < 0 ||
+        modes->torsion > LD_NT || modes->axial < 0 || modes->axial > LD_NA)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a tube has 1 to %d bending, 0 to %d torsion and 0 to %d axial modes, not "
+                       "%d, %d and %d",
+                       LD_NB, LD_NT, LD_NA, modes->bending, modes->torsion, modes->axial);
+    if (modes->elements < 1 || !(model->length > 0) || model->section_count < 1)
+        return ld_fail(error, LD_ERR_INPUT, "a tube needs a length, a section and an element");
+    return LD_OK;
+}
+
+static ld_status allocate_elements(flexible_tube *tube, const tube_mesh *mesh, ld_error *error)
+{
+    size_t size = (size_t)mesh->elements * sizeof(tube_element);
+    tube->element = aligned_alloc(64, size);
+    if (!tube->element)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d elements", mesh->elements);
+    memset(tube->element, 0, size);
+    tube->element_count = mesh->elements;
+    for (int e = 0; e < mesh->elements; e++) {
+        tube->element[e].x0 = mesh->node[e];
+        tube->element[e].x1 = mesh->node[e + 1];
+    }
+    return LD_OK;
+}
+
+// Everything that is known once the shapes are: formulation.md, section 5, arrays.
+static void fill_tube(flexible_tube *tube, const tube_line line[3], const line_shapes shapes[3],
+                      const tube_mesh *mesh, const ld_tubes *model)
+{
+    for (int kind = 0; kind < 3; kind++)
+        fill_elements(tube, &line[kind], &shapes[kind]);
+    double zeta = model->modes.damping;
+    fill_family(&line[LINE_BENDING], &shapes[LINE_BENDING], zeta, tube->om2_b, tube->dmp_b,
+                tube->supported_bending, tube->ct, tube->c);
+    fill_family(&line[LINE_TORSION], &shapes[LINE_TORSION], zeta, tube->om2_t, tube->dmp_t,
+                tube->supported_torsion, tube->cp, NULL);
+    fill_family(&line[LINE_STRETCH], &shapes[LINE_STRETCH], zeta, tube->om2_a, tube->dmp_a,
+                tube->supported_axial, tube->at, tube->ax);
+    fill_cross(tube, mesh, model);
+    tube->ctct = dot(tube->nb, tube->ct, tube->ct);
+    tube->ctc = dot(tube->nb, tube->ct, tube->c);
+    tube->cc = dot(tube->nb, tube->c, tube->c);
+    tube->cpcp = dot(tube->nt, tube->cp, tube->cp);
+    tube->m = line[LINE_BENDING].rigid[0][0];
+    tube->s0 = line[LINE_BENDING].rigid[0][1];
+    tube->j0 = line[LINE_BENDING].rigid[1][1];
+    for (int e = 0; e < mesh->elements; e++)
+        tube->j +=
+            model->section[mesh->section[e]].polar_inertia * (mesh->node[e + 1] - mesh->node[e]);
+    for (int k = 0; k < model->support_count; k++)
+        tube->support_element[k] = flexible_tube_find(tube, model->support[k].at);
+}
+
+static int padded(int count)
+{
+    return (count + 3) / 4 * 4;
+}
+
+ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_error *error)
+{
+    const ld_modes *modes = &model->modes;
+    tube_mesh mesh = {0};
+    tube_line line[3] = {0};
+    line_shapes shapes[3] = {
+        {.count = modes->bending}, {.count = modes->torsion}, {.count = modes->axial}};
+    *tube = (flexible_tube){.nb = modes->bending,
+                            .nt = modes->torsion,
+                            .na = modes->axial,
+                            .nbp = padded(modes->bending),
+                            .ntp = padded(modes->torsion),
+                            .nap = padded(modes->axial),
+                            .length = model->length,
+                            .bore_radius = model->section[0].bore_radius,
+                            .support_count = model->support_count};
+    ld_status status = check_counts(model, error);
+    if (!status)
+        status = tube_mesh_build(&mesh, model, error);
+    for (int kind = 0; kind < 3 && !status; kind++)
+        status = build_line(&line[kind], &shapes[kind], (line_kind)kind, &mesh, model, error);
+    if (!status)
+        status = allocate_elements(tube, &mesh, error);
+    if (!status)
+        fill_tube(tube, line, shapes, &mesh, model);
+    for (int kind = 0; kind < 3; kind++) {
+        tube_line_free(&line[kind]);
+        free(shapes[kind].nodal);
+    }
+    tube_mesh_free(&mesh);
+    return status;
+}
+
+void flexible_tube_free(flexible_tube *tube)
+{
+    free(tube->element);
+    *tube = (flexible_tube){0};
+}
+
+int flexible_tube_find(const flexible_tube *tube, double x)
+{
+    int last = tube->element_count - 1;
+    if (!(x > 0))
+        return 0;
+    if (x >= tube->length)
+        return last;
+    // near the place it has on an even mesh
+    int e = (int)(x / tube->length * tube->element_count);
+    e = e > last ? last : e;
+    while (e > 0 && x < tube->element[e].x0)
+        e--;
+    while (e < last && x >= tube->element[e].x1)
+        e++;
+    return e;
+}
