@@ -130,7 +130,7 @@ static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector
 {
     const double *px[16];
     double *pz = data(z);
-    if (count > 16)
+    if (count < 1 || count > 16)
         return -1;
     for (int k = 0; k < count; k++)
         px[k] = data(x[k]);
