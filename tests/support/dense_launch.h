@@ -90,9 +90,10 @@ typedef struct dense_launch_output {
         double force[3];         // [N] on the rocket, normal and friction, in I
     } contact[LD_MAX_ADAPTORS];
     double kinetic;   // [J] of everything
-    double potential; // [J] modes, support springs, gravity of everything
-    double power; // [W] of all that is not in kinetic or potential (fixed base; contacts, thrust,
-                  // damping, lock, slot)
+    double potential; // [J] modes, support springs, gravity of everything (from I's origin)
+    double power;     // [W] of all that is not in kinetic or potential (fixed base): contacts,
+                      // thrust, damping, lock, slot
+    double momentum[3], angular_momentum[3]; // of everything, in I about its origin
 } dense_launch_output;
 
 // Accelerations and forces of one state. Returns false where the dense system is singular or no

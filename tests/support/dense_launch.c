@@ -1,0 +1,969 @@
+#include "support/dense_launch.h"
+
+#include <lapacke.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/jet.h"
+
+_Static_assert((int)JET_MAX >= (int)DENSE_MAX_COORDINATES, "a jet holds every coordinate");
+
+// ---------------------------------------------------------------- the tube as points
+
+enum { GAUSS = 4 }; // exact to degree 7: squares of cubics and their product with x
+static const double gauss_at[GAUSS] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                       0.8611363115940526};
+static const double gauss_weight[GAUSS] = {0.3478548451374538, 0.6521451548625461,
+                                           0.6521451548625461, 0.3478548451374538};
+
+static const ld_section *section_at(const ld_tubes *tubes, double x)
+{
+    int i = 0;
+    while (i + 1 < tubes->section_count && tubes->section[i + 1].from <= x)
+        i++;
+    return &tubes->section[i];
+}
+
+void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube)
+{
+    const ld_tubes *tubes = &model->tubes;
+    *dense = (dense_launch){.model = model, .tube = tube};
+    dense->mode_count = 2 * tube->nb + tube->nt + tube->na;
+    int capacity = GAUSS * (tube->element_count + tubes->section_count) + tubes->point_mass_count;
+    dense->point = malloc((size_t)capacity * sizeof *dense->point);
+    // Gauss points of every stretch between element ends and section ends
+    for (int i = 0; i < tube->element_count; i++) {
+        double from = tube->element[i].x0, end = tube->element[i].x1;
+        while (from < end) {
+            double to = end;
+            for (int k = 0; k < tubes->section_count; k++)
+                if (tubes->section[k].from > from + 1e-12 && tubes->section[k].from < to - 1e-12)
+                    to = tubes->section[k].from;
+            const ld_section *section = section_at(tubes, 0.5 * (from + to));
+            for (int g = 0; g < GAUSS; g++) {
+                double weight = 0.5 * (to - from) * gauss_weight[g];
+                dense->point[dense->point_count++] = (dense_tube_point){
+                    0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g],
+                    weight * section->mass_per_length, weight * section->polar_inertia};
+            }
+            from = to;
+        }
+    }
+    for (int i = 0; i < tubes->point_mass_count; i++)
+        dense->point[dense->point_count++] =
+            (dense_tube_point){tubes->point_mass[i].at, tubes->point_mass[i].mass, 0};
+}
+
+void dense_launch_free(dense_launch *dense)
+{
+    free(dense->point);
+    *dense = (dense_launch){0};
+}
+
+// ---------------------------------------------------------------- positions
+
+// A frame: origin and axes, in the coordinates of another one.
+typedef struct jet_frame {
+    jet3 r;
+    jet33 A;
+} jet_frame;
+
+// The coordinates of one state as jets: R, modes, B. Still: values only, no derivatives.
+typedef struct jet_scene {
+    const dense_launch *dense;
+    const dense_state *state;
+    int n;       // number of coordinates; 0 when still
+    jet_frame R; // in I
+    jet_frame B; // in I
+} jet_scene;
+
+// sum over k of (-x)^k/(first + 2 k)!, with first = 1: sin t/t, first = 2: (1 - cos t)/t^2, x = t^2
+static jet rotation_series(jet x, int first)
+{
+    double factorial = first == 1 ? 1 : 0.5, f = 0, f1 = 0, f2 = 0;
+    double power = 1, power1 = 0, power2 = 0; // x^k, its derivatives
+    for (int k = 0, top = first; k < 30; k++, top += 2) {
+        f += factorial * power;
+        f1 += factorial * power1;
+        f2 += factorial * power2;
+        power2 = (k + 1) * power1;
+        power1 = (k + 1) * power;
+        power *= x.v;
+        factorial /= -(double)((top + 1) * (top + 2));
+    }
+    return jet_apply(x, f, f1, f2);
+}
+
+// Exp(~th) = E + a ~th + b (th th^T - |th|^2 E)
+static jet33 rotation_of(const jet3 *th)
+{
+    jet x = jet3_dot(th, th), a = rotation_series(x, 1), b = rotation_series(x, 2);
+    jet3 ath, bth;
+    for (int i = 0; i < 3; i++) {
+        ath.c[i] = jet_mul(a, th->c[i]);
+        bth.c[i] = jet_mul(b, th->c[i]);
+    }
+    jet33 A;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A.c[i][j] = jet_mul(bth.c[i], th->c[j]);
+    jet diagonal = jet_sub(jet_constant(1), jet_mul(b, x));
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        A.c[i][i] = jet_add(A.c[i][i], diagonal);
+        A.c[j][i] = jet_add(A.c[j][i], ath.c[k]);
+        A.c[i][j] = jet_sub(A.c[i][j], ath.c[k]);
+    }
+    return A;
+}
+
+// A free body: three coordinates of its origin, three of its rotation from A on.
+static jet_frame free_body(const double r[3], const double A[3][3], const double v[3],
+                           const double w[3], int index, int n)
+{
+    jet_frame body;
+    jet33 start = jet33_constant(A);
+    if (n == 0) {
+        body.r = jet3_constant(r);
+        body.A = start;
+        return body;
+    }
+    jet3 turn;
+    for (int i = 0; i < 3; i++) {
+        body.r.c[i] = jet_coordinate(r[i], v[i], index + i, n);
+        turn.c[i] = jet_coordinate(0, w[i], index + 3 + i, n);
+    }
+    jet33 rotation = rotation_of(&turn);
+    body.A = jet33_mul(&start, &rotation);
+    return body;
+}
+
+static void scene_set(jet_scene *scene, const dense_launch *dense, const dense_state *state, int n)
+{
+    scene->dense = dense;
+    scene->state = state;
+    scene->n = n;
+    scene->R = free_body(state->r, state->A_R, state->v, state->w, 0, n);
+    scene->B =
+        free_body(state->r_O1, state->A_B, state->v_O1, state->w_B, 6 + dense->mode_count, n);
+}
+
+// Point with coordinates p in a frame.
+static jet3 point_in(const jet_frame *frame, const jet3 *p)
+{
+    jet3 turned = jet33_turn(&frame->A, p);
+    return jet3_add(&frame->r, &turned);
+}
+
+static jet_frame frame_in(const jet_frame *outer, const jet_frame *inner)
+{
+    jet_frame r = {point_in(outer, &inner->r), jet33_mul(&outer->A, &inner->A)};
+    return r;
+}
+
+// Coordinates in a frame of a point.
+static jet3 seen_from(const jet_frame *frame, const jet3 *point)
+{
+    jet3 arm = jet3_sub(point, &frame->r);
+    return jet33_turn_back(&frame->A, &arm);
+}
+
+// One family of modes: coefficients of xi^k in row k, its place among the modal coordinates.
+typedef struct mode_family {
+    const double *coefficient;
+    int rows, stride, count, first;
+} mode_family;
+
+// sum over modes of (derivative of the shape at xi) times its coordinate; xi a plain number
+static jet shape_at(const jet_scene *scene, const mode_family *family, int derivative, double xi)
+{
+    jet r = jet_constant(0);
+    if (scene->n) {
+        r.n = scene->n;
+        memset(r.d, 0, (size_t)r.n * sizeof *r.d);
+    }
+    for (int m = 0; m < family->count; m++) {
+        double shape = 0;
+        for (int k = family->rows - 1; k >= derivative; k--) {
+            int falling = 1;
+            for (int i = 0; i < derivative; i++)
+                falling *= k - i;
+            shape = shape * xi + falling * family->coefficient[k * family->stride + m];
+        }
+        r.v += shape * scene->state->q[family->first + m];
+        if (scene->n) {
+            r.t += shape * scene->state->q_dot[family->first + m];
+            r.d[6 + family->first + m] = shape;
+        }
+    }
+    r.e = r.t;
+    return r;
+}
+
+// The same for a jet xi: Taylor's series about its value ends after the second power.
+static jet shape_sum(const jet_scene *scene, const mode_family *family, int derivative, jet xi)
+{
+    jet r = shape_at(scene, family, derivative, xi.v);
+    if (xi.n == 0 && xi.t == 0 && xi.e == 0 && xi.te == 0)
+        return r;
+    jet step = jet_sub(xi, jet_constant(xi.v));
+    jet slope = shape_at(scene, family, derivative + 1, xi.v);
+    jet curvature = shape_at(scene, family, derivative + 2, xi.v);
+    r = jet_add(r, jet_mul(slope, step));
+    return jet_add(r, jet_scale(0.5, jet_mul(curvature, jet_mul(step, step))));
+}
+
+static const tube_element *element_at(const flexible_tube *tube, double x)
+{
+    int i = 0;
+    while (i + 1 < tube->element_count && tube->element[i + 1].x0 <= x)
+        i++;
+    return &tube->element[i];
+}
+
+// Deformation at station x: displacement u and rotation vector phi, in R.
+static void deformation(const jet_scene *scene, jet x, jet3 *u, jet3 *phi)
+{
+    const flexible_tube *tube = scene->dense->tube;
+    const tube_element *element = element_at(tube, x.v);
+    mode_family b_y = {&element->b[0][0], 4, LD_NB, tube->nb, 0};
+    mode_family b_z = {&element->b[0][0], 4, LD_NB, tube->nb, tube->nb};
+    mode_family tau = {&element->tau[0][0], 2, LD_NT, tube->nt, 2 * tube->nb};
+    mode_family a = {&element->a[0][0], 2, LD_NA, tube->na, 2 * tube->nb + tube->nt};
+    jet xi = jet_sub(x, jet_constant(element->x0));
+    u->c[0] = shape_sum(scene, &a, 0, xi);
+    u->c[1] = shape_sum(scene, &b_y, 0, xi);
+    u->c[2] = shape_sum(scene, &b_z, 0, xi);
+    if (phi) {
+        phi->c[0] = shape_sum(scene, &tau, 0, xi);
+        phi->c[1] = jet_scale(-1, shape_sum(scene, &b_z, 1, xi));
+        phi->c[2] = shape_sum(scene, &b_y, 1, xi);
+    }
+}
+
+// Section frame at station s, in R; beyond the ends straight on along the end section's axis.
+static jet_frame section_in_R(const jet_scene *scene, jet s)
+{
+    jet_frame section;
+    double length = scene->dense->tube->length;
+    double end = s.v < 0 ? 0 : length;
+    if (s.v < 0 || s.v > length) {
+        section = section_in_R(scene, jet_constant(end));
+        jet beyond = jet_sub(s, jet_constant(end));
+        jet3 along = {{beyond, jet_constant(0), jet_constant(0)}};
+        section.r = point_in(&section, &along);
+        return section;
+    }
+    jet3 phi;
+    deformation(scene, s, &section.r, &phi);
+    section.r.c[0] = jet_add(section.r.c[0], s);
+    section.A = rotation_of(&phi);
+    return section;
+}
+
+static jet_frame section_in_I(const jet_scene *scene, jet s)
+{
+    jet_frame section = section_in_R(scene, s);
+    return frame_in(&scene->R, &section);
+}
+
+// e_x of the section at s times (p - its origin), p in R: zero at the foot.
+static jet foot_residual(const jet_scene *scene, jet s, const jet3 *p)
+{
+    jet_frame section = section_in_R(scene, s);
+    jet3 axis = jet33_column(&section.A, 0), arm = jet3_sub(p, &section.r);
+    return jet3_dot(&axis, &arm);
+}
+
+// Station of the section whose plane holds a point of I: Newton in values, then in jets.
+static jet foot_of(const jet_scene *moving, const jet_scene *still, const jet3 *point, double guess)
+{
+    jet3 p = seen_from(&moving->R, point), place;
+    for (int i = 0; i < 3; i++)
+        place.c[i] = jet_constant(p.c[i].v);
+    double slope = -1, s = guess;
+    for (int i = 0; i < 50; i++) {
+        jet station = jet_constant(s);
+        station.e = 1;
+        jet residual = foot_residual(still, station, &place);
+        slope = residual.e;
+        s -= residual.v / slope;
+        if (fabs(residual.v) < 4e-16)
+            break;
+    }
+    // each pass is exact to one order more in the derivatives, which end at the second
+    jet foot = jet_constant(s);
+    for (int i = 0; i < 2; i++)
+        foot = jet_axpy(foot, -1 / slope, foot_residual(moving, foot, &p));
+    return foot;
+}
+
+// ---------------------------------------------------------------- equations
+
+enum { LOCK, SLOT, ROLL, ROWS };
+
+typedef struct equations {
+    int n;
+    double x_dot[DENSE_MAX_COORDINATES];
+    double M[DENSE_MAX_COORDINATES][DENSE_MAX_COORDINATES]; // lower triangle
+    double h[DENSE_MAX_COORDINATES];     // all forces, inertial ones quadratic in speeds included
+    double other[DENSE_MAX_COORDINATES]; // forces without a potential
+    bool active[ROWS];
+    double C[ROWS][DENSE_MAX_COORDINATES]; // C x_ddot = rhs
+    double rhs[ROWS];
+    double G[ROWS][DENSE_MAX_COORDINATES]; // forces of unit multipliers
+    double drag[DENSE_MAX_COORDINATES];    // slot friction of |N| = 1
+    double kinetic, potential, momentum[3], angular_momentum[3];
+} equations;
+
+static void add_force(double *h, const jet3 *point, const double f[3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < point->c[i].n; k++)
+            h[k] += point->c[i].d[k] * f[i];
+}
+
+static void add_mass(equations *eq, const jet3 *p, double mass, double gravity)
+{
+    for (int i = 0; i < 3; i++) {
+        const jet *c = &p->c[i];
+        for (int j = 0; j < eq->n; j++) {
+            double momentum = mass * c->d[j];
+            for (int k = 0; k <= j; k++)
+                eq->M[j][k] += momentum * c->d[k];
+        }
+        eq->kinetic += 0.5 * mass * c->e * c->e;
+        eq->momentum[i] += mass * c->e;
+        const jet *next = &p->c[(i + 1) % 3], *last = &p->c[(i + 2) % 3];
+        eq->angular_momentum[i] += mass * (next->v * last->e - last->v * next->e);
+    }
+    double f[3] = {-mass * p->c[0].te, -mass * (p->c[1].te + gravity), -mass * p->c[2].te};
+    add_force(eq->h, p, f);
+    eq->potential += mass * gravity * p->c[1].v;
+}
+
+// 1/2 I (w_x + phi_x_dot)^2 with w_x = a_z . a_y_dot, a_y and a_z axes of R: Lagrange's equations
+// of a squared rate W = sum W_k x_k_dot, whose W_k depend on the coordinates.
+static void add_polar(equations *eq, const jet_scene *scene, const jet *phi_x, double inertia)
+{
+    double form[DENSE_MAX_COORDINATES], curl[DENSE_MAX_COORDINATES];
+    double rate = phi_x->e, rate_dot = phi_x->te;
+    for (int k = 0; k < eq->n; k++) {
+        form[k] = phi_x->d[k];
+        curl[k] = 0;
+    }
+    for (int i = 0; i < 3; i++) {
+        const jet *a_y = &scene->R.A.c[i][1], *a_z = &scene->R.A.c[i][2];
+        rate += a_z->v * a_y->e;
+        rate_dot += a_z->v * a_y->te + a_z->e * a_y->e;
+        for (int k = 0; k < eq->n; k++) {
+            form[k] += a_z->v * a_y->d[k];
+            curl[k] += a_z->e * a_y->d[k] - a_z->d[k] * a_y->e;
+        }
+    }
+    for (int j = 0; j < eq->n; j++) {
+        for (int k = 0; k <= j; k++)
+            eq->M[j][k] += inertia * form[j] * form[k];
+        eq->h[j] -= inertia * (form[j] * rate_dot + rate * curl[j]);
+    }
+    eq->kinetic += 0.5 * inertia * rate * rate;
+    for (int i = 0; i < 3; i++)
+        eq->angular_momentum[i] += inertia * rate * scene->R.A.c[i][0].v;
+}
+
+static void add_tube(equations *eq, const jet_scene *scene)
+{
+    const dense_launch *dense = scene->dense;
+    for (int i = 0; i < dense->point_count; i++) {
+        const dense_tube_point *point = &dense->point[i];
+        jet3 u, phi;
+        deformation(scene, jet_constant(point->at), &u, point->polar != 0 ? &phi : NULL);
+        u.c[0] = jet_add(u.c[0], jet_constant(point->at));
+        jet3 p = point_in(&scene->R, &u);
+        add_mass(eq, &p, point->mass, dense->model->gravity);
+        if (point->polar != 0)
+            add_polar(eq, scene, &phi.c[0], point->polar);
+    }
+}
+
+// Points that have mass, mass centre c and inertia J (about it) of a rigid body: a pair at c +- h u
+// with weights g/(2 h^2) for every direction u of J's dyads sum g u u^T = tr(J)/2 E - J, the rest
+// at c. Weights may be negative.
+static void add_rigid(equations *eq, const jet_frame *body, double mass, const double c[3],
+                      const double J[3], const double products[3], double gravity)
+{
+    static const double u[6][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                   {1, 1, 0}, {1, 0, 1}, {0, 1, 1}};
+    const double arm = 0.5, half = 0.5 * (J[0] + J[1] + J[2]);
+    double xy = -products[0], xz = -products[1], yz = -products[2];
+    double g[6] = {half - J[0] - xy - xz, half - J[1] - xy - yz, half - J[2] - xz - yz, xy, xz, yz};
+    double rest = mass;
+    for (int i = 0; i < 6; i++)
+        for (int side = -1; side <= 1; side += 2) {
+            double at[3], weight = g[i] / (2 * arm * arm);
+            if (weight == 0)
+                continue;
+            for (int k = 0; k < 3; k++)
+                at[k] = c[k] + side * arm * u[i][k];
+            jet3 local = jet3_constant(at), p = point_in(body, &local);
+            add_mass(eq, &p, weight, gravity);
+            rest -= weight;
+        }
+    jet3 local = jet3_constant(c), p = point_in(body, &local);
+    add_mass(eq, &p, rest, gravity);
+}
+
+static void add_modes(equations *eq, const jet_scene *scene)
+{
+    const flexible_tube *tube = scene->dense->tube;
+    const double *om2[4] = {tube->om2_b, tube->om2_b, tube->om2_t, tube->om2_a};
+    const double *dmp[4] = {tube->dmp_b, tube->dmp_b, tube->dmp_t, tube->dmp_a};
+    int count[4] = {tube->nb, tube->nb, tube->nt, tube->na};
+    for (int part = 0, k = 0; part < 4; part++)
+        for (int m = 0; m < count[part]; m++, k++) {
+            double q = scene->state->q[k], q_dot = scene->state->q_dot[k];
+            eq->h[6 + k] -= om2[part][m] * q + dmp[part][m] * q_dot;
+            eq->other[6 + k] -= dmp[part][m] * q_dot;
+            eq->potential += 0.5 * om2[part][m] * q * q;
+        }
+}
+
+// Vector w of the skew matrix D A^T, D a derivative of A: entries of the derivative by `of`.
+static void skew_of(double w[3], const jet33 *A, double (*of)(const jet *, int), int index)
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        w[i] = 0;
+        for (int l = 0; l < 3; l++)
+            w[i] += 0.5 *
+                    (of(&A->c[k][l], index) * A->c[j][l].v - of(&A->c[j][l], index) * A->c[k][l].v);
+    }
+}
+
+static double part_rate(const jet *a, int index)
+{
+    (void)index;
+    return a->e;
+}
+
+static double part_coordinate(const jet *a, int index)
+{
+    return a->n ? a->d[index] : 0;
+}
+
+// A moment m (in the coordinates that A turns into) on the body with axes A.
+static void add_moment(double *h, int n, const jet33 *A, const double m[3])
+{
+    for (int k = 0; k < n; k++) {
+        double w[3];
+        skew_of(w, A, part_coordinate, k);
+        h[k] += w[0] * m[0] + w[1] * m[1] + w[2] * m[2];
+    }
+}
+
+// Rotation vector of A: its skew part times angle/sin(angle), a series in (1 - cos(angle))/2.
+static jet3 rotation_vector_of(const jet33 *A)
+{
+    jet trace = jet_add(jet_add(A->c[0][0], A->c[1][1]), A->c[2][2]);
+    jet x = jet_scale(0.25, jet_sub(jet_constant(3), trace));
+    // arcsin(z)/(z sqrt(1 - z^2)) = sum a_k x^k, x = z^2, a_(k+1)/a_k = 2 (k + 1)/(2 k + 3)
+    double a = 1, f = 0, f1 = 0, f2 = 0, power = 1, power1 = 0, power2 = 0;
+    for (int k = 0; k < 200 && a * fabs(power) + a * fabs(power2) > 1e-25; k++) {
+        f += a * power;
+        f1 += a * power1;
+        f2 += a * power2;
+        power2 = (k + 1) * power1;
+        power1 = (k + 1) * power;
+        power *= x.v;
+        a *= 2.0 * (k + 1) / (2 * k + 3);
+    }
+    jet factor = jet_apply(x, f, f1, f2);
+    jet3 phi;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        phi.c[i] = jet_mul(factor, jet_scale(0.5, jet_sub(A->c[k][j], A->c[j][k])));
+    }
+    return phi;
+}
+
+// The base's frame with its rates, as given functions of time.
+static jet_frame base_frame(const dense_base *base)
+{
+    jet_frame frame;
+    for (int i = 0; i < 3; i++) {
+        frame.r.c[i] = jet_constant(base->r[i]);
+        frame.r.c[i].t = frame.r.c[i].e = base->v[i];
+        int k = (i + 1) % 3, l = (i + 2) % 3;
+        for (int j = 0; j < 3; j++) {
+            frame.A.c[i][j] = jet_constant(base->A[i][j]);
+            frame.A.c[i][j].t = frame.A.c[i][j].e =
+                base->w[k] * base->A[l][j] - base->w[l] * base->A[k][j];
+        }
+    }
+    return frame;
+}
+
+static void add_supports(equations *eq, const jet_scene *scene, const dense_base *motion)
+{
+    const ld_tubes *tubes = &scene->dense->model->tubes;
+    jet_frame base = base_frame(motion);
+    jet33 to_base = jet33_transpose(&base.A);
+    for (int i = 0; i < tubes->support_count; i++) {
+        const ld_support *support = &tubes->support[i];
+        jet_frame section = section_in_I(scene, jet_constant(support->at));
+        jet3 d = seen_from(&base, &section.r);
+        d.c[0] = jet_sub(d.c[0], jet_constant(support->at));
+        jet33 turn = jet33_mul(&to_base, &section.A);
+        jet3 phi = rotation_vector_of(&turn);
+        double w[3], moment[3];
+        skew_of(w, &turn, part_rate, 0);
+        for (int a = 0; a < 3; a++) {
+            // springs from their potential 1/2 K d^2 + 1/2 K_r phi^2, dampers from their rates
+            double spring = support->stiffness[a] * d.c[a].v;
+            double coil = support->rotational_stiffness[a] * phi.c[a].v;
+            double damper = support->damping[a] * d.c[a].e;
+            moment[a] = -support->rotational_damping[a] * w[a];
+            for (int k = 0; k < eq->n; k++) {
+                eq->h[k] -= spring * d.c[a].d[k] + coil * phi.c[a].d[k] + damper * d.c[a].d[k];
+                eq->other[k] -= damper * d.c[a].d[k];
+            }
+            eq->potential += 0.5 * (spring * d.c[a].v + coil * phi.c[a].v);
+        }
+        add_moment(eq->h, eq->n, &turn, moment);
+        add_moment(eq->other, eq->n, &turn, moment);
+    }
+}
+
+// A force f (in I) on the rocket at a place of I, opposite on the section at station s, same place.
+static void add_pair(double *h, const jet_scene *scene, const jet_frame *section,
+                     const double place[3], const double f[3])
+{
+    jet3 at = jet3_constant(place);
+    jet3 in_B = seen_from(&scene->B, &at), in_S = seen_from(section, &at);
+    for (int i = 0; i < 3; i++) {
+        in_B.c[i] = jet_constant(in_B.c[i].v);
+        in_S.c[i] = jet_constant(in_S.c[i].v);
+    }
+    jet3 on_rocket = point_in(&scene->B, &in_B), on_tube = point_in(section, &in_S);
+    double opposite[3] = {-f[0], -f[1], -f[2]};
+    add_force(h, &on_rocket, f);
+    add_force(h, &on_tube, opposite);
+}
+
+// Velocity of the rocket less that of the section's material at a place of I, both moved rigidly.
+static void slip_at(double slip[3], const jet_scene *scene, const jet_frame *section,
+                    const double place[3])
+{
+    jet3 at = jet3_constant(place);
+    jet3 in_B = seen_from(&scene->B, &at), in_S = seen_from(section, &at);
+    for (int i = 0; i < 3; i++) {
+        in_B.c[i] = jet_constant(in_B.c[i].v);
+        in_S.c[i] = jet_constant(in_S.c[i].v);
+    }
+    jet3 on_rocket = point_in(&scene->B, &in_B), on_tube = point_in(section, &in_S);
+    for (int i = 0; i < 3; i++)
+        slip[i] = on_rocket.c[i].e - on_tube.c[i].e;
+}
+
+static double normal_force(const ld_contact *contact, double p, double p_dot, double touch_speed)
+{
+    if (contact->law == LD_CONTACT_KELVIN_VOIGT)
+        return fmax(0, contact->stiffness * p + contact->damping * p_dot);
+    double e = contact->restitution, v_0 = contact->reference_speed;
+    double chi = 1.5 * (1 - e) / v_0;
+    if (contact->law == LD_CONTACT_LANKARANI_NIKRAVESH)
+        chi = 0.75 * (1 - e * e) / (touch_speed > 0 ? touch_speed : v_0);
+    double d_0 = contact->reference_penetration;
+    return contact->stiffness * d_0 * pow(p / d_0, contact->exponent) * fmax(0, 1 + chi * p_dot);
+}
+
+static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene *still,
+                        const dense_conditions *on, int index, double guess,
+                        dense_launch_output *output)
+{
+    const ld_model *model = moving->dense->model;
+    const ld_adaptor *adaptor = &model->rocket.adaptor[index];
+    const ld_contact *law = &model->rocket.contact;
+    double bore = model->tubes.section[0].bore_radius;
+    // foot, offset from the axis, penetration
+    jet3 center = jet3_constant((double[]){adaptor->at, 0, 0});
+    center = point_in(&moving->B, &center);
+    jet s = foot_of(moving, still, &center, guess);
+    jet_frame section = section_in_I(moving, s);
+    jet3 offset = seen_from(&section, &center);
+    double y = offset.c[1].v, z = offset.c[2].v, distance = hypot(y, z);
+    double rate = distance > 0 ? (y * offset.c[1].e + z * offset.c[2].e) / distance : 0;
+    double p = distance - adaptor->clearance, normal = 0, f[3] = {0}, place[3], axis[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            axis[i][j] = section.A.c[i][j].v;
+    jet_frame material = section_in_I(moving, jet_constant(s.v));
+    bool inside = !on->passed[index] && s.v >= 0;
+    if (inside && law->law == LD_CONTACT_BILATERAL) {
+        double f_y = -law->stiffness * y - law->damping * offset.c[1].e;
+        double f_z = -law->stiffness * z - law->damping * offset.c[2].e;
+        normal = hypot(f_y, f_z);
+        for (int i = 0; i < 3; i++) {
+            f[i] = axis[i][1] * f_y + axis[i][2] * f_z;
+            place[i] = center.c[i].v;
+        }
+    } else if (inside && p > 0 && distance > 0) {
+        normal = normal_force(law, p, rate, on->touch_speed[index]);
+        double out[3], slip[3], v_t[3], along = 0, square = 0;
+        for (int i = 0; i < 3; i++) {
+            out[i] = (axis[i][1] * y + axis[i][2] * z) / distance;
+            place[i] = section.r.c[i].v + out[i] * bore;
+        }
+        slip_at(slip, moving, &material, place);
+        for (int i = 0; i < 3; i++)
+            along += slip[i] * out[i];
+        for (int i = 0; i < 3; i++) {
+            v_t[i] = slip[i] - along * out[i];
+            square += v_t[i] * v_t[i];
+        }
+        double mu = on->frictionless ? 0 : law->friction;
+        double drag = mu * normal / sqrt(square + law->friction_speed * law->friction_speed);
+        for (int i = 0; i < 3; i++)
+            f[i] = -normal * out[i] - drag * v_t[i];
+    }
+    if (normal != 0) {
+        add_pair(eq->h, moving, &material, place, f);
+        add_pair(eq->other, moving, &material, place, f);
+    }
+    output->contact[index].s = s.v;
+    output->contact[index].penetration = p;
+    output->contact[index].penetration_rate = rate;
+    output->contact[index].normal = normal;
+    memcpy(output->contact[index].force, f, sizeof f);
+}
+
+static void add_thrust(equations *eq, const jet_scene *scene, double thrust)
+{
+    const ld_motor *motor = &scene->dense->model->rocket.motor;
+    double e_y = motor->misalignment[0], e_z = motor->misalignment[1];
+    double direction[3] = {1, e_y, e_z}, norm = sqrt(1 + e_y * e_y + e_z * e_z), f[3];
+    for (int i = 0; i < 3; i++) {
+        f[i] = 0;
+        for (int j = 0; j < 3; j++)
+            f[i] += thrust * scene->B.A.c[i][j].v * direction[j] / norm;
+    }
+    jet3 at = jet3_constant(motor->at), point = point_in(&scene->B, &at);
+    add_force(eq->h, &point, f);
+    add_force(eq->other, &point, f);
+}
+
+// The slot's angle at s and its slope: linear between the table's points, constant outside.
+static double slot_angle(const ld_table *table, double s, double *slope)
+{
+    const double *row = table->data;
+    size_t last = table->rows - 1;
+    *slope = 0;
+    if (s < row[0])
+        return row[1];
+    for (size_t i = 0; i < last; i++, row += 2)
+        if (s < row[2]) {
+            *slope = (row[3] - row[1]) / (row[2] - row[0]);
+            return row[1] + *slope * (s - row[0]);
+        }
+    return row[1];
+}
+
+static void add_slot(equations *eq, const jet_scene *scene, const dense_conditions *on, jet s,
+                     dense_launch_output *output)
+{
+    const ld_model *model = scene->dense->model;
+    const ld_slot *slot = &model->tubes.slot;
+    double knob = model->rocket.knob_angle, slope;
+    jet3 E_B = jet3_constant((double[]){0, slot->radius * cos(knob), slot->radius * sin(knob)});
+    // knob E seen from the section at s, and the tube's material there
+    jet3 E = point_in(&scene->B, &E_B);
+    jet_frame section = section_in_I(scene, s), material = section_in_I(scene, jet_freeze(s));
+    jet3 r_E = seen_from(&section, &E), frozen = jet3_freeze(r_E);
+    jet3 tube = point_in(&material, &frozen), v_rel = jet3_sub(&E, &tube);
+    // directions across and along the slot, in the section, then in I
+    double value = slot_angle(&slot->angle, s.v, &slope);
+    jet alpha = jet_apply(s, value, slope, 0), sine = jet_sin(alpha), cosine = jet_cos(alpha);
+    jet radius = jet_add(jet_mul(r_E.c[1], r_E.c[1]), jet_mul(r_E.c[2], r_E.c[2]));
+    jet inverse = jet_inverse(jet_sqrt(radius));
+    jet t_y = jet_scale(-1, jet_mul(r_E.c[2], inverse)), t_z = jet_mul(r_E.c[1], inverse);
+    jet3 n = {{jet_scale(-1, sine), jet_mul(cosine, t_y), jet_mul(cosine, t_z)}};
+    jet3 tau = {{cosine, jet_mul(sine, t_y), jet_mul(sine, t_z)}};
+    n = jet33_turn(&section.A, &n);
+    tau = jet33_turn(&section.A, &tau);
+    // n . v_rel = 0 and its derivative in time
+    double along = 0, place[3], direction[3], drag[3], drift = 0;
+    eq->active[SLOT] = true;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < eq->n; k++)
+            eq->C[SLOT][k] += n.c[i].v * v_rel.c[i].d[k];
+        eq->rhs[SLOT] -= n.c[i].v * v_rel.c[i].te + n.c[i].t * v_rel.c[i].e;
+        drift += n.c[i].v * v_rel.c[i].e;
+        along += tau.c[i].v * v_rel.c[i].e;
+    }
+    // forces at E
+    double v_eps = model->rocket.contact.friction_speed;
+    double w = along / sqrt(along * along + v_eps * v_eps);
+    double mu = on->frictionless || on->locked ? 0 : slot->friction;
+    for (int i = 0; i < 3; i++) {
+        place[i] = E.c[i].v;
+        direction[i] = n.c[i].v;
+        drag[i] = -mu * w * tau.c[i].v;
+    }
+    jet_frame fixed = section_in_I(scene, jet_constant(s.v));
+    add_pair(eq->G[SLOT], scene, &fixed, place, direction);
+    if (mu != 0)
+        add_pair(eq->drag, scene, &fixed, place, drag);
+    output->slot_drift = drift;
+}
+
+static void add_lock(equations *eq, const jet_scene *scene, jet s, bool holds_roll)
+{
+    // s_ddot = 0; force along e_x of S at O1
+    jet_frame fixed = section_in_I(scene, jet_constant(s.v));
+    double place[3], axis[3];
+    for (int i = 0; i < 3; i++) {
+        place[i] = scene->B.r.c[i].v;
+        axis[i] = fixed.A.c[i][0].v;
+    }
+    eq->active[LOCK] = true;
+    eq->rhs[LOCK] = -s.te;
+    memcpy(eq->C[LOCK], s.d, (size_t)eq->n * sizeof *s.d);
+    add_pair(eq->G[LOCK], scene, &fixed, place, axis);
+    if (!holds_roll)
+        return;
+    // rate about e_x of S of B against S: entry zy of (Q e-derivative) Q^T, Q = A_SB
+    jet_frame section = section_in_I(scene, s);
+    jet33 back = jet33_transpose(&section.A), Q = jet33_mul(&back, &scene->B.A);
+    eq->active[ROLL] = true;
+    for (int l = 0; l < 3; l++) {
+        const jet *y = &Q.c[1][l], *z = &Q.c[2][l];
+        for (int k = 0; k < eq->n; k++)
+            eq->C[ROLL][k] += z->d[k] * y->v;
+        eq->rhs[ROLL] -= z->te * y->v + z->e * y->t;
+    }
+    double opposite[3] = {-axis[0], -axis[1], -axis[2]};
+    add_moment(eq->G[ROLL], eq->n, &scene->B.A, axis);
+    add_moment(eq->G[ROLL], eq->n, &fixed.A, opposite);
+}
+
+// Solves [M, -G; C, 0] for accelerations and multipliers, with the slot friction of sign(N) = sign.
+static bool solve(const equations *eq, double sign, double x_ddot[], double multiplier[ROWS])
+{
+    enum { SIZE = DENSE_MAX_COORDINATES + ROWS };
+    static _Thread_local double matrix[SIZE * SIZE], right[SIZE];
+    lapack_int pivot[SIZE];
+    int n = eq->n, row[ROWS], size = n;
+    for (int c = 0; c < ROWS; c++)
+        row[c] = eq->active[c] ? size++ : -1;
+    memset(matrix, 0, sizeof matrix);
+    // columns one after another
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k <= j; k++)
+            matrix[j * size + k] = matrix[k * size + j] = eq->M[j][k];
+    memcpy(right, eq->h, (size_t)n * sizeof *right);
+    for (int c = 0; c < ROWS; c++) {
+        if (row[c] < 0)
+            continue;
+        for (int k = 0; k < n; k++) {
+            matrix[row[c] * size + k] = -eq->G[c][k] - (c == SLOT ? sign * eq->drag[k] : 0);
+            matrix[k * size + row[c]] = eq->C[c][k];
+        }
+        right[row[c]] = eq->rhs[c];
+    }
+    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, matrix, size, pivot, right, size) != 0)
+        return false;
+    memcpy(x_ddot, right, (size_t)n * sizeof *right);
+    for (int c = 0; c < ROWS; c++)
+        multiplier[c] = row[c] < 0 ? 0 : right[row[c]];
+    return true;
+}
+
+// The same for the one sign of N that is consistent.
+static bool solve_signed(const equations *eq, bool rubs, double x_ddot[], double multiplier[ROWS],
+                         double *sign)
+{
+    *sign = 0;
+    if (!rubs)
+        return solve(eq, 0, x_ddot, multiplier);
+    double x[2][DENSE_MAX_COORDINATES], l[2][ROWS];
+    bool fits[2];
+    for (int i = 0; i < 2; i++) {
+        double trial = i == 0 ? 1 : -1;
+        fits[i] = solve(eq, trial, x[i], l[i]) && trial * l[i][SLOT] >= 0;
+    }
+    int i = fits[0] ? 0 : 1;
+    if (!fits[i] || (fits[0] && fits[1] && l[0][SLOT] != 0))
+        return false;
+    *sign = i == 0 ? 1 : -1;
+    memcpy(x_ddot, x[i], (size_t)eq->n * sizeof *x_ddot);
+    memcpy(multiplier, l[i], sizeof l[i]);
+    return true;
+}
+
+// A^T a of a matrix by rows
+static void turn_back(double out[3], const double *A, const double a[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = A[i] * a[0] + A[3 + i] * a[1] + A[6 + i] * a[2];
+}
+
+// A a
+static void turn(double out[3], const double *A, const double a[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = A[3 * i] * a[0] + A[3 * i + 1] * a[1] + A[3 * i + 2] * a[2];
+}
+
+static void write_output(const dense_launch *dense, const dense_state *state, const equations *eq,
+                         const double x_ddot[], const double multiplier[ROWS], double sign,
+                         dense_launch_output *output)
+{
+    int rocket = 6 + dense->mode_count;
+    double alpha[3];
+    turn_back(output->a, state->A_R[0], x_ddot);
+    memcpy(output->w_dot, x_ddot + 3, sizeof output->w_dot);
+    memcpy(output->q_ddot, x_ddot + 6, (size_t)dense->mode_count * sizeof *x_ddot);
+    turn_back(output->a_O1, state->A_R[0], x_ddot + rocket);
+    turn(alpha, state->A_B[0], x_ddot + rocket + 3);
+    turn_back(output->alpha_B, state->A_R[0], alpha);
+    output->lock_force = -multiplier[LOCK];
+    output->slot_force = multiplier[SLOT];
+    output->lock_moment = multiplier[ROLL];
+    output->kinetic = eq->kinetic;
+    output->potential = eq->potential;
+    memcpy(output->momentum, eq->momentum, sizeof eq->momentum);
+    memcpy(output->angular_momentum, eq->angular_momentum, sizeof eq->angular_momentum);
+    output->power = 0;
+    for (int k = 0; k < eq->n; k++) {
+        double force = eq->other[k] + sign * multiplier[SLOT] * eq->drag[k];
+        for (int c = 0; c < ROWS; c++)
+            force += multiplier[c] * eq->G[c][k];
+        output->power += force * eq->x_dot[k];
+    }
+}
+
+bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
+                        const dense_conditions *conditions, dense_rates *rates,
+                        dense_launch_output *output)
+{
+    const ld_model *model = dense->model;
+    const ld_rocket *rocket = &model->rocket;
+    int n = dense->mode_count + 12;
+    jet_scene moving, still;
+    dense_launch_output own;
+    output = output ? output : &own;
+    memset(output, 0, sizeof *output);
+    scene_set(&moving, dense, state, n);
+    scene_set(&still, dense, state, 0);
+    equations eq;
+    memset(&eq, 0, sizeof eq);
+    eq.n = n;
+    memcpy(eq.x_dot, state->v, sizeof state->v);
+    memcpy(eq.x_dot + 3, state->w, sizeof state->w);
+    memcpy(eq.x_dot + 6, state->q_dot, (size_t)dense->mode_count * sizeof *eq.x_dot);
+    memcpy(eq.x_dot + n - 6, state->v_O1, sizeof state->v_O1);
+    memcpy(eq.x_dot + n - 3, state->w_B, sizeof state->w_B);
+    // masses
+    static const double none[3] = {0, 0, 0};
+    const ld_tail *tail = &model->tubes.tail;
+    jet_frame rear = section_in_I(&moving, jet_constant(0));
+    add_tube(&eq, &moving);
+    add_rigid(&eq, &rear, tail->mass, (double[]){tail->center, 0, 0}, tail->inertia, none,
+              model->gravity);
+    add_rigid(&eq, &moving.B, conditions->mass, conditions->center, conditions->inertia,
+              conditions->products, model->gravity);
+    // forces
+    add_modes(&eq, &moving);
+    add_supports(&eq, &moving, &conditions->base);
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        add_adaptor(&eq, &moving, &still, conditions, i, state->s + rocket->adaptor[i].at, output);
+    add_thrust(&eq, &moving, conditions->thrust);
+    // constraints
+    bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
+    jet s = foot_of(&moving, &still, &moving.B.r, state->s);
+    if (slotted)
+        add_slot(&eq, &moving, conditions, s, output);
+    if (conditions->locked)
+        add_lock(&eq, &moving, s, !slotted);
+    output->s = s.v;
+    output->s_dot = s.e;
+    double x_ddot[DENSE_MAX_COORDINATES], multiplier[ROWS], sign;
+    bool rubs = slotted && !conditions->locked && !conditions->frictionless &&
+                model->tubes.slot.friction != 0;
+    if (!solve_signed(&eq, rubs, x_ddot, multiplier, &sign))
+        return false;
+    write_output(dense, state, &eq, x_ddot, multiplier, sign, output);
+    if (rates) {
+        memcpy(rates->x_ddot, x_ddot, sizeof rates->x_ddot);
+        memcpy(rates->h, eq.h, sizeof rates->h);
+        memcpy(rates->G, eq.G, sizeof rates->G);
+    }
+    return true;
+}
+
+// ---------------------------------------------------------------- relative input
+
+static void matrix_of_quaternion(double A[3][3], const double q[4])
+{
+    double norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        A[i][i] = 1 - 2 * (q[1 + j] * q[1 + j] + q[1 + k] * q[1 + k]) / norm;
+        A[j][i] = 2 * (q[1 + i] * q[1 + j] + q[0] * q[1 + k]) / norm;
+        A[i][j] = 2 * (q[1 + i] * q[1 + j] - q[0] * q[1 + k]) / norm;
+    }
+}
+
+// Rotation by `angle` about axis 0, 1 or 2.
+static jet33 rotation_about(int axis, double angle)
+{
+    double th[3] = {0, 0, 0};
+    th[axis] = angle;
+    jet3 vector = jet3_constant(th);
+    return rotation_of(&vector);
+}
+
+static void values3(double out[3], const jet3 *a)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a->c[i].v;
+}
+
+void dense_launch_place(const dense_launch *dense, const dense_launch_input *input,
+                        dense_state *state)
+{
+    memset(state, 0, sizeof *state);
+    memcpy(state->r, input->r, sizeof input->r);
+    memcpy(state->w, input->w, sizeof input->w);
+    memcpy(state->q, input->q, sizeof input->q);
+    memcpy(state->q_dot, input->q_dot, sizeof input->q_dot);
+    matrix_of_quaternion(state->A_R, input->quaternion);
+    turn(state->v, state->A_R[0], input->v);
+    state->s = input->s;
+    // rocket: from the section's frame
+    jet_scene still;
+    scene_set(&still, dense, state, 0);
+    jet_frame section = section_in_I(&still, jet_constant(input->s)), rocket;
+    jet3 offset = jet3_constant((double[]){0, input->y, input->z});
+    jet33 Z = rotation_about(2, input->psi), Y = rotation_about(1, input->theta);
+    jet33 X = rotation_about(0, input->gamma), A_SB = jet33_mul(&Z, &Y);
+    A_SB = jet33_mul(&A_SB, &X);
+    rocket.r = point_in(&section, &offset);
+    rocket.A = jet33_mul(&section.A, &A_SB);
+    values3(state->r_O1, &rocket.r);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            state->A_B[i][j] = rocket.A.c[i][j].v;
+    double w_B[3];
+    turn(state->v_O1, state->A_R[0], input->V);
+    turn(w_B, state->A_R[0], input->V + 3);
+    turn_back(state->w_B, state->A_B[0], w_B);
+}
+
+bool dense_launch_evaluate(const dense_launch *dense, const dense_launch_input *input,
+                           dense_launch_output *output)
+{
+    dense_state state;
+    dense_launch_place(dense, input, &state);
+    return dense_launch_rates(dense, &state, &input->conditions, NULL, output);
+}
