@@ -716,6 +716,23 @@ static void add_slot(equations *eq, const jet_scene *scene, const dense_conditio
     output->slot_drift = drift;
 }
 
+// Where the rocket is relative to the section at s, and how it turns there.
+static void write_relative(const jet_scene *scene, jet s, dense_launch_output *output)
+{
+    jet_frame section = section_in_I(scene, s);
+    jet3 offset = seen_from(&section, &scene->B.r);
+    jet33 back = jet33_transpose(&section.A), Q = jet33_mul(&back, &scene->B.A);
+    output->s = s.v;
+    output->s_dot = s.e;
+    output->y = offset.c[1].v;
+    output->z = offset.c[2].v;
+    // Rz(psi) Ry(theta) Rx(gamma)
+    output->psi = atan2(Q.c[1][0].v, Q.c[0][0].v);
+    output->theta = -asin(Q.c[2][0].v);
+    output->gamma = atan2(Q.c[2][1].v, Q.c[2][2].v);
+    skew_of(output->w_SB, &Q, part_rate, 0);
+}
+
 static void add_lock(equations *eq, const jet_scene *scene, jet s, bool holds_roll)
 {
     // s_ddot = 0; force along e_x of S at O1
@@ -885,8 +902,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)
         add_lock(&eq, &moving, s, !slotted);
-    output->s = s.v;
-    output->s_dot = s.e;
+    write_relative(&moving, s, output);
     double x_ddot[DENSE_MAX_COORDINATES], multiplier[ROWS], sign;
     bool rubs = slotted && !conditions->locked && !conditions->frictionless &&
                 model->tubes.slot.friction != 0;
@@ -958,6 +974,33 @@ void dense_launch_place(const dense_launch *dense, const dense_launch_input *inp
     turn(state->v_O1, state->A_R[0], input->V);
     turn(w_B, state->A_R[0], input->V + 3);
     turn_back(state->w_B, state->A_B[0], w_B);
+}
+
+// Pitch and yaw of a direction and their rates.
+static void direction_angles(const jet3 *d, double *pitch, double *yaw, double *pitch_rate,
+                             double *yaw_rate)
+{
+    double x = d->c[0].v, y = d->c[1].v, z = d->c[2].v, level = hypot(x, z);
+    *pitch = atan2(y, level);
+    *yaw = atan2(-z, x);
+    *pitch_rate = d->c[1].e / level;
+    *yaw_rate = (z * d->c[0].e - x * d->c[2].e) / (level * level);
+}
+
+void dense_launch_tip(const dense_launch *dense, const dense_state *state, const dense_base *base,
+                      double tip[8])
+{
+    jet_scene moving;
+    scene_set(&moving, dense, state, dense->mode_count + 12);
+    jet_frame section = section_in_I(&moving, jet_constant(dense->tube->length));
+    jet_frame frame = base_frame(base);
+    jet3 place = seen_from(&frame, &section.r), axis = jet33_column(&section.A, 0);
+    axis = jet33_turn_back(&frame.A, &axis);
+    tip[0] = place.c[1].v;
+    tip[1] = place.c[2].v;
+    tip[4] = place.c[1].e;
+    tip[5] = place.c[2].e;
+    direction_angles(&axis, &tip[2], &tip[3], &tip[6], &tip[7]);
 }
 
 bool dense_launch_evaluate(const dense_launch *dense, const dense_launch_input *input,

@@ -82,6 +82,8 @@ typedef struct dense_launch_output {
     double lock_moment; // [N m] on the rocket along e_x of S (slot none, locked)
     double slot_drift;  // [m/s] n . v_rel
     double s, s_dot;    // [m], [m/s] station of O1
+    double y, z, psi, theta, gamma; // of the rocket in S, as in the input
+    double w_SB[3];                 // [rad/s] rate of B against S (which moves on with s), in S
     struct {
         double s;                // [m] foot
         double penetration;      // [m] p, negative: apart
@@ -123,6 +125,11 @@ typedef struct dense_rates {
 bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
                         const dense_conditions *conditions, dense_rates *rates,
                         dense_launch_output *output);
+
+// The tip against the undeformed tube on the base, in its axes: y, z, pitch and yaw of the
+// section's x axis, and the time derivatives of the four.
+void dense_launch_tip(const dense_launch *dense, const dense_state *state, const dense_base *base,
+                      double tip[8]);
 
 // Absolute state of a relative one.
 void dense_launch_place(const dense_launch *dense, const dense_launch_input *input,

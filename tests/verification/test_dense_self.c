@@ -187,6 +187,7 @@ enum {
     ENERGY,
     DRIFT,
     S_DOT,
+    ROLL_RATE,
     STATION,
     PENETRATION,
     LINEAR,
@@ -199,6 +200,7 @@ static void list_outputs(double list[LIST], const dense_launch_output *out)
     list[ENERGY] = out->kinetic + out->potential;
     list[DRIFT] = out->slot_drift;
     list[S_DOT] = out->s_dot;
+    list[ROLL_RATE] = out->w_SB[0];
     list[STATION] = out->s;
     list[PENETRATION] = out->contact[2].penetration;
     memcpy(list + LINEAR, out->momentum, sizeof out->momentum);
@@ -273,7 +275,7 @@ static void inner_forces_keep_the_momenta(void **state)
     bench_open(&b, 3, 2, 1, false);
     b.model.gravity = 0;
     b.model.tubes.support_count = 0;
-    double linear = 0, angular = 0, slot = 0, contact = 0;
+    double linear = 0, angular = 0, slot = 0, contact = 0, roll = 0;
     for (int i = 0; i < 60; i++) {
         dense_launch_input in;
         dense_launch_output out;
@@ -283,6 +285,8 @@ static void inner_forces_keep_the_momenta(void **state)
         in.conditions.locked = i % 3 == 0;
         b.model.tubes.slot.kind = i % 4 == 1 ? LD_SLOT_NONE : LD_SLOT_HELIX;
         derivatives(&b, &in, rate, &out);
+        if (in.conditions.locked && b.model.tubes.slot.kind == LD_SLOT_NONE)
+            roll = larger(roll, rate[ROLL_RATE]);
         slot = larger(slot, out.slot_force);
         contact = larger(contact, out.contact[1].normal);
         for (int k = 0; k < 3; k++) {
@@ -291,6 +295,7 @@ static void inner_forces_keep_the_momenta(void **state)
         }
     }
     printf("    largest slot force %.3g N, contact %.3g N\n", slot, contact);
+    CHECK_BELOW("d/dt(roll rate), smooth tube, locked [rad/s2]", roll, 1e-4);
     CHECK_BELOW("d/dt(momentum) [N]", linear, 5e-4);
     CHECK_BELOW("d/dt(angular momentum) [N m]", angular, 1e-3);
     bench_close(&b);
@@ -390,8 +395,8 @@ static void helix_follows_the_closed_form(void **state)
     bench b;
     bench_open(&b, 0, 0, 0, true);
     b.model.gravity = 0;
-    b.model.tubes.section[0].mass_per_length = 1e9;
-    b.model.tubes.section[0].polar_inertia = 1e9;
+    b.model.tubes.section[0].mass_per_length = 1e12;
+    b.model.tubes.section[0].polar_inertia = 1e12;
     dense_launch_free(&b.dense);
     dense_launch_create(&b.dense, &b.model, &b.tube);
     free(b.model.tubes.slot.angle.data);
