@@ -9,7 +9,6 @@
 #ifndef LAUNCHDYN_MODEL_H
 #define LAUNCHDYN_MODEL_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "launchdyn/status.h"
@@ -63,16 +62,36 @@ typedef struct ld_base {
     ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
 } ld_base;
 
+/// What a section is given by; ld_model_complete() computes the rest from it and the material.
+typedef enum ld_section_form {
+    LD_SECTION_STIFFNESS, ///< stiffnesses and masses per length, as they stand: nothing to compute
+    LD_SECTION_ANNULUS,   ///< inner and outer radius
+    LD_SECTION_AREA,      ///< area and second moments, with masses per length
+} ld_section_form;
+
 /// A stretch of the tube with constant section, from `from` to the next section's or to the end.
 typedef struct ld_section {
+    ld_section_form form;
     double from;              ///< [m] station where it begins
     double bore_radius;       ///< [m] inner radius
+    double outer_radius;      ///< [m] (annulus)
+    double area;              ///< [m2] A (area)
+    double second_moment;     ///< [m4] I (area)
+    double torsion_constant;  ///< [m4] I_t (area)
     double mass_per_length;   ///< [kg/m]
     double axial_stiffness;   ///< [N] E A
     double bending_stiffness; ///< [N m2] E I, the same in both planes
     double torsion_stiffness; ///< [N m2] G I_t
     double polar_inertia;     ///< [kg m] rho I_p per length
 } ld_section;
+
+/// Isotropic material of the tube; NaN: not given.
+typedef struct ld_material {
+    double youngs_modulus; ///< [Pa] E
+    double poisson_ratio;  ///< [-] nu; G = E/(2 (1 + nu))
+    double shear_modulus;  ///< [Pa] G, in place of nu
+    double density;        ///< [kg/m3]
+} ld_material;
 
 typedef struct ld_point_mass {
     double at;   ///< [m] station
@@ -123,6 +142,7 @@ typedef struct ld_layout {
 typedef struct ld_tubes {
     ld_layout layout;
     double length; ///< [m]
+    ld_material material;
     int section_count;
     ld_section section[LD_MAX_SECTIONS];
     int point_mass_count;
@@ -144,7 +164,7 @@ typedef struct ld_mass_data {
 typedef struct ld_adaptor {
     char name[LD_MAX_NAME];
     double at;        ///< [m] l_i, from the rear adaptor
-    double clearance; ///< [m] radial
+    double clearance; ///< [m] radial; not used by the law `bilateral`, NaN there if not given
 } ld_adaptor;
 
 typedef enum ld_contact_law {
@@ -168,7 +188,7 @@ typedef struct ld_contact {
 } ld_contact;
 
 typedef struct ld_lock {
-    bool present;
+    int present;          ///< 0: no lock, the rocket is free from the start
     double release_force; ///< [N]
 } ld_lock;
 
@@ -184,7 +204,7 @@ typedef struct ld_rocket {
     double start_at; ///< [m] s of the rear adaptor at the start
     ld_mass_data full;
     ld_mass_data empty;
-    double propellant;      ///< [kg] burnt mass; full.mass - empty.mass unless given
+    double propellant;      ///< [kg] burnt mass; NaN: see ld_model_complete()
     double products[3];     ///< [kg m2] J_xy, J_xz, J_yz of the matrix, full and empty
     double mass_error;      ///< [kg] at the mass centre, added to full and empty
     double eccentricity[2]; ///< [m] y, z, added to full and empty
@@ -214,7 +234,8 @@ typedef struct ld_run_settings {
     double tolerance;           ///< [-] relative tolerance of the integrator
     double output_step_lead_in; ///< [s]
     double output_step_tube;    ///< [s]
-    double stuck_time; ///< [s] after ignition at which a rocket still in the tube is given up
+    double stuck_time; ///< [s] after ignition at which a rocket still in the tube is given up;
+                       ///< NaN: see ld_model_complete()
 } ld_run_settings;
 
 typedef struct ld_model {
@@ -228,8 +249,14 @@ typedef struct ld_model {
     ld_run_settings run;
 } ld_model;
 
-/// Fills `model` with the defaults of the scenario language (no tables, no title).
+/// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
+/// a default become NaN.
 void ld_model_init(ld_model *model);
+
+/// Computes what follows from the rest: the stiffnesses and masses of sections that are given by
+/// radii or areas; where it is NaN, rocket.propellant = full.mass - empty.mass and run.stuck_time =
+/// end of the thrust table + 1 s. The scenario reader has done it already.
+void ld_model_complete(ld_model *model);
 
 /// Frees the title and the tables of `model` and resets it to the defaults.
 void ld_model_free(ld_model *model);

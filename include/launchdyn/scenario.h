@@ -13,11 +13,12 @@ extern "C" {
 
 /// One thing wrong with a scenario: where, which key, what was found and what is allowed.
 typedef struct ld_message {
-    char *file; ///< "" for --set
-    int line;   ///< from 1; 0 where there is none
-    int column; ///< from 1
-    char *path; ///< the key's full path, e.g. "rocket.adaptors[2].clearance"
-    char *text; ///< what was found, what is allowed, a suggestion
+    char *file;   ///< name of the file that holds the key; "--set" for an override
+    int line;     ///< from 1; 0 where there is none
+    int column;   ///< from 1, in characters
+    char *path;   ///< the key's full path, as in --set, e.g. "rocket.adaptors.rear.clearance"
+    char *text;   ///< what was found, what is allowed, a suggestion
+    char *source; ///< the line of text that it is about; "" where there is none
 } ld_message;
 
 typedef struct ld_messages {

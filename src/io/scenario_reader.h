@@ -1,0 +1,122 @@
+// What the parts of the scenario reader share: sources of text, the tree of nodes that they are
+// parsed into, and the messages.
+#ifndef LD_IO_SCENARIO_READER_H
+#define LD_IO_SCENARIO_READER_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "io/units.h"
+#include "launchdyn/scenario.h"
+
+enum {
+    READER_MAX_DEPTH = 32,             // of nested lists and mappings
+    READER_MAX_KEYS = 256,             // of one mapping
+    READER_MAX_NODES = 200000,         // of one scenario
+    READER_MAX_MESSAGES = 100,         //
+    READER_MAX_INCLUDES = 8,           // one inside the other
+    READER_MAX_BYTES = 4 * 1024 * 1024 // of one file
+};
+
+// A piece of text that keys or numbers come from.
+typedef struct text_source {
+    const char *name; // of the file; "--set"
+    const char *text;
+    size_t length;
+    const char *folder; // where files that it names are looked for
+} text_source;
+
+typedef struct text_place {
+    const text_source *source;
+    int line, column; // from 1; 0: the source as a whole
+} text_place;
+
+typedef enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP } node_kind;
+
+// A node of a parsed scenario; all live in the reader's pool.
+typedef struct tree_node {
+    node_kind kind;
+    text_place at;           // where the value begins
+    text_place key_at;       // where its key stands (members of mappings; else as `at`)
+    const char *key;         // of a member of a mapping, else NULL
+    const char *text;        // of a scalar
+    bool plain;              // the scalar is not in quotes
+    int count;               // members
+    struct tree_node *first; // member
+    struct tree_node *last;  // member
+    struct tree_node *next;  // sibling
+    struct tree_node
+        *beneath; // the scalar that this mapping was laid over, for x, y, z of a vector
+} tree_node;
+
+typedef struct memory_pool {
+    struct pool_chunk *chunk;
+} memory_pool;
+
+typedef struct scenario_reader {
+    ld_messages *messages;
+    bool no_memory;
+    bool cut; // more messages than are kept
+    memory_pool pool;
+    unit_system *units;
+    int nodes;
+} scenario_reader;
+
+// Memory that lives as long as the reader; NULL (and no_memory) without.
+void *pool_take(scenario_reader *reader, size_t size);
+char *pool_text(scenario_reader *reader, const char *text, size_t length);
+void pool_free(scenario_reader *reader);
+
+// Adds a message about the key `path` at `place`.
+void reader_refuse(scenario_reader *reader, text_place place, const char *path, const char *format,
+                   ...) LD_PRINTF(4, 5);
+// Whether there is a message about `path` or a key below it.
+bool reader_has_refused(const scenario_reader *reader, const char *path);
+
+// Puts the messages into the order of the text.
+void reader_finish_messages(scenario_reader *reader);
+
+// `text` in double quotes, cut and cleaned for a message.
+const char *reader_quote(const char *text, char buffer[64]);
+
+// Parses one YAML document; `column` is where its first character stands in line 1 of the source.
+// NULL after a message (or without memory).
+tree_node *tree_parse(scenario_reader *reader, const text_source *source, const char *text,
+                      size_t length, int column);
+tree_node *tree_member(const tree_node *map, const char *key);
+// The member of a list by name (its `name`) or by number from 1, or NULL.
+tree_node *tree_entry(const tree_node *list, const char *name);
+// Lays `over` on `under` and returns the result: mappings member by member (an empty value takes
+// the key away), a mapping over a list on the members it names, all else in place of what was
+// there.
+tree_node *tree_merge(scenario_reader *reader, tree_node *under, tree_node *over, const char *path);
+tree_node *tree_new(scenario_reader *reader, node_kind kind, text_place at);
+void tree_append(tree_node *parent, tree_node *member);
+void tree_remove(tree_node *parent, tree_node *member);
+// Whether there is no value: nothing, ~ or null.
+bool tree_is_empty(const tree_node *node);
+
+// Reads the tree into `model` (initialised), each value against its table, then checks the rules.
+void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
+
+// Reads a value of `f`, "15 km/h" or "0 0 1 m", in SI into `values`; false after a message.
+struct field_row;
+bool quantity_read(scenario_reader *reader, const struct field_row *f, text_place place,
+                   const char *path, const char *text, double *values, int count);
+
+// Reads the table `f` from the file `name` (beside the file that names it): thrust from a RASP .eng
+// file, motion from a CSV file. Messages about what it holds point into it. False after a message.
+bool table_file_read(scenario_reader *reader, const struct field_row *f, text_place place,
+                     const char *path, const char *name, ld_table *table);
+// The name of a file beside the one that names it, in the pool.
+char *reader_beside(scenario_reader *reader, const char *folder, const char *name);
+// A file as a source, in the pool; NULL after a message at `place`.
+text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
+                         const char *file_name);
+
+// Reads a number in plain decimal notation at the start of `text` and returns its end; NULL if
+// there is none, or none that is finite and normal: then `reason` says why, or is NULL.
+const char *number_parse(const char *text, double *value, const char **reason);
+
+#endif

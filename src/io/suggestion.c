@@ -1,0 +1,52 @@
+#include "io/suggestion.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LONGEST = 40 };
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+// Number of letters to insert, delete, replace or exchange with their neighbour; case costs
+// nothing.
+static int edit_distance(const char *a, const char *b)
+{
+    int n = (int)strlen(a), m = (int)strlen(b), cost[LONGEST + 1][LONGEST + 1];
+    for (int i = 0; i <= n; i++)
+        cost[i][0] = i;
+    for (int j = 0; j <= m; j++)
+        cost[0][j] = j;
+    for (int i = 1; i <= n; i++)
+        for (int j = 1; j <= m; j++) {
+            int x = tolower((unsigned char)a[i - 1]), y = tolower((unsigned char)b[j - 1]);
+            int best = cost[i - 1][j - 1] + (x != y);
+            best = smaller(best, smaller(cost[i - 1][j], cost[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) &&
+                y == tolower((unsigned char)a[i - 2]))
+                best = smaller(best, cost[i - 2][j - 2] + 1);
+            cost[i][j] = best;
+        }
+    return cost[n][m];
+}
+
+name_suggestion suggestion_begin(const char *wanted)
+{
+    size_t length = strlen(wanted);
+    int too_far = length > LONGEST ? 0 : length < 3 ? 1 : 2 + (int)length / 5;
+    return (name_suggestion){wanted, NULL, too_far};
+}
+
+void suggestion_offer(name_suggestion *suggestion, const char *name)
+{
+    if (suggestion->distance == 0 || strlen(name) > LONGEST)
+        return;
+    int distance = edit_distance(suggestion->wanted, name);
+    if (distance < suggestion->distance) {
+        suggestion->distance = distance;
+        suggestion->name = name;
+    }
+}

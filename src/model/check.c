@@ -1,0 +1,156 @@
+// Checks of a model that was filled by hand: every value against its table, then the rules.
+#include "model/field.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct model_checker {
+    ld_error *error;
+    ld_status status;
+} model_checker;
+
+static void refuse(model_checker *checker, const char *path, const char *text)
+{
+    if (checker->status == LD_OK)
+        checker->status = ld_fail(checker->error, LD_ERR_INPUT, "%s: %s", path, text);
+}
+
+static void refuse_rule(void *self, const char *path, const char *text)
+{
+    refuse(self, path, text);
+}
+
+// One number of a field; `optional` allows NaN.
+static void check_number(model_checker *checker, const char *path, const field_row *f, double value)
+{
+    char range[96], text[192];
+    bool optional = !f->required && isnan(f->initial);
+    if ((optional && isnan(value)) || (isfinite(value) && field_in_range(f->range, value)))
+        return;
+    field_range_text(f, range, sizeof range);
+    snprintf(text, sizeof text, "%g%s%s is not allowed%s%s", value, f->unit[0] ? " " : "", f->unit,
+             range[0] ? "; expected " : "", range);
+    refuse(checker, path, text);
+}
+
+static void check_choice(model_checker *checker, const char *path, const field_row *f,
+                         const void *base)
+{
+    int value;
+    if (f->offset == FIELD_NOWHERE)
+        return;
+    memcpy(&value, field_at_const(base, f), sizeof value);
+    const field_word *word = value < 0 ? NULL : field_word_of(f->words, value);
+    if (!word)
+        refuse(checker, path, "no value of this choice");
+    else if (!word->name[0])
+        check_number(checker, path, f, *(const double *)((const char *)base + f->other));
+}
+
+static void check_integer(model_checker *checker, const char *path, const field_row *f,
+                          const void *base)
+{
+    int value;
+    char text[96];
+    if (f->offset == FIELD_NOWHERE)
+        return;
+    memcpy(&value, field_at_const(base, f), sizeof value);
+    snprintf(text, sizeof text, "%d is not from %g to %g", value, f->range.low, f->range.high);
+    if (!field_in_range(f->range, value))
+        refuse(checker, path, text);
+}
+
+static void check_table(model_checker *checker, const char *path, const field_row *f,
+                        const ld_table *table)
+{
+    if (f->required && table->rows == 0)
+        refuse(checker, path, "missing");
+    if (table->rows > 0 && table->columns != (size_t)f->table->columns) {
+        refuse(checker, path, "has not the columns that it must have");
+        return;
+    }
+    for (size_t i = 0; i < table->rows; i++)
+        for (size_t k = 0; k < table->columns; k++)
+            check_number(checker, path, &f->table->column[k], table->data[i * table->columns + k]);
+}
+
+static void check_block(model_checker *checker, const char *path, const field_block *block,
+                        const void *base);
+
+static void check_list(model_checker *checker, const char *path, const field_row *f,
+                       const void *base)
+{
+    int count = field_switch(base, f);
+    char text[96], entry[160];
+    if (count < f->least || count > f->count) {
+        snprintf(text, sizeof text, "%d entries, not %d to %d", count, f->least, f->count);
+        refuse(checker, path, text);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        snprintf(entry, sizeof entry, "%.140s.%d", path, i + 1);
+        check_block(checker, entry, f->block,
+                    (const char *)field_at_const(base, f) + (size_t)i * f->stride);
+    }
+}
+
+static void check_field(model_checker *checker, const char *path, const field_row *f,
+                        const void *base)
+{
+    switch (f->kind) {
+    case FIELD_NUMBER:
+        for (int i = 0; i < f->count; i++)
+            check_number(checker, path, f, ((const double *)field_at_const(base, f))[i]);
+        break;
+    case FIELD_INTEGER:
+        check_integer(checker, path, f, base);
+        break;
+    case FIELD_CHOICE:
+        check_choice(checker, path, f, base);
+        break;
+    case FIELD_BLOCK:
+        if (f->words && !field_word_of(f->words, field_switch(base, f)))
+            refuse(checker, path, "no value of this choice");
+        else if (!f->words || !field_word_of(f->words, field_switch(base, f))->name[0])
+            check_block(checker, path, f->block, field_at_const(base, f));
+        break;
+    case FIELD_LIST:
+        check_list(checker, path, f, base);
+        break;
+    case FIELD_TABLE:
+        check_table(checker, path, f, field_at_const(base, f));
+        break;
+    case FIELD_WORD:
+        if (!memchr(field_at_const(base, f), '\0', LD_MAX_NAME))
+            refuse(checker, path, "not ended by a zero");
+        break;
+    case FIELD_TEXT:
+    case FIELD_LATER:
+        break;
+    }
+}
+
+static void check_block(model_checker *checker, const char *path, const field_block *block,
+                        const void *base)
+{
+    char key_path[160];
+    int form = field_form(block, base);
+    if (block->form && (form < 0 || !field_word_of(block->form, form))) {
+        refuse(checker, path, "no value of this choice");
+        return;
+    }
+    for (const field_row *f = block->fields; f->name; f++) {
+        snprintf(key_path, sizeof key_path, "%s%s%s", path, path[0] ? "." : "", f->name);
+        if (field_has_form(f, form))
+            check_field(checker, key_path, f, base);
+    }
+}
+
+ld_status ld_model_check(const ld_model *model, ld_error *error)
+{
+    model_checker checker = {error, LD_OK};
+    check_block(&checker, "", &scenario_block, model);
+    if (checker.status == LD_OK)
+        model_check_rules(model, refuse_rule, &checker);
+    return checker.status;
+}

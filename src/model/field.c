@@ -1,0 +1,228 @@
+#include "model/field.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int field_count(const field_block *block)
+{
+    int count = 0;
+    while (block->fields[count].name)
+        count++;
+    return count;
+}
+
+const field_row *field_find(const field_block *block, const char *name)
+{
+    for (const field_row *f = block->fields; f->name; f++)
+        if (strcmp(f->name, name) == 0)
+            return f;
+    return NULL;
+}
+
+const field_word *field_word_find(const field_word *words, const char *name)
+{
+    for (const field_word *w = words; w->name; w++)
+        if (w->name[0] && strcmp(w->name, name) == 0)
+            return w;
+    return NULL;
+}
+
+const field_word *field_word_of(const field_word *words, int value)
+{
+    for (const field_word *w = words; w->name; w++)
+        if (w->value == value)
+            return w;
+    return NULL;
+}
+
+void *field_at(void *base, const field_row *field)
+{
+    return (char *)base + field->offset;
+}
+
+const void *field_at_const(const void *base, const field_row *field)
+{
+    return (const char *)base + field->offset;
+}
+
+int field_switch(const void *base, const field_row *field)
+{
+    int value;
+    memcpy(&value, (const char *)base + field->other, sizeof value);
+    return value;
+}
+
+void field_set_switch(void *base, const field_row *field, int value)
+{
+    memcpy((char *)base + field->other, &value, sizeof value);
+}
+
+int field_form(const field_block *block, const void *base)
+{
+    int form = 0;
+    if (block->form)
+        memcpy(&form, (const char *)base + block->form_offset, sizeof form);
+    return form;
+}
+
+bool field_has_form(const field_row *field, int form)
+{
+    return field->forms == 0 || (form >= 0 && form < 32 && (field->forms >> form & 1u));
+}
+
+static void initialise(const field_row *f, void *base)
+{
+    int whole = isnan(f->initial) ? 0 : (int)f->initial;
+    if (f->kind == FIELD_BLOCK) {
+        field_initialise(f->block, field_at(base, f));
+        if (f->words)
+            field_set_switch(base, f, f->words[0].value);
+    } else if (f->offset == FIELD_NOWHERE) {
+        return;
+    } else if (f->kind == FIELD_NUMBER) {
+        for (int i = 0; i < f->count; i++)
+            ((double *)field_at(base, f))[i] = f->initial;
+    } else if (f->kind == FIELD_INTEGER || f->kind == FIELD_CHOICE) {
+        memcpy(field_at(base, f), &whole, sizeof whole);
+    }
+}
+
+void field_initialise(const field_block *block, void *base)
+{
+    for (const field_row *f = block->fields; f->name; f++)
+        initialise(f, base);
+}
+
+bool field_in_range(field_range range, double value)
+{
+    return (range.open_low ? value > range.low : value >= range.low) &&
+           (range.open_high ? value < range.high : value <= range.high);
+}
+
+void field_number_text(double value, char text[32])
+{
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            return;
+    }
+}
+
+void field_range_text(const field_row *field, char *text, size_t size)
+{
+    bool angle = field->unit && strcmp(field->unit, "rad") == 0;
+    double scale = angle ? 180 / 3.14159265358979323846 : 1;
+    const char *unit = angle ? "deg" : field->unit ? field->unit : "";
+    const char *space = unit[0] ? " " : "";
+    field_range r = field->range;
+    double low = r.low * scale, high = r.high * scale;
+    text[0] = '\0';
+    if (isfinite(low) && isfinite(high))
+        snprintf(text, size, "%s%.6g%s%s and %s%.6g%s%s", r.open_low ? "> " : ">= ", low, space,
+                 unit, r.open_high ? "< " : "<= ", high, space, unit);
+    else if (isfinite(low))
+        snprintf(text, size, "%s%.6g%s%s", r.open_low ? "> " : ">= ", low, space, unit);
+    else if (isfinite(high))
+        snprintf(text, size, "%s%.6g%s%s", r.open_high ? "< " : "<= ", high, space, unit);
+}
+
+// Appends to `text`, cutting at its size.
+static void append(char *text, size_t size, const char *more)
+{
+    size_t length = strlen(text);
+    snprintf(text + length, size - length, "%s", more);
+}
+
+// Appends the words that are simulated, or those that are not yet; returns whether there are any.
+static bool append_words(const field_row *field, bool later, const char *first, char *text,
+                         size_t size)
+{
+    const char *between = first;
+    for (const field_word *w = field->words; w->name; w++) {
+        if (!w->name[0] || (w->value == FIELD_WORD_LATER) != later)
+            continue;
+        append(text, size, between);
+        append(text, size, w->name);
+        between = ", ";
+    }
+    return between != first;
+}
+
+static void number_expectation(const field_row *field, char *text, size_t size)
+{
+    static const char *const many[] = {"", "a number", "two numbers", "three numbers"};
+    if (field->unit[0])
+        snprintf(text, size, "%s %s unit of %s", many[field->count],
+                 field->count > 1 ? "and one" : "with a", field->unit);
+    else
+        snprintf(text, size, "a plain number");
+    char range[96];
+    field_range_text(field, range, sizeof range);
+    if (range[0]) {
+        append(text, size, ", ");
+        append(text, size, range);
+    }
+}
+
+static void table_expectation(const table_format *table, char *text, size_t size)
+{
+    snprintf(text, size, "rows [");
+    for (int i = 0; i < table->columns; i++) {
+        append(text, size, i ? ", " : "");
+        append(text, size, table->column[i].name);
+        append(text, size, " in ");
+        append(text, size, table->column[i].unit);
+    }
+    static const char *const others[] = {
+        [TABLE_ROWS] = "]",
+        [TABLE_CONSTANT] = "] or one value of the last",
+        [TABLE_MOTION] = "] or the name of a .csv file",
+        [TABLE_THRUST] = "] or the name of an .eng file",
+    };
+    append(text, size, others[table->source]);
+}
+
+void field_expectation(const field_row *field, char *text, size_t size)
+{
+    switch (field->kind) {
+    case FIELD_NUMBER:
+        number_expectation(field, text, size);
+        return;
+    case FIELD_INTEGER:
+        snprintf(text, size, "a whole number from %g to %g", field->range.low, field->range.high);
+        return;
+    case FIELD_WORD:
+        snprintf(text, size, "a name of letters, digits, - and _ that begins with a letter");
+        return;
+    case FIELD_TEXT:
+        snprintf(text, size, "a text");
+        return;
+    case FIELD_CHOICE:
+        text[0] = '\0';
+        append_words(field, false, "one of ", text, size);
+        for (const field_word *w = field->words; w->name; w++)
+            if (!w->name[0]) {
+                append(text, size, ", or a number with a unit of ");
+                append(text, size, field->unit);
+            }
+        if (append_words(field, true, " (not simulated yet: ", text, size))
+            append(text, size, ")");
+        return;
+    case FIELD_BLOCK:
+        snprintf(text, size, "a block of keys");
+        if (field->words)
+            append_words(field, false, " or ", text, size);
+        if (field->block->shared_value)
+            append(text, size, " or one value for all");
+        return;
+    case FIELD_LIST:
+        snprintf(text, size, "a list of %d to %d blocks", field->least, field->count);
+        return;
+    case FIELD_TABLE:
+        table_expectation(field->table, text, size);
+        return;
+    case FIELD_LATER:
+        snprintf(text, size, "nothing yet");
+        return;
+    }
+}

@@ -1,0 +1,129 @@
+// The scenario language as tables: one table a block, one row a key, each with its unit, default,
+// allowed range, place in ld_model and one line of documentation. The reader, the printer, the
+// checks and docs/scenario.md all work from these tables.
+#ifndef LD_MODEL_FIELD_H
+#define LD_MODEL_FIELD_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "launchdyn/model.h"
+
+typedef enum field_kind {
+    FIELD_NUMBER,  // `count` doubles with one unit
+    FIELD_INTEGER, // int
+    FIELD_WORD,    // char[LD_MAX_NAME], a name
+    FIELD_TEXT,    // char *, owned by the model
+    FIELD_CHOICE,  // enum: one of `words`
+    FIELD_BLOCK,   // keys of `block`
+    FIELD_LIST,    // array of structs described by `block`, their number at `other`
+    FIELD_TABLE,   // ld_table
+    FIELD_LATER,   // a key of the language that is not simulated yet
+} field_kind;
+
+// Numbers between `low` and `high`, the ends belonging to it unless open.
+typedef struct field_range {
+    double low, high;
+    bool open_low, open_high;
+} field_range;
+
+// A word and what it stands for. The name "" stands for "something else is given": a number (of a
+// choice, stored at `other`) or a block (its switch at `other`).
+typedef struct field_word {
+    const char *name;
+    int value; // FIELD_WORD_LATER: not simulated yet
+} field_word;
+
+enum { FIELD_WORD_LATER = -1 };
+
+typedef enum table_source {
+    TABLE_ROWS,     // rows in the scenario only
+    TABLE_CONSTANT, // or one value of the last column
+    TABLE_MOTION,   // or a CSV file whose header names columns and units
+    TABLE_THRUST,   // or a RASP .eng file
+} table_source;
+
+enum { FIELD_MAX_COLUMNS = 8 };
+
+typedef struct table_format {
+    table_source source;
+    int columns;
+    const struct field_row *column; // name, unit and range of each
+} table_format;
+
+typedef struct field_row {
+    const char *name;
+    field_kind kind;
+    bool required;
+    size_t offset;           // in the block's struct; FIELD_NOWHERE: nothing is stored
+    size_t other;            // list: its count; choice: its number; block with words: its switch
+    size_t stride;           // list: size of one entry
+    int count;               // number: how many; list: most entries
+    int least;               // list: fewest entries
+    bool more_later;         // list: more entries are not simulated yet
+    const char *unit;        // SI, "" without
+    double initial;          // default in SI; NaN: none
+    const char *initial_doc; // default in words, where `initial` is not it
+    field_range range;
+    const field_word *words;
+    const struct field_block *block;
+    const table_format *table;
+    unsigned forms; // bit f: the key goes with form f of its block; 0: with every form
+    const char *doc;
+} field_row;
+
+#define FIELD_NOWHERE ((size_t)-1)
+
+typedef struct field_block {
+    const field_row *fields; // ends with a row without name
+    const field_word *form;  // the block's forms; NULL: it has but one
+    size_t form_offset;      // where the form is stored
+    bool form_from_keys;     // the form follows from the keys given; else it is a key of its own
+    bool shared_value;       // one number in place of the block gives all its numbers
+} field_block;
+
+extern const field_block scenario_block; // the root
+
+// Number of rows of `block`'s table.
+int field_count(const field_block *block);
+// The row of key `name`, or NULL.
+const field_row *field_find(const field_block *block, const char *name);
+// The word of that name in a list that ends with a NULL name, or NULL.
+const field_word *field_word_find(const field_word *words, const char *name);
+// The word that stands for `value`, or NULL.
+const field_word *field_word_of(const field_word *words, int value);
+
+// Pointers into the struct `base` that a block describes.
+void *field_at(void *base, const field_row *field);
+const void *field_at_const(const void *base, const field_row *field);
+// The value that chooses among `words` of a block, and its setter.
+int field_switch(const void *base, const field_row *field);
+void field_set_switch(void *base, const field_row *field, int value);
+// The form of `block` that holds in `base`; 0 where it has but one.
+int field_form(const field_block *block, const void *base);
+// Whether the key goes with form `form` of its block.
+bool field_has_form(const field_row *field, int form);
+
+// Sets every value of the block to its default (recursively; tables and lists empty).
+void field_initialise(const field_block *block, void *base);
+
+bool field_in_range(field_range range, double value);
+// "> 0 kg", "0 to 1"; "" where all is allowed. Angles in degrees.
+void field_range_text(const field_row *field, char *text, size_t size);
+// What a value of this key looks like: "a number with a unit of kg, > 0 kg".
+void field_expectation(const field_row *field, char *text, size_t size);
+// The shortest decimal number that reads back to the same bits.
+void field_number_text(double value, char text[32]);
+
+// Rules that tie several keys together; `report` is called for each one broken, with the path of
+// the key that it is about (list members by number). A value that was refused already is marked by
+// NaN, a choice by -1.
+typedef void rule_report(void *self, const char *path, const char *text);
+void model_check_rules(const ld_model *model, rule_report *report, void *self);
+
+// The tables as Markdown, for docs/scenario.md.
+void field_write_markdown(FILE *stream);
+
+#endif

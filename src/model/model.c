@@ -1,0 +1,57 @@
+#include "model/field.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void ld_model_init(ld_model *model)
+{
+    memset(model, 0, sizeof *model);
+    field_initialise(&scenario_block, model);
+    model->firing_count = 1;
+    model->firing[0] = (ld_firing){.tube = 1};
+}
+
+void ld_model_free(ld_model *model)
+{
+    free(model->title);
+    free(model->base.motion.data);
+    free(model->tubes.slot.angle.data);
+    free(model->rocket.motor.thrust.data);
+    ld_model_init(model);
+}
+
+// Saint-Venant torsion and polar inertia of a ring; E A, E I, G I_t.
+static void complete_section(ld_section *section, const ld_material *material)
+{
+    double E = material->youngs_modulus, nu = material->poisson_ratio;
+    double G = isnan(nu) ? material->shear_modulus : E / (2 * (1 + nu));
+    if (section->form == LD_SECTION_STIFFNESS)
+        return;
+    if (section->form == LD_SECTION_ANNULUS) {
+        double r = section->bore_radius, R = section->outer_radius;
+        double pi = 3.14159265358979323846;
+        double area = pi * (R - r) * (R + r);
+        section->area = area;
+        section->second_moment = area * (R * R + r * r) / 4;
+        section->torsion_constant = 2 * section->second_moment;
+        section->mass_per_length = material->density * area;
+        section->polar_inertia = material->density * section->torsion_constant;
+    }
+    section->axial_stiffness = E * section->area;
+    section->bending_stiffness = E * section->second_moment;
+    section->torsion_stiffness = G * section->torsion_constant;
+}
+
+void ld_model_complete(ld_model *model)
+{
+    ld_tubes *tubes = &model->tubes;
+    ld_rocket *rocket = &model->rocket;
+    const ld_table *thrust = &rocket->motor.thrust;
+    for (int i = 0; i < tubes->section_count; i++)
+        complete_section(&tubes->section[i], &tubes->material);
+    if (isnan(rocket->propellant))
+        rocket->propellant = rocket->full.mass - rocket->empty.mass;
+    if (isnan(model->run.stuck_time) && thrust->rows > 0)
+        model->run.stuck_time =
+            thrust->data[(thrust->rows - 1) * thrust->columns] * rocket->motor.time_scale + 1;
+}

@@ -1,0 +1,171 @@
+// A model as a scenario in SI units: every key, in the order of the tables.
+#include <locale.h>
+
+#include "launchdyn/scenario.h"
+#include "model/field.h"
+
+#include <string.h>
+
+static void print_number(FILE *stream, const double *values, int count, const char *unit)
+{
+    char text[32];
+    for (int i = 0; i < count; i++) {
+        field_number_text(values[i], text);
+        fprintf(stream, "%s%s", i ? " " : "", text);
+    }
+    fprintf(stream, "%s%s", unit[0] ? " " : "", unit);
+}
+
+// A YAML string in double quotes.
+static void print_text(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\')
+            fprintf(stream, "\\%c", *c);
+        else if (*c < 0x20 || *c == 0x7f)
+            fprintf(stream, "\\x%02X", *c);
+        else
+            fputc(*c, stream);
+    }
+    fputc('"', stream);
+}
+
+static void print_choice(FILE *stream, const field_row *f, const void *base)
+{
+    int value = f->words[0].value;
+    if (f->offset != FIELD_NOWHERE)
+        memcpy(&value, field_at_const(base, f), sizeof value);
+    const field_word *word = field_word_of(f->words, value);
+    if (word->name[0])
+        fprintf(stream, "%s", word->name);
+    else
+        print_number(stream, (const double *)((const char *)base + f->other), 1, f->unit);
+}
+
+// A value that fits on one line.
+static void print_scalar(FILE *stream, const field_row *f, const void *base)
+{
+    int value = (int)f->range.low;
+    switch (f->kind) {
+    case FIELD_NUMBER:
+        print_number(stream, field_at_const(base, f), f->count, f->unit);
+        return;
+    case FIELD_INTEGER:
+        if (f->offset != FIELD_NOWHERE)
+            memcpy(&value, field_at_const(base, f), sizeof value);
+        fprintf(stream, "%d", value);
+        return;
+    case FIELD_CHOICE:
+        print_choice(stream, f, base);
+        return;
+    case FIELD_WORD:
+        fprintf(stream, "%s", (const char *)field_at_const(base, f));
+        return;
+    default: // FIELD_TEXT; the others have no place on a line
+        print_text(stream, *(char *const *)field_at_const(base, f));
+        return;
+    }
+}
+
+// Whether the key has a value to print.
+static bool is_given(const field_row *f, const void *base, int form)
+{
+    if (f->kind == FIELD_LATER || !field_has_form(f, form))
+        return false;
+    if (f->kind == FIELD_NUMBER)
+        return !isnan(*(const double *)field_at_const(base, f));
+    if (f->kind == FIELD_TEXT)
+        return *(char *const *)field_at_const(base, f) != NULL;
+    if (f->kind == FIELD_TABLE)
+        return ((const ld_table *)field_at_const(base, f))->rows > 0;
+    return true;
+}
+
+static void print_entry(FILE *stream, const field_block *block, const void *base)
+{
+    const char *between = "";
+    int form = field_form(block, base);
+    for (const field_row *f = block->fields; f->name; f++) {
+        if (!is_given(f, base, form))
+            continue;
+        fprintf(stream, "%s%s: ", between, f->name);
+        print_scalar(stream, f, base);
+        between = ", ";
+    }
+}
+
+static void print_list(FILE *stream, const field_row *f, const void *base, int depth)
+{
+    int count = field_switch(base, f);
+    if (count == 0)
+        fprintf(stream, " []");
+    fputc('\n', stream);
+    for (int i = 0; i < count; i++) {
+        fprintf(stream, "%*s- {", depth * 2, "");
+        print_entry(stream, f->block,
+                    (const char *)field_at_const(base, f) + (size_t)i * f->stride);
+        fprintf(stream, "}\n");
+    }
+}
+
+static void print_table(FILE *stream, const field_row *f, const ld_table *table, int depth)
+{
+    fputc('\n', stream);
+    for (size_t i = 0; i < table->rows; i++) {
+        fprintf(stream, "%*s- [", depth * 2, "");
+        for (size_t k = 0; k < table->columns; k++) {
+            fprintf(stream, "%s", k ? ", " : "");
+            print_number(stream, &table->data[i * table->columns + k], 1, f->table->column[k].unit);
+        }
+        fprintf(stream, "]\n");
+    }
+}
+
+static void print_block(FILE *stream, const field_block *block, const void *base, int depth);
+
+static void print_field(FILE *stream, const field_row *f, const void *base, int depth)
+{
+    fprintf(stream, "%*s%s:", depth * 2, "", f->name);
+    if (f->kind == FIELD_BLOCK) {
+        const char *word = f->words ? field_word_of(f->words, field_switch(base, f))->name : "";
+        fprintf(stream, "%s%s\n", word[0] ? " " : "", word);
+        if (!word[0])
+            print_block(stream, f->block, field_at_const(base, f), depth + 1);
+    } else if (f->kind == FIELD_LIST) {
+        print_list(stream, f, base, depth + 1);
+    } else if (f->kind == FIELD_TABLE) {
+        print_table(stream, f, field_at_const(base, f), depth + 1);
+    } else {
+        fputc(' ', stream);
+        print_scalar(stream, f, base);
+        fputc('\n', stream);
+    }
+}
+
+static bool anything_given(const field_block *block, const void *base)
+{
+    for (const field_row *f = block->fields; f->name; f++)
+        if (is_given(f, base, field_form(block, base)))
+            return true;
+    return false;
+}
+
+static void print_block(FILE *stream, const field_block *block, const void *base, int depth)
+{
+    int form = field_form(block, base);
+    for (const field_row *f = block->fields; f->name; f++) {
+        bool empty = f->kind == FIELD_BLOCK && !f->words &&
+                     !anything_given(f->block, field_at_const(base, f));
+        if (is_given(f, base, form) && !empty)
+            print_field(stream, f, base, depth);
+    }
+}
+
+void ld_model_print(const ld_model *model, FILE *stream)
+{
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
+    print_block(stream, &scenario_block, model, 0);
+    uselocale(before);
+    freelocale(plain);
+}

@@ -1,0 +1,360 @@
+// Rules that tie several keys together. Conditions are written so that NaN, and a choice of -1,
+// break no rule, but for keys that only other keys make necessary.
+#include "model/field.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct rule_set {
+    const ld_model *model;
+    rule_report *report;
+    void *self;
+} rule_set;
+
+// Reports a broken rule; `index` (from 1; 0: none) replaces the # in `path`.
+static void broken(const rule_set *rules, const char *path, int index, const char *format, ...)
+    LD_PRINTF(4, 5);
+static void broken(const rule_set *rules, const char *path, int index, const char *format, ...)
+{
+    char full_path[128], text[384];
+    const char *place = strchr(path, '#');
+    if (place)
+        snprintf(full_path, sizeof full_path, "%.*s%d%s", (int)(place - path), path, index,
+                 place + 1);
+    else
+        snprintf(full_path, sizeof full_path, "%s", path);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    rules->report(rules->self, full_path, text);
+}
+
+// A station must lie on the tube.
+static void station_rule(const rule_set *rules, const char *path, int index, double at)
+{
+    double length = rules->model->tubes.length;
+    if (at > length)
+        broken(rules, path, index, "%g m lies beyond the tube's tip at %g m", at, length);
+}
+
+static void material_rules(const rule_set *rules, const ld_section *section, int index)
+{
+    const ld_material *material = &rules->model->tubes.material;
+    static const char *const given_by[] = {"stiffnesses", "radii", "its area"};
+    const char *path = "tubes.material";
+    const char *by = given_by[section->form];
+    if (isnan(material->youngs_modulus))
+        broken(rules, path, 0, "youngs_modulus is missing; section %d is given by %s", index, by);
+    if (isnan(material->poisson_ratio) && isnan(material->shear_modulus))
+        broken(rules, path, 0,
+               "poisson_ratio or shear_modulus is missing; section %d is given by %s", index, by);
+    if (section->form == LD_SECTION_ANNULUS && isnan(material->density))
+        broken(rules, path, 0, "density is missing; section %d is given by %s", index, by);
+}
+
+static void section_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    const ld_material *material = &tubes->material;
+    if (!isnan(material->poisson_ratio) && !isnan(material->shear_modulus))
+        broken(rules, "tubes.material.shear_modulus", 0,
+               "given together with poisson_ratio; give one of them");
+    if (tubes->section_count > 0 && tubes->section[0].from > 0)
+        broken(rules, "tubes.sections.1.from", 0, "the first section must begin at 0 m, not %g m",
+               tubes->section[0].from);
+    for (int i = 0; i < tubes->section_count; i++) {
+        const ld_section *section = &tubes->section[i];
+        if (i > 0 && section->from <= section[-1].from)
+            broken(rules, "tubes.sections.#.from", i + 1,
+                   "%g m does not come after the section before, which begins at %g m",
+                   section->from, section[-1].from);
+        if (section->from >= tubes->length)
+            broken(rules, "tubes.sections.#.from", i + 1,
+                   "%g m is not before the tube's tip at %g m", section->from, tubes->length);
+        if (section->form == LD_SECTION_ANNULUS && section->outer_radius <= section->bore_radius)
+            broken(rules, "tubes.sections.#.outer_radius", i + 1,
+                   "%g m must be greater than the inner radius, %g m", section->outer_radius,
+                   section->bore_radius);
+    }
+    // the material is needed once, so say so once
+    for (int i = 0; i < tubes->section_count; i++)
+        if ((int)tubes->section[i].form > LD_SECTION_STIFFNESS) {
+            material_rules(rules, &tubes->section[i], i + 1);
+            break;
+        }
+}
+
+// Values that follow from those given: too large or too small ones must not slip through.
+static void derived_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    for (int i = 0; i < tubes->section_count; i++) {
+        const ld_section *s = &tubes->section[i];
+        const double value[] = {s->mass_per_length, s->axial_stiffness, s->bending_stiffness,
+                                s->torsion_stiffness, s->polar_inertia};
+        for (int k = 0; k < 5; k++)
+            if (value[k] < 1e-100 || value[k] > 1e100) {
+                broken(rules, "tubes.sections.#", i + 1,
+                       "its stiffnesses or masses come out as %g, beyond all reason", value[k]);
+                break;
+            }
+    }
+}
+
+static void layout_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    const ld_layout *layout = &tubes->layout;
+    int count = layout->rows * layout->columns;
+    if (count > 1 && tubes->section_count > 0 && layout->pitch <= 2 * tubes->section[0].bore_radius)
+        broken(rules, "tubes.layout.pitch", 0,
+               "%g m: %d tubes with a bore of %g m in diameter would overlap", layout->pitch, count,
+               2 * tubes->section[0].bore_radius);
+    for (int i = 0; i < rules->model->firing_count; i++)
+        if (rules->model->firing[i].tube > count)
+            broken(rules, "firing.#.tube", i + 1, "%d; the layout has tubes 1 to %d",
+                   rules->model->firing[i].tube, count);
+}
+
+static void modes_rules(const rule_set *rules)
+{
+    const ld_modes *modes = &rules->model->tubes.modes;
+    if (modes->bending > modes->elements)
+        broken(rules, "tubes.modes.bending", 0, "%d modes need at least %d elements, not %d",
+               modes->bending, modes->bending, modes->elements);
+    if (modes->torsion > modes->elements)
+        broken(rules, "tubes.modes.torsion", 0, "%d modes need at least %d elements, not %d",
+               modes->torsion, modes->torsion, modes->elements);
+    if (modes->axial > modes->elements)
+        broken(rules, "tubes.modes.axial", 0, "%d modes need at least %d elements, not %d",
+               modes->axial, modes->axial, modes->elements);
+}
+
+// Principal moments of a rigid body: none may exceed the sum of the two others, which is to say
+// that P = tr(J)/2 E - J (the second moments of mass) has no negative eigenvalue.
+static void inertia_rule(const rule_set *rules, const char *path, const double J[3],
+                         const double products[3])
+{
+    double half = (J[0] + J[1] + J[2]) / 2, slack = 1e-12 * half;
+    double p[3] = {half - J[0] + slack, half - J[1] + slack, half - J[2] + slack};
+    for (int i = 0; i < 3; i++)
+        if (p[i] < 0) {
+            broken(rules, path, 0,
+                   "the moment about %c, %g kg.m2, exceeds the sum of the two others, which no "
+                   "body can have",
+                   "xyz"[i], J[i]);
+            return;
+        }
+    if (products[0] == 0 && products[1] == 0 && products[2] == 0)
+        return;
+    // leading minors of P, whose off-diagonal elements are minus the products
+    double xy = -products[0], xz = -products[1], yz = -products[2];
+    double determinant =
+        p[0] * (p[1] * p[2] - yz * yz) - xy * (xy * p[2] - yz * xz) + xz * (xy * yz - p[1] * xz);
+    if (p[0] * p[1] < xy * xy || p[0] * p[2] < xz * xz || p[1] * p[2] < yz * yz || determinant < 0)
+        broken(rules, "rocket.products_of_inertia", 0,
+               "too large beside %s = %g %g %g kg.m2; no body can have them", path, J[0], J[1],
+               J[2]);
+}
+
+// Whether a beam on these springs is held against translation and tilt in one plane: the 2 x 2
+// stiffness [sum k, sum k x; sum k x, sum k x^2 + sum r] must be regular.
+static bool plane_held(const ld_tubes *tubes, int along, int about)
+{
+    double k0 = 0, k1 = 0, k2 = 0, r = 0;
+    for (int i = 0; i < tubes->support_count; i++) {
+        const ld_support *s = &tubes->support[i];
+        double k = s->stiffness[along];
+        k0 += k;
+        k1 += k * s->at;
+        k2 += k * s->at * s->at;
+        r += s->rotational_stiffness[about];
+    }
+    return !(k0 * (k2 + r) - k1 * k1 <= 1e-12 * k0 * (k2 + r));
+}
+
+static void support_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    const char *path = "tubes.supports";
+    double along = 0, about = 0;
+    for (int i = 0; i < tubes->support_count; i++) {
+        station_rule(rules, "tubes.supports.#.at", i + 1, tubes->support[i].at);
+        along += tubes->support[i].stiffness[0];
+        about += tubes->support[i].rotational_stiffness[0];
+    }
+    if (rules->model->run.start != LD_START_EQUILIBRIUM)
+        return;
+    if (along <= 0)
+        broken(rules, path, 0, "they do not hold the tube along x: no stiffness there");
+    if (about <= 0)
+        broken(rules, path, 0,
+               "they do not hold the tube against roll: no rotational_stiffness about x");
+    if (!plane_held(tubes, 1, 2))
+        broken(rules, path, 0,
+               "they do not hold the tube in the x-y plane: give stiffness along y at two "
+               "stations, or at one with rotational_stiffness about z");
+    if (!plane_held(tubes, 2, 1))
+        broken(rules, path, 0,
+               "they do not hold the tube in the x-z plane: give stiffness along z at two "
+               "stations, or at one with rotational_stiffness about y");
+}
+
+static void tail_rules(const rule_set *rules)
+{
+    const ld_tail *tail = &rules->model->tubes.tail;
+    const double none[3] = {0};
+    if (tail->mass == 0 && (tail->inertia[0] > 0 || tail->inertia[1] > 0 || tail->inertia[2] > 0))
+        broken(rules, "tubes.tail.inertia", 0, "given for a tail without mass");
+    else
+        inertia_rule(rules, "tubes.tail.inertia", tail->inertia, none);
+}
+
+// The first column of a table must rise; with `jumps`, a value may stand twice.
+static void rising_rule(const rule_set *rules, const char *path, const ld_table *table,
+                        const char *unit, bool jumps)
+{
+    for (size_t i = 1; i < table->rows; i++) {
+        double before = table->data[(i - 1) * table->columns], x = table->data[i * table->columns];
+        if (x < before || (x == before && !jumps))
+            broken(rules, path, (int)i + 1, "%g %s does not come after %g %s in the row before", x,
+                   unit, before, unit);
+        else if (jumps && i > 1 && x == before && x == table->data[(i - 2) * table->columns])
+            broken(rules, path, (int)i + 1, "%g %s stands there a third time; twice is a jump", x,
+                   unit);
+    }
+}
+
+static void slot_rules(const rule_set *rules)
+{
+    const ld_slot *slot = &rules->model->tubes.slot;
+    if (slot->kind == LD_SLOT_HELIX)
+        rising_rule(rules, "tubes.slot.angle.#", &slot->angle, "m", false);
+}
+
+static void base_rules(const rule_set *rules)
+{
+    const ld_base *base = &rules->model->base;
+    if (base->kind != LD_BASE_PRESCRIBED)
+        return;
+    rising_rule(rules, "base.motion.table.#", &base->motion, "s", false);
+    if (base->motion.rows == 1)
+        broken(rules, "base.motion.table", 0, "needs at least two rows");
+    if (base->motion.rows == 0)
+        return;
+    if (base->surge.count + base->heave.count + base->sway.count + base->yaw.count +
+            base->pitch.count + base->roll.count >
+        0)
+        broken(rules, "base.motion.table", 0, "given together with sines; give one of them");
+    if (base->velocity[0] != 0 || base->velocity[1] != 0 || base->velocity[2] != 0)
+        broken(rules, "base.velocity", 0,
+               "given together with motion.table, which holds the whole motion");
+}
+
+static void mass_rules(const rule_set *rules)
+{
+    const ld_rocket *rocket = &rules->model->rocket;
+    if (rocket->empty.mass >= rocket->full.mass)
+        broken(rules, "rocket.empty.mass", 0, "%g kg must be less than the full mass, %g kg",
+               rocket->empty.mass, rocket->full.mass);
+    if (rocket->empty.mass + rocket->mass_error <= 0)
+        broken(rules, "rocket.mass_error", 0, "%g kg leaves nothing of the empty mass, %g kg",
+               rocket->mass_error, rocket->empty.mass);
+    if (rocket->propellant >= rocket->full.mass + rocket->mass_error)
+        broken(rules, "rocket.propellant", 0,
+               "%g kg must be less than the full mass with its error, %g kg", rocket->propellant,
+               rocket->full.mass + rocket->mass_error);
+    inertia_rule(rules, "rocket.inertia", rocket->full.inertia, rocket->products);
+    inertia_rule(rules, "rocket.empty.inertia", rocket->empty.inertia, rocket->products);
+}
+
+static void adaptor_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    const ld_rocket *rocket = &model->rocket;
+    double bore = model->tubes.section_count > 0 ? model->tubes.section[0].bore_radius : NAN;
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        const ld_adaptor *adaptor = &rocket->adaptor[i];
+        if (i == 0 && adaptor->at > 0)
+            broken(rules, "rocket.adaptors.1.at", 0,
+                   "%g m; the first adaptor is the rear one and stands at 0 m", adaptor->at);
+        for (int j = 0; j < i; j++)
+            if (adaptor->at == rocket->adaptor[j].at)
+                broken(rules, "rocket.adaptors.#.at", i + 1, "%g m is where adaptor %d stands",
+                       adaptor->at, j + 1);
+        for (int j = 0; j < i; j++)
+            if (adaptor->name[0] && strcmp(adaptor->name, rocket->adaptor[j].name) == 0)
+                broken(rules, "rocket.adaptors.#.name", i + 1, "\"%s\" is the name of adaptor %d",
+                       adaptor->name, j + 1);
+        if (rocket->contact.law == LD_CONTACT_BILATERAL || (int)rocket->contact.law < 0)
+            continue;
+        if (isnan(adaptor->clearance))
+            broken(rules, "rocket.adaptors.#.clearance", i + 1,
+                   "missing; expected a number with a unit of m, > 0 m");
+        if (adaptor->clearance == 0)
+            broken(rules, "rocket.adaptors.#.clearance", i + 1,
+                   "must be > 0 m; without clearance take the contact law bilateral");
+        if (adaptor->clearance >= bore)
+            broken(rules, "rocket.adaptors.#.clearance", i + 1,
+                   "%g m must be less than the bore's radius, %g m", adaptor->clearance, bore);
+    }
+    if (rocket->start_at >= model->tubes.length)
+        broken(rules, "rocket.start_at", 0, "%g m is not before the tube's tip at %g m",
+               rocket->start_at, model->tubes.length);
+}
+
+static void contact_rules(const rule_set *rules)
+{
+    const ld_contact *contact = &rules->model->rocket.contact;
+    bool linear = contact->law == LD_CONTACT_KELVIN_VOIGT || contact->law == LD_CONTACT_BILATERAL;
+    if ((int)contact->law < 0)
+        return;
+    if (linear && contact->exponent > 1)
+        broken(rules, "rocket.contact.exponent", 0, "%g; this law is linear, its exponent is 1",
+               contact->exponent);
+    if (!linear && contact->damping > 0)
+        broken(rules, "rocket.contact.damping", 0,
+               "of the laws kelvin-voigt and bilateral only; this law damps by its restitution");
+}
+
+static void thrust_rules(const rule_set *rules)
+{
+    const ld_table *thrust = &rules->model->rocket.motor.thrust;
+    double impulse = 0;
+    if (thrust->rows == 0)
+        return;
+    rising_rule(rules, "rocket.motor.thrust.#", thrust, "s", true);
+    if (thrust->data[0] > 0)
+        broken(rules, "rocket.motor.thrust.1", 0, "the first time must be 0 s, not %g s",
+               thrust->data[0]);
+    for (size_t i = 1; i < thrust->rows; i++) {
+        const double *a = &thrust->data[2 * (i - 1)], *b = &thrust->data[2 * i];
+        impulse += (b[0] - a[0]) * (a[1] + b[1]) / 2;
+    }
+    if (impulse == 0)
+        broken(rules, "rocket.motor.thrust", 0, "its impulse is 0 N.s");
+    if (impulse > 1e100)
+        broken(rules, "rocket.motor.thrust", 0, "its impulse is %g N.s, beyond all reason",
+               impulse);
+}
+
+void model_check_rules(const ld_model *model, rule_report *report, void *self)
+{
+    const rule_set all = {model, report, self};
+    base_rules(&all);
+    layout_rules(&all);
+    section_rules(&all);
+    derived_rules(&all);
+    for (int i = 0; i < model->tubes.point_mass_count; i++)
+        station_rule(&all, "tubes.point_masses.#.at", i + 1, model->tubes.point_mass[i].at);
+    modes_rules(&all);
+    tail_rules(&all);
+    support_rules(&all);
+    slot_rules(&all);
+    mass_rules(&all);
+    adaptor_rules(&all);
+    contact_rules(&all);
+    thrust_rules(&all);
+}

@@ -1,0 +1,456 @@
+#include "model/field.h"
+
+// Kinds, with the member of the block's struct that holds the value.
+#define VECTOR(type, member, unit_, n)                                                             \
+    .kind = FIELD_NUMBER, .offset = offsetof(type, member), .count = (n), .unit = (unit_)
+#define NUMBER(type, member, unit_) VECTOR(type, member, unit_, 1)
+#define INTEGER(type, member, least_, most_)                                                       \
+    .kind = FIELD_INTEGER, .offset = offsetof(type, member), .range = {least_, most_, 0, 0}
+#define WORD(type, member) .kind = FIELD_WORD, .offset = offsetof(type, member)
+#define CHOICE(type, member, words_)                                                               \
+    .kind = FIELD_CHOICE, .offset = offsetof(type, member), .words = (words_)
+#define BLOCK(type, member, block_)                                                                \
+    .kind = FIELD_BLOCK, .offset = offsetof(type, member), .block = &(block_)
+#define SAME_STRUCT(block_) .kind = FIELD_BLOCK, .offset = 0, .block = &(block_)
+#define SWITCH(type, member, words_) .words = (words_), .other = offsetof(type, member)
+#define LIST(type, entries, counter, block_, least_, most_)                                        \
+    .kind = FIELD_LIST, .offset = offsetof(type, entries), .other = offsetof(type, counter),       \
+    .stride = sizeof(((type *)0)->entries[0]), .block = &(block_), .least = (least_),              \
+    .count = (most_)
+#define TABLE(type, member, format_)                                                               \
+    .kind = FIELD_TABLE, .offset = offsetof(type, member), .table = &(format_)
+#define LATER .kind = FIELD_LATER, .offset = FIELD_NOWHERE
+
+// Ranges.
+#define ANY .range = {-INFINITY, INFINITY, 1, 1}
+#define POSITIVE .range = {0, INFINITY, 1, 1}
+#define NOT_NEGATIVE .range = {0, INFINITY, 0, 1}
+#define FROM_TO(low_, high_) .range = {low_, high_, 0, 0}
+#define ABOVE_TO(low_, high_) .range = {low_, high_, 1, 0}
+#define INSIDE(low_, high_) .range = {low_, high_, 1, 1}
+
+// Presence.
+#define REQUIRED .required = true, .initial = NAN
+#define DEFAULT(value) .initial = (value)
+#define NO_DEFAULT(text) .initial = NAN, .initial_doc = (text)
+
+#define FORM(form) (1u << (form))
+#define PI 3.14159265358979323846
+
+// ---- environment
+
+static const field_word earth_words[] = {
+    {"flat", 0}, {"round", FIELD_WORD_LATER}, {"wgs84", FIELD_WORD_LATER}, {NULL, 0}};
+
+static const field_row environment_fields[] = {
+    {"earth", .kind = FIELD_CHOICE, .offset = FIELD_NOWHERE, .words = earth_words,
+     .doc = "figure of the Earth; flat: I is inertial and gravity is constant"},
+    {"gravity", NUMBER(ld_model, gravity, "m/s2"), FROM_TO(0, 100), DEFAULT(9.80665),
+     .doc = "along -y of I"},
+    {"site", LATER, .doc = "place on the Earth"},
+    {"atmosphere", LATER, .doc = "air in free flight"},
+    {"ground", LATER, .doc = "height of the ground plane"},
+    {"wind", LATER, .doc = "wind in free flight"},
+    {"density_scale", LATER, .doc = "factor on the density of the air"},
+    {"temperature_offset", LATER, .doc = "shift of the temperature of the air"},
+    {0}};
+static const field_block environment_block = {.fields = environment_fields};
+
+// ---- base
+
+static const field_row length_sine_fields[] = {
+    {"amplitude", NUMBER(ld_sine, amplitude, "m"), ANY, REQUIRED, .doc = "amplitude"},
+    {"frequency", NUMBER(ld_sine, frequency, "Hz"), FROM_TO(0, 10000), REQUIRED,
+     .doc = "cycles per second"},
+    {"phase", NUMBER(ld_sine, phase, "rad"), ANY, DEFAULT(0), .doc = "phase at t = 0"},
+    {0}};
+static const field_row angle_sine_fields[] = {
+    {"amplitude", NUMBER(ld_sine, amplitude, "rad"), ANY, REQUIRED, .doc = "amplitude"},
+    {"frequency", NUMBER(ld_sine, frequency, "Hz"), FROM_TO(0, 10000), REQUIRED,
+     .doc = "cycles per second"},
+    {"phase", NUMBER(ld_sine, phase, "rad"), ANY, DEFAULT(0), .doc = "phase at t = 0"},
+    {0}};
+static const field_block length_sine_block = {.fields = length_sine_fields};
+static const field_block angle_sine_block = {.fields = angle_sine_fields};
+
+static const field_row motion_columns[] = {
+    {"t", .unit = "s", ANY},      {"x", .unit = "m", ANY},     {"y", .unit = "m", ANY},
+    {"z", .unit = "m", ANY},      {"yaw", .unit = "rad", ANY}, {"pitch", .unit = "rad", ANY},
+    {"roll", .unit = "rad", ANY},
+};
+static const table_format motion_table = {TABLE_MOTION, 7, motion_columns};
+
+#define SINES(member, block_)                                                                      \
+    LIST(ld_base, member.term, member.count, block_, 0, LD_MAX_SINES), .initial_doc = "none"
+static const field_row motion_fields[] = {
+    {"surge", SINES(surge, length_sine_block), .doc = "sum of sines along x of I"},
+    {"heave", SINES(heave, length_sine_block), .doc = "sum of sines along y of I"},
+    {"sway", SINES(sway, length_sine_block), .doc = "sum of sines along z of I"},
+    {"yaw", SINES(yaw, angle_sine_block), .doc = "sum of sines, about +y"},
+    {"pitch", SINES(pitch, angle_sine_block), .doc = "sum of sines, about +z"},
+    {"roll", SINES(roll, angle_sine_block), .doc = "sum of sines, about +x"},
+    {"table", TABLE(ld_base, motion, motion_table), .initial_doc = "none",
+     .doc = "pose over time in place of sines and velocity, by cubic spline"},
+    {0}};
+static const field_block motion_block = {.fields = motion_fields};
+
+static const field_word base_words[] = {{"fixed", LD_BASE_FIXED},
+                                        {"prescribed", LD_BASE_PRESCRIBED},
+                                        {"vehicle", FIELD_WORD_LATER},
+                                        {NULL, 0}};
+static const field_row base_fields[] = {
+    {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "what carries the tube"},
+    {"azimuth", NUMBER(ld_base, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .doc = "of the tube against the base, about +y: positive to the left"},
+    {"elevation", NUMBER(ld_base, elevation, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
+     .doc = "of the tube against the base, positive up, on top of the base's own motion"},
+    {"velocity", VECTOR(ld_base, velocity, "m/s", 3), ANY, DEFAULT(0),
+     .forms = FORM(LD_BASE_PRESCRIBED), .doc = "constant velocity along I, added to the sines"},
+    {"motion", SAME_STRUCT(motion_block), .forms = FORM(LD_BASE_PRESCRIBED), .initial_doc = "none",
+     .doc = "position and orientation Ry(yaw) Rz(pitch) Rx(roll) over time"},
+    {"speed", LATER, .doc = "marching speed of a vehicle"},
+    {"road", LATER, .doc = "road under a vehicle"},
+    {"drive", LATER, .doc = "drive of a vehicle"},
+    {"wheels", LATER, .doc = "wheels of a vehicle"},
+    {"suspension", LATER, .doc = "suspension of a vehicle"},
+    {"tyre", LATER, .doc = "tyres of a vehicle"},
+    {0}};
+static const field_block base_block = {
+    .fields = base_fields, .form = base_words, .form_offset = offsetof(ld_base, kind)};
+
+// ---- tubes
+
+static const field_row layout_fields[] = {
+    {"rows", INTEGER(ld_layout, rows, 1, 100), DEFAULT(1), .doc = "rows, counted along +y"},
+    {"columns", INTEGER(ld_layout, columns, 1, 100), DEFAULT(1), .doc = "columns, along +z"},
+    {"pitch", NUMBER(ld_layout, pitch, "m"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "distance between neighbours"},
+    {"first", VECTOR(ld_layout, first, "m", 3), FROM_TO(-1000, 1000), DEFAULT(0),
+     .doc = "rear end of tube 1, platform axes (a fixed or prescribed base does without)"},
+    {0}};
+static const field_block layout_block = {.fields = layout_fields};
+
+static const field_word section_forms[] = {{"a section given by stiffnesses", LD_SECTION_STIFFNESS},
+                                           {"a section given by radii", LD_SECTION_ANNULUS},
+                                           {"a section given by its area", LD_SECTION_AREA},
+                                           {NULL, 0}};
+#define STIFFNESS FORM(LD_SECTION_STIFFNESS)
+#define ANNULUS FORM(LD_SECTION_ANNULUS)
+#define AREA FORM(LD_SECTION_AREA)
+static const field_row section_fields[] = {
+    {"from", NUMBER(ld_section, from, "m"), FROM_TO(0, 100), REQUIRED,
+     .doc = "station where it begins; it goes to the next one or to the end"},
+    {"inner_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
+     .forms = ANNULUS, .doc = "radius of the bore"},
+    {"outer_radius", NUMBER(ld_section, outer_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
+     .forms = ANNULUS, .doc = "outer radius"},
+    {"bore_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
+     .forms = AREA | STIFFNESS, .doc = "radius of the bore"},
+    {"mass_per_length", NUMBER(ld_section, mass_per_length, "kg/m"), POSITIVE, REQUIRED,
+     .forms = AREA | STIFFNESS, .doc = "mass per length"},
+    {"area", NUMBER(ld_section, area, "m2"), POSITIVE, REQUIRED, .forms = AREA,
+     .doc = "area A of the wall"},
+    {"second_moment", NUMBER(ld_section, second_moment, "m4"), POSITIVE, REQUIRED, .forms = AREA,
+     .doc = "second moment of area I, the same in both planes"},
+    {"torsion_constant", NUMBER(ld_section, torsion_constant, "m4"), POSITIVE, REQUIRED,
+     .forms = AREA, .doc = "Saint-Venant torsion constant"},
+    {"axial_stiffness", NUMBER(ld_section, axial_stiffness, "N"), POSITIVE, REQUIRED,
+     .forms = STIFFNESS, .doc = "E A"},
+    {"bending_stiffness", NUMBER(ld_section, bending_stiffness, "N.m2"), POSITIVE, REQUIRED,
+     .forms = STIFFNESS, .doc = "E I, the same in both planes"},
+    {"torsion_stiffness", NUMBER(ld_section, torsion_stiffness, "N.m2"), POSITIVE, REQUIRED,
+     .forms = STIFFNESS, .doc = "G times the torsion constant"},
+    {"polar_inertia", NUMBER(ld_section, polar_inertia, "kg.m"), POSITIVE, REQUIRED,
+     .forms = AREA | STIFFNESS, .doc = "polar moment of inertia per length"},
+    {0}};
+static const field_block section_block = {.fields = section_fields,
+                                          .form = section_forms,
+                                          .form_offset = offsetof(ld_section, form),
+                                          .form_from_keys = true};
+
+static const field_row point_mass_fields[] = {
+    {"at", NUMBER(ld_point_mass, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
+    {"mass", NUMBER(ld_point_mass, mass, "kg"), NOT_NEGATIVE, REQUIRED,
+     .doc = "on the axis, without rotary inertia"},
+    {0}};
+static const field_block point_mass_block = {.fields = point_mass_fields};
+
+static const field_row material_fields[] = {
+    {"youngs_modulus", NUMBER(ld_material, youngs_modulus, "Pa"), POSITIVE,
+     NO_DEFAULT("needed unless sections give stiffnesses"), .doc = "E"},
+    {"poisson_ratio", NUMBER(ld_material, poisson_ratio, ""), INSIDE(-1, 0.5),
+     NO_DEFAULT("this or shear_modulus"), .doc = "nu, for G = E/(2 (1 + nu))"},
+    {"shear_modulus", NUMBER(ld_material, shear_modulus, "Pa"), POSITIVE,
+     NO_DEFAULT("this or poisson_ratio"), .doc = "G"},
+    {"density", NUMBER(ld_material, density, "kg/m3"), POSITIVE,
+     NO_DEFAULT("needed by sections given by radii"), .doc = "density"},
+    {0}};
+static const field_block material_block = {.fields = material_fields};
+
+static const field_word span_words[] = {{"supported", LD_SPAN_SUPPORTED},
+                                        {"clamped", LD_SPAN_CLAMPED},
+                                        {"free-free", LD_SPAN_FREE_FREE},
+                                        {NULL, 0}};
+static const field_row modes_fields[] = {
+    {"bending", INTEGER(ld_modes, bending, 0, LD_MAX_BENDING_MODES), DEFAULT(6),
+     .doc = "bending modes a plane"},
+    {"torsion", INTEGER(ld_modes, torsion, 0, LD_MAX_TORSION_MODES), DEFAULT(2),
+     .doc = "torsion modes"},
+    {"axial", INTEGER(ld_modes, axial, 0, LD_MAX_AXIAL_MODES), DEFAULT(0), .doc = "axial modes"},
+    {"elements", INTEGER(ld_modes, elements, 2, 400), DEFAULT(60),
+     .doc = "finite elements along the tube, at least (section steps add nodes)"},
+    {"span", CHOICE(ld_modes, span, span_words), DEFAULT(LD_SPAN_SUPPORTED),
+     .doc = "what the modes are the modes of: tube and tail on the support springs, clamped at "
+            "the rear end, or free"},
+    {"damping", NUMBER(ld_modes, damping, ""), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "damping ratio of the clamped modes of the bare tube"},
+    {0}};
+static const field_block modes_block = {.fields = modes_fields};
+
+static const field_row tail_fields[] = {
+    {"mass", NUMBER(ld_tail, mass, "kg"), NOT_NEGATIVE, DEFAULT(0), .doc = "mass"},
+    {"center", NUMBER(ld_tail, center, "m"), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "x of the mass centre from the tube's rear end; negative: behind"},
+    {"inertia", VECTOR(ld_tail, inertia, "kg.m2", 3), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "about its own mass centre, tube axes"},
+    {0}};
+static const field_block tail_block = {.fields = tail_fields};
+
+static const field_row support_fields[] = {
+    {"at", NUMBER(ld_support, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
+    {"stiffness", VECTOR(ld_support, stiffness, "N/m", 3), NOT_NEGATIVE, REQUIRED,
+     .doc = "along x, y, z of the tube"},
+    {"damping", VECTOR(ld_support, damping, "N.s/m", 3), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "along x, y, z"},
+    {"rotational_stiffness", VECTOR(ld_support, rotational_stiffness, "N.m/rad", 3), NOT_NEGATIVE,
+     DEFAULT(0), .doc = "about x, y, z"},
+    {"rotational_damping", VECTOR(ld_support, rotational_damping, "N.m.s/rad", 3), NOT_NEGATIVE,
+     DEFAULT(0), .doc = "about x, y, z"},
+    {0}};
+static const field_block support_block = {.fields = support_fields};
+
+static const field_row slot_columns[] = {
+    {"station", .unit = "m", FROM_TO(-100, 100)},
+    {"angle", .unit = "rad", INSIDE(-80 * PI / 180, 80 * PI / 180)},
+};
+static const table_format slot_table = {TABLE_CONSTANT, 2, slot_columns};
+static const field_row slot_fields[] = {
+    {"angle", TABLE(ld_slot, angle, slot_table), .required = true,
+     .doc = "to the tube's axis in the unrolled tube, constant or over the station (linear between "
+            "rows, constant outside)"},
+    {"radius", NUMBER(ld_slot, radius, "m"), ABOVE_TO(0, 10), REQUIRED,
+     .doc = "of the circle on which the knob sits"},
+    {"friction", NUMBER(ld_slot, friction, ""), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "Coulomb coefficient between knob and slot"},
+    {0}};
+static const field_block slot_block = {.fields = slot_fields};
+static const field_word slot_words[] = {{"none", LD_SLOT_NONE}, {"", LD_SLOT_HELIX}, {NULL, 0}};
+
+static const field_row tubes_fields[] = {
+    {"layout", BLOCK(ld_tubes, layout, layout_block), .initial_doc = "one tube",
+     .doc = "where the tubes are"},
+    {"empty", LATER, .doc = "tubes without a rocket from the start"},
+    {"length", NUMBER(ld_tubes, length, "m"), ABOVE_TO(0, 100), REQUIRED,
+     .doc = "from the rear end to the tip"},
+    {"sections", LIST(ld_tubes, section, section_count, section_block, 1, LD_MAX_SECTIONS),
+     .required = true, .doc = "stretches of constant section, the first from 0 m"},
+    {"point_masses",
+     LIST(ld_tubes, point_mass, point_mass_count, point_mass_block, 0, LD_MAX_POINT_MASSES),
+     .initial_doc = "none", .doc = "guide rings and the like"},
+    {"material", BLOCK(ld_tubes, material, material_block), .initial_doc = "none",
+     .doc = "for sections given by radii or by area"},
+    {"modes", BLOCK(ld_tubes, modes, modes_block), .initial_doc = "as below",
+     .doc = "how the tube's deformation is resolved"},
+    {"tail", BLOCK(ld_tubes, tail, tail_block), .initial_doc = "none",
+     .doc = "rigid body welded to the rear end"},
+    {"supports", LIST(ld_tubes, support, support_count, support_block, 0, LD_MAX_SUPPORTS),
+     .required = true, .doc = "spring-dampers between tube and base"},
+    {"slot", BLOCK(ld_tubes, slot, slot_block), .required = true,
+     SWITCH(ld_tubes, slot.kind, slot_words),
+     .doc = "slot that the rocket's knob follows; `none`: smooth bore"},
+    {0}};
+static const field_block tubes_block = {.fields = tubes_fields};
+
+// ---- rocket
+
+static const field_row empty_fields[] = {
+    {"mass", NUMBER(ld_mass_data, mass, "kg"), POSITIVE, REQUIRED, .doc = "mass at burn-out"},
+    {"center", VECTOR(ld_mass_data, center, "m", 3), FROM_TO(-100, 100), REQUIRED,
+     .doc = "mass centre from the rear adaptor's centre"},
+    {"inertia", VECTOR(ld_mass_data, inertia, "kg.m2", 3), POSITIVE, REQUIRED,
+     .doc = "about the mass centre"},
+    {0}};
+static const field_block empty_block = {.fields = empty_fields};
+
+static const field_row adaptor_fields[] = {
+    {"name", WORD(ld_adaptor, name), .required = true, .doc = "its name in results and paths"},
+    {"at", NUMBER(ld_adaptor, at, "m"), FROM_TO(0, 100), REQUIRED,
+     .doc = "x of its centre from the rear adaptor's"},
+    {"clearance", NUMBER(ld_adaptor, clearance, "m"), FROM_TO(0, 10),
+     NO_DEFAULT("needed unless the law is `bilateral`"),
+     .doc = "radial: inner radius at the tube's rear end less the adaptor's radius, > 0"},
+    {0}};
+static const field_block adaptor_block = {.fields = adaptor_fields};
+
+static const field_word law_words[] = {{"hunt-crossley", LD_CONTACT_HUNT_CROSSLEY},
+                                       {"lankarani-nikravesh", LD_CONTACT_LANKARANI_NIKRAVESH},
+                                       {"kelvin-voigt", LD_CONTACT_KELVIN_VOIGT},
+                                       {"bilateral", LD_CONTACT_BILATERAL},
+                                       {NULL, 0}};
+static const field_row contact_fields[] = {
+    {"law", CHOICE(ld_contact, law, law_words), DEFAULT(LD_CONTACT_HUNT_CROSSLEY),
+     .doc = "force over penetration; bilateral holds the adaptors on the axis"},
+    {"stiffness", NUMBER(ld_contact, stiffness, "N/m"), POSITIVE, REQUIRED,
+     .doc = "k, in N/m for every exponent"},
+    {"exponent", NUMBER(ld_contact, exponent, ""), FROM_TO(1, 5), DEFAULT(1),
+     .doc = "n of k d_0 (p/d_0)^n; 1 for the laws kelvin-voigt and bilateral"},
+    {"reference_penetration", NUMBER(ld_contact, reference_penetration, "m"), ABOVE_TO(0, 1),
+     DEFAULT(1e-3), .doc = "d_0"},
+    {"restitution", NUMBER(ld_contact, restitution, ""), FROM_TO(0, 1), DEFAULT(1),
+     .doc = "e (hunt-crossley and lankarani-nikravesh)"},
+    {"reference_speed", NUMBER(ld_contact, reference_speed, "m/s"), ABOVE_TO(0, 1000), DEFAULT(0.5),
+     .doc = "v_0, impact speed for which the restitution holds (hunt-crossley)"},
+    {"damping", NUMBER(ld_contact, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "c (kelvin-voigt and bilateral only)"},
+    {"friction", NUMBER(ld_contact, friction, ""), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "Coulomb coefficient between adaptors and tube (all laws but bilateral)"},
+    {"friction_speed", NUMBER(ld_contact, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
+     .doc = "v_eps, speed at which friction is at 71 %, of tube contact and slot"},
+    {0}};
+static const field_block contact_block = {.fields = contact_fields};
+
+static const field_row knob_fields[] = {{"angle", NUMBER(ld_rocket, knob_angle, "rad"),
+                                         FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+                                         .doc = "of the knob from y of B, about x"},
+                                        {0}};
+static const field_block knob_block = {.fields = knob_fields};
+
+static const field_row lock_fields[] = {{"release_force", NUMBER(ld_lock, release_force, "N"),
+                                         POSITIVE, REQUIRED,
+                                         .doc = "carried force at which it lets go"},
+                                        {0}};
+static const field_block lock_block = {.fields = lock_fields};
+static const field_word lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
+static const field_row thrust_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)},
+    {"thrust", .unit = "N", NOT_NEGATIVE},
+};
+static const table_format thrust_table = {TABLE_THRUST, 2, thrust_columns};
+static const field_row motor_fields[] = {
+    {"thrust", TABLE(ld_motor, thrust, thrust_table), .required = true,
+     .doc = "over time from ignition, linear between rows, 0 after the last; a time given twice is "
+            "a jump"},
+    {"at", VECTOR(ld_motor, at, "m", 3), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "point of B where the thrust acts"},
+    {"misalignment", VECTOR(ld_motor, misalignment, "rad", 2), FROM_TO(-1, 1), DEFAULT(0),
+     .doc = "eps_y, eps_z: the thrust points along (1, eps_y, eps_z) of B"},
+    {"thrust_scale", NUMBER(ld_motor, thrust_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the thrust"},
+    {"time_scale", NUMBER(ld_motor, time_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the times of the table"},
+    {0}};
+static const field_block motor_block = {.fields = motor_fields};
+
+static const field_row rocket_fields[] = {
+    {"start_at", NUMBER(ld_rocket, start_at, "m"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "rear adaptor from the tube's rear end at the start"},
+    {"mass", NUMBER(ld_rocket, full.mass, "kg"), POSITIVE, REQUIRED, .doc = "at ignition"},
+    {"center", VECTOR(ld_rocket, full.center, "m", 3), FROM_TO(-100, 100), REQUIRED,
+     .doc = "mass centre from the rear adaptor's centre, in B"},
+    {"inertia", VECTOR(ld_rocket, full.inertia, "kg.m2", 3), POSITIVE, REQUIRED,
+     .doc = "about the mass centre"},
+    {"products_of_inertia", VECTOR(ld_rocket, products, "kg.m2", 3), ANY, DEFAULT(0),
+     .doc = "elements J_xy, J_xz, J_yz of the matrix, full and empty"},
+    {"mass_error", NUMBER(ld_rocket, mass_error, "kg"), ANY, DEFAULT(0),
+     .doc = "added to the full and the empty mass, at the mass centre"},
+    {"eccentricity", VECTOR(ld_rocket, eccentricity, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
+     .doc = "y, z, added to the full and the empty mass centre"},
+    {"propellant", NUMBER(ld_rocket, propellant, "kg"), NOT_NEGATIVE, NO_DEFAULT("mass less empty"),
+     .doc = "burnt mass"},
+    {"empty", BLOCK(ld_rocket, empty, empty_block), .required = true, .doc = "at burn-out"},
+    {"adaptors", LIST(ld_rocket, adaptor, adaptor_count, adaptor_block, 2, LD_MAX_ADAPTORS),
+     .required = true, .doc = "the first is the rear one, at 0 m"},
+    {"contact", BLOCK(ld_rocket, contact, contact_block), .required = true,
+     .doc = "between adaptors and tube"},
+    {"knob", SAME_STRUCT(knob_block), .initial_doc = "as below", .doc = "runs in the slot"},
+    {"lock", BLOCK(ld_rocket, lock, lock_block), .required = true,
+     SWITCH(ld_rocket, lock.present, lock_words),
+     .doc = "holds the rocket until the release force; `none`: free from the start"},
+    {"motor", BLOCK(ld_rocket, motor, motor_block), .required = true, .doc = "thrust"},
+    {"aerodynamics", LATER, .doc = "air forces in free flight"},
+    {"pressure", LATER, .doc = "pressure-driven launch in place of a motor"},
+    {0}};
+static const field_block rocket_block = {.fields = rocket_fields};
+
+// ---- firing, run
+
+static const field_row firing_fields[] = {
+    {"tube", INTEGER(ld_firing, tube, 1, 10000), .required = true,
+     .doc = "number of the tube: (row - 1) columns + column"},
+    {"at", NUMBER(ld_firing, at, "s"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "ignition, counted from the end of the lead-in"},
+    {0}};
+static const field_block firing_block = {.fields = firing_fields};
+
+#define OUTPUT_STEP(member) NUMBER(ld_run_settings, member, "s"), .range = {1e-6, 100, 0, 0}
+static const field_row output_step_fields[] = {
+    {"lead_in", OUTPUT_STEP(output_step_lead_in), DEFAULT(5e-3), .doc = "before ignition"},
+    {"tube", OUTPUT_STEP(output_step_tube), DEFAULT(1e-4), .doc = "from ignition on"},
+    {"flight", LATER, .doc = "in free flight"},
+    {0}};
+static const field_block output_step_block = {.fields = output_step_fields, .shared_value = true};
+
+static const field_word start_words[] = {
+    {"equilibrium", LD_START_EQUILIBRIUM}, {"undeformed", LD_START_UNDEFORMED}, {NULL, 0}};
+static const field_word formulation_words[] = {
+    {"reduced", LD_FORMULATION_REDUCED}, {"overall", LD_FORMULATION_OVERALL}, {NULL, 0}};
+static const field_word end_words[] = {
+    {"tip", LD_END_TIP}, {"", LD_END_TIME}, {"landing", FIELD_WORD_LATER}, {NULL, 0}};
+static const field_row run_fields[] = {
+    {"start", CHOICE(ld_run_settings, start, start_words), DEFAULT(LD_START_EQUILIBRIUM),
+     .doc = "static equilibrium under gravity, or straight and at rest"},
+    {"formulation", CHOICE(ld_run_settings, formulation, formulation_words),
+     DEFAULT(LD_FORMULATION_REDUCED),
+     .doc = "reduced transfer equation, or the overall one of order 19"},
+    {"lead_in", NUMBER(ld_run_settings, lead_in, "s"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "time before t = 0"},
+    {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
+     .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
+     .doc = "when the last rocket has left the tube, or a time after the last ignition"},
+    {"tolerance", NUMBER(ld_run_settings, tolerance, ""), FROM_TO(1e-12, 1e-2), DEFAULT(1e-5),
+     .doc = "relative tolerance of the integrator"},
+    {"output_step", SAME_STRUCT(output_step_block), .initial_doc = "as below",
+     .doc = "time between rows of the history; one value for all, or one each"},
+    {"stuck_time", NUMBER(ld_run_settings, stuck_time, "s"), ABOVE_TO(0, 10000),
+     NO_DEFAULT("end of the thrust table + 1 s"),
+     .doc = "after ignition, when a rocket still in the tube is given up"},
+    {"coupling", LATER, .doc = "subsystems integrated apart"},
+    {"flight_limit", LATER, .doc = "longest free flight"},
+    {"flight_tolerance", LATER, .doc = "tolerance in free flight"},
+    {0}};
+static const field_block run_block = {.fields = run_fields};
+
+// ---- the whole
+
+static const field_row scenario_fields[] = {
+    {"launchdyn", .kind = FIELD_INTEGER, .offset = FIELD_NOWHERE, .required = true, .range = {1, 1},
+     .doc = "version of the language"},
+    {"title", .kind = FIELD_TEXT, .offset = offsetof(ld_model, title), .initial_doc = "none",
+     .doc = "one line that names the scenario"},
+    {"environment", SAME_STRUCT(environment_block), .initial_doc = "as below",
+     .doc = "gravity and the like"},
+    {"base", BLOCK(ld_model, base, base_block), .required = true, .doc = "what carries the tube"},
+    {"platform", LATER, .doc = "chassis and platforms of a vehicle"},
+    {"tubes", BLOCK(ld_model, tubes, tubes_block), .required = true,
+     .doc = "launch tubes, all alike"},
+    {"rocket", BLOCK(ld_model, rocket, rocket_block), .required = true, .doc = "the rocket"},
+    {"firing", LIST(ld_model, firing, firing_count, firing_block, 1, LD_MAX_FIRINGS),
+     .more_later = true, .initial_doc = "tube 1 at 0 s", .doc = "which tube fires when"},
+    {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
+     .doc = "how it is simulated"},
+    {"flight", LATER, .doc = "flight alone"},
+    {"scatter", LATER, .doc = "scatter for studies"},
+    {"sweep", LATER, .doc = "sweeps for studies"},
+    {0}};
+const field_block scenario_block = {.fields = scenario_fields};
