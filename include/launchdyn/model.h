@@ -9,6 +9,7 @@
 #ifndef LAUNCHDYN_MODEL_H
 #define LAUNCHDYN_MODEL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "launchdyn/status.h"
@@ -188,7 +189,7 @@ typedef struct ld_contact {
 } ld_contact;
 
 typedef struct ld_lock {
-    int present;          ///< 0: no lock, the rocket is free from the start
+    bool present;         ///< false: the rocket is free from the start
     double release_force; ///< [N]
 } ld_lock;
 

@@ -47,14 +47,17 @@ const void *field_at_const(const void *base, const field_row *field)
 
 int field_switch(const void *base, const field_row *field)
 {
-    int value;
-    memcpy(&value, (const char *)base + field->other, sizeof value);
-    return value;
+    const void *place = (const char *)base + field->other;
+    return field->other_is_bool ? *(const bool *)place : *(const int *)place;
 }
 
 void field_set_switch(void *base, const field_row *field, int value)
 {
-    memcpy((char *)base + field->other, &value, sizeof value);
+    void *place = (char *)base + field->other;
+    if (field->other_is_bool)
+        *(bool *)place = value != 0;
+    else
+        *(int *)place = value;
 }
 
 int field_form(const field_block *block, const void *base)

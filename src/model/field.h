@@ -59,6 +59,7 @@ typedef struct field_row {
     bool required;
     size_t offset;           // in the block's struct; FIELD_NOWHERE: nothing is stored
     size_t other;            // list: its count; choice: its number; block with words: its switch
+    bool other_is_bool;      // the switch is a bool, not an enum
     size_t stride;           // list: size of one entry
     int count;               // number: how many; list: most entries
     int least;               // list: fewest entries

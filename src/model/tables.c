@@ -375,7 +375,7 @@ static const field_row rocket_fields[] = {
      .doc = "between adaptors and tube"},
     {"knob", SAME_STRUCT(knob_block), .initial_doc = "as below", .doc = "runs in the slot"},
     {"lock", BLOCK(ld_rocket, lock, lock_block), .required = true,
-     SWITCH(ld_rocket, lock.present, lock_words),
+     SWITCH(ld_rocket, lock.present, lock_words), .other_is_bool = true,
      .doc = "holds the rocket until the release force; `none`: free from the start"},
     {"motor", BLOCK(ld_rocket, motor, motor_block), .required = true, .doc = "thrust"},
     {"aerodynamics", LATER, .doc = "air forces in free flight"},
