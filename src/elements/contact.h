@@ -1,0 +1,60 @@
+// Normal force of an adaptor on the tube's wall (model.md, section 5).
+#ifndef LD_ELEMENTS_CONTACT_H
+#define LD_ELEMENTS_CONTACT_H
+
+#include "launchdyn/model.h"
+#include "math/vec3.h"
+
+typedef struct contact_law {
+    ld_contact_law kind;
+    double k;       // [N/m]
+    double n;       // exponent
+    double d0;      // [m] reference penetration
+    double chi;     // [s/m] damping per force: 1.5 (1 - e)/v_0 (hunt-crossley)
+    double zeta;    // 0.75 (1 - e^2), over the touch speed (lankarani-nikravesh)
+    double c;       // [N s/m] (kelvin-voigt, bilateral)
+    double mu;      // friction
+    double v_eps;   // [m/s] of the friction's regularisation
+    double v_0;     // [m/s] reference speed
+} contact_law;
+
+LD_INLINE contact_law contact_law_of(const ld_contact *model)
+{
+    double e = model->restitution;
+    return (contact_law){.kind = model->law,
+                         .k = model->stiffness,
+                         .n = model->exponent,
+                         .d0 = model->reference_penetration,
+                         .chi = 1.5 * (1 - e) / model->reference_speed,
+                         .zeta = 0.75 * (1 - e * e),
+                         .c = model->damping,
+                         .mu = model->friction,
+                         .v_eps = model->friction_speed,
+                         .v_0 = model->reference_speed};
+}
+
+/// Elastic part k d_0 (p/d_0)^n [N] for p > 0.
+LD_INLINE double contact_elastic(const contact_law *law, double p)
+{
+    if (law->n == 1)
+        return law->k * p;
+    double ratio = p / law->d0;
+    return law->k * law->d0 * (law->n == 1.5 ? ratio * sqrt(ratio) : pow(ratio, law->n));
+}
+
+/// Normal force [N] at penetration p > 0 [m] growing at p_dot [m/s]; `touch_speed` is p_dot at first
+/// touch (lankarani-nikravesh alone).
+LD_INLINE double contact_normal(const contact_law *law, double p, double p_dot, double touch_speed)
+{
+    double elastic = contact_elastic(law, p);
+    switch (law->kind) {
+    case LD_CONTACT_KELVIN_VOIGT:
+        return fmax(0, elastic + law->c * p_dot);
+    case LD_CONTACT_LANKARANI_NIKRAVESH:
+        return elastic * fmax(0, 1 + law->zeta * p_dot / touch_speed);
+    default:
+        return elastic * fmax(0, 1 + law->chi * p_dot);
+    }
+}
+
+#endif

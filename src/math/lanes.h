@@ -1,0 +1,28 @@
+// Lanes of four doubles (GCC and clang vector extensions): the same bits with and without AVX, since
+// every sum's order is written down and nothing is contracted.
+#ifndef LD_MATH_LANES_H
+#define LD_MATH_LANES_H
+
+#include "math/vec3.h"
+
+typedef double v4d __attribute__((vector_size(32)));
+
+LD_INLINE v4d v4d_all(double a)
+{
+    return (v4d){a, a, a, a};
+}
+/// Sum of the four, (0 + 2) + (1 + 3).
+LD_INLINE double v4d_sum(v4d a)
+{
+    return (a[0] + a[2]) + (a[1] + a[3]);
+}
+/// Dot product of two arrays of `count` lanes.
+LD_INLINE double v4d_dot(int count, const v4d *a, const v4d *b)
+{
+    v4d sum = a[0] * b[0];
+    for (int i = 1; i < count; i++)
+        sum += a[i] * b[i];
+    return v4d_sum(sum);
+}
+
+#endif
