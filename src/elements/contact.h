@@ -7,15 +7,15 @@
 
 typedef struct contact_law {
     ld_contact_law kind;
-    double k;       // [N/m]
-    double n;       // exponent
-    double d0;      // [m] reference penetration
-    double chi;     // [s/m] damping per force: 1.5 (1 - e)/v_0 (hunt-crossley)
-    double zeta;    // 0.75 (1 - e^2), over the touch speed (lankarani-nikravesh)
-    double c;       // [N s/m] (kelvin-voigt, bilateral)
-    double mu;      // friction
-    double v_eps;   // [m/s] of the friction's regularisation
-    double v_0;     // [m/s] reference speed
+    double k;     // [N/m]
+    double n;     // exponent
+    double d0;    // [m] reference penetration
+    double chi;   // [s/m] damping per force: 1.5 (1 - e)/v_0 (hunt-crossley)
+    double zeta;  // 0.75 (1 - e^2), over the touch speed (lankarani-nikravesh)
+    double c;     // [N s/m] (kelvin-voigt, bilateral)
+    double mu;    // friction
+    double v_eps; // [m/s] of the friction's regularisation
+    double v_0;   // [m/s] reference speed
 } contact_law;
 
 LD_INLINE contact_law contact_law_of(const ld_contact *model)
@@ -42,8 +42,8 @@ LD_INLINE double contact_elastic(const contact_law *law, double p)
     return law->k * law->d0 * (law->n == 1.5 ? ratio * sqrt(ratio) : pow(ratio, law->n));
 }
 
-/// Normal force [N] at penetration p > 0 [m] growing at p_dot [m/s]; `touch_speed` is p_dot at first
-/// touch (lankarani-nikravesh alone).
+/// Normal force [N] at penetration p > 0 [m] growing at p_dot [m/s]; `touch_speed` is p_dot at
+/// first touch (lankarani-nikravesh alone).
 LD_INLINE double contact_normal(const contact_law *law, double p, double p_dot, double touch_speed)
 {
     double elastic = contact_elastic(law, p);

@@ -29,11 +29,10 @@ ld_status motor_build(motor *self, const ld_rocket *rocket, ld_error *error)
     for (size_t k = 0; k < n; k++) {
         self->t[k] = rocket->motor.time_scale * table->data[k * table->columns];
         self->thrust[k] = rocket->motor.thrust_scale * table->data[k * table->columns + 1];
-        self->impulse[k] = k == 0 ? 0
-                                  : self->impulse[k - 1] + 0.5 *
-                                                               (self->thrust[k] +
-                                                                self->thrust[k - 1]) *
-                                                               (self->t[k] - self->t[k - 1]);
+        self->impulse[k] =
+            k == 0 ? 0
+                   : self->impulse[k - 1] + 0.5 * (self->thrust[k] + self->thrust[k - 1]) *
+                                                (self->t[k] - self->t[k - 1]);
     }
     return LD_OK;
 }
@@ -53,8 +52,8 @@ double motor_thrust(const motor *self, int piece, double t)
 {
     if (!burning(self, piece))
         return 0;
-    double slope = (self->thrust[piece + 1] - self->thrust[piece]) /
-                   (self->t[piece + 1] - self->t[piece]);
+    double slope =
+        (self->thrust[piece + 1] - self->thrust[piece]) / (self->t[piece + 1] - self->t[piece]);
     return self->thrust[piece] + slope * (t - self->t[piece]);
 }
 

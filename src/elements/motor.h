@@ -1,4 +1,5 @@
-// The motor: thrust over time, and the rocket's mass data that follow from it (model.md, section 5).
+// The motor: thrust over time, and the rocket's mass data that follow from it (model.md, section
+// 5).
 #ifndef LD_ELEMENTS_MOTOR_H
 #define LD_ELEMENTS_MOTOR_H
 
@@ -7,9 +8,9 @@
 
 // Mass data of the rocket at one instant; rates for the energy balance.
 typedef struct rocket_mass {
-    double m;  // [kg]
-    v3 c;      // [m] mass centre in B
-    m3 J;      // [kg m2] about the mass centre, in B
+    double m; // [kg]
+    v3 c;     // [m] mass centre in B
+    m3 J;     // [kg m2] about the mass centre, in B
     double m_dot;
     v3 c_dot;
     m3 J_dot;
@@ -18,10 +19,10 @@ typedef struct rocket_mass {
 // The thrust curve, scaled, cut into pieces between its corners; and what burns.
 typedef struct motor {
     size_t corner_count;
-    double *t;        // [corner_count] s after ignition, owned
-    double *thrust;   // [corner_count] N
-    double *impulse;  // [corner_count] N s burnt up to the corner
-    double propellant; // [kg]
+    double *t;               // [corner_count] s after ignition, owned
+    double *thrust;          // [corner_count] N
+    double *impulse;         // [corner_count] N s burnt up to the corner
+    double propellant;       // [kg]
     rocket_mass full, empty; // with mass error and eccentricity; rates unused
 } motor;
 

@@ -1,5 +1,5 @@
-// Lanes of four doubles (GCC and clang vector extensions): the same bits with and without AVX, since
-// every sum's order is written down and nothing is contracted.
+// Lanes of four doubles (GCC and clang vector extensions): the same bits with and without AVX,
+// since every sum's order is written down and nothing is contracted.
 #ifndef LD_MATH_LANES_H
 #define LD_MATH_LANES_H
 
@@ -16,6 +16,13 @@ LD_INLINE double v4d_sum(v4d a)
 {
     return (a[0] + a[2]) + (a[1] + a[3]);
 }
+/// Tells the compiler that there is at least one lane.
+#define LANES_NOT_EMPTY(count)                                                                     \
+    do {                                                                                           \
+        if ((count) < 1)                                                                           \
+            __builtin_unreachable();                                                               \
+    } while (0)
+
 /// Dot product of two arrays of `count` lanes.
 LD_INLINE double v4d_dot(int count, const v4d *a, const v4d *b)
 {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Slopes d of the C2 cubic: h_i d_(i-1) + 2 (h_(i-1) + h_i) d_i + h_(i-1) d_(i+1) = right-hand side,
-// not-a-knot rows at the ends (de Boor, A Practical Guide to Splines, ch. IV).
+// Slopes d of the C2 cubic: h_i d_(i-1) + 2 (h_(i-1) + h_i) d_i + h_(i-1) d_(i+1) = right-hand
+// side, not-a-knot rows at the ends (de Boor, A Practical Guide to Splines, ch. IV).
 static int solve_slopes(size_t n, const double *x, const double *y, double *d)
 {
     double *lower = calloc(3 * n, sizeof *lower);
@@ -26,11 +26,10 @@ static int solve_slopes(size_t n, const double *x, const double *y, double *d)
     h0 = x[n - 1] - x[n - 2], h1 = x[n - 2] - x[n - 3], s = h0 + h1;
     diagonal[n - 1] = h1;
     lower[n - 2] = s;
-    d[n - 1] = ((h0 + 2 * s) * h1 * (y[n - 1] - y[n - 2]) / h0 +
-                h0 * h0 * (y[n - 2] - y[n - 3]) / h1) /
-               s;
-    int info = LAPACKE_dgtsv(LAPACK_COL_MAJOR, (lapack_int)n, 1, lower, diagonal, upper, d,
-                             (lapack_int)n);
+    d[n - 1] =
+        ((h0 + 2 * s) * h1 * (y[n - 1] - y[n - 2]) / h0 + h0 * h0 * (y[n - 2] - y[n - 3]) / h1) / s;
+    int info =
+        LAPACKE_dgtsv(LAPACK_COL_MAJOR, (lapack_int)n, 1, lower, diagonal, upper, d, (lapack_int)n);
     free(lower);
     return info;
 }

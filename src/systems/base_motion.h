@@ -1,4 +1,5 @@
-// The base that carries the tube: where the undeformed tube is and how it moves (model.md, section 2).
+// The base that carries the tube: where the undeformed tube is and how it moves (model.md, section
+// 2).
 #ifndef LD_SYSTEMS_BASE_MOTION_H
 #define LD_SYSTEMS_BASE_MOTION_H
 
@@ -18,8 +19,8 @@ typedef struct base_frame {
 typedef struct base_motion {
     const ld_base *model;
     base_frame fixed; // the pose of kind fixed, at rest
-    m3 mount;           // A_base,tube = Ry(azimuth) Rz(elevation)
-    spline path[6];     // x, y, z, yaw, pitch, roll over time (table)
+    m3 mount;         // A_base,tube = Ry(azimuth) Rz(elevation)
+    spline path[6];   // x, y, z, yaw, pitch, roll over time (table)
 } base_motion;
 
 ld_status base_motion_build(base_motion *self, const ld_base *model, ld_error *error);
@@ -28,7 +29,8 @@ void base_motion_free(base_motion *self);
 // Frame at time t [s] of the run's clock.
 void base_motion_at(const base_motion *self, double t, base_frame *frame);
 
-// Pose angles of the base itself (without azimuth and elevation): yaw, pitch, roll [rad], for output.
+// Pose angles of the base itself (without azimuth and elevation): yaw, pitch, roll [rad], for
+// output.
 void base_motion_angles(const base_motion *self, double t, double angles[3]);
 
 // False where a table does not cover t.

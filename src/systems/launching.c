@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "math/rotation_vector.h"
+#include "elements/tube_dynamics.h"
 
 // ---- set-up ----
 
@@ -163,8 +163,8 @@ void launching_free(launching_system *self)
 
 // ---- rates ----
 
-void launching_rates(const launching_system *self, const double *state,
-                     const launching_output *out, bool rocket, double *state_dot)
+void launching_rates(const launching_system *self, const double *state, const launching_output *out,
+                     bool rocket, double *state_dot)
 {
     const launching_layout *at = &self->layout;
     quat q = q_from(state + at->quaternion);
@@ -189,49 +189,16 @@ void launching_rates(const launching_system *self, const double *state,
 
 // ---- energies ----
 
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
-static double tube_kinetic_energy(const launching_system *self, const double *state)
-{
-    const launching_layout *at = &self->layout;
-    const flexible_tube *tube = &self->tube;
-    int nb = tube->nb, nt = tube->nt, na = tube->na;
-    const double *qy = state + at->q, *qz = qy + nb, *qt = qz + nb, *qa = qt + nt;
-    const double *dy = state + at->q_dot, *dz = dy + nb, *dt = dz + nb, *da = dt + nt;
-    v3 v = v3_from(state + at->v), w = v3_from(state + at->w);
-    // int p dm (tail in), int u_dot dm, int p x u_dot dm
-    double AB_y = 0, AB_z = 0, AB_dy = 0, AB_dz = 0, cross_y = 0, cross_z = 0;
-    for (int i = 0; i < na; i++) {
-        double sy = dot(nb, tube->AB[i], qy), sz = dot(nb, tube->AB[i], qz);
-        AB_y += qa[i] * sy, AB_z += qa[i] * sz;
-        AB_dy += qa[i] * dot(nb, tube->AB[i], dy), AB_dz += qa[i] * dot(nb, tube->AB[i], dz);
-        cross_y += da[i] * sy, cross_z += da[i] * sz;
-    }
-    v3 S = v3_make(self->Sx + dot(na, tube->at, qa), dot(nb, tube->ct, qy), dot(nb, tube->ct, qz));
-    v3 U = v3_make(dot(na, tube->at, da), dot(nb, tube->ct, dy), dot(nb, tube->ct, dz));
-    v3 H = v3_make(dot(nb, qy, dz) - dot(nb, qz, dy), cross_z - (dot(nb, tube->c, dz) + AB_dz),
-                   dot(nb, tube->c, dy) + AB_dy - cross_y);
-    double xx = tube->j0 + 2 * dot(na, tube->ax, qa) + dot(na, qa, qa);
-    double xy = dot(nb, tube->c, qy) + AB_y, xz = dot(nb, tube->c, qz) + AB_z;
-    double yy = dot(nb, qy, qy), zz = dot(nb, qz, qz), yz = dot(nb, qy, qz);
-    m3 J = {{{yy + zz, -xy, -xz}, {-xy, xx + zz, -yz}, {-xz, -yz, xx + yy}}};
-    v3 Jw = v3_add(m3_apply(J, w), v3_mul(self->tail_inertia, w));
-    double modal = dot(nb, dy, dy) + dot(nb, dz, dz) + dot(na, da, da);
-    double spin = tube->j * w.x * w.x + 2 * w.x * dot(nt, tube->cp, dt) + dot(nt, dt, dt);
-    return 0.5 * (self->m * v3_norm2(v) + v3_dot(w, Jw) + modal + spin) +
-           v3_dot(v, v3_add(v3_cross(w, S), U)) + v3_dot(w, H);
-}
-
 double launching_kinetic_energy(const launching_system *self, const launching_input *input,
                                 const launching_phase *phase, const double *state)
 {
-    double energy = tube_kinetic_energy(self, state);
+    const launching_layout *at = &self->layout;
+    const ld_tail *tail = &self->model->tubes.tail;
+    v3 v = v3_from(state + at->v), w_R = v3_from(state + at->w);
+    v3 v_tail = v3_add(v, v3_cross(w_R, v3_make(tail->center, 0, 0)));
+    double energy =
+        tube_kinetic_energy(&self->tube, v, w_R, state + at->q, state + at->q_dot) +
+        0.5 * (tail->mass * v3_norm2(v_tail) + v3_dot(w_R, v3_mul(v3_from(tail->inertia), w_R)));
     if (phase->rocket) {
         launching_output out;
         launching_pose pose;
@@ -247,10 +214,9 @@ double launching_kinetic_energy(const launching_system *self, const launching_in
 double launching_potential_energy(const launching_system *self, const double *state)
 {
     const launching_layout *at = &self->layout;
-    const flexible_tube *tube = &self->tube;
-    const double *q = state + at->q;
-    v3 S = v3_make(self->Sx + dot(tube->na, tube->at, q + 2 * tube->nb + tube->nt),
-                   dot(tube->nb, tube->ct, q), dot(tube->nb, tube->ct, q + tube->nb));
+    const ld_tail *tail = &self->model->tubes.tail;
+    v3 S = tube_first_moment(&self->tube, state + at->q);
+    S.x += tail->mass * tail->center;
     m3 A_IR = q_matrix(q_from(state + at->quaternion));
     return self->gravity * (self->m * state[at->r + 1] + m3_apply(A_IR, S).y);
 }

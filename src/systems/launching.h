@@ -1,10 +1,12 @@
-// The launching subsystem: tail, flexible tube on its supports, rocket in the tube (model.md sections 3
-// to 5; formulation.md sections 3 to 5). Given state and base it finds all accelerations.
+// The launching subsystem: tail, flexible tube on its supports, rocket in the tube (model.md
+// sections 3 to 5; formulation.md sections 3 to 5). Given state and base it finds all
+// accelerations.
 //
 // State (flat array, offsets in launching_layout):
-//   r_R [3] origin of R in I [m]      q_IR [4] quaternion of R         v, w [3 + 3] velocity of R's origin
-//   and angular velocity of R, in R   q, q_dot [nq] modal coordinates  x [6] s, y_S, z_S, psi, theta,
-//   gamma                             V [6] velocity of O1 and rate of B against I, in R
+//   r_R [3] origin of R in I [m]      q_IR [4] quaternion of R         v, w [3 + 3] velocity of R's
+//   origin and angular velocity of R, in R   q, q_dot [nq] modal coordinates  x [6] s, y_S, z_S,
+//   psi, theta, gamma                             V [6] velocity of O1 and rate of B against I, in
+//   R
 #ifndef LD_SYSTEMS_LAUNCHING_H
 #define LD_SYSTEMS_LAUNCHING_H
 
@@ -58,12 +60,12 @@ typedef struct launching_system {
 
     int support_count;
     launching_support support[LD_MAX_SUPPORTS];
-    int row_count;                           // 2 support_count + 2
-    int row_lanes;                           // lanes of four rows
+    int row_count;                              // 2 support_count + 2
+    int row_lanes;                              // lanes of four rows
     v4d rows_by_mode[LD_NB][LD_FIXED_ROWS / 4]; // b, b' at the supports, then ct, c
     v4d rows[LD_FIXED_ROWS][LD_LANES_B];
     v4d om2[LD_LANES_B], dmp[LD_LANES_B]; // bending
-    packed_element *packed;                  // [tube.element_count], 64-byte aligned
+    packed_element *packed;               // [tube.element_count], 64-byte aligned
 
     int adaptor_count;
     double adaptor_at[LD_MAX_ADAPTORS];
@@ -83,7 +85,7 @@ typedef struct launching_phase {
     bool locked;
     bool passed[LD_MAX_ADAPTORS];
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] at first touch (law lankarani-nikravesh)
-    bool frictionless; // Coulomb friction off (equilibrium, linearisation)
+    bool frictionless;                   // Coulomb friction off (equilibrium, linearisation)
 } launching_phase;
 
 // What comes from outside at one instant.
@@ -117,17 +119,17 @@ enum launching_power {
 };
 
 typedef struct launching_output {
-    v3 a, w_dot;        // inertial acceleration of R's origin, derivative of w, in R
+    v3 a, w_dot;                 // inertial acceleration of R's origin, derivative of w, in R
     double q_ddot[LD_MAX_MODAL]; // [nq]
-    v3 a_O1, alpha_B;   // of the rocket against I, in R
+    v3 a_O1, alpha_B;            // of the rocket against I, in R
     double x_dot[6];
-    double y[6];        // s_dot, y_S_dot, z_S_dot, w_SB (in S)
-    double N;           // [N] slot force
+    double y[6];          // s_dot, y_S_dot, z_S_dot, w_SB (in S)
+    double N;             // [N] slot force
     double slot_friction; // [N] along tau on the rocket
-    double lock_force;  // [N] carried, along +x (minus the force on the rocket)
-    double drift;       // [m/s] n . v_rel, zero but for the step error
+    double lock_force;    // [N] carried, along +x (minus the force on the rocket)
+    double drift;         // [m/s] n . v_rel, zero but for the step error
     double power[POWER_COUNT];
-    double elastic;     // [J] of supports and modes
+    double elastic;             // [J] of supports and modes
     v3 base_force, base_moment; // [N], [N m] on the base, moment about T's origin, in T
     adaptor_report adaptor[LD_MAX_ADAPTORS];
 } launching_output;
@@ -152,7 +154,7 @@ void launching_rates(const launching_system *self, const double *state,
 
 // Where the rocket is and how it moves, in R.
 typedef struct launching_pose {
-    v3 p1;   // [m] O1
+    v3 p1; // [m] O1
     m3 A_RS, A_RB;
     v3 v_O1; // [m/s] inertial
     v3 w_B;  // [rad/s] against I
@@ -162,8 +164,8 @@ typedef struct launching_pose {
 void launching_rocket_pose(const launching_system *self, const double *state, launching_pose *pose,
                            launching_output *output);
 
-// The section at station x (its point of the axis and frame, with their velocity and rate against I),
-// in R.
+// The section at station x (its point of the axis and frame, with their velocity and rate against
+// I), in R.
 typedef struct launching_section {
     v3 P;
     m3 A;
@@ -174,8 +176,8 @@ void launching_section_at(const launching_system *self, const double *state, dou
                           launching_section *section);
 
 // Feet of the adaptors on the axis [m] (only those not passed), for the events.
-void launching_feet(const launching_system *self, const launching_phase *phase,
-                    const double *state, double *feet);
+void launching_feet(const launching_system *self, const launching_phase *phase, const double *state,
+                    double *feet);
 
 // Kinetic energy of tube, tail and (if in the tube) rocket [J].
 double launching_kinetic_energy(const launching_system *self, const launching_input *input,
@@ -183,7 +185,8 @@ double launching_kinetic_energy(const launching_system *self, const launching_in
 // Potential energy of tube and tail in gravity [J], from the origin of I.
 double launching_potential_energy(const launching_system *self, const double *state);
 
-// Removes the velocity drift of the slot (formulation.md, section 3) from `state`; keeps all momenta.
+// Removes the velocity drift of the slot (formulation.md, section 3) from `state`; keeps all
+// momenta.
 void launching_project(const launching_system *self, const launching_input *input,
                        const launching_phase *phase, double *state);
 

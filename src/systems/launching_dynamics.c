@@ -121,17 +121,17 @@ LD_INLINE void tube_own_forces(const int lanes, const launching_system *self, tu
     v3 Jw = v3_make((p_yy + p_zz) * w.x - p_xy * w.y - p_xz * w.z,
                     (p_xx + p_zz) * w.y - p_xy * w.x - p_yz * w.z,
                     (p_xx + p_yy) * w.z - p_xz * w.x - p_yz * w.y);
-    v3 tail = v3_make(self->tail_inertia.x * w.x, self->tail_inertia.y * w.y,
-                      self->tail_inertia.z * w.z);
+    v3 tail =
+        v3_make(self->tail_inertia.x * w.x, self->tail_inertia.y * w.y, self->tail_inertia.z * w.z);
     Jw = v3_add(Jw, tail);
     // W_ab = int p_a u_b dm: 2 (tr(W) w - W^T w)
     double W_xy = c_yd, W_xz = c_zd;
     double W_yy = v4d_dot(lanes, q->y, q->y_dot), W_yz = v4d_dot(lanes, q->y, q->z_dot);
     double W_zy = v4d_dot(lanes, q->z, q->y_dot), W_zz = v4d_dot(lanes, q->z, q->z_dot);
     double trace = W_yy + W_zz;
-    v3 coriolis = v3_make(2 * trace * w.x,
-                          2 * (trace * w.y - (W_xy * w.x + W_yy * w.y + W_zy * w.z)),
-                          2 * (trace * w.z - (W_xz * w.x + W_yz * w.y + W_zz * w.z)));
+    v3 coriolis =
+        v3_make(2 * trace * w.x, 2 * (trace * w.y - (W_xy * w.x + W_yy * w.y + W_zy * w.z)),
+                2 * (trace * w.z - (W_xz * w.x + W_yz * w.y + W_zz * w.z)));
     double spin = data->j * w.x + cp_td;
     h->m = v3_sub(v3_cross(S, g), v3_add(v3_cross(w, Jw), coriolis));
     h->m = v3_sub(h->m, v3_cross(w, v3_make(spin, 0, 0)));
@@ -168,8 +168,8 @@ LD_INLINE v3 rotation_vector_of(quat q)
     double n2 = q.x * q.x + q.y * q.y + q.z * q.z;
     double factor;
     if (n2 < 1e-4) { // 2 asin(n)/n; next term below 2e-22
-        factor = 2 * (1 + n2 * (1.0 / 6 +
-                                n2 * (3.0 / 40 + n2 * (15.0 / 336 + n2 * (105.0 / 3456)))));
+        factor =
+            2 * (1 + n2 * (1.0 / 6 + n2 * (3.0 / 40 + n2 * (15.0 / 336 + n2 * (105.0 / 3456)))));
         factor *= sign;
     } else {
         double n = sqrt(n2);
@@ -199,7 +199,8 @@ LD_INLINE void support_forces(const int lanes, const launching_system *self, con
 {
     m3 A_TR = m3_mul(m3_transpose(base->A), tube->A_IR);
     v3 r = m3_apply_transposed(base->A, v3_sub(tube->r, base->r));
-    v3 base_v = m3_apply_transposed(base->A, base->v), base_w = m3_apply_transposed(base->A, base->w);
+    v3 base_v = m3_apply_transposed(base->A, base->v),
+       base_w = m3_apply_transposed(base->A, base->w);
     quat q_TI = {base->q.w, -base->q.x, -base->q.y, -base->q.z};
     quat q_TR = q_multiply(q_TI, tube->q_IR);
     double norm = 1 / sqrt(q_TR.w * q_TR.w + q_TR.x * q_TR.x + q_TR.y * q_TR.y + q_TR.z * q_TR.z);
@@ -216,8 +217,8 @@ LD_INLINE void support_forces(const int lanes, const launching_system *self, con
         v3 P = v3_make(support->x, lane(tube->row_y, 2 * k), lane(tube->row_z, 2 * k));
         v3 th = v3_make(twist, -lane(tube->row_z, 2 * k + 1), lane(tube->row_y, 2 * k + 1));
         v3 u_dot = v3_make(0, lane(tube->row_y_dot, 2 * k), lane(tube->row_z_dot, 2 * k));
-        v3 th_dot = v3_make(twist_dot, -lane(tube->row_z_dot, 2 * k + 1),
-                            lane(tube->row_y_dot, 2 * k + 1));
+        v3 th_dot =
+            v3_make(twist_dot, -lane(tube->row_z_dot, 2 * k + 1), lane(tube->row_y_dot, 2 * k + 1));
         m3 Jl = rv_left_jacobian(th);
         // displacement and its rate, in base axes
         v3 place = v3_add(r, m3_apply(A_TR, P));
@@ -271,15 +272,17 @@ LD_INLINE void apply_at_section(const int lanes, const launching_system *self, c
     for (int i = 0; i < lanes; i++) {
         const v4d p0 = element->by_power[0][i], p1 = element->by_power[1][i],
                   p2 = element->by_power[2][i], p3 = element->by_power[3][i];
-        h->y[i] += v4d_all(y[0]) * p0 + v4d_all(y[1]) * p1 + v4d_all(y[2]) * p2 + v4d_all(y[3]) * p3;
-        h->z[i] += v4d_all(z[0]) * p0 + v4d_all(z[1]) * p1 + v4d_all(z[2]) * p2 + v4d_all(z[3]) * p3;
+        h->y[i] +=
+            v4d_all(y[0]) * p0 + v4d_all(y[1]) * p1 + v4d_all(y[2]) * p2 + v4d_all(y[3]) * p3;
+        h->z[i] +=
+            v4d_all(z[0]) * p0 + v4d_all(z[1]) * p1 + v4d_all(z[2]) * p2 + v4d_all(z[3]) * p3;
     }
     for (int j = 0; j < self->tube.nt; j++)
         h->t[j] += mu.x * (element->tau[j][0] + xi * element->tau[j][1]);
 }
 
-// The condensed 6 x 6 matrix (vx vy vz wx | wy wz): its first four rows are diagonal and the last two
-// couple to them, so the factors are the six numbers l and the 2 x 2 rest.
+// The condensed 6 x 6 matrix (vx vy vz wx | wy wz): its first four rows are diagonal and the last
+// two couple to them, so the factors are the six numbers l and the 2 x 2 rest.
 LD_INLINE void factor(const launching_system *self, tube_state *tube)
 {
     const flexible_tube *data = &self->tube;
@@ -292,8 +295,10 @@ LD_INLINE void factor(const launching_system *self, tube_state *tube)
     tube->l_zx = -tube->ct_y / self->m; // (wz, vx)/m
     tube->l_zy = -off / my;             // (wz, vy)/my
     double j = data->j0 - data->cc;
-    double syy = j + self->tail_inertia.y + tube->qz_qz - tube->l_yx * tube->ct_z - tube->l_yz * off;
-    double szz = j + self->tail_inertia.z + tube->qy_qy + tube->l_zx * tube->ct_y + tube->l_zy * off;
+    double syy =
+        j + self->tail_inertia.y + tube->qz_qz - tube->l_yx * tube->ct_z - tube->l_yz * off;
+    double szz =
+        j + self->tail_inertia.z + tube->qy_qy + tube->l_zx * tube->ct_y + tube->l_zy * off;
     double szy = -tube->qy_qz - tube->l_zx * tube->ct_z;
     tube->d_y = syy;
     tube->l_zwy = szy / syy;
@@ -314,8 +319,8 @@ LD_INLINE void forward(const tube_state *tube, v3 f, v3 m, double out[6])
 // x^T D^-1 y of two forward-substituted vectors.
 LD_INLINE double product(const tube_state *tube, const double x[6], const double y[6])
 {
-    return x[0] * y[0] / tube->m + (x[1] * y[1] + x[2] * y[2]) / tube->my +
-           x[3] * y[3] / tube->jx + x[4] * y[4] / tube->d_y + x[5] * y[5] / tube->d_z;
+    return x[0] * y[0] / tube->m + (x[1] * y[1] + x[2] * y[2]) / tube->my + x[3] * y[3] / tube->jx +
+           x[4] * y[4] / tube->d_y + x[5] * y[5] / tube->d_z;
 }
 
 // L^-T D^-1 of a forward-substituted vector: translational and rotational acceleration.
@@ -361,16 +366,16 @@ typedef struct rocket_state {
     double s, y, z;
     m3 A_SB, A_RB;
     double sin_psi, cos_psi, sin_theta, cos_theta;
-    v3 d, p1;             // in S; in R
-    v3 v_O1, w_B;         // inertial, in R
+    v3 d, p1;     // in S; in R
+    v3 v_O1, w_B; // inertial, in R
     element_motion motion;
-    section at;           // section at s
+    section at; // section at s
     section_rates rates;
-    v3 Ad;                // A d
-    v3 v_P, w_P;          // section's material velocity and rate, inertial, in R
-    v3 Om;                // rate of S against R
+    v3 Ad;       // A d
+    v3 v_P, w_P; // section's material velocity and rate, inertial, in R
+    v3 Om;       // rate of S against R
     double s_dot, y_dot, z_dot;
-    v3 w_SB;              // in S
+    v3 w_SB; // in S
 } rocket_state;
 
 LD_INLINE void load_rocket(const launching_system *self, const double *state,
@@ -507,15 +512,14 @@ LD_INLINE void adaptor_contact(const int lanes, const launching_system *self,
 // Inverse of the rocket's 6 x 6 mass matrix, by its inertia about the mass centre.
 typedef struct rocket_inertia {
     double m;
-    v3 c;      // in R
+    v3 c;            // in R
     m3 J, J_inverse; // about the mass centre, in B
     m3 A_RB;
 } rocket_inertia;
 
 LD_INLINE m3 symmetric_inverse(m3 m)
 {
-    double a = m.a[0][0], b = m.a[1][1], c = m.a[2][2], d = m.a[0][1], e = m.a[0][2],
-           f = m.a[1][2];
+    double a = m.a[0][0], b = m.a[1][1], c = m.a[2][2], d = m.a[0][1], e = m.a[0][2], f = m.a[1][2];
     double A = b * c - f * f, B = e * f - d * c, C = d * f - e * b;
     double s = 1 / (a * A + d * B + e * C);
     double D = a * c - e * e, E = d * e - a * f, F = a * b - d * d;
@@ -545,15 +549,15 @@ LD_INLINE void rocket_own_forces(const launching_system *self, const launching_i
                                  const tube_state *tube, const rocket_state *rocket,
                                  const rocket_inertia *inertia, v3 *f, v3 *m, launching_output *out)
 {
-    const ld_motor *motor = &self->model->rocket.motor;
+    const ld_motor *thruster = &self->model->rocket.motor;
     v3 w = rocket->w_B, c = inertia->c;
     v3 weight = v3_scale(inertia->m, tube->g);
     v3 v_C = v3_add(rocket->v_O1, v3_cross(w, c));
     // thrust along (1, eps_y, eps_z) at (x_T, e_y, e_z) of B
-    double ey = motor->misalignment[0], ez = motor->misalignment[1];
+    double ey = thruster->misalignment[0], ez = thruster->misalignment[1];
     double along = input->thrust / sqrt(1 + ey * ey + ez * ez);
     v3 thrust = m3_apply(rocket->A_RB, v3_make(along, along * ey, along * ez));
-    v3 at = m3_apply(rocket->A_RB, v3_from(motor->at));
+    v3 at = m3_apply(rocket->A_RB, v3_from(thruster->at));
     *f = v3_add(weight, thrust);
     *m = v3_add(v3_cross(c, weight), v3_cross(at, thrust));
     out->power[POWER_GRAVITY_ROCKET] = v3_dot(weight, v_C);
@@ -578,6 +582,7 @@ LD_INLINE void rocket_own_forces(const launching_system *self, const launching_i
 LD_INLINE void load_shapes(const int lanes, const launching_system *self, const section *s,
                            section_shapes *shapes)
 {
+    LANES_NOT_EMPTY(lanes);
     const packed_element *element = &self->packed[s->index];
     v4d x = v4d_all(s->xi), x2 = v4d_all(2 * s->xi), x3 = v4d_all(3 * s->xi);
     for (int i = 0; i < lanes; i++) {
@@ -611,8 +616,8 @@ LD_INLINE double modal_product(const section_shapes *shapes, const direction *p,
            shapes->tt * p->mu.x * q->mu.x;
 }
 
-// Sets up a direction from its wrench at the section: force f at the section's point P + r_T and pure
-// moment m on the rocket, opposite on the tube.
+// Sets up a direction from its wrench at the section: force f at the section's point P + r_T and
+// pure moment m on the rocket, opposite on the tube.
 LD_INLINE void direction_load(const tube_state *tube, const rocket_state *rocket,
                               const rocket_inertia *inertia, const section_shapes *shapes, v3 f,
                               v3 m, v3 r_T, v3 rho, direction *e)
@@ -640,8 +645,8 @@ LD_INLINE void direction_load(const tube_state *tube, const rocket_state *rocket
 LD_INLINE double direction_product(const tube_state *tube, const section_shapes *shapes,
                                    const direction *p, const direction *q)
 {
-    return v3_dot(p->G_f, q->r_a) + v3_dot(p->G_m, q->r_alpha) +
-           product(tube, p->rigid, q->rigid) + modal_product(shapes, p, q);
+    return v3_dot(p->G_f, q->r_a) + v3_dot(p->G_m, q->r_alpha) + product(tube, p->rigid, q->rigid) +
+           modal_product(shapes, p, q);
 }
 
 // G^T r_O - B^T e_0 for the accelerations without constraint forces.
@@ -650,10 +655,9 @@ LD_INLINE double free_acceleration(const int lanes, const launching_system *self
                                    const direction *e, v3 r_a, v3 r_alpha, const double rigid[6],
                                    const tube_force *h)
 {
-    double modal = e->force.y * v4d_dot(lanes, shapes->b, h->y) +
-                   e->mu.z * v4d_dot(lanes, shapes->b1, h->y) +
-                   e->force.z * v4d_dot(lanes, shapes->b, h->z) -
-                   e->mu.y * v4d_dot(lanes, shapes->b1, h->z);
+    double modal =
+        e->force.y * v4d_dot(lanes, shapes->b, h->y) + e->mu.z * v4d_dot(lanes, shapes->b1, h->y) +
+        e->force.z * v4d_dot(lanes, shapes->b, h->z) - e->mu.y * v4d_dot(lanes, shapes->b1, h->z);
     for (int j = 0; j < self->tube.nt; j++)
         modal += e->mu.x * shapes->tau[j] * h->t[j];
     return v3_dot(e->G_f, r_a) + v3_dot(e->G_m, r_alpha) - product(tube, e->rigid, rigid) - modal;
@@ -674,8 +678,8 @@ LD_INLINE section_bias bias_of(const tube_state *tube, const rocket_state *rocke
     bias.gv = v3_axpy(v3_cross(w, inner), rocket->s_dot, v3_add(v3_cross(w, s->t), r->u1_dot));
     // gamma_rot = Jl_dot Psi q_dot + w x (Jl Psi q_dot); then the convective part along s
     bias.gw = v3_add(rv_left_jacobian_derivative(s->th, r->th_dot, r->th_dot), v3_cross(w, r->w));
-    v3 along = v3_add(m3_apply(s->Jl, r->k0_dot),
-                      rv_left_jacobian_derivative(s->th, s->k0, r->th_dot));
+    v3 along =
+        v3_add(m3_apply(s->Jl, r->k0_dot), rv_left_jacobian_derivative(s->th, s->k0, r->th_dot));
     bias.gw = v3_axpy(bias.gw, rocket->s_dot, along);
     return bias;
 }
@@ -697,7 +701,7 @@ LD_INLINE void force_bias(const tube_state *tube, const rocket_state *rocket,
 
 // The slot's two directions at the knob, in S: normal and tangent, and the normal's derivative.
 typedef struct slot_frame {
-    v3 r_E;          // from P(s) to the knob, in S
+    v3 r_E;           // from P(s) to the knob, in S
     v3 n, tau, n_dot; // in S
 } slot_frame;
 
@@ -719,8 +723,7 @@ LD_INLINE double slot_angle(const ld_table *table, double s, double *slope)
     return p[1] + *slope * (s - p[0]);
 }
 
-LD_INLINE void slot_load(const launching_system *self, const rocket_state *rocket,
-                         slot_frame *slot)
+LD_INLINE void slot_load(const launching_system *self, const rocket_state *rocket, slot_frame *slot)
 {
     v3 arm = m3_apply(rocket->A_SB, v3_make(0, self->knob_y, self->knob_z));
     v3 r = v3_add(rocket->d, arm);
@@ -815,8 +818,8 @@ LD_INLINE void modal_accelerations(const int lanes, const launching_system *self
     memcpy(q_ddot, y, (size_t)nb * sizeof(double));
     memcpy(q_ddot + nb, z, (size_t)nb * sizeof(double));
     for (int j = 0; j < self->tube.nt; j++)
-        q_ddot[2 * nb + j] = h->t[j] - self->tube.cp[j] * w_dot.x -
-                             (shapes ? shapes->tau[j] * mu.x : 0);
+        q_ddot[2 * nb + j] =
+            h->t[j] - self->tube.cp[j] * w_dot.x - (shapes ? shapes->tau[j] * mu.x : 0);
 }
 
 // Constraint forces: slot with friction, or slot and lock, or lock and roll.
@@ -950,9 +953,9 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     if (c.count) {
         double r[2];
         for (int i = 0; i < c.count; i++)
-            r[i] = -(free_acceleration(lanes, self, &tube, &shapes, &c.e[i], r_a, r_alpha, rigid,
-                                       &h) +
-                     c.e[i].beta);
+            r[i] =
+                -(free_acceleration(lanes, self, &tube, &shapes, &c.e[i], r_a, r_alpha, rigid, &h) +
+                  c.e[i].beta);
         if (!solve_constraints(self, &tube, &shapes, r, v_tau, &c))
             return LAUNCHING_JAMMED;
         for (int i = 0; i < c.count; i++)
@@ -1000,8 +1003,8 @@ launching_outcome launching_evaluate(const launching_system *self, const launchi
     return evaluate_any(self, input, phase, state, out);
 }
 
-void launching_feet(const launching_system *self, const launching_phase *phase,
-                    const double *state, double *feet)
+void launching_feet(const launching_system *self, const launching_phase *phase, const double *state,
+                    double *feet)
 {
     tube_state tube;
     int lanes = self->tube.nbp / 4;

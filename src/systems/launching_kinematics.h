@@ -1,5 +1,5 @@
-// Section kinematics of the tube in the fast layout: everything at a moving station from one read of
-// the element's shapes. Private to the launching subsystem.
+// Section kinematics of the tube in the fast layout: everything at a moving station from one read
+// of the element's shapes. Private to the launching subsystem.
 #ifndef LD_SYSTEMS_LAUNCHING_KINEMATICS_H
 #define LD_SYSTEMS_LAUNCHING_KINEMATICS_H
 
@@ -20,8 +20,8 @@ LD_INLINE double lane(const v4d *lanes, int j)
 // The deflection of one element as polynomials in xi.
 typedef struct element_motion {
     const packed_element *element;
-    v4d y, z, y_dot, z_dot;          // coefficients of xi^0..3
-    double t[2], t_dot[2];           // torsion: value at x0, slope
+    v4d y, z, y_dot, z_dot; // coefficients of xi^0..3
+    double t[2], t_dot[2];  // torsion: value at x0, slope
 } element_motion;
 
 LD_INLINE void element_load(const launching_system *self, const modal_state *q, int index,
@@ -59,8 +59,8 @@ LD_INLINE double poly2(v4d c, double x)
     return 2 * c[2] + 6 * c[3] * x;
 }
 
-// Section at station x (formulation.md, sections 1 and 3); all vectors in R. Beyond the ends the axis
-// goes on straight (model.md, section 3): forces then act through the end section at `root`.
+// Section at station x (formulation.md, sections 1 and 3); all vectors in R. Beyond the ends the
+// axis goes on straight (model.md, section 3): forces then act through the end section at `root`.
 typedef struct section {
     int index; // element
     double x;  // station
@@ -110,11 +110,11 @@ LD_INLINE void section_load(const launching_system *self, const element_motion *
 
 // Speeds of the section's material relative to R, in R.
 typedef struct section_rates {
-    v3 u_dot;    // Phi q_dot
-    v3 u1_dot;   // Phi' q_dot
-    v3 th_dot;   // Psi q_dot
-    v3 k0_dot;   // Psi' q_dot
-    v3 w;        // Jl Psi q_dot
+    v3 u_dot;  // Phi q_dot
+    v3 u1_dot; // Phi' q_dot
+    v3 th_dot; // Psi q_dot
+    v3 k0_dot; // Psi' q_dot
+    v3 w;      // Jl Psi q_dot
 } section_rates;
 
 LD_INLINE void section_rates_load(const element_motion *motion, const section *s, section_rates *r)
@@ -135,8 +135,8 @@ LD_INLINE void section_rates_load(const element_motion *motion, const section *s
     }
 }
 
-// Station of the section whose plane holds point C (in R): e_x . A_RP(s)^T (C - P(s)) = 0, by Newton
-// from `guess`. On return `motion` and `s` belong to the station.
+// Station of the section whose plane holds point C (in R): e_x . A_RP(s)^T (C - P(s)) = 0, by
+// Newton from `guess`. On return `motion` and `s` belong to the station.
 LD_INLINE void section_foot(const launching_system *self, const modal_state *q, v3 C, double guess,
                             element_motion *motion, section *s)
 {
