@@ -17,7 +17,7 @@ struct integrator {
     integrator_settings settings;
     SUNContext context;
     void *erk;
-    N_Vector y, atol, work;
+    N_Vector y, atol, rtol, work;
     double *previous; // state where the last step began
     double t, t_previous;
     int *found;       // event flags of the last landing
@@ -176,6 +176,16 @@ static int call_events(double t, N_Vector y, double *g, void *user)
     return self->settings.events(t, data(y), g, self->settings.self);
 }
 
+static int error_weights(N_Vector y, N_Vector weights, void *user)
+{
+    integrator *self = user;
+    const double *py = data(y), *rtol = data(self->rtol), *atol = data(self->atol);
+    double *pw = data(weights);
+    FOR_EACH(i, y)
+    pw[i] = 1 / (rtol[i] * fabs(py[i]) + atol[i]);
+    return 0;
+}
+
 // The library's own messages are not for our users: fail() below says what happened.
 static void ignore_message(int code, const char *module, const char *function, char *message,
                            void *user)
@@ -206,7 +216,7 @@ static int configure(integrator *self)
     int bad = 0;
     bad |= ERKStepSetErrHandlerFn(self->erk, ignore_message, NULL);
     bad |= ERKStepSetUserData(self->erk, self);
-    bad |= ERKStepSVtolerances(self->erk, settings->rtol, self->atol);
+    bad |= ERKStepWFtolerances(self->erk, error_weights);
     bad |= ERKStepSetTableNum(self->erk, table_of(settings->method));
     bad |= ERKStepSetInterpolantDegree(self->erk, 3);
     bad |= ERKStepSetMaxNumSteps(self->erk, -1);
@@ -230,8 +240,9 @@ static int allocate(integrator *self)
     replace_operations(self->y);
     vector_const(0, self->y);
     self->atol = N_VClone(self->y);
+    self->rtol = N_VClone(self->y);
     self->work = N_VClone(self->y);
-    return self->atol && self->work ? 0 : -1;
+    return self->atol && self->rtol && self->work ? 0 : -1;
 }
 
 ld_status integrator_create(const integrator_settings *settings, integrator **out, ld_error *error)
@@ -243,7 +254,10 @@ ld_status integrator_create(const integrator_settings *settings, integrator **ou
         integrator_free(self);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the integrator");
     }
-    memcpy(data(self->atol), settings->atol, settings->n * sizeof(double));
+    for (size_t i = 0; i < settings->n; i++) {
+        data(self->atol)[i] = settings->atol[i];
+        data(self->rtol)[i] = settings->absolute && settings->absolute[i] ? 0 : settings->rtol;
+    }
     if (configure(self)) {
         integrator_free(self);
         return ld_fail(error, LD_ERR_NUMERIC, "the integrator refuses its settings");
@@ -262,6 +276,8 @@ void integrator_free(integrator *self)
         N_VDestroy(self->y);
     if (self->atol)
         N_VDestroy(self->atol);
+    if (self->rtol)
+        N_VDestroy(self->rtol);
     if (self->work)
         N_VDestroy(self->work);
     if (self->context)

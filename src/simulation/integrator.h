@@ -3,6 +3,7 @@
 #ifndef LD_SIMULATION_INTEGRATOR_H
 #define LD_SIMULATION_INTEGRATOR_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -24,9 +25,10 @@ typedef enum integrator_method {
 typedef struct integrator_settings {
     size_t n; // states
     integrator_method method;
-    double rtol;        // relative tolerance
-    const double *atol; // [n] absolute tolerance of each state (copied)
-    double max_step;    // 0: none
+    double rtol;          // relative tolerance
+    const double *atol;   // [n] absolute tolerance of each state (copied)
+    const bool *absolute; // [n] states without relative tolerance (copied); NULL: none
+    double max_step;      // 0: none
     integrator_rhs rhs;
     integrator_events events; // NULL: none
     int event_count;

@@ -175,6 +175,9 @@ typedef struct launching_section {
 void launching_section_at(const launching_system *self, const double *state, double x,
                           launching_section *section);
 
+// Rate [m/s] at which adaptor i's offset from the axis grows, the foot's motion included.
+double launching_offset_rate(const launching_system *self, const double *state, int i);
+
 // Feet of the adaptors on the axis [m] (only those not passed), for the events.
 void launching_feet(const launching_system *self, const launching_phase *phase, const double *state,
                     double *feet);

@@ -427,86 +427,142 @@ LD_INLINE void load_rocket(const launching_system *self, const double *state,
     v3_store(out->y + 3, w);
 }
 
+// One adaptor's foot and offset from the axis, in the section's frame.
+typedef struct adaptor_state {
+    element_motion own_motion;
+    section
+        own_section; // foot of the adaptors but the rear one, whose foot is the rocket's section
+    section_rates own_rates;
+    const section *foot;
+    const section_rates *rates;
+    v3 arm;    // from O1, in R
+    v3 C;      // centre, in R
+    v3 offset; // C - P(foot), in R
+    double y, z, y_dot, z_dot;
+} adaptor_state;
+
+LD_INLINE void adaptor_load(const launching_system *self, const tube_state *tube,
+                            const rocket_state *rocket, int i, adaptor_state *adaptor)
+{
+    adaptor->arm = v3_scale(self->adaptor_at[i], m3_column(rocket->A_RB, 0));
+    adaptor->C = v3_add(rocket->p1, adaptor->arm);
+    if (i == 0) {
+        adaptor->foot = &rocket->at;
+        adaptor->offset = rocket->Ad;
+        adaptor->y = rocket->y;
+        adaptor->z = rocket->z;
+        return;
+    }
+    section *foot = &adaptor->own_section;
+    section_foot(self, &tube->modal, adaptor->C, adaptor->C.x, &adaptor->own_motion, foot);
+    adaptor->foot = foot;
+    adaptor->offset = v3_sub(adaptor->C, foot->P);
+    adaptor->y = v3_dot(m3_column(foot->A, 1), adaptor->offset);
+    adaptor->z = v3_dot(m3_column(foot->A, 2), adaptor->offset);
+}
+
+// Rates of the offset, the foot's motion included; v_C: inertial velocity of the centre, in R.
+LD_INLINE void adaptor_rates(const tube_state *tube, const rocket_state *rocket, int i, v3 v_C,
+                             adaptor_state *adaptor)
+{
+    if (i == 0) {
+        adaptor->rates = &rocket->rates;
+        adaptor->y_dot = rocket->y_dot;
+        adaptor->z_dot = rocket->z_dot;
+        return;
+    }
+    const section *foot = adaptor->foot;
+    section_rates *rates = &adaptor->own_rates;
+    section_rates_load(&adaptor->own_motion, foot, rates);
+    adaptor->rates = rates;
+    v3 axis = m3_column(foot->A, 0);
+    v3 column = v3_add(foot->t, v3_cross(m3_apply(foot->Jl, foot->k0), adaptor->offset));
+    v3 slip = v3_sub(v_C, v3_add(tube->v, v3_cross(tube->w, adaptor->C)));
+    slip = v3_sub(slip, v3_add(rates->u_dot, v3_cross(rates->w, adaptor->offset)));
+    slip = v3_axpy(slip, -v3_dot(axis, slip) / v3_dot(axis, column), column);
+    adaptor->y_dot = v3_dot(m3_column(foot->A, 1), slip);
+    adaptor->z_dot = v3_dot(m3_column(foot->A, 2), slip);
+}
+
+// Velocity of the section's material at the point `from_axis` beyond its axis point, in R.
+LD_INLINE v3 section_velocity(const tube_state *tube, const adaptor_state *adaptor, v3 W,
+                              v3 from_axis)
+{
+    const section_rates *rates = adaptor->rates;
+    return v3_add(v3_add(tube->v, v3_cross(tube->w, W)),
+                  v3_add(rates->u_dot, v3_cross(rates->w, from_axis)));
+}
+
+// Spring and damper that hold the adaptor on the axis, at its centre.
+LD_INLINE v3 bilateral_force(const launching_system *self, const tube_state *tube,
+                             const adaptor_state *adaptor, v3 v_C, adaptor_report *report,
+                             launching_output *out)
+{
+    const contact_law *law = &self->contact;
+    double fy = -law->k * adaptor->y - law->c * adaptor->y_dot;
+    double fz = -law->k * adaptor->z - law->c * adaptor->z_dot;
+    v3 force = v3_add(v3_scale(fy, m3_column(adaptor->foot->A, 1)),
+                      v3_scale(fz, m3_column(adaptor->foot->A, 2)));
+    report->normal = report->force = sqrt(fy * fy + fz * fz);
+    v3 v_rel = v3_sub(v_C, section_velocity(tube, adaptor, adaptor->C, adaptor->offset));
+    out->power[POWER_CONTACT_NORMAL] += v3_dot(force, v_rel);
+    return force;
+}
+
+// Normal force and friction at the wall point W.
+LD_INLINE v3 wall_force(const launching_system *self, const launching_phase *phase,
+                        const tube_state *tube, const rocket_state *rocket,
+                        const adaptor_state *adaptor, int i, double e, v3 *W,
+                        adaptor_report *report, launching_output *out)
+{
+    const contact_law *law = &self->contact;
+    double y = adaptor->y, z = adaptor->z;
+    double e_dot = (y * adaptor->y_dot + z * adaptor->z_dot) / e;
+    double normal = contact_normal(law, report->penetration, e_dot, phase->touch_speed[i]);
+    v3 outward = v3_scale(1 / e, v3_add(v3_scale(y, m3_column(adaptor->foot->A, 1)),
+                                        v3_scale(z, m3_column(adaptor->foot->A, 2))));
+    v3 to_wall = v3_scale(self->tube.bore_radius, outward);
+    *W = v3_add(adaptor->foot->P, to_wall);
+    v3 rocket_v = v3_add(rocket->v_O1, v3_cross(rocket->w_B, v3_sub(*W, rocket->p1)));
+    v3 v_rel = v3_sub(rocket_v, section_velocity(tube, adaptor, *W, to_wall));
+    double v_n = v3_dot(v_rel, outward);
+    v3 v_t = v3_axpy(v_rel, -v_n, outward);
+    double mu = phase->frictionless ? 0 : law->mu;
+    double rub = mu * normal / sqrt(v3_norm2(v_t) + law->v_eps * law->v_eps);
+    v3 force = v3_sub(v3_scale(-normal, outward), v3_scale(rub, v_t));
+    report->normal = normal;
+    report->force = v3_norm(force);
+    out->power[POWER_CONTACT_NORMAL] -= normal * v_n;
+    out->power[POWER_CONTACT_FRICTION] -= rub * v3_norm2(v_t);
+    return force;
+}
+
 // One adaptor's contact: force on the rocket about O1 and, opposite at the same point, on the tube.
 LD_INLINE void adaptor_contact(const int lanes, const launching_system *self,
                                const launching_phase *phase, const tube_state *tube,
                                const rocket_state *rocket, int i, tube_force *h, v3 *f_total,
                                v3 *m_total, launching_output *out)
 {
-    const contact_law *law = &self->contact;
     adaptor_report *report = &out->adaptor[i];
-    element_motion foot_motion;
-    section foot_section;
-    const element_motion *motion = &rocket->motion;
-    const section *foot = &rocket->at;
-    v3 arm = v3_scale(self->adaptor_at[i], m3_column(rocket->A_RB, 0));
-    v3 C = v3_add(rocket->p1, arm);
-    v3 offset = rocket->Ad;
-    double y = rocket->y, z = rocket->z;
-    if (i > 0) {
-        section_foot(self, &tube->modal, C, C.x, &foot_motion, &foot_section);
-        motion = &foot_motion;
-        foot = &foot_section;
-        offset = v3_sub(C, foot->P);
-        y = v3_dot(m3_column(foot->A, 1), offset);
-        z = v3_dot(m3_column(foot->A, 2), offset);
-    }
-    double e = sqrt(y * y + z * z);
-    double p = e - self->clearance[i];
-    *report = (adaptor_report){.s = foot->x, .y = y, .z = z, .penetration = p};
-    bool bilateral = law->kind == LD_CONTACT_BILATERAL;
-    if ((p <= 0 || e == 0) && !bilateral)
+    adaptor_state adaptor;
+    adaptor_load(self, tube, rocket, i, &adaptor);
+    double e = sqrt(adaptor.y * adaptor.y + adaptor.z * adaptor.z);
+    double penetration = e - self->clearance[i];
+    *report = (adaptor_report){
+        .s = adaptor.foot->x, .y = adaptor.y, .z = adaptor.z, .penetration = penetration};
+    bool bilateral = self->contact.kind == LD_CONTACT_BILATERAL;
+    if (penetration <= 0 && !bilateral)
         return;
-
-    // rates of the offset, the foot's motion included
-    section_rates foot_rates;
-    const section_rates *rates = &rocket->rates;
-    double y_dot = rocket->y_dot, z_dot = rocket->z_dot;
-    v3 axis_y = m3_column(foot->A, 1), axis_z = m3_column(foot->A, 2);
-    v3 v_C = v3_add(rocket->v_O1, v3_cross(rocket->w_B, arm));
-    if (i > 0) {
-        section_rates_load(motion, foot, &foot_rates);
-        rates = &foot_rates;
-        v3 axis = m3_column(foot->A, 0);
-        v3 column = v3_add(foot->t, v3_cross(m3_apply(foot->Jl, foot->k0), offset));
-        v3 relative = v3_sub(v_C, v3_add(tube->v, v3_cross(tube->w, C)));
-        v3 slip = v3_sub(relative, v3_add(rates->u_dot, v3_cross(rates->w, offset)));
-        slip = v3_axpy(slip, -v3_dot(axis, slip) / v3_dot(axis, column), column);
-        y_dot = v3_dot(axis_y, slip);
-        z_dot = v3_dot(axis_z, slip);
-    }
-    v3 force, W;
-    if (bilateral) {
-        double fy = -law->k * y - law->c * y_dot, fz = -law->k * z - law->c * z_dot;
-        force = v3_add(v3_scale(fy, axis_y), v3_scale(fz, axis_z));
-        W = C;
-        report->normal = report->force = sqrt(fy * fy + fz * fz);
-        v3 section_v = v3_add(v3_add(tube->v, v3_cross(tube->w, W)),
-                              v3_add(rates->u_dot, v3_cross(rates->w, offset)));
-        out->power[POWER_CONTACT_NORMAL] += v3_dot(force, v3_sub(v_C, section_v));
-    } else {
-        double p_dot = (y * y_dot + z * z_dot) / e;
-        double normal = contact_normal(law, p, p_dot, phase->touch_speed[i]);
-        v3 out_of = v3_scale(1 / e, v3_add(v3_scale(y, axis_y), v3_scale(z, axis_z)));
-        v3 to_wall = v3_scale(self->tube.bore_radius, out_of);
-        W = v3_add(foot->P, to_wall);
-        v3 rocket_v = v3_add(rocket->v_O1, v3_cross(rocket->w_B, v3_sub(W, rocket->p1)));
-        v3 section_v = v3_add(v3_add(tube->v, v3_cross(tube->w, W)),
-                              v3_add(rates->u_dot, v3_cross(rates->w, to_wall)));
-        v3 v_rel = v3_sub(rocket_v, section_v);
-        double v_n = v3_dot(v_rel, out_of);
-        v3 v_t = v3_axpy(v_rel, -v_n, out_of);
-        double mu = phase->frictionless ? 0 : law->mu;
-        double rub = mu * normal / sqrt(v3_norm2(v_t) + law->v_eps * law->v_eps);
-        force = v3_sub(v3_scale(-normal, out_of), v3_scale(rub, v_t));
-        report->normal = normal;
-        report->force = v3_norm(force);
-        out->power[POWER_CONTACT_NORMAL] -= normal * v_n;
-        out->power[POWER_CONTACT_FRICTION] -= rub * v3_norm2(v_t);
-    }
+    v3 v_C = v3_add(rocket->v_O1, v3_cross(rocket->w_B, adaptor.arm));
+    adaptor_rates(tube, rocket, i, v_C, &adaptor);
+    v3 W = adaptor.C, force;
+    if (bilateral)
+        force = bilateral_force(self, tube, &adaptor, v_C, report, out);
+    else
+        force = wall_force(self, phase, tube, rocket, &adaptor, i, e, &W, report, out);
     *f_total = v3_add(*f_total, force);
     *m_total = v3_add(*m_total, v3_cross(v3_sub(W, rocket->p1), force));
-    apply_at_section(lanes, self, foot, W, v3_neg(force), h);
+    apply_at_section(lanes, self, adaptor.foot, W, v3_neg(force), h);
 }
 
 // Inverse of the rocket's 6 x 6 mass matrix, by its inertia about the mass centre.
@@ -1018,11 +1074,9 @@ void launching_feet(const launching_system *self, const launching_phase *phase, 
         // far from the tip the sign is all that is asked for
         if (i == 0 || phase->passed[i] || fabs(guess - self->tube.length) > 0.02)
             continue;
-        element_motion motion;
-        section s;
-        v3 C = v3_axpy(rocket.p1, self->adaptor_at[i], m3_column(rocket.A_RB, 0));
-        section_foot(self, &tube.modal, C, C.x, &motion, &s);
-        feet[i] = s.x;
+        adaptor_state adaptor;
+        adaptor_load(self, &tube, &rocket, i, &adaptor);
+        feet[i] = adaptor.foot->x;
     }
 }
 
@@ -1089,4 +1143,19 @@ void launching_section_at(const launching_system *self, const double *state, dou
     out->A = s.A;
     out->v = v3_add(v3_add(tube.v, v3_cross(tube.w, s.P)), rates.u_dot);
     out->w = v3_add(tube.w, rates.w);
+}
+
+double launching_offset_rate(const launching_system *self, const double *state, int i)
+{
+    tube_state tube;
+    rocket_state rocket;
+    launching_output unused;
+    adaptor_state adaptor;
+    load_tube(self->tube.nbp / 4, self, state, &tube);
+    load_rocket(self, state, &tube, &rocket, &unused);
+    adaptor_load(self, &tube, &rocket, i, &adaptor);
+    v3 v_C = v3_add(rocket.v_O1, v3_cross(rocket.w_B, adaptor.arm));
+    adaptor_rates(&tube, &rocket, i, v_C, &adaptor);
+    double e = sqrt(adaptor.y * adaptor.y + adaptor.z * adaptor.z);
+    return (adaptor.y * adaptor.y_dot + adaptor.z * adaptor.z_dot) / e;
 }

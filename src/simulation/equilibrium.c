@@ -1,0 +1,234 @@
+// The start of a launch: undeformed, or in static equilibrium found by Newton's method.
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "math/rotation_vector.h"
+#include "simulation/simulation.h"
+
+enum { MAX_FREEDOMS = 10 + LD_MAX_MODAL };
+
+int simulation_freedoms(const ld_simulation *self)
+{
+    return 10 + self->launching.layout.nq;
+}
+
+void simulation_displace(const ld_simulation *self, int freedom, double change, double *y)
+{
+    const launching_layout *at = &self->launching.layout;
+    if (freedom < 3) {
+        y[at->r + freedom] += change;
+    } else if (freedom < 6) {
+        double axis[3] = {0};
+        axis[freedom - 3] = sin(0.5 * change);
+        quat turn = {cos(0.5 * change), axis[0], axis[1], axis[2]};
+        quat q = q_multiply(q_from(y + at->quaternion), turn);
+        memcpy(y + at->quaternion, &q, sizeof q);
+    } else if (freedom < 6 + at->nq) {
+        y[at->q + freedom - 6] += change;
+    } else {
+        y[at->x + 1 + freedom - 6 - at->nq] += change;
+    }
+}
+
+launching_phase simulation_start_phase(const ld_simulation *self)
+{
+    launching_phase phase = {.rocket = true, .locked = true};
+    const ld_rocket *rocket = &self->model->rocket;
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= self->model->tubes.length;
+        phase.touch_speed[i] = rocket->contact.reference_speed;
+    }
+    return phase;
+}
+
+void simulation_undeformed(const ld_simulation *self, double t, double *y)
+{
+    const launching_layout *at = &self->launching.layout;
+    base_frame base;
+    base_motion_at(&self->base, t, &base);
+    memset(y, 0, (size_t)self->state_count * sizeof(double));
+    v3_store(y + at->r, base.r);
+    memcpy(y + at->quaternion, &base.q, sizeof base.q);
+    y[at->x] = self->model->rocket.start_at;
+}
+
+void simulation_move_with_base(const ld_simulation *self, double t, double *y)
+{
+    const launching_layout *at = &self->launching.layout;
+    base_frame base;
+    launching_output unused;
+    launching_pose pose;
+    base_motion_at(&self->base, t, &base);
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    v3 r = v3_sub(v3_from(y + at->r), base.r);
+    v3 w = m3_apply_transposed(A, base.w);
+    v3 v = m3_apply_transposed(A, v3_add(base.v, v3_cross(base.w, r)));
+    launching_rocket_pose(&self->launching, y, &pose, &unused);
+    v3_store(y + at->v, v);
+    v3_store(y + at->w, w);
+    v3_store(y + at->V, v3_add(v, v3_cross(w, pose.p1)));
+    v3_store(y + at->V + 3, w);
+}
+
+// What must vanish in equilibrium: all accelerations that the lock and the slot leave free.
+static int residual(const ld_simulation *self, const launching_input *input,
+                    const launching_phase *phase, const double *y, double *r)
+{
+    launching_output out;
+    launching_pose pose;
+    const launching_layout *at = &self->launching.layout;
+    if (launching_evaluate(&self->launching, input, phase, y, &out))
+        return -1;
+    launching_rocket_pose(&self->launching, y, &pose, &out);
+    v3_store(r, out.a);
+    v3_store(r + 3, out.w_dot);
+    memcpy(r + 6, out.q_ddot, (size_t)at->nq * sizeof(double));
+    v3 a = m3_apply_transposed(pose.A_RS, out.a_O1);
+    v3 alpha = m3_apply_transposed(pose.A_RS, out.alpha_B);
+    double *rocket = r + 6 + at->nq;
+    rocket[0] = a.y;
+    rocket[1] = a.z;
+    rocket[2] = alpha.z;
+    rocket[3] = alpha.y;
+    return 0;
+}
+
+static double norm(int n, const double *r)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += r[i] * r[i];
+    return sqrt(sum);
+}
+
+// One Newton step by central differences: `step` := -J^-1 r.
+static int newton_step(const ld_simulation *self, const launching_input *input,
+                       const launching_phase *phase, const double *y, const double *r, double *step)
+{
+    int n = simulation_freedoms(self);
+    double J[MAX_FREEDOMS * MAX_FREEDOMS], plus[MAX_FREEDOMS], minus[MAX_FREEDOMS];
+    double trial[LD_MAX_STATES];
+    lapack_int pivot[MAX_FREEDOMS];
+    size_t size = (size_t)self->state_count * sizeof(double);
+    for (int j = 0; j < n; j++) {
+        double h = 1e-8;
+        memcpy(trial, y, size);
+        simulation_displace(self, j, h, trial);
+        int bad = residual(self, input, phase, trial, plus);
+        memcpy(trial, y, size);
+        simulation_displace(self, j, -h, trial);
+        if (bad || residual(self, input, phase, trial, minus))
+            return -1;
+        for (int i = 0; i < n; i++)
+            J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
+        step[j] = -r[j];
+    }
+    return LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, J, n, pivot, step, n);
+}
+
+// Newton with halved steps from the guess in y. Ends where no step makes the residual smaller.
+static double newton(const ld_simulation *self, const launching_input *input,
+                     const launching_phase *phase, double *y)
+{
+    int n = simulation_freedoms(self);
+    size_t size = (size_t)self->state_count * sizeof(double);
+    double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], r_trial[MAX_FREEDOMS];
+    if (residual(self, input, phase, y, r))
+        return INFINITY;
+    double now = norm(n, r);
+    for (int iteration = 0; iteration < 60; iteration++) {
+        if (newton_step(self, input, phase, y, r, step))
+            break;
+        double share = 1, next = INFINITY;
+        for (int halving = 0; halving < 25; halving++, share *= 0.5) {
+            memcpy(trial, y, size);
+            for (int j = 0; j < n; j++)
+                simulation_displace(self, j, share * step[j], trial);
+            if (residual(self, input, phase, trial, r_trial) == 0 &&
+                (next = norm(n, r_trial)) < now)
+                break;
+        }
+        if (!(next < now))
+            break;
+        memcpy(y, trial, size);
+        memcpy(r, r_trial, sizeof r);
+        now = next;
+    }
+    return now;
+}
+
+// Guess: adaptors i and j lie on the wall on the side that gravity pulls to.
+static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, double *y)
+{
+    const ld_rocket *rocket = &self->model->rocket;
+    double *x = y + self->launching.layout.x;
+    double load = 0.5 * rocket->full.mass * self->model->gravity;
+    double depth =
+        self->model->rocket.contact.law == LD_CONTACT_BILATERAL
+            ? 0
+            : rocket->contact.reference_penetration *
+                  pow(load / (rocket->contact.stiffness * rocket->contact.reference_penetration),
+                      1 / rocket->contact.exponent);
+    double lean = hypot(pull.y, pull.z);
+    double e_i = rocket->adaptor[i].clearance + depth, e_j = rocket->adaptor[j].clearance + depth;
+    if (rocket->contact.law == LD_CONTACT_BILATERAL)
+        e_i = e_j = 0;
+    double slope = (e_j - e_i) / (rocket->adaptor[j].at - rocket->adaptor[i].at);
+    double e_0 = e_i - slope * rocket->adaptor[i].at;
+    x[1] = e_0 * pull.y / lean;
+    x[2] = e_0 * pull.z / lean;
+    x[3] = slope * pull.y / lean;
+    x[4] = -slope * pull.z / lean;
+}
+
+static void report(const ld_simulation *self, const launching_input *input,
+                   const launching_phase *phase, const double *y, ld_equilibrium_summary *summary)
+{
+    launching_output out;
+    double r[MAX_FREEDOMS];
+    launching_evaluate(&self->launching, input, phase, y, &out);
+    residual(self, input, phase, y, r);
+    tip_state tip = tip_state_of(self, &input->base, y);
+    *summary = (ld_equilibrium_summary){
+        .lock_force = out.lock_force, .slot_force = out.N, .tip_sag = {tip.offset.y, tip.offset.z}};
+    for (int i = 0; i < self->launching.adaptor_count; i++)
+        summary->contact_force[i] = phase->passed[i] ? 0 : out.adaptor[i].normal;
+    for (int i = 0; i < simulation_freedoms(self); i++)
+        summary->residual = fmax(summary->residual, fabs(r[i]));
+}
+
+ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
+                                 ld_equilibrium_summary *summary, ld_error *error)
+{
+    launching_phase phase = simulation_start_phase(self);
+    launching_input input;
+    phase.frictionless = true;
+    simulation_input(self, t, &input);
+    input.base.v = input.base.w = v3_zero();
+    input.thrust = 0;
+    v3 pull = m3_apply_transposed(input.base.A, v3_make(0, -self->model->gravity, 0));
+    // the adaptors that carry are not known: the outermost pair first, then the others
+    int last = self->launching.adaptor_count - 1;
+    double best = INFINITY, accepted = 1e-6 * (1 + self->model->gravity);
+    while (last > 0 && phase.passed[last])
+        last--;
+    for (int j = last; j > 0 && best > accepted; j--)
+        for (int i = 0; i < j && best > accepted; i++) {
+            if (phase.passed[j] || phase.passed[i])
+                continue;
+            simulation_undeformed(self, t, y);
+            if (hypot(pull.y, pull.z) > 0)
+                guess_contacts(self, i, j, pull, y);
+            best = newton(self, &input, &phase, y);
+        }
+    if (!(best <= accepted))
+        return ld_fail(
+            error, LD_ERR_NUMERIC,
+            "no static equilibrium was found for the start (smallest residual %.3g m/s2): "
+            "is the rocket held by gravity on two adaptors? \"run.start: undeformed\" "
+            "starts without it",
+            best);
+    report(self, &input, &phase, y, summary);
+    return LD_OK;
+}

@@ -1,0 +1,610 @@
+// The run: start, ignition, release, adaptors leaving, end; rows out at the output steps.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "simulation/simulation.h"
+
+// ---- the equations for the integrator ----
+
+void simulation_input(const ld_simulation *self, double t, launching_input *input)
+{
+    double tau = t - self->t_ignition;
+    base_motion_at(&self->base, t, &input->base);
+    input->thrust = motor_thrust(&self->motor, self->piece, tau);
+    motor_mass(&self->motor, self->piece, tau, &input->mass);
+}
+
+launching_outcome simulation_evaluate(const ld_simulation *self, const launching_input *input,
+                                      const launching_phase *phase, const double *y,
+                                      launching_output *output)
+{
+    return launching_evaluate(&self->launching, input, phase, y, output);
+}
+
+// NaN or infinity anywhere makes the sum of 0 y not zero.
+static bool all_finite(int n, const double *y)
+{
+    double sum[4] = {0};
+    for (int i = 0; i < n; i++)
+        sum[i & 3] += 0 * y[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0;
+}
+
+static int rhs(double t, const double *y, double *y_dot, void *user)
+{
+    ld_simulation *self = user;
+    launching_input input;
+    launching_output out;
+    simulation_input(self, t, &input);
+    launching_outcome outcome = simulation_evaluate(self, &input, &self->phase, y, &out);
+    self->jammed = outcome == LAUNCHING_JAMMED;
+    if (outcome)
+        return -1;
+    launching_rates(&self->launching, y, &out, self->phase.rocket, y_dot);
+    memcpy(y_dot + self->work, out.power, sizeof out.power);
+    return all_finite(self->state_count, y_dot) ? 0 : -1;
+}
+
+// Events: lock release, then each adaptor at the tip, then (lankarani-nikravesh alone) its
+// touching.
+static int events(double t, const double *y, double *g, void *user)
+{
+    ld_simulation *self = user;
+    int count = self->launching.adaptor_count;
+    double feet[LD_MAX_ADAPTORS];
+    const launching_phase *phase = &self->phase;
+    for (int i = 0; i < 1 + 2 * count; i++)
+        g[i] = 1;
+    if (!phase->rocket)
+        return 0;
+    bool touching = self->launching.contact.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
+    if (phase->locked || touching) {
+        launching_input input;
+        launching_output out;
+        simulation_input(self, t, &input);
+        if (simulation_evaluate(self, &input, phase, y, &out))
+            return -1;
+        if (phase->locked)
+            g[0] = self->model->rocket.lock.present
+                       ? 1 - out.lock_force / self->model->rocket.lock.release_force
+                       : 1;
+        for (int i = 0; i < count && touching; i++)
+            if (!phase->passed[i])
+                g[1 + count + i] = out.adaptor[i].penetration / 1e-3;
+    }
+    launching_feet(&self->launching, phase, y, feet);
+    for (int i = 0; i < count; i++)
+        if (!phase->passed[i])
+            g[1 + i] = (self->launching.tube.length - feet[i]) / self->launching.tube.length;
+    return 0;
+}
+
+// ---- life ----
+
+static int event_count(const ld_simulation *self)
+{
+    return 1 + 2 * self->launching.adaptor_count;
+}
+
+ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
+{
+    clock_t start = clock();
+    ld_simulation *self = calloc(1, sizeof *self);
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
+    self->model = model;
+    ld_status status = launching_build(&self->launching, model, error);
+    if (!status)
+        status = base_motion_build(&self->base, &model->base, error);
+    if (!status)
+        status = motor_build(&self->motor, &model->rocket, error);
+    if (status) {
+        ld_simulation_free(self);
+        return status;
+    }
+    self->work = self->launching.layout.count;
+    self->state_count = self->work + POWER_COUNT;
+    self->t_ignition = model->firing[0].at;
+    history_build(self);
+    self->cpu_seconds_setup = (double)(clock() - start) / CLOCKS_PER_SEC;
+    *out = self;
+    return LD_OK;
+}
+
+void ld_simulation_free(ld_simulation *self)
+{
+    if (!self)
+        return;
+    launching_free(&self->launching);
+    base_motion_free(&self->base);
+    motor_free(&self->motor);
+    free(self);
+}
+
+// ---- a run ----
+
+typedef struct launch_run {
+    ld_simulation *self;
+    const ld_run_options *options;
+    ld_summary *summary;
+    ld_error *error;
+    integrator *integrator;
+    double *row;         // one row of the history
+    double *between;     // state between steps
+    double energy_start; // [J]
+    double t_start, t_end;
+    double next_output;   // time of the next row
+    int64_t output_index; // rows since the last change of the output step
+    double output_from;   // where that was
+    double last_row;      // time of the last row written
+    double next_progress;
+    double greatest_lock_force;
+} launch_run;
+
+static double output_step(const launch_run *run, double t)
+{
+    const ld_run_settings *settings = &run->self->model->run;
+    return t < run->self->t_ignition ? settings->output_step_lead_in : settings->output_step_tube;
+}
+
+static ld_status write_row(launch_run *run, double t, const double *y)
+{
+    const ld_sink *sink = run->options ? run->options->sink : NULL;
+    if (!sink || t == run->last_row)
+        return LD_OK;
+    run->last_row = t;
+    history_row(run->self, t, y, run->energy_start, run->row);
+    return sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
+}
+
+// Rows that fell into the last step.
+static ld_status write_rows(launch_run *run)
+{
+    double now = integrator_time(run->integrator);
+    while (run->options && run->options->sink && run->next_output <= now) {
+        double t = run->next_output;
+        integrator_interpolate(run->integrator, t, run->between);
+        ld_status status = write_row(run, t, run->between);
+        if (status)
+            return status;
+        run->output_index++;
+        run->next_output =
+            run->output_from + (double)run->output_index * output_step(run, run->output_from);
+    }
+    return LD_OK;
+}
+
+static void restart_output(launch_run *run, double t)
+{
+    run->output_from = t;
+    run->output_index = 1;
+    run->next_output = t + output_step(run, t);
+}
+
+// Integrator's tolerances: the model's relative tolerance, and per kind of state what it is of.
+// Positions in I have no relative part: a vehicle may be far from the origin.
+static ld_status make_integrator(launch_run *run)
+{
+    ld_simulation *self = run->self;
+    const launching_layout *at = &self->launching.layout;
+    double tolerance = self->model->run.tolerance, atol[LD_MAX_STATES];
+    bool absolute[LD_MAX_STATES] = {false};
+    for (int i = 0; i < self->state_count; i++)
+        atol[i] = 1e300; // works are quadratures: they do not steer the step
+    for (int i = 0; i < 3; i++) {
+        atol[at->r + i] = 1e-2 * tolerance;
+        absolute[at->r + i] = true;
+        atol[at->v + i] = atol[at->w + i] = tolerance;
+        atol[at->x + i] = i == 0 ? tolerance : 1e-2 * tolerance;
+        atol[at->x + 3 + i] = 1e-2 * tolerance;
+        atol[at->V + i] = atol[at->V + 3 + i] = tolerance;
+    }
+    for (int i = 0; i < 4; i++)
+        atol[at->quaternion + i] = 1e-2 * tolerance;
+    for (int i = 0; i < at->nq; i++) {
+        atol[at->q + i] = 1e-2 * tolerance;
+        atol[at->q_dot + i] = tolerance;
+    }
+    integrator_settings settings = {
+        .n = (size_t)self->state_count,
+        .method = INTEGRATOR_DORMAND_PRINCE,
+        .rtol = tolerance,
+        .atol = atol,
+        .absolute = absolute,
+        .max_step = 2e-4, // longer steps could pass over a first touch
+        .rhs = rhs,
+        .events = events,
+        .event_count = event_count(self),
+        .self = self,
+    };
+    return integrator_create(&settings, &run->integrator, run->error);
+}
+
+static void set_up_phase(launch_run *run)
+{
+    ld_simulation *self = run->self;
+    self->phase = simulation_start_phase(self);
+    self->piece = -1;
+    self->jammed = false;
+    ld_rocket_summary *rocket = &run->summary->rocket[0];
+    run->summary->rocket_count = 1;
+    rocket->tube = self->model->firing[0].tube;
+    rocket->t_ignition = self->t_ignition;
+    rocket->t_release = rocket->t_front = rocket->t_middle = rocket->t_rear = NAN;
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        rocket->t_exit[i] = NAN;
+    rocket->muzzle_speed = rocket->inertial_speed = rocket->spin_rate = NAN;
+    rocket->pitch = rocket->yaw = rocket->pitch_rate = rocket->yaw_rate = NAN;
+    double *relative = &rocket->relative.y, *tip = &rocket->tip.y;
+    for (int i = 0; i < 8; i++)
+        relative[i] = tip[i] = NAN;
+}
+
+static ld_status find_start(launch_run *run, double *y)
+{
+    ld_simulation *self = run->self;
+    ld_status status = LD_OK;
+    if (self->model->run.start == LD_START_EQUILIBRIUM)
+        status =
+            simulation_equilibrium(self, run->t_start, y, &run->summary->equilibrium, run->error);
+    else
+        simulation_undeformed(self, run->t_start, y);
+    simulation_move_with_base(self, run->t_start, y);
+    return status;
+}
+
+// ---- what happens at events ----
+
+static void record_exit(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    const launching_layout *at = &self->launching.layout;
+    ld_rocket_summary *rocket = &run->summary->rocket[0];
+    launching_output out;
+    launching_pose pose;
+    base_frame base;
+    launching_rocket_pose(&self->launching, y, &pose, &out);
+    base_motion_at(&self->base, t, &base);
+    m3 A_IR = q_matrix(q_from(y + at->quaternion));
+    v3 axis = m3_column(pose.A_RB, 0);
+    direction_angles angles =
+        direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(pose.w_B, axis)));
+    rocket->muzzle_speed = out.y[0];
+    rocket->inertial_speed = v3_norm(pose.v_O1);
+    rocket->spin_rate = v3_dot(axis, pose.w_B);
+    rocket->pitch = angles.pitch;
+    rocket->yaw = angles.yaw;
+    rocket->pitch_rate = angles.pitch_rate;
+    rocket->yaw_rate = angles.yaw_rate;
+    memcpy(&rocket->relative.y, y + at->x + 1, 5 * sizeof(double));
+    memcpy(&rocket->relative.w_x, out.y + 3, 3 * sizeof(double));
+    tip_state tip = tip_state_of(self, &base, y);
+    rocket->tip.y = tip.offset.y;
+    rocket->tip.z = tip.offset.z;
+    rocket->tip.pitch = tip.angles.pitch;
+    rocket->tip.yaw = tip.angles.yaw;
+    rocket->tip.vy = tip.offset_dot.y;
+    rocket->tip.vz = tip.offset_dot.z;
+    rocket->tip.pitch_rate = tip.angles.pitch_rate;
+    rocket->tip.yaw_rate = tip.angles.yaw_rate;
+}
+
+static void pass_adaptor(launch_run *run, int i, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    ld_rocket_summary *rocket = &run->summary->rocket[0];
+    int count = self->launching.adaptor_count;
+    double since = t - self->t_ignition;
+    self->phase.passed[i] = true;
+    rocket->t_exit[i] = since;
+    if (i == 0) {
+        rocket->t_rear = since;
+        record_exit(run, t, y);
+    } else if (i == count - 1) {
+        rocket->t_front = since;
+    } else if (count == 3) {
+        rocket->t_middle = since;
+    }
+}
+
+// Rear adaptor out: the rocket goes; the balance goes on without its energy.
+static void let_rocket_go(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    launching_input input;
+    simulation_input(self, t, &input);
+    double with = launching_kinetic_energy(&self->launching, &input, &self->phase, y);
+    self->phase.rocket = false;
+    double without = launching_kinetic_energy(&self->launching, &input, &self->phase, y);
+    run->energy_start -= with - without;
+}
+
+// Switches what the events just located say; true where the equations changed.
+static bool switch_phase(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    int count = self->launching.adaptor_count;
+    bool changed = false;
+    if (self->phase.locked && integrator_event(run->integrator, 0) < 0) {
+        self->phase.locked = false;
+        run->summary->rocket[0].t_release = t - self->t_ignition;
+        changed = true;
+    }
+    for (int i = count - 1; i >= 0; i--) {
+        if (!self->phase.passed[i] && integrator_event(run->integrator, 1 + i) < 0) {
+            pass_adaptor(run, i, t, y);
+            changed = true;
+        }
+        if (!self->phase.passed[i] && integrator_event(run->integrator, 1 + count + i) > 0) {
+            // first touch: its speed is kept for the whole contact
+            self->phase.touch_speed[i] = fmax(launching_offset_rate(&self->launching, y, i),
+                                              1e-3 * self->launching.contact.v_0);
+            changed = true;
+        }
+    }
+    if (self->phase.rocket && self->phase.passed[0]) {
+        let_rocket_go(run, t, y);
+        changed = true;
+    }
+    return changed;
+}
+
+// Largest contact and slot forces so far.
+static void watch_forces(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    if (!self->phase.rocket)
+        return;
+    ld_rocket_summary *rocket = &run->summary->rocket[0];
+    launching_input input;
+    launching_output out;
+    simulation_input(self, t, &input);
+    if (simulation_evaluate(self, &input, &self->phase, y, &out))
+        return;
+    for (int i = 0; i < self->launching.adaptor_count; i++)
+        if (!self->phase.passed[i])
+            rocket->max_contact_force[i] = fmax(rocket->max_contact_force[i], out.adaptor[i].force);
+    rocket->max_slot_force = fmax(rocket->max_slot_force, fabs(out.N));
+    if (self->phase.locked)
+        run->greatest_lock_force = fmax(run->greatest_lock_force, out.lock_force);
+}
+
+// ---- what ends a run early ----
+
+static ld_status check_tube(launch_run *run, double t, const double *y)
+{
+    launching_section tip;
+    double length = run->self->launching.tube.length;
+    launching_section_at(&run->self->launching, y, length, &tip);
+    double sag = hypot(tip.P.y, tip.P.z);
+    if (sag > 0.2 * length || tip.A.a[0][0] < 0.8)
+        return ld_fail(
+            run->error, LD_ERR_NUMERIC,
+            "the tube bends beyond what small deflections allow at t = %.6g s: its tip is "
+            "%.3g m off the axis of its %.3g m",
+            t, sag, length);
+    return LD_OK;
+}
+
+static ld_status check_progress(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    const ld_rocket *rocket = &self->model->rocket;
+    double since = t - self->t_ignition, s = y[self->launching.layout.x];
+    if (!self->phase.rocket)
+        return LD_OK;
+    if (s < 0)
+        return ld_fail(run->error, LD_ERR_LAUNCH,
+                       "the rocket slid out of the tube's rear end at t = %.6g s", t);
+    if (since < self->model->run.stuck_time)
+        return LD_OK;
+    if (self->phase.locked)
+        return ld_fail(
+            run->error, LD_ERR_LAUNCH,
+            "the lock never let go: it carried at most %.6g N of the release force %.6g N "
+            "by %.4g s after ignition",
+            run->greatest_lock_force, rocket->lock.release_force, since);
+    return ld_fail(
+        run->error, LD_ERR_LAUNCH,
+        "the rocket is stuck in the tube: its rear adaptor is at %.4g m of %.4g m, %.4g s "
+        "after ignition",
+        s, self->launching.tube.length, since);
+}
+
+static ld_status check_base(launch_run *run, double t)
+{
+    if (base_motion_covers(&run->self->base, t))
+        return LD_OK;
+    return ld_fail(run->error, LD_ERR_INPUT,
+                   "the table of the base's motion does not cover t = %.6g s", t);
+}
+
+static ld_status report_progress(launch_run *run, double t)
+{
+    const ld_run_options *options = run->options;
+    if (!options || !options->progress || t < run->next_progress)
+        return LD_OK;
+    run->next_progress = t + 1e-3;
+    // a launch's end is not known: the travel's share is the estimate
+    const ld_simulation *self = run->self;
+    double length = self->launching.tube.length, s0 = self->model->rocket.start_at;
+    double s = integrator_state(run->integrator)[self->launching.layout.x];
+    double in_tube = fmin(1, sqrt(fmax(0, (s - s0) / (length - s0))));
+    double lead_in = self->t_ignition - run->t_start;
+    double expected = lead_in + 0.2;
+    double share =
+        t < self->t_ignition ? (t - run->t_start) / expected : (lead_in + 0.2 * in_tube) / expected;
+    if (!options->progress(options->self, share))
+        return ld_fail(run->error, LD_ERR_INTERRUPTED, "interrupted at t = %.6g s", t);
+    return LD_OK;
+}
+
+// ---- the loop ----
+
+// The next instant at which the step must end: ignition, a corner of the thrust, the end.
+static double next_stop(const launch_run *run, double t)
+{
+    const ld_simulation *self = run->self;
+    double stop = run->t_end;
+    if (t < self->t_ignition)
+        return fmin(stop, self->t_ignition);
+    int next = self->piece + 1;
+    if (next < (int)self->motor.corner_count)
+        stop = fmin(stop, self->t_ignition + self->motor.t[next]);
+    return stop;
+}
+
+// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve.
+static bool pass_stop(launch_run *run, double t)
+{
+    ld_simulation *self = run->self;
+    bool changed = false;
+    while (t >= self->t_ignition && self->piece + 1 < (int)self->motor.corner_count &&
+           t >= self->t_ignition + self->motor.t[self->piece + 1]) {
+        self->piece++;
+        changed = true;
+    }
+    if (t >= self->t_ignition && self->phase.locked && !self->model->rocket.lock.present) {
+        self->phase.locked = false;
+        run->summary->rocket[0].t_release = t - self->t_ignition;
+        changed = true;
+    }
+    return changed;
+}
+
+static bool finished(const launch_run *run, double t)
+{
+    const ld_simulation *self = run->self;
+    if (self->model->run.end == LD_END_TIP)
+        return !self->phase.rocket;
+    return t >= run->t_end;
+}
+
+static ld_status step_failed(launch_run *run)
+{
+    if (!run->self->jammed)
+        return LD_ERR_NUMERIC;
+    return ld_fail(run->error, LD_ERR_LAUNCH,
+                   "the knob jams in the slot at t = %.6g s: with this angle and friction no slot "
+                   "force fulfils the constraint",
+                   integrator_time(run->integrator));
+}
+
+static ld_status after_step(launch_run *run, integrator_outcome outcome)
+{
+    ld_simulation *self = run->self;
+    double t = integrator_time(run->integrator);
+    const double *y = integrator_state(run->integrator);
+    ld_status status = write_rows(run);
+    watch_forces(run, t, y);
+    if (!status && outcome != INTEGRATOR_STEPPED)
+        status = write_row(run, t, y);
+    bool changed = outcome == INTEGRATOR_EVENT && switch_phase(run, t, y);
+    if (outcome == INTEGRATOR_STOPPED) {
+        bool igniting = t == self->t_ignition && self->piece < 0;
+        changed = pass_stop(run, t);
+        if (igniting)
+            restart_output(run, t);
+    }
+    if (!status)
+        status = check_tube(run, t, y);
+    if (!status)
+        status = check_progress(run, t, y);
+    if (!status)
+        status = check_base(run, t);
+    if (!status)
+        status = report_progress(run, t);
+    if (!status && (changed || outcome == INTEGRATOR_EVENT))
+        status = integrator_start(run->integrator, t, y, run->error);
+    return status;
+}
+
+static ld_status loop(launch_run *run)
+{
+    double t = integrator_time(run->integrator);
+    while (!finished(run, t)) {
+        integrator_outcome outcome =
+            integrator_step(run->integrator, next_stop(run, t), run->error);
+        if (outcome == INTEGRATOR_FAILED)
+            return step_failed(run);
+        t = integrator_time(run->integrator);
+        ld_status status = after_step(run, outcome);
+        if (status)
+            return status;
+    }
+    return LD_OK;
+}
+
+static ld_status begin(launch_run *run)
+{
+    ld_simulation *self = run->self;
+    double y[LD_MAX_STATES];
+    run->t_start =
+        self->t_ignition < -self->model->run.lead_in ? self->t_ignition : -self->model->run.lead_in;
+    run->t_end = self->model->run.end == LD_END_TIME ? self->t_ignition + self->model->run.end_time
+                                                     : INFINITY;
+    run->last_row = NAN;
+    set_up_phase(run);
+    ld_status status = check_base(run, run->t_start);
+    if (!status)
+        status = find_start(run, y);
+    const ld_sink *sink = run->options ? run->options->sink : NULL;
+    if (!status && sink)
+        status = sink->begin(sink->self, self->column, (size_t)self->column_count, run->error);
+    if (status)
+        return status;
+    ld_energy energy;
+    simulation_energy(self, run->t_start, y, 0, &energy);
+    run->energy_start = energy.kinetic + energy.potential + energy.elastic;
+    if (run->t_start >= self->t_ignition)
+        pass_stop(run, run->t_start);
+    restart_output(run, run->t_start);
+    run->next_progress = run->t_start;
+    status = make_integrator(run);
+    if (!status)
+        status = integrator_start(run->integrator, run->t_start, y, run->error);
+    return status ? status : write_row(run, run->t_start, y);
+}
+
+static void summarise(launch_run *run, ld_status status, double cpu_seconds)
+{
+    ld_simulation *self = run->self;
+    ld_summary *summary = run->summary;
+    summary->complete = status == LD_OK;
+    if (status)
+        memcpy(summary->stopped, run->error->text, sizeof summary->stopped);
+    summary->statistics.cpu_seconds = cpu_seconds;
+    summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
+    summary->mode_count = ld_simulation_tube_modes(self, summary->mode, LD_MAX_MODES);
+    if (!run->integrator)
+        return;
+    double t = integrator_time(run->integrator);
+    summary->t_end = t;
+    simulation_energy(self, t, integrator_state(run->integrator), run->energy_start,
+                      &summary->energy);
+    summary->statistics.steps = integrator_steps(run->integrator);
+    summary->statistics.rhs_evaluations = integrator_evaluations(run->integrator);
+}
+
+ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,
+                            ld_error *error)
+{
+    ld_error own;
+    clock_t start = clock();
+    memset(summary, 0, sizeof *summary);
+    double row[LD_MAX_COLUMNS], between[LD_MAX_STATES];
+    launch_run run = {.self = self,
+                      .options = options,
+                      .summary = summary,
+                      .error = error ? error : &own,
+                      .row = row,
+                      .between = between};
+    ld_status status = begin(&run);
+    if (!status)
+        status = loop(&run);
+    summarise(&run, status, (double)(clock() - start) / CLOCKS_PER_SEC);
+    integrator_free(run.integrator);
+    return status;
+}

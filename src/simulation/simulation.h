@@ -1,0 +1,81 @@
+// Inside of a simulation: the system computed once, the state's layout, what is switched by events.
+#ifndef LD_SIMULATION_SIMULATION_H
+#define LD_SIMULATION_SIMULATION_H
+
+#include "elements/motor.h"
+#include "launchdyn/simulation.h"
+#include "simulation/integrator.h"
+#include "systems/launching.h"
+
+enum { LD_MAX_STATES = 32 + 2 * LD_MAX_MODAL + POWER_COUNT, LD_MAX_COLUMNS = 512 };
+
+struct ld_simulation {
+    const ld_model *model;
+    base_motion base;
+    motor motor;
+    launching_system launching;
+    int work; // offset of the works in the state
+    int state_count;
+
+    // of a run
+    launching_phase phase;
+    double t_ignition;
+    int piece; // of the thrust curve
+    bool jammed;
+    double greatest_lock_force;
+
+    int column_count;
+    ld_column column[LD_MAX_COLUMNS];
+    char column_text[LD_MAX_COLUMNS][2][96]; // names and descriptions of columns that are counted
+    double cpu_seconds_setup;
+};
+
+// Thrust, mass and base at time t.
+void simulation_input(const ld_simulation *self, double t, launching_input *input);
+
+// Accelerations at (t, y), by the formulation that the model asks for.
+launching_outcome simulation_evaluate(const ld_simulation *self, const launching_input *input,
+                                      const launching_phase *phase, const double *y,
+                                      launching_output *output);
+
+// Puts tube and rocket at rest on the base at time t, straight (model.md, section 5).
+void simulation_undeformed(const ld_simulation *self, double t, double *y);
+
+// Static equilibrium on the base held still in its pose at t; fills the summary.
+ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
+                                 ld_equilibrium_summary *summary, ld_error *error);
+
+// Gives tube and rocket the base's velocity at t, as one rigid body with it.
+void simulation_move_with_base(const ld_simulation *self, double t, double *y);
+
+// Degrees of freedom besides the rocket's travel and roll, and their small changes:
+// R's place and attitude (6), q, then y_S, z_S, psi, theta.
+int simulation_freedoms(const ld_simulation *self);
+void simulation_displace(const ld_simulation *self, int freedom, double change, double *y);
+
+// Phase before ignition: rocket in the tube, lock closed, no adaptor beyond the tip.
+launching_phase simulation_start_phase(const ld_simulation *self);
+
+// History: column names once, then a row of values.
+void history_build(ld_simulation *self);
+void history_row(const ld_simulation *self, double t, const double *y, double energy_start,
+                 double *row);
+// Energies and balance at (t, y).
+void simulation_energy(const ld_simulation *self, double t, const double *y, double energy_start,
+                       ld_energy *energy);
+
+// Direction angles: pitch and yaw of d (any length) and their rates under d_dot (model.md, section
+// 1).
+typedef struct direction_angles {
+    double pitch, yaw, pitch_rate, yaw_rate;
+} direction_angles;
+direction_angles direction_angles_of(v3 d, v3 d_dot);
+
+// The tip's section against the undeformed tube, in the base's tube axes.
+typedef struct tip_state {
+    v3 offset, offset_dot;
+    direction_angles angles;
+} tip_state;
+tip_state tip_state_of(const ld_simulation *self, const base_frame *base, const double *y);
+
+#endif
