@@ -238,9 +238,8 @@ static ld_status solve_clamped(tube_line *line, double *F, double *M, ld_error *
                        inertia[line->kind]);
     if (!good)
         return ld_fail(error, LD_ERR_NUMERIC,
-                       "the eigenproblem of the clamped tube failed (LAPACK info %d): is a "
-                       "stiffness or a mass out of all proportion?",
-                       info);
+                       "the modes of the clamped tube cannot be found: is a stiffness or a mass "
+                       "not finite or out of all proportion?");
     return LD_OK;
 }
 

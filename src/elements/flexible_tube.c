@@ -112,9 +112,8 @@ static ld_status solve_free(const tube_line *line, const line_ties *ties, double
     free(B);
     if (info || !(lambda[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC,
-                       "the eigenproblem of the tube on its supports failed (LAPACK info %d): is "
-                       "a stiffness or a mass out of all proportion?",
-                       info);
+                       "the modes of the tube on its supports cannot be found: is a stiffness or "
+                       "a mass not finite or out of all proportion?");
     for (int k = 0; k < N; k++)
         lambda[k] = fmax(0, 1 / lambda[k] - sigma);
     return LD_OK;
@@ -171,8 +170,7 @@ static ld_status diagonalise(const tube_line *line, const double *part, line_sha
         }
     int info = symmetric_eigen(EIGEN_STANDARD, m, mass, NULL, value);
     if (info || !(value[0] > 0))
-        return ld_fail(error, LD_ERR_NUMERIC, "the tube's modes are not independent (info %d)",
-                       info);
+        return ld_fail(error, LD_ERR_NUMERIC, "the tube's modes are not independent");
     for (int k = 0; k < m; k++) {
         const double *mix = &mass[(m - 1 - k) * m];
         double *nodal = &shapes->nodal[k * n], omega = 1 / sqrt(value[m - 1 - k]);
@@ -311,7 +309,12 @@ static void fill_cross(flexible_tube *tube, const tube_mesh *mesh, const ld_tube
     }
 }
 
-static ld_status check_counts(const ld_tubes *model, ld_error *error)
+static bool on_tube(const ld_tubes *model, double x)
+{
+    return x >= 0 && x <= model->length;
+}
+
+static ld_status check_model(const ld_tubes *model, ld_error *error)
 {
     const ld_modes *modes = &model->modes;
     if (modes->bending < 1 || modes->bending > LD_NB || modes->torsion < 0 ||
@@ -322,6 +325,17 @@ static ld_status check_counts(const ld_tubes *model, ld_error *error)
                        LD_NB, LD_NT, LD_NA, modes->bending, modes->torsion, modes->axial);
     if (modes->elements < 1 || !(model->length > 0) || model->section_count < 1)
         return ld_fail(error, LD_ERR_INPUT, "a tube needs a length, a section and an element");
+    bool inside = true;
+    for (int i = 0; i < model->section_count; i++)
+        inside = inside && on_tube(model, model->section[i].from);
+    for (int i = 0; i < model->point_mass_count; i++)
+        inside = inside && on_tube(model, model->point_mass[i].at);
+    for (int i = 0; i < model->support_count; i++)
+        inside = inside && on_tube(model, model->support[i].at);
+    if (!inside)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a section, point mass or support lies outside the tube's length of %g m",
+                       model->length);
     return LD_OK;
 }
 
@@ -389,7 +403,7 @@ ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_err
                             .length = model->length,
                             .bore_radius = model->section[0].bore_radius,
                             .support_count = model->support_count};
-    ld_status status = check_counts(model, error);
+    ld_status status = check_model(model, error);
     if (!status)
         status = tube_mesh_build(&mesh, model, error);
     for (int kind = 0; kind < 3 && !status; kind++)
