@@ -24,7 +24,12 @@ static ld_tubes unit_tube(int elements, int modes, ld_mode_span span)
 {
     return (ld_tubes){.length = 1,
                       .section_count = 1,
-                      .section[0] = {0, 0.1, 1, 1, 1, 1, 1},
+                      .section[0] = {.bore_radius = 0.1,
+                                     .mass_per_length = 1,
+                                     .axial_stiffness = 1,
+                                     .bending_stiffness = 1,
+                                     .torsion_stiffness = 1,
+                                     .polar_inertia = 1},
                       .modes = {modes, modes < LD_NT ? modes : LD_NT, modes < LD_NA ? modes : LD_NA,
                                 elements, span, 0.01}};
 }
@@ -272,7 +277,8 @@ static void exact_frequencies(const ld_tubes *model, int family, double step, in
                               double *root)
 {
     double omega = step, value = characteristic(model, family, omega);
-    for (int found = 0; found < count; omega += step) {
+    int found = 0;
+    while (found < count) {
         double next = characteristic(model, family, omega + step);
         if ((value < 0) != (next < 0)) {
             double low = omega, high = omega + step;
@@ -286,6 +292,7 @@ static void exact_frequencies(const ld_tubes *model, int family, double step, in
             root[found++] = 0.5 * (low + high);
         }
         value = next;
+        omega += step;
     }
 }
 
