@@ -122,6 +122,23 @@ JET_INLINE jet jet_mul(jet a, jet b)
     return r;
 }
 
+// r += a b
+JET_INLINE void jet_accumulate(jet *r, const jet *a, const jet *b)
+{
+    r->v += a->v * b->v;
+    r->t += a->t * b->v + a->v * b->t;
+    r->e += a->e * b->v + a->v * b->e;
+    r->te += a->te * b->v + a->t * b->e + a->e * b->t + a->v * b->te;
+    int n = a->n ? a->n : b->n;
+    for (int k = r->n; k < n; k++)
+        r->d[k] = 0;
+    r->n = n ? n : r->n;
+    for (int k = 0; k < a->n; k++)
+        r->d[k] += a->d[k] * b->v;
+    for (int k = 0; k < b->n; k++)
+        r->d[k] += b->d[k] * a->v;
+}
+
 // f(a), of f and its first two derivatives at a.v.
 JET_INLINE jet jet_apply(jet a, double f, double f1, double f2)
 {
@@ -186,9 +203,10 @@ JET_INLINE jet3 jet3_sub(const jet3 *a, const jet3 *b)
 
 JET_INLINE jet jet3_dot(const jet3 *a, const jet3 *b)
 {
-    jet r = jet_mul(a->c[0], b->c[0]);
-    r = jet_add(r, jet_mul(a->c[1], b->c[1]));
-    return jet_add(r, jet_mul(a->c[2], b->c[2]));
+    jet r = jet_constant(0);
+    for (int i = 0; i < 3; i++)
+        jet_accumulate(&r, &a->c[i], &b->c[i]);
+    return r;
 }
 
 JET_INLINE jet33 jet33_constant(const double A[3][3])
@@ -219,9 +237,9 @@ JET_INLINE jet3 jet33_turn(const jet33 *A, const jet3 *a)
 {
     jet3 r;
     for (int i = 0; i < 3; i++) {
-        r.c[i] = jet_mul(A->c[i][0], a->c[0]);
-        r.c[i] = jet_add(r.c[i], jet_mul(A->c[i][1], a->c[1]));
-        r.c[i] = jet_add(r.c[i], jet_mul(A->c[i][2], a->c[2]));
+        r.c[i] = jet_constant(0);
+        for (int j = 0; j < 3; j++)
+            jet_accumulate(&r.c[i], &A->c[i][j], &a->c[j]);
     }
     return r;
 }
@@ -229,19 +247,24 @@ JET_INLINE jet3 jet33_turn(const jet33 *A, const jet3 *a)
 // A^T a
 JET_INLINE jet3 jet33_turn_back(const jet33 *A, const jet3 *a)
 {
-    jet33 At = jet33_transpose(A);
-    return jet33_turn(&At, a);
+    jet3 r;
+    for (int i = 0; i < 3; i++) {
+        r.c[i] = jet_constant(0);
+        for (int j = 0; j < 3; j++)
+            jet_accumulate(&r.c[i], &A->c[j][i], &a->c[j]);
+    }
+    return r;
 }
 
 JET_INLINE jet33 jet33_mul(const jet33 *A, const jet33 *B)
 {
     jet33 r;
-    for (int j = 0; j < 3; j++) {
-        jet3 column = jet33_column(B, j);
-        column = jet33_turn(A, &column);
-        for (int i = 0; i < 3; i++)
-            r.c[i][j] = column.c[i];
-    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            r.c[i][j] = jet_constant(0);
+            for (int k = 0; k < 3; k++)
+                jet_accumulate(&r.c[i][j], &A->c[i][k], &B->c[k][j]);
+        }
     return r;
 }
 

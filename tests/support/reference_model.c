@@ -113,3 +113,12 @@ void reference_model(ld_model *model)
                                    .output_step_tube = 1e-4,
                                    .stuck_time = 2};
 }
+
+void reference_model_free(ld_model *model)
+{
+    free(model->title);
+    free(model->tubes.slot.angle.data);
+    free(model->rocket.motor.thrust.data);
+    free(model->base.motion.data);
+    memset(model, 0, sizeof *model);
+}

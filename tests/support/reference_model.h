@@ -5,8 +5,11 @@
 
 #include "launchdyn/model.h"
 
-// Fills `model`; free with ld_model_free().
+// Fills `model`; free with reference_model_free() or ld_model_free().
 void reference_model(ld_model *model);
+
+// Frees what reference_model() and reference_table() allocated in `model`.
+void reference_model_free(ld_model *model);
 
 // A table of its own copy of `data`, rows x columns.
 ld_table reference_table(size_t rows, size_t columns, const double *data);

@@ -92,9 +92,7 @@ static void bench_close(bench *b)
 {
     dense_launch_free(&b->dense);
     free(b->tube.element);
-    free(b->model.title);
-    free(b->model.tubes.slot.angle.data);
-    free(b->model.rocket.motor.thrust.data);
+    reference_model_free(&b->model);
 }
 
 static void fill_random(double *a, int count, double size)

@@ -1,0 +1,634 @@
+#include "support/dense_simulation.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Integrated numbers: r, A_IR as a quaternion, v, w, q, q_dot, r_O1, A_IB as a quaternion, v_O1,
+// w_B.
+enum { STATE_MAX = 26 + 2 * DENSE_MAX_MODES };
+
+typedef struct launch_run {
+    const ld_model *model;
+    dense_launch dense;
+    int size, rocket; // count of numbers, where the rocket's begin
+    double ignition;  // [s] on the run's clock
+    bool locked, passed[LD_MAX_ADAPTORS];
+    double touch_speed[LD_MAX_ADAPTORS];
+    double s; // [m] where O1 was last
+    double step;
+    dense_summary *summary;
+} launch_run;
+
+static const double two_pi = 6.283185307179586476925;
+
+// ---------------------------------------------------------------- given functions of time
+
+// Adds value and rate of a sum of sines.
+static void add_sines(const ld_sines *sines, double t, double *value, double *rate)
+{
+    for (int i = 0; i < sines->count; i++) {
+        const ld_sine *sine = &sines->term[i];
+        double turn = two_pi * sine->frequency;
+        *value += sine->amplitude * sin(turn * t + sine->phase);
+        *rate += sine->amplitude * turn * cos(turn * t + sine->phase);
+    }
+}
+
+// A := A times the rotation by `angle` about axis 0, 1 or 2.
+static void turn_about(double A[3][3], int axis, double angle)
+{
+    int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    double c = cos(angle), s = sin(angle);
+    for (int i = 0; i < 3; i++) {
+        double a = A[i][j], b = A[i][k];
+        A[i][j] = a * c + b * s;
+        A[i][k] = b * c - a * s;
+    }
+}
+
+static void set_unit(double A[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A[i][j] = i == j;
+}
+
+static void base_at(const ld_model *model, double t, dense_base *base)
+{
+    const ld_base *given = &model->base;
+    memset(base, 0, sizeof *base);
+    set_unit(base->A);
+    if (given->kind == LD_BASE_PRESCRIBED) {
+        const ld_sines *path[3] = {&given->surge, &given->heave, &given->sway};
+        const ld_sines *turn[3] = {&given->yaw, &given->pitch, &given->roll};
+        const int axis[3] = {1, 2, 0};
+        for (int i = 0; i < 3; i++) {
+            base->r[i] = given->velocity[i] * t;
+            base->v[i] = given->velocity[i];
+            add_sines(path[i], t, &base->r[i], &base->v[i]);
+        }
+        // each turn is about an axis of the frame so far
+        for (int i = 0; i < 3; i++) {
+            double angle = 0, rate = 0;
+            add_sines(turn[i], t, &angle, &rate);
+            for (int k = 0; k < 3; k++)
+                base->w[k] += rate * base->A[k][axis[i]];
+            turn_about(base->A, axis[i], angle);
+        }
+    }
+    turn_about(base->A, 1, given->azimuth);
+    turn_about(base->A, 2, given->elevation);
+}
+
+// Thrust [N] at tau seconds of the table's clock, on the line between two points that holds
+// `middle`.
+static double thrust_at(const ld_motor *motor, double tau, double middle)
+{
+    const double *row = motor->thrust.data;
+    for (size_t i = 0; i + 1 < motor->thrust.rows; i++, row += 2)
+        if (middle >= row[0] && middle < row[2])
+            return motor->thrust_scale *
+                   (row[1] + (row[3] - row[1]) * (tau - row[0]) / (row[2] - row[0]));
+    return 0;
+}
+
+// Share of the propellant burnt after tau seconds of the table's clock.
+static double burnt_at(const ld_motor *motor, double tau)
+{
+    const double *row = motor->thrust.data;
+    double total = 0, burnt = 0;
+    for (size_t i = 0; i + 1 < motor->thrust.rows; i++, row += 2) {
+        double span = row[2] - row[0], part = fmin(fmax(tau - row[0], 0), span);
+        double slope = span > 0 ? (row[3] - row[1]) / span : 0;
+        total += 0.5 * (row[1] + row[3]) * span;
+        burnt += row[1] * part + 0.5 * slope * part * part;
+    }
+    return burnt / total;
+}
+
+static void mass_at(const ld_rocket *rocket, double burnt, dense_conditions *on)
+{
+    const ld_mass_data *full = &rocket->full, *empty = &rocket->empty;
+    on->mass = full->mass + rocket->mass_error - burnt * rocket->propellant;
+    for (int i = 0; i < 3; i++) {
+        on->center[i] = full->center[i] + burnt * (empty->center[i] - full->center[i]);
+        on->inertia[i] = full->inertia[i] + burnt * (empty->inertia[i] - full->inertia[i]);
+        on->products[i] = rocket->products[i];
+    }
+    on->center[1] += rocket->eccentricity[0];
+    on->center[2] += rocket->eccentricity[1];
+}
+
+// What acts at time t of the run, on the piece of the thrust table that holds time `middle`.
+static void conditions_at(const launch_run *launch, double t, double middle, dense_conditions *on)
+{
+    const ld_rocket *rocket = &launch->model->rocket;
+    const ld_motor *motor = &rocket->motor;
+    double tau = (t - launch->ignition) / motor->time_scale;
+    memset(on, 0, sizeof *on);
+    base_at(launch->model, t, &on->base);
+    mass_at(rocket, burnt_at(motor, tau), on);
+    on->thrust = thrust_at(motor, tau, (middle - launch->ignition) / motor->time_scale);
+    on->locked = launch->locked;
+    memcpy(on->passed, launch->passed, sizeof on->passed);
+    memcpy(on->touch_speed, launch->touch_speed, sizeof on->touch_speed);
+}
+
+// ---------------------------------------------------------------- numbers to integrate
+
+static void matrix_of(double A[3][3], const double q[4])
+{
+    double n = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        A[i][i] =
+            (q[0] * q[0] + q[1 + i] * q[1 + i] - q[1 + j] * q[1 + j] - q[1 + k] * q[1 + k]) / n;
+        A[j][i] = 2 * (q[1 + i] * q[1 + j] + q[0] * q[1 + k]) / n;
+        A[i][j] = 2 * (q[1 + i] * q[1 + j] - q[0] * q[1 + k]) / n;
+    }
+}
+
+// Quaternion of A, largest component first.
+static void quaternion_of(double q[4], const double A[3][3])
+{
+    double square[4] = {1 + A[0][0] + A[1][1] + A[2][2], 1 + A[0][0] - A[1][1] - A[2][2],
+                        1 - A[0][0] + A[1][1] - A[2][2], 1 - A[0][0] - A[1][1] + A[2][2]};
+    int big = 0;
+    for (int i = 1; i < 4; i++)
+        if (square[i] > square[big])
+            big = i;
+    q[big] = 0.5 * sqrt(square[big]);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        double odd = A[k][j] - A[j][k], even = A[j][i] + A[i][j];
+        if (big == 0)
+            q[1 + i] = odd / (4 * q[0]);
+        else if (big == 1 + i)
+            q[0] = odd / (4 * q[big]);
+        if (big == 1 + i)
+            q[1 + j] = even / (4 * q[big]);
+        if (big == 1 + j)
+            q[1 + i] = even / (4 * q[big]);
+    }
+}
+
+static void quaternion_rate(double rate[4], const double q[4], const double w[3])
+{
+    rate[0] = -0.5 * (q[1] * w[0] + q[2] * w[1] + q[3] * w[2]);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        rate[1 + i] = 0.5 * (q[0] * w[i] + q[1 + j] * w[k] - q[1 + k] * w[j]);
+    }
+}
+
+static void unpack(const launch_run *launch, const double *x, dense_state *state)
+{
+    int nq = launch->dense.mode_count;
+    const double *rocket = x + launch->rocket;
+    memset(state, 0, sizeof *state);
+    memcpy(state->r, x, sizeof state->r);
+    matrix_of(state->A_R, x + 3);
+    memcpy(state->v, x + 7, sizeof state->v);
+    memcpy(state->w, x + 10, sizeof state->w);
+    memcpy(state->q, x + 13, (size_t)nq * sizeof *x);
+    memcpy(state->q_dot, x + 13 + nq, (size_t)nq * sizeof *x);
+    memcpy(state->r_O1, rocket, sizeof state->r_O1);
+    matrix_of(state->A_B, rocket + 3);
+    memcpy(state->v_O1, rocket + 7, sizeof state->v_O1);
+    memcpy(state->w_B, rocket + 10, sizeof state->w_B);
+    state->s = launch->s;
+}
+
+static void pack(const launch_run *launch, const dense_state *state, double *x)
+{
+    int nq = launch->dense.mode_count;
+    double *rocket = x + launch->rocket;
+    memcpy(x, state->r, sizeof state->r);
+    quaternion_of(x + 3, (const double(*)[3])state->A_R);
+    memcpy(x + 7, state->v, sizeof state->v);
+    memcpy(x + 10, state->w, sizeof state->w);
+    memcpy(x + 13, state->q, (size_t)nq * sizeof *x);
+    memcpy(x + 13 + nq, state->q_dot, (size_t)nq * sizeof *x);
+    memcpy(rocket, state->r_O1, sizeof state->r_O1);
+    quaternion_of(rocket + 3, (const double(*)[3])state->A_B);
+    memcpy(rocket + 7, state->v_O1, sizeof state->v_O1);
+    memcpy(rocket + 10, state->w_B, sizeof state->w_B);
+}
+
+static bool derivative(launch_run *launch, double t, double middle, const double *x, double *x_dot,
+                       dense_launch_output *output)
+{
+    dense_state state;
+    dense_conditions on;
+    dense_rates rates;
+    int nq = launch->dense.mode_count;
+    unpack(launch, x, &state);
+    conditions_at(launch, t, middle, &on);
+    launch->summary->evaluations++;
+    if (!dense_launch_rates(&launch->dense, &state, &on, &rates, output))
+        return false;
+    double *rocket = x_dot + launch->rocket;
+    memcpy(x_dot, state.v, sizeof state.v);
+    quaternion_rate(x_dot + 3, x + 3, state.w);
+    memcpy(x_dot + 7, rates.x_ddot, 6 * sizeof *x_dot);
+    memcpy(x_dot + 13, state.q_dot, (size_t)nq * sizeof *x_dot);
+    memcpy(x_dot + 13 + nq, rates.x_ddot + 6, (size_t)nq * sizeof *x_dot);
+    memcpy(rocket, state.v_O1, sizeof state.v_O1);
+    quaternion_rate(rocket + 3, x + launch->rocket + 3, state.w_B);
+    memcpy(rocket + 7, rates.x_ddot + 6 + nq, 6 * sizeof *x_dot);
+    return true;
+}
+
+// One classical Runge-Kutta step from x with the rate k1 that holds there; output at its end.
+static bool take_step(launch_run *launch, double t, double h, const double *x, const double *k1,
+                      double *after, double *rate_after, dense_launch_output *output)
+{
+    double k[4][STATE_MAX], middle = t + 0.5 * h;
+    memcpy(k[0], k1, sizeof k[0]);
+    for (int i = 1; i < 4; i++) {
+        double part = i < 3 ? 0.5 * h : h;
+        for (int j = 0; j < launch->size; j++)
+            after[j] = x[j] + part * k[i - 1][j];
+        if (!derivative(launch, t + part, middle, after, k[i], NULL))
+            return false;
+    }
+    for (int j = 0; j < launch->size; j++)
+        after[j] = x[j] + h / 6 * (k[0][j] + 2 * k[1][j] + 2 * k[2][j] + k[3][j]);
+    return derivative(launch, t + h, middle, after, rate_after, output);
+}
+
+// ---------------------------------------------------------------- start
+
+// Unknowns: base-relative place and turning of R (6), q, y_S, z_S, psi, theta, lock force on the
+// rocket, slot force or roll moment. Residuals: all generalised forces.
+typedef struct balance_problem {
+    const launch_run *launch;
+    dense_conditions on;
+    int n;
+} balance_problem;
+
+static void start_input(const balance_problem *balance, const double *u, dense_launch_input *input)
+{
+    const dense_base *base = &balance->on.base;
+    int nq = balance->launch->dense.mode_count;
+    double A[3][3];
+    memset(input, 0, sizeof *input);
+    memcpy(A, base->A, sizeof A);
+    memcpy(input->r, base->r, sizeof input->r);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            input->r[i] += base->A[i][j] * u[j];
+    for (int i = 0; i < 3; i++)
+        turn_about(A, i, u[3 + i]);
+    quaternion_of(input->quaternion, (const double(*)[3])A);
+    memcpy(input->q, u + 6, (size_t)nq * sizeof *u);
+    input->s = balance->launch->model->rocket.start_at;
+    input->y = u[6 + nq];
+    input->z = u[7 + nq];
+    input->psi = u[8 + nq];
+    input->theta = u[9 + nq];
+    input->conditions = balance->on;
+}
+
+static bool residual_of(const balance_problem *balance, const double *u, double *residual,
+                        dense_launch_output *output)
+{
+    const dense_launch *dense = &balance->launch->dense;
+    bool slotted = balance->launch->model->tubes.slot.kind == LD_SLOT_HELIX;
+    dense_launch_input input;
+    dense_state state;
+    dense_rates rates;
+    start_input(balance, u, &input);
+    dense_launch_place(dense, &input, &state);
+    if (!dense_launch_rates(dense, &state, &balance->on, &rates, output))
+        return false;
+    for (int i = 0; i < balance->n; i++)
+        residual[i] = rates.h[i] + u[balance->n - 2] * rates.G[0][i] +
+                      u[balance->n - 1] * rates.G[slotted ? 1 : 2][i];
+    return true;
+}
+
+static double norm_of(const double *a, int n)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * a[i];
+    return sqrt(sum);
+}
+
+// Newton's method with differences for the Jacobian and halved steps.
+static bool find_balance(const balance_problem *balance, double *u)
+{
+    enum { SIZE = DENSE_MAX_COORDINATES };
+    static _Thread_local double jacobian[SIZE * SIZE];
+    double residual[SIZE], side[2][SIZE], step[SIZE], trial[SIZE], there[SIZE];
+    lapack_int pivot[SIZE];
+    int n = balance->n;
+    if (!residual_of(balance, u, residual, NULL))
+        return false;
+    for (int iteration = 0; iteration < 60; iteration++) {
+        for (int j = 0; j < n; j++) {
+            double h = j < n - 2 ? 1e-7 : 1;
+            for (int i = 0; i < 2; i++) {
+                memcpy(trial, u, sizeof trial);
+                trial[j] += i == 0 ? -h : h;
+                if (!residual_of(balance, trial, side[i], NULL))
+                    return false;
+            }
+            for (int i = 0; i < n; i++)
+                jacobian[j * n + i] = (side[1][i] - side[0][i]) / (2 * h);
+        }
+        for (int i = 0; i < n; i++)
+            step[i] = -residual[i];
+        if (LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, jacobian, n, pivot, step, n) != 0)
+            return false;
+        double before = norm_of(residual, n), part = 1;
+        for (; part > 1e-3; part /= 2) {
+            for (int i = 0; i < n; i++)
+                trial[i] = u[i] + part * step[i];
+            if (residual_of(balance, trial, there, NULL) && norm_of(there, n) < before)
+                break;
+        }
+        if (part <= 1e-3) // no better: converged to rounding, or stuck
+            return before < 1e-5;
+        memcpy(u, trial, sizeof trial);
+        memcpy(residual, there, sizeof residual);
+    }
+    return norm_of(residual, n) < 1e-5;
+}
+
+static void co_move(dense_state *state, const dense_base *base)
+{
+    double *place[2] = {state->r, state->r_O1}, *speed[2] = {state->v, state->v_O1};
+    for (int b = 0; b < 2; b++)
+        for (int i = 0; i < 3; i++) {
+            int j = (i + 1) % 3, k = (i + 2) % 3;
+            speed[b][i] = base->v[i] + base->w[j] * (place[b][k] - base->r[k]) -
+                          base->w[k] * (place[b][j] - base->r[j]);
+        }
+    for (int i = 0; i < 3; i++) {
+        state->w[i] = state->w_B[i] = 0;
+        for (int k = 0; k < 3; k++) {
+            state->w[i] += state->A_R[k][i] * base->w[k];
+            state->w_B[i] += state->A_B[k][i] * base->w[k];
+        }
+    }
+}
+
+static bool start(launch_run *launch, double t, double *x)
+{
+    const ld_model *model = launch->model;
+    int nq = launch->dense.mode_count;
+    balance_problem balance = {.launch = launch, .n = nq + 12};
+    double u[DENSE_MAX_COORDINATES] = {0};
+    launch->locked = true;
+    conditions_at(launch, t, t, &balance.on);
+    balance.on.thrust = 0;
+    balance.on.frictionless = true;
+    memset(balance.on.base.v, 0, sizeof balance.on.base.v);
+    memset(balance.on.base.w, 0, sizeof balance.on.base.w);
+    if (model->run.start == LD_START_EQUILIBRIUM) {
+        // rear and foremost adaptor pressing on the lower wall
+        const ld_adaptor *rear = &model->rocket.adaptor[0], *front = rear;
+        for (int i = 1; i < model->rocket.adaptor_count; i++)
+            if (model->rocket.adaptor[i].at > front->at)
+                front = &model->rocket.adaptor[i];
+        u[6 + nq] = -rear->clearance - 5e-6;
+        u[8 + nq] = (rear->clearance - front->clearance) / (front->at - rear->at);
+        dense_launch_output output;
+        double residual[DENSE_MAX_COORDINATES];
+        if (!find_balance(&balance, u) || !residual_of(&balance, u, residual, &output))
+            return false;
+        dense_summary *summary = launch->summary;
+        summary->equilibrium.lock_force = -u[balance.n - 2];
+        summary->equilibrium.slot_force =
+            model->tubes.slot.kind == LD_SLOT_HELIX ? u[balance.n - 1] : 0;
+        for (int i = 0; i < model->rocket.adaptor_count; i++)
+            summary->equilibrium.contact_force[i] = output.contact[i].normal;
+        double worst = 0;
+        for (int i = 0; i < 3; i++)
+            worst = fmax(worst, fmax(fmax(fabs(output.a[i]), fabs(output.w_dot[i])),
+                                     fmax(fabs(output.a_O1[i]), fabs(output.alpha_B[i]))));
+        for (int i = 0; i < nq; i++)
+            worst = fmax(worst, fabs(output.q_ddot[i]));
+        summary->equilibrium.residual = worst;
+    }
+    dense_launch_input input;
+    dense_state state;
+    double tip[8];
+    start_input(&balance, u, &input);
+    dense_launch_place(&launch->dense, &input, &state);
+    dense_launch_tip(&launch->dense, &state, &balance.on.base, tip);
+    memcpy(launch->summary->equilibrium.tip_sag, tip, sizeof launch->summary->equilibrium.tip_sag);
+    dense_base base;
+    base_at(model, t, &base);
+    co_move(&state, &base);
+    launch->s = input.s;
+    launch->locked = model->rocket.lock.present;
+    pack(launch, &state, x);
+    return true;
+}
+
+// ---------------------------------------------------------------- events and summary
+
+enum { RELEASE = LD_MAX_ADAPTORS, EVENTS };
+
+// Positive once the event has happened; negative where it cannot (any more).
+static double event(const launch_run *launch, int which, const dense_launch_output *output)
+{
+    if (which == RELEASE)
+        return launch->locked ? output->lock_force - launch->model->rocket.lock.release_force : -1;
+    if (which >= launch->model->rocket.adaptor_count || launch->passed[which])
+        return -1;
+    return output->contact[which].s - launch->model->tubes.length;
+}
+
+// A step that ends at the first event within it, if there is one (*which; else -1).
+static bool step_to_event(launch_run *launch, double t, double *h, const double *x,
+                          const double *k1, double *after, double *rate,
+                          dense_launch_output *output, int *which,
+                          const dense_launch_output *before)
+{
+    *which = -1;
+    if (!take_step(launch, t, *h, x, k1, after, rate, output))
+        return false;
+    for (int i = 0; i < EVENTS; i++) {
+        double low = 0, high = *h, f_low = event(launch, i, before),
+               f_high = event(launch, i, output);
+        if (f_high <= 0)
+            continue;
+        // false position (Illinois), ending on the side where it has happened
+        *which = i;
+        for (int k = 0, kept = 0; k < 60 && high - low > 1e-13; k++) {
+            double trial = (low * f_high - high * f_low) / (f_high - f_low);
+            if (!take_step(launch, t, trial, x, k1, after, rate, output))
+                return false;
+            double f = event(launch, i, output);
+            if (f > 0 || fabs(f) < 1e-12) {
+                high = trial;
+                f_high = f;
+                f_low *= kept == 1 ? 0.5 : 1;
+                kept = 1;
+            } else {
+                low = trial;
+                f_low = f;
+                f_high *= kept == -1 ? 0.5 : 1;
+                kept = -1;
+            }
+            if (fabs(f) < 1e-12)
+                break;
+        }
+        *h = high;
+        if (!take_step(launch, t, high, x, k1, after, rate, output))
+            return false;
+    }
+    return true;
+}
+
+static void watch(launch_run *launch, const dense_launch_output *output)
+{
+    dense_summary *summary = launch->summary;
+    for (int i = 0; i < launch->model->rocket.adaptor_count; i++) {
+        summary->max_contact_force[i] =
+            fmax(summary->max_contact_force[i], norm_of(output->contact[i].force, 3));
+        // while apart: the speed with which it would touch now
+        if (output->contact[i].penetration <= 0)
+            launch->touch_speed[i] = fmax(0, output->contact[i].penetration_rate);
+    }
+    summary->max_slot_force = fmax(summary->max_slot_force, fabs(output->slot_force));
+    summary->slot_drift = fmax(summary->slot_drift, fabs(output->slot_drift));
+    launch->s = output->s;
+}
+
+static void note_event(launch_run *launch, int which, double t)
+{
+    dense_summary *summary = launch->summary;
+    const ld_rocket *rocket = &launch->model->rocket;
+    double since = t - launch->ignition;
+    if (which == RELEASE) {
+        launch->locked = false;
+        summary->t_release = since;
+        return;
+    }
+    launch->passed[which] = true;
+    summary->t_exit[which] = since;
+    int ahead = 0;
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        ahead += rocket->adaptor[i].at > rocket->adaptor[which].at;
+    if (ahead == 0)
+        summary->t_front = since;
+    if (ahead == 1 && rocket->adaptor_count == 3)
+        summary->t_middle = since;
+    if (which == 0)
+        summary->t_rear = since;
+}
+
+static void summarise(launch_run *launch, double t, const double *x,
+                      const dense_launch_output *output)
+{
+    dense_summary *summary = launch->summary;
+    dense_state state;
+    dense_base base;
+    double tip[8], d[3], d_dot[3];
+    unpack(launch, x, &state);
+    base_at(launch->model, t, &base);
+    summary->muzzle_speed = output->s_dot;
+    summary->inertial_speed = norm_of(state.v_O1, 3);
+    summary->spin_rate = state.w_B[0];
+    // axis d = A e_x, d_dot = A (w x e_x)
+    for (int i = 0; i < 3; i++) {
+        d[i] = state.A_B[i][0];
+        d_dot[i] = state.A_B[i][1] * state.w_B[2] - state.A_B[i][2] * state.w_B[1];
+    }
+    double level = hypot(d[0], d[2]);
+    summary->pitch = atan2(d[1], level);
+    summary->yaw = atan2(-d[2], d[0]);
+    summary->pitch_rate = d_dot[1] / level;
+    summary->yaw_rate = (d[2] * d_dot[0] - d[0] * d_dot[2]) / (level * level);
+    summary->relative.y = output->y;
+    summary->relative.z = output->z;
+    summary->relative.psi = output->psi;
+    summary->relative.theta = output->theta;
+    summary->relative.gamma = output->gamma;
+    summary->relative.w_x = output->w_SB[0];
+    summary->relative.w_y = output->w_SB[1];
+    summary->relative.w_z = output->w_SB[2];
+    dense_launch_tip(&launch->dense, &state, &base, tip);
+    memcpy(&summary->tip, tip, sizeof tip);
+    summary->complete = true;
+}
+
+// The next instant at which the equations change by the clock.
+static double next_corner(const launch_run *launch, double t)
+{
+    const ld_motor *motor = &launch->model->rocket.motor;
+    double next = INFINITY;
+    for (size_t i = 0; i < motor->thrust.rows; i++) {
+        double corner = launch->ignition + motor->time_scale * motor->thrust.data[2 * i];
+        if (corner > t + 1e-12)
+            next = fmin(next, corner);
+    }
+    return next;
+}
+
+// Runs from t, start state x.
+static bool run(launch_run *launch, double t, double *x)
+{
+    double k1[STATE_MAX] = {0}, after[STATE_MAX] = {0}, rate[STATE_MAX] = {0};
+    dense_launch_output before, output;
+    double end = launch->ignition + launch->model->run.stuck_time;
+    while (t < end) {
+        // pieces between corners, in equal steps; a step that an event cuts starts a new piece
+        double corner = fmin(next_corner(launch, t), end);
+        int steps = (int)ceil((corner - t) / launch->step - 1e-9), which = -1;
+        double from = t, h0 = (corner - t) / steps;
+        for (int i = 0; i < steps && which < 0; i++) {
+            double h = h0;
+            t = from + i * h0;
+            if (i == 0 && !derivative(launch, t, t + 0.5 * h, x, k1, &before))
+                return false;
+            if (event(launch, RELEASE, &before) > 0) {
+                note_event(launch, RELEASE, t);
+                which = RELEASE;
+                break;
+            }
+            watch(launch, &before);
+            if (!step_to_event(launch, t, &h, x, k1, after, rate, &output, &which, &before))
+                return false;
+            memcpy(x, after, sizeof after);
+            memcpy(k1, rate, sizeof rate);
+            before = output;
+            t = which < 0 ? from + (i + 1) * h0 : t + h;
+            if (which >= 0) {
+                watch(launch, &output);
+                note_event(launch, which, t);
+            }
+            if (which == 0) {
+                summarise(launch, t, x, &output);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool dense_simulate(const ld_model *model, const flexible_tube *tube, double step,
+                    dense_summary *summary)
+{
+    launch_run launch = {.model = model, .step = step, .summary = summary};
+    double x[STATE_MAX] = {0};
+    memset(summary, 0, sizeof *summary);
+    summary->t_release = summary->t_front = summary->t_middle = summary->t_rear = NAN;
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        summary->t_exit[i] = NAN;
+    dense_launch_create(&launch.dense, model, tube);
+    launch.rocket = 13 + 2 * launch.dense.mode_count;
+    launch.size = launch.rocket + 13;
+    launch.ignition = model->firing[0].at;
+    double t = -model->run.lead_in;
+    bool done = start(&launch, t, x) && run(&launch, t, x);
+    dense_launch_free(&launch.dense);
+    return done;
+}
