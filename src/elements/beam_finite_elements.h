@@ -5,7 +5,7 @@
 // Torsion and stretch: bar, linear shapes, nodal value. The stiffness is never assembled: a tube
 // clamped at one end is statically determinate, so its flexibility is known in closed form (unit
 // load method), exact at the nodes of these elements as loads act at nodes and EI, GI_t, EA are
-// constant in an element (Przemieniecki, Theory of Matrix Structural Analysis, chapters 5 and 11).
+// constant in an element (Przemieniecki, Theory of Matrix Structural Analysis, 1968).
 // Low modes keep all their digits on fine meshes that way, where a stiffness matrix loses h^4.
 #ifndef LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
 #define LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
