@@ -14,7 +14,7 @@ extern "C" {
 /// One thing wrong with a scenario: where, which key, what was found and what is allowed.
 typedef struct ld_message {
     char *file;   ///< name of the file that holds the key; "--set" for an override
-    int line;     ///< from 1; 0 where there is none
+    int line;     ///< from 1; 0 where there is none; of an override, its number from 1
     int column;   ///< from 1, in characters
     char *path;   ///< the key's full path, as in --set, e.g. "rocket.adaptors.rear.clearance"
     char *text;   ///< what was found, what is allowed, a suggestion

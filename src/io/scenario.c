@@ -49,7 +49,7 @@ text_source *reader_open(scenario_reader *reader, text_place place, const char *
     if (opened)
         *opened =
             (text_source){pool_text(reader, file_name, strlen(file_name)),
-                          pool_text(reader, text, length), length, folder_of(reader, file_name)};
+                          pool_text(reader, text, length), length, folder_of(reader, file_name), 1};
     free(text);
     return reader->no_memory ? NULL : opened;
 }
@@ -115,15 +115,16 @@ static bool is_path_character(char c)
 static tree_node *parse_override(scenario_reader *reader, const text_source *source)
 {
     const char *text = source->text, *equals = strchr(text, '=');
-    tree_node *root = tree_new(reader, NODE_MAP, (text_place){source, 1, 1}), *map = root;
+    int line = source->first_line;
+    tree_node *root = tree_new(reader, NODE_MAP, (text_place){source, line, 1}), *map = root;
     int depth = 0;
     for (const char *begin = text; map && equals; depth++) {
         const char *end = begin;
         while (is_path_character(*end))
             end++;
-        text_place at = {source, 1, (int)(begin - text) + 1};
+        text_place at = {source, line, (int)(begin - text) + 1};
         if (end == begin || (*end != '.' && *end != '=') || depth >= READER_MAX_DEPTH) {
-            reader_refuse(reader, (text_place){source, 1, (int)(end - text) + 1}, "",
+            reader_refuse(reader, (text_place){source, line, (int)(end - text) + 1}, "",
                           "not a path of keys joined by dots, such as rocket.mass");
             return NULL;
         }
@@ -154,18 +155,18 @@ static tree_node *parse_override(scenario_reader *reader, const text_source *sou
         begin = end + 1;
     }
     if (root && !equals)
-        reader_refuse(reader, (text_place){source, 1, 1}, "", "expected path=value");
+        reader_refuse(reader, (text_place){source, line, 1}, "", "expected path=value");
     return NULL;
 }
 
 static tree_node *apply_override(scenario_reader *reader, tree_node *root, const char *text,
-                                 const char *folder)
+                                 const char *folder, int number)
 {
     text_source *source = pool_take(reader, sizeof *source);
     if (!source)
         return root;
     *source =
-        (struct text_source){"--set", pool_text(reader, text, strlen(text)), strlen(text), folder};
+        (text_source){"--set", pool_text(reader, text, strlen(text)), strlen(text), folder, number};
     tree_node *over = source->text ? parse_override(reader, source) : NULL;
     return over ? tree_merge(reader, root, over, "") : root;
 }
@@ -182,7 +183,7 @@ static void read_source(scenario_reader *reader, const text_source *source, cons
     if (!root)
         return;
     for (size_t i = 0; i < count; i++)
-        root = apply_override(reader, root, sets[i], source->folder);
+        root = apply_override(reader, root, sets[i], source->folder, (int)i + 1);
     if (reader->no_memory)
         return;
     scenario_fill(reader, root, model);
@@ -241,6 +242,6 @@ ld_status ld_scenario_read_text(const char *text, size_t length, const char *nam
                                 const char *folder, const char *const *sets, size_t count,
                                 ld_model *model, ld_messages *messages)
 {
-    text_source source = {name, text, length, folder};
+    text_source source = {name, text, length, folder, 1};
     return read_scenario(NULL, &source, sets, count, model, messages);
 }

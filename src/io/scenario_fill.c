@@ -295,8 +295,9 @@ static void read_shared_value(scenario_reader *reader, const field_row *f, const
 {
     for (const field_row *part = f->block->fields; part->name; part++)
         if (part->kind == FIELD_NUMBER) {
+            size_t count = reader->messages->count;
             read_number(reader, part, value, base, path);
-            if (reader_has_refused(reader, path))
+            if (reader->messages->count > count)
                 return;
         }
 }
@@ -395,29 +396,47 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
     }
 }
 
+// The key of `block` that an unknown key probably means, or NULL.
+static const char *key_meant(const field_block *block, const char *key)
+{
+    name_suggestion best = suggestion_begin(key);
+    for (const field_row *f = block->fields; f->name; f++)
+        suggestion_offer(&best, f->name);
+    return best.name;
+}
+
 static void refuse_unknown_keys(scenario_reader *reader, const field_block *block,
                                 const tree_node *map, const char *path)
 {
     for (const tree_node *member = map->first; member; member = member->next) {
-        char key_path[PATH], allowed[512] = "";
+        char key_path[PATH], allowed[PATH] = "";
         if (field_find(block, member->key))
             continue;
-        name_suggestion best = suggestion_begin(member->key);
-        for (const field_row *f = block->fields; f->name; f++) {
-            suggestion_offer(&best, f->name);
-            size_t length = strlen(allowed);
-            if (f->kind != FIELD_LATER)
-                snprintf(allowed + length, sizeof allowed - length, "%s%s", length ? ", " : "",
-                         f->name);
-        }
+        const char *meant = key_meant(block, member->key);
+        for (const field_row *f = block->fields; f->name; f++)
+            if (f->kind != FIELD_LATER) {
+                extend(allowed, allowed[0] ? ", " : "");
+                extend(allowed, f->name);
+            }
         join(key_path, path, member->key);
-        if (best.name)
+        if (meant)
             reader_refuse(reader, member->key_at, key_path, "unknown key, did you mean \"%s\"?",
-                          best.name);
+                          meant);
         else
             reader_refuse(reader, member->key_at, key_path, "unknown key; allowed here: %s",
                           allowed);
     }
+}
+
+// Whether the missing key `name` is there, but misspelt.
+static bool is_misspelt(const field_block *block, const tree_node *map, const char *name)
+{
+    for (const tree_node *member = map->first; member; member = member->next) {
+        const char *meant = field_find(block, member->key) ? NULL : key_meant(block, member->key);
+        if (meant && strcmp(meant, name) == 0)
+            return true;
+    }
+    return false;
 }
 
 // The form with most of the keys given, the first of those alike; -1 where there is none.
@@ -467,7 +486,8 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
         reader_refuse(
             reader, value->key_at, key_path, "does not go with %s%s",
             block->form_from_keys ? "" : "kind: ", field_word_of(block->form, form)->name);
-    } else if (f->required && fits && (form >= 0 || !f->forms)) {
+    } else if (f->required && fits && (form >= 0 || !f->forms) &&
+               !is_misspelt(block, map, f->name)) {
         field_expectation(f, expected, sizeof expected);
         reader_refuse(reader, map->key_at, key_path, "missing; expected %s", expected);
     }
@@ -492,6 +512,7 @@ static void read_block(scenario_reader *reader, const field_block *block, const 
 typedef struct rule_context {
     scenario_reader *reader;
     const tree_node *root;
+    size_t messages; // about single values, which came before the rules
 } rule_context;
 
 // Reports a broken rule at the key that it is about, or at the nearest block around it.
@@ -519,14 +540,14 @@ static void refuse_rule(void *self, const char *path, const char *text)
         lost = lost || !inner;
         node = inner ? inner : node;
     }
-    if (!reader_has_refused(context->reader, full_path))
+    if (!reader_has_refused(context->reader, context->messages, full_path))
         reader_refuse(context->reader, node->kind == NODE_SCALAR ? node->at : node->key_at,
                       full_path, "%s", text);
 }
 
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model)
 {
-    rule_context context = {reader, root};
+    rule_context context = {.reader = reader, .root = root};
     if (root->kind != NODE_MAP) {
         reader_refuse(reader, root->at, "",
                       "a scenario is a block of keys, beginning with "
@@ -535,5 +556,6 @@ void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *mod
     }
     read_block(reader, &scenario_block, root, model, "");
     ld_model_complete(model);
+    context.messages = reader->messages->count;
     model_check_rules(model, refuse_rule, &context);
 }

@@ -65,7 +65,7 @@ static char *source_line(text_place place)
     const char *text = place.source->text, *end = text + place.source->length;
     if (place.line == 0 || !text)
         return strdup("");
-    for (int line = 1; line < place.line && text < end; text++)
+    for (int line = place.source->first_line; line < place.line && text < end; text++)
         line += *text == '\n';
     size_t length = 0;
     while (text + length < end && text[length] != '\n' && text[length] != '\r' && text[length])
@@ -128,10 +128,10 @@ void reader_finish_messages(scenario_reader *reader)
     reader->no_memory = reader->no_memory || !last->text;
 }
 
-bool reader_has_refused(const scenario_reader *reader, const char *path)
+bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path)
 {
     size_t length = strlen(path);
-    for (size_t i = 0; i < reader->messages->count; i++) {
+    for (size_t i = 0; i < count; i++) {
         const char *other = reader->messages->item[i].path;
         if (other && strncmp(other, path, length) == 0 &&
             (other[length] == '\0' || other[length] == '.'))

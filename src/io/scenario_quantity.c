@@ -168,9 +168,12 @@ bool quantity_read(scenario_reader *reader, const field_row *f, text_place place
         return false;
     for (int i = 0; i < count; i++) {
         values[i] = units_scale(q.number[i], factor);
-        if (!isfinite(values[i]) || (q.number[i] != 0 && fabs(values[i]) < DBL_MIN) ||
-            !field_in_range(f->range, values[i])) {
-            reader_refuse(reader, place, path, "found %s; expected %s", found, expected);
+        bool large = !isfinite(values[i]), small = q.number[i] != 0 && fabs(values[i]) < DBL_MIN;
+        const char *size = large   ? ", in SI too large a number"
+                           : small ? ", in SI too small a number"
+                                   : "";
+        if (large || small || !field_in_range(f->range, values[i])) {
+            reader_refuse(reader, place, path, "found %s%s; expected %s", found, size, expected);
             return false;
         }
     }

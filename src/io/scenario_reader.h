@@ -25,6 +25,7 @@ typedef struct text_source {
     const char *text;
     size_t length;
     const char *folder; // where files that it names are looked for
+    int first_line;     // number of its first line: 1, of an override its own number
 } text_source;
 
 typedef struct text_place {
@@ -71,8 +72,8 @@ void pool_free(scenario_reader *reader);
 // Adds a message about the key `path` at `place`.
 void reader_refuse(scenario_reader *reader, text_place place, const char *path, const char *format,
                    ...) LD_PRINTF(4, 5);
-// Whether there is a message about `path` or a key below it.
-bool reader_has_refused(const scenario_reader *reader, const char *path);
+// Whether one of the first `count` messages is about `path` or a key below it.
+bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path);
 
 // Puts the messages into the order of the text.
 void reader_finish_messages(scenario_reader *reader);

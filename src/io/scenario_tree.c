@@ -109,6 +109,8 @@ bool tree_is_empty(const tree_node *node)
 typedef struct builder {
     scenario_reader *reader;
     const text_source *source;
+    const char *text; // the part of the source that is parsed
+    size_t length;
     int column;     // of the first character
     char path[512]; // of the value being built
     yaml_parser_t parser;
@@ -118,8 +120,9 @@ typedef struct builder {
 
 static text_place place_of(const builder *b, yaml_mark_t mark)
 {
-    int line = (int)mark.line + 1, column = (int)mark.column + 1;
-    return (text_place){b->source, line, line == 1 ? column + b->column - 1 : column};
+    const text_source *source = b->source;
+    int line = (int)mark.line + source->first_line, column = (int)mark.column + 1;
+    return (text_place){source, line, mark.line == 0 ? column + b->column - 1 : column};
 }
 
 static void refuse(builder *b, yaml_mark_t mark, const char *text)
@@ -132,13 +135,23 @@ static void refuse(builder *b, yaml_mark_t mark, const char *text)
 // Place of a byte, for errors below the level of characters.
 static text_place place_of_byte(const builder *b, size_t offset)
 {
-    int line = 1, column = b->column;
-    for (size_t i = 0; i < offset && i < b->source->length; i++) {
-        unsigned char c = (unsigned char)b->source->text[i];
+    int line = b->source->first_line, column = b->column;
+    for (size_t i = 0; i < offset && i < b->length; i++) {
+        unsigned char c = (unsigned char)b->text[i];
         line += c == '\n';
         column = c == '\n' ? 1 : column + ((c & 0xc0) != 0x80);
     }
     return (text_place){b->source, line, column};
+}
+
+// Where the parser stopped; at the end of the text, behind its last word.
+static text_place place_of_problem(const builder *b)
+{
+    size_t length = b->length;
+    while (length > 0 && strchr(" \t\r\n", b->text[length - 1]))
+        length--;
+    text_place stop = place_of(b, b->parser.problem_mark), end = place_of_byte(b, length);
+    return stop.line > end.line ? end : stop;
 }
 
 static void refuse_yaml(builder *b)
@@ -152,9 +165,13 @@ static void refuse_yaml(builder *b)
     else if (p->error == YAML_READER_ERROR)
         reader_refuse(b->reader, place_of_byte(b, p->problem_offset), "", "not valid text: %s",
                       p->problem);
+    else if (p->context && p->context_mark.line != p->problem_mark.line)
+        reader_refuse(b->reader, place_of_problem(b), "",
+                      "not valid YAML: %s, %s that begins in line %d", p->problem, p->context,
+                      place_of(b, p->context_mark).line);
     else
-        reader_refuse(b->reader, place_of(b, p->problem_mark), "", "not valid YAML: %s%s%s",
-                      p->problem, p->context ? ", " : "", p->context ? p->context : "");
+        reader_refuse(b->reader, place_of_problem(b), "", "not valid YAML: %s%s%s", p->problem,
+                      p->context ? ", " : "", p->context ? p->context : "");
 }
 
 // The next event into b->event (to be deleted); false after a failure.
@@ -317,7 +334,8 @@ static void expect_end(builder *b)
 tree_node *tree_parse(scenario_reader *reader, const text_source *source, const char *text,
                       size_t length, int column)
 {
-    builder b = {.reader = reader, .source = source, .column = column};
+    builder b = {
+        .reader = reader, .source = source, .text = text, .length = length, .column = column};
     tree_node *root = NULL;
     if (!yaml_parser_initialize(&b.parser)) {
         reader->no_memory = true;

@@ -146,11 +146,32 @@ static void check_block(model_checker *checker, const char *path, const field_bl
     }
 }
 
+// What ld_model_complete() computes must be there.
+static void check_complete(model_checker *checker, const ld_model *model)
+{
+    char path[32];
+    for (int i = 0; i < model->tubes.section_count; i++) {
+        const ld_section *s = &model->tubes.section[i];
+        double sum = s->mass_per_length + s->axial_stiffness + s->bending_stiffness +
+                     s->torsion_stiffness + s->polar_inertia;
+        snprintf(path, sizeof path, "tubes.sections.%d", i + 1);
+        if (isnan(sum))
+            refuse(checker, path,
+                   "its stiffnesses and masses are not computed; call ld_model_complete()");
+    }
+    if (isnan(model->rocket.propellant))
+        refuse(checker, "rocket.propellant", "not computed; call ld_model_complete()");
+    if (isnan(model->run.stuck_time))
+        refuse(checker, "run.stuck_time", "not computed; call ld_model_complete()");
+}
+
 ld_status ld_model_check(const ld_model *model, ld_error *error)
 {
     model_checker checker = {error, LD_OK};
     check_block(&checker, "", &scenario_block, model);
     if (checker.status == LD_OK)
         model_check_rules(model, refuse_rule, &checker);
+    if (checker.status == LD_OK)
+        check_complete(&checker, model);
     return checker.status;
 }

@@ -22,11 +22,16 @@ static void write_kind(FILE *stream, const field_row *f)
     else
         field_expectation(f, text, sizeof text);
     cell(stream, text);
+    for (int i = 0; f->kind == FIELD_TABLE && i < f->table->columns; i++) {
+        field_range_text(&f->table->column[i], text, sizeof text);
+        if (text[0])
+            fprintf(stream, "; %s %s", f->table->column[i].name, text);
+    }
 }
 
 static void write_default(FILE *stream, const field_row *f)
 {
-    char text[64], number[32];
+    char number[32];
     if (f->required || f->kind == FIELD_LATER) {
         fprintf(stream, f->required ? "required" : "");
         return;
@@ -35,12 +40,37 @@ static void write_default(FILE *stream, const field_row *f)
         cell(stream, f->initial_doc);
         return;
     }
+    if (f->kind == FIELD_CHOICE) {
+        cell(stream, field_word_of(f->words, (int)f->initial)->name);
+        return;
+    }
     field_number_text(f->initial, number);
-    snprintf(text, sizeof text, "%s%s%s", number, f->unit && f->unit[0] ? " " : "",
-             f->unit ? f->unit : "");
-    if (f->kind == FIELD_CHOICE)
-        snprintf(text, sizeof text, "%s", field_word_of(f->words, (int)f->initial)->name);
-    cell(stream, text);
+    for (int i = 0; i < (f->kind == FIELD_NUMBER ? f->count : 1); i++)
+        fprintf(stream, "%s%s", i ? " " : "", number);
+    if (f->unit && f->unit[0])
+        fprintf(stream, " %s", f->unit);
+}
+
+// Whether an earlier key of the block has the same keys below it.
+static bool is_repeated(const field_block *block, const field_row *f)
+{
+    for (const field_row *g = block->fields; g < f; g++)
+        if (g->block == f->block)
+            return true;
+    return false;
+}
+
+// The path of the block below `f`, with its likes in the same block: "motion.surge.N, heave.N".
+static void path_below(char *text, size_t size, const field_block *block, const field_row *f,
+                       const char *path)
+{
+    const char *entry = f->kind == FIELD_LIST ? ".N" : "";
+    snprintf(text, size, "%s%s%s%s", path, path[0] ? "." : "", f->name, entry);
+    for (const field_row *g = f + 1; g->name; g++)
+        if (g->block == f->block) {
+            size_t length = strlen(text);
+            snprintf(text + length, size - length, ", %s%s", g->name, entry);
+        }
 }
 
 static void write_block(FILE *stream, const field_block *block, const char *path)
@@ -66,10 +96,9 @@ static void write_block(FILE *stream, const field_block *block, const char *path
         fprintf(stream, " |\n");
     }
     for (const field_row *f = block->fields; f->name; f++) {
-        if (!f->block)
+        if (!f->block || is_repeated(block, f))
             continue;
-        snprintf(full_path, sizeof full_path, "%s%s%s%s", path, path[0] ? "." : "", f->name,
-                 f->kind == FIELD_LIST ? ".N" : "");
+        path_below(full_path, sizeof full_path, block, f, path);
         write_block(stream, f->block, full_path);
     }
 }

@@ -115,18 +115,21 @@ void field_range_text(const field_row *field, char *text, size_t size)
 {
     bool angle = field->unit && strcmp(field->unit, "rad") == 0;
     double scale = angle ? 180 / 3.14159265358979323846 : 1;
-    const char *unit = angle ? "deg" : field->unit ? field->unit : "";
-    const char *space = unit[0] ? " " : "";
     field_range r = field->range;
     double low = r.low * scale, high = r.high * scale;
+    char unit[24] = "";
+    if (field->unit && field->unit[0])
+        snprintf(unit, sizeof unit, " %s", angle ? "deg" : field->unit);
     text[0] = '\0';
-    if (isfinite(low) && isfinite(high))
-        snprintf(text, size, "%s%.6g%s%s and %s%.6g%s%s", r.open_low ? "> " : ">= ", low, space,
-                 unit, r.open_high ? "< " : "<= ", high, space, unit);
+    if (isfinite(low) && isfinite(high) && !r.open_low && !r.open_high)
+        snprintf(text, size, "from %.6g to %.6g%s", low, high, unit);
+    else if (isfinite(low) && isfinite(high))
+        snprintf(text, size, "%s%.6g and %s%.6g%s", r.open_low ? "> " : ">= ", low,
+                 r.open_high ? "< " : "<= ", high, unit);
     else if (isfinite(low))
-        snprintf(text, size, "%s%.6g%s%s", r.open_low ? "> " : ">= ", low, space, unit);
+        snprintf(text, size, "%s%.6g%s", r.open_low ? "> " : ">= ", low, unit);
     else if (isfinite(high))
-        snprintf(text, size, "%s%.6g%s%s", r.open_high ? "< " : "<= ", high, space, unit);
+        snprintf(text, size, "%s%.6g%s", r.open_high ? "< " : "<= ", high, unit);
 }
 
 // Appends to `text`, cutting at its size.
@@ -151,12 +154,17 @@ static bool append_words(const field_row *field, bool later, const char *first, 
     return between != first;
 }
 
+static const char *unit_name(const char *unit)
+{
+    return strcmp(unit, "rad") == 0 ? "deg or rad" : unit;
+}
+
 static void number_expectation(const field_row *field, char *text, size_t size)
 {
     static const char *const many[] = {"", "a number", "two numbers", "three numbers"};
     if (field->unit[0])
         snprintf(text, size, "%s %s unit of %s", many[field->count],
-                 field->count > 1 ? "and one" : "with a", field->unit);
+                 field->count > 1 ? "and one" : "with a", unit_name(field->unit));
     else
         snprintf(text, size, "a plain number");
     char range[96];
@@ -174,7 +182,7 @@ static void table_expectation(const table_format *table, char *text, size_t size
         append(text, size, i ? ", " : "");
         append(text, size, table->column[i].name);
         append(text, size, " in ");
-        append(text, size, table->column[i].unit);
+        append(text, size, unit_name(table->column[i].unit));
     }
     static const char *const others[] = {
         [TABLE_ROWS] = "]",
@@ -219,7 +227,10 @@ void field_expectation(const field_row *field, char *text, size_t size)
             append(text, size, " or one value for all");
         return;
     case FIELD_LIST:
-        snprintf(text, size, "a list of %d to %d blocks", field->least, field->count);
+        if (field->least == field->count)
+            snprintf(text, size, "a list of %d block%s", field->count, field->count > 1 ? "s" : "");
+        else
+            snprintf(text, size, "a list of %d to %d blocks", field->least, field->count);
         return;
     case FIELD_TABLE:
         table_expectation(field->table, text, size);

@@ -94,7 +94,8 @@ static void derived_rules(const rule_set *rules)
         const ld_section *s = &tubes->section[i];
         const double value[] = {s->mass_per_length, s->axial_stiffness, s->bending_stiffness,
                                 s->torsion_stiffness, s->polar_inertia};
-        for (int k = 0; k < 5; k++)
+        bool has_wall = s->form != LD_SECTION_ANNULUS || s->outer_radius > s->bore_radius;
+        for (int k = 0; k < 5 && has_wall; k++)
             if (value[k] < 1e-100 || value[k] > 1e100) {
                 broken(rules, "tubes.sections.#", i + 1,
                        "its stiffnesses or masses come out as %g, beyond all reason", value[k]);
@@ -316,7 +317,7 @@ static void contact_rules(const rule_set *rules)
                contact->exponent);
     if (!linear && contact->damping > 0)
         broken(rules, "rocket.contact.damping", 0,
-               "of the laws kelvin-voigt and bilateral only; this law damps by its restitution");
+               "goes with the laws kelvin-voigt and bilateral; this law damps by its restitution");
 }
 
 static void thrust_rules(const rule_set *rules)

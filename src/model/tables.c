@@ -130,9 +130,9 @@ static const field_row layout_fields[] = {
     {0}};
 static const field_block layout_block = {.fields = layout_fields};
 
-static const field_word section_forms[] = {{"a section given by stiffnesses", LD_SECTION_STIFFNESS},
-                                           {"a section given by radii", LD_SECTION_ANNULUS},
+static const field_word section_forms[] = {{"a section given by radii", LD_SECTION_ANNULUS},
                                            {"a section given by its area", LD_SECTION_AREA},
+                                           {"a section given by stiffnesses", LD_SECTION_STIFFNESS},
                                            {NULL, 0}};
 #define STIFFNESS FORM(LD_SECTION_STIFFNESS)
 #define ANNULUS FORM(LD_SECTION_ANNULUS)

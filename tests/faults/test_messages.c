@@ -1,0 +1,164 @@
+// Broken scenarios and their exact messages: the cases are in cases.txt.
+#include "support/check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <unistd.h>
+
+#include "launchdyn/scenario.h"
+
+enum { MAX_TEXT = 8192, MAX_SETS = 8 };
+
+typedef struct fault_case {
+    char title[256];
+    char find[MAX_TEXT], replace[MAX_TEXT], whole[MAX_TEXT], expected[MAX_TEXT];
+    char set[MAX_SETS][256];
+    int sets, wholes;
+} fault_case;
+
+static char *read_file(const char *name)
+{
+    FILE *stream = fopen(name, "rb");
+    assert_non_null(stream);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    size_t length = fread(text, 1, (1 << 20) - 1, stream);
+    assert_true(length > 0);
+    fclose(stream);
+    return text;
+}
+
+// Adds a line, without the mark and the blank before it, to a text.
+static void add_line(char *text, const char *line, const char *between)
+{
+    const char *content = line[1] == ' ' ? line + 2 : line + 1;
+    strcat(text, between);
+    strcat(text, content);
+}
+
+// Reads one case from the lines after its title; returns the next title's line or NULL.
+static char *take_case(fault_case *c, char *line)
+{
+    memset(c, 0, sizeof *c);
+    snprintf(c->title, sizeof c->title, "%s", line + 3);
+    bool finds = false, replaces = false;
+    while ((line = strtok(NULL, "\n")) && strncmp(line, "## ", 3) != 0) {
+        if (line[0] == '-') {
+            add_line(c->find, line, finds ? "\n" : "");
+            finds = true;
+        } else if (line[0] == '+') {
+            add_line(c->replace, line, replaces ? "\n" : "");
+            replaces = true;
+        } else if (line[0] == '=') {
+            add_line(c->whole, line, c->wholes++ ? "\n" : "");
+        } else if (line[0] == '$') {
+            add_line(c->set[c->sets++], line, "");
+        } else if (line[0] == '>') {
+            add_line(c->expected, line, "");
+            strcat(c->expected, "\n");
+        }
+    }
+    return line;
+}
+
+// The scenario of a case; the text to replace must stand in the base exactly once.
+static char *scenario_text(const fault_case *c, const char *base)
+{
+    char *text = calloc(1, strlen(base) + 2 * MAX_TEXT);
+    assert_non_null(text);
+    if (c->wholes > 0) {
+        strcpy(text, c->whole);
+        return text;
+    }
+    strcpy(text, base);
+    if (!c->find[0])
+        return text;
+    const char *place = strstr(base, c->find);
+    if (!place || strstr(place + 1, c->find))
+        fail_msg("%s: the text to replace is not there exactly once", c->title);
+    sprintf(text, "%.*s%s%s", (int)(place - base), base, c->replace, place + strlen(c->find));
+    return text;
+}
+
+// What the reader prints about a case.
+static char *messages_of(const fault_case *c, const char *text)
+{
+    const char *sets[MAX_SETS];
+    ld_model model;
+    ld_messages messages;
+    char *printed = NULL;
+    size_t length = 0;
+    for (int i = 0; i < c->sets; i++)
+        sets[i] = c->set[i];
+    ld_status status = ld_scenario_read_text(text, strlen(text), "case.yaml", "", sets,
+                                             (size_t)c->sets, &model, &messages);
+    if (status != LD_ERR_INPUT)
+        fail_msg("%s: status %s", c->title, ld_status_name(status));
+    FILE *stream = open_memstream(&printed, &length);
+    ld_messages_print(&messages, stream);
+    fclose(stream);
+    ld_messages_free(&messages);
+    return printed;
+}
+
+static void write_case(FILE *record, const fault_case *c, const char *printed)
+{
+    fprintf(record, "## %s\n", c->title);
+    for (const char *line = printed; *line; line = strchr(line, '\n') + 1)
+        fprintf(record, "> %.*s", (int)(strchr(line, '\n') + 1 - line), line);
+}
+
+// Every case prints what cases.txt says; what was printed is recorded in the build folder.
+static void test_messages_are_exact(void **state)
+{
+    (void)state;
+    assert_int_equal(chdir(LD_SOURCE_DIR "/tests/faults"), 0);
+    static fault_case c;
+    char *base = read_file("base.yaml"), *cases = read_file("cases.txt");
+    FILE *record = fopen(LD_BINARY_DIR "/faults-printed.txt", "w");
+    assert_non_null(record);
+    int count = 0, wrong = 0;
+    char *line = strtok(cases, "\n");
+    while (line && strncmp(line, "## ", 3) != 0)
+        line = strtok(NULL, "\n");
+    while (line) {
+        line = take_case(&c, line);
+        char *text = scenario_text(&c, base), *printed = messages_of(&c, text);
+        write_case(record, &c, printed);
+        if (strcmp(printed, c.expected) != 0) {
+            printf("%s: expected\n%sprinted\n%s", c.title, c.expected, printed);
+            wrong++;
+        }
+        count++;
+        free(text);
+        free(printed);
+    }
+    fclose(record);
+    free(base);
+    free(cases);
+    CHECK_BELOW("broken scenarios with another message", wrong, 0);
+    CHECK_WITHIN("broken scenarios", count, 150, 1000);
+}
+
+// The scenario that the cases change is good.
+static void test_base_is_good(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_messages messages;
+    ld_status status =
+        ld_scenario_read(LD_SOURCE_DIR "/tests/faults/base.yaml", NULL, 0, &model, &messages);
+    ld_messages_print(&messages, stdout);
+    assert_int_equal(status, LD_OK);
+    ld_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_base_is_good),
+        cmocka_unit_test(test_messages_are_exact),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
