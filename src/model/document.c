@@ -3,11 +3,11 @@
 
 #include <string.h>
 
-// Prints `text` with the characters escaped that would end a cell or start emphasis.
+// Prints `text` with the characters escaped that would end a cell or start a tag.
 static void cell(FILE *stream, const char *text)
 {
     for (; *text; text++)
-        fprintf(stream, *text == '|' || *text == '<' || *text == '_' ? "\\%c" : "%c", *text);
+        fprintf(stream, *text == '|' || *text == '<' ? "\\%c" : "%c", *text);
 }
 
 static void write_kind(FILE *stream, const field_row *f)
@@ -61,8 +61,7 @@ static bool is_repeated(const field_block *block, const field_row *f)
 }
 
 // The path of the block below `f`, with its likes in the same block: "motion.surge.N, heave.N".
-static void path_below(char *text, size_t size, const field_block *block, const field_row *f,
-                       const char *path)
+static void path_below(char *text, size_t size, const field_row *f, const char *path)
 {
     const char *entry = f->kind == FIELD_LIST ? ".N" : "";
     snprintf(text, size, "%s%s%s%s", path, path[0] ? "." : "", f->name, entry);
@@ -98,7 +97,7 @@ static void write_block(FILE *stream, const field_block *block, const char *path
     for (const field_row *f = block->fields; f->name; f++) {
         if (!f->block || is_repeated(block, f))
             continue;
-        path_below(full_path, sizeof full_path, block, f, path);
+        path_below(full_path, sizeof full_path, f, path);
         write_block(stream, f->block, full_path);
     }
 }
