@@ -1,0 +1,71 @@
+/// Results on disk and on paper: history.h5, history.csv, summary.json, the table of a run,
+/// figures. What the files hold is described in docs/results.md.
+#ifndef LAUNCHDYN_OUTPUT_H
+#define LAUNCHDYN_OUTPUT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/results.h"
+#include "launchdyn/simulation.h"
+#include "launchdyn/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The results of one run on their way to a folder. Files are written under temporary names
+/// ("history.h5.part") and get their own ones at the end.
+typedef struct ld_output ld_output;
+
+/// Opens the results of a run in `folder`, which is made, with its parents, where it is not there.
+/// @param model  kept by reference: title and names of the adaptors
+/// @param csv    also write history.csv
+/// @param output opened: end it with ld_output_finish() or ld_output_discard()
+/// @return LD_OK, LD_ERR_FILE (with the reason, nothing left behind) or LD_ERR_MEMORY
+ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld_output **output,
+                         ld_error *error);
+
+/// Where the rows of the run go: for ld_run_options.sink. Valid as long as `output`.
+const ld_sink *ld_output_sink(ld_output *output);
+
+/// Writes what is left and summary.json, puts all files in place of those of an earlier run, and
+/// frees `output`. Also for runs that ended early: summary->complete tells.
+/// @return LD_OK, or LD_ERR_FILE: then the earlier files stand as they were
+ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error);
+
+/// Removes what has been written, and the folders made for it, and frees `output` (may be NULL).
+void ld_output_discard(ld_output *output);
+
+/// Writes a summary as JSON: SI units, radians, 17 digits, null where there is no value.
+/// @return LD_OK or LD_ERR_FILE (then there is no file)
+ld_status ld_summary_write(const char *path, const ld_model *model, const ld_summary *summary,
+                           ld_error *error);
+
+/// Prints a summary as a short table for a terminal.
+void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *stream);
+
+/// A standard figure of a launch.
+typedef struct ld_figure {
+    const char *name;        ///< e.g. "tip"
+    const char *description; ///< one line
+} ld_figure;
+
+/// The standard figures, `count` of them.
+const ld_figure *ld_figures(size_t *count);
+
+/// Draws figures of the run in `folder`, one below the other, with gnuplot, which must be in PATH.
+/// @param names `count` names of figures
+/// @param file  the picture; its ending says what it becomes: .svg, .pdf or .png
+/// @return LD_OK, LD_ERR_INPUT (unknown figure or ending, no history in the folder), LD_ERR_FILE,
+///         LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)
+ld_status ld_plot(const char *folder, const char *const *names, size_t count, const char *file,
+                  ld_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

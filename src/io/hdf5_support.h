@@ -1,0 +1,32 @@
+// What HDF5 needs around it: silence, errors as one sentence, attributes.
+#ifndef LD_IO_HDF5_SUPPORT_H
+#define LD_IO_HDF5_SUPPORT_H
+
+#include <hdf5.h>
+#include <stdbool.h>
+
+#include "launchdyn/status.h"
+
+// HDF5 prints its error stack unless told not to; the setting before is put back at the end.
+typedef struct hdf5_quiet {
+    H5E_auto2_t function;
+    void *data;
+} hdf5_quiet;
+
+hdf5_quiet hdf5_quiet_begin(void);
+void hdf5_quiet_end(const hdf5_quiet *quiet);
+
+// LD_ERR_FILE with "cannot `what` `path`: reason", the reason from HDF5's error stack.
+ld_status hdf5_failed(ld_error *error, const char *what, const char *path);
+
+// Attributes of an open object: UTF-8 text of variable length, integer, double.
+bool hdf5_write_text(hid_t object, const char *name, const char *text);
+bool hdf5_write_integer(hid_t object, const char *name, int value);
+bool hdf5_write_number(hid_t object, const char *name, double value);
+
+// The same read back: the text is new (NULL: no such attribute), the number NaN where there is
+// none.
+char *hdf5_read_text(hid_t object, const char *name);
+double hdf5_read_number(hid_t object, const char *name);
+
+#endif

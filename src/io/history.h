@@ -1,0 +1,51 @@
+// The history of a run in files: HDF5 and CSV, row by row, and reading it back.
+#ifndef LD_IO_HISTORY_H
+#define LD_IO_HISTORY_H
+
+#include <stddef.h>
+
+#include "launchdyn/results.h"
+#include "launchdyn/simulation.h"
+#include "launchdyn/status.h"
+
+// history.h5, laid out as docs/results.md says. Rows are gathered in blocks; after each block the
+// file on disk is complete up to there.
+typedef struct history_hdf5 history_hdf5;
+
+// Creates the file at `path`; `title` becomes an attribute.
+ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 **history,
+                              ld_error *error);
+ld_status history_hdf5_begin(history_hdf5 *history, const ld_column *columns, size_t count,
+                             ld_error *error);
+ld_status history_hdf5_row(history_hdf5 *history, const double *values, ld_error *error);
+// Writes what is left and, if `summary` is not NULL, the key instants; closes the file and frees.
+ld_status history_hdf5_close(history_hdf5 *history, const ld_summary *summary, ld_error *error);
+
+// history.csv: a line of "name [unit]", then a line of %.17g each row.
+typedef struct history_csv history_csv;
+
+ld_status history_csv_create(const char *path, history_csv **history, ld_error *error);
+ld_status history_csv_begin(history_csv *history, const ld_column *columns, size_t count,
+                            ld_error *error);
+ld_status history_csv_row(history_csv *history, const double *values, size_t count,
+                          ld_error *error);
+ld_status history_csv_close(history_csv *history, ld_error *error);
+
+// A history read back from history.h5, whole.
+typedef struct history_data {
+    char *title;
+    size_t rows, columns;
+    char **name;   // [columns]
+    double *value; // [columns][rows]
+    // key instants of the first rocket [s]: ignition on the run's clock, the others from ignition;
+    // NaN where there is none
+    double t_ignition, t_release, t_front, t_middle, t_rear;
+} history_data;
+
+ld_status history_read(const char *path, history_data *history, ld_error *error);
+void history_free(history_data *history);
+
+// The values of column `name`, or NULL.
+const double *history_column(const history_data *history, const char *name);
+
+#endif

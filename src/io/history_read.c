@@ -1,0 +1,140 @@
+#include <hdf5.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "io/hdf5_support.h"
+#include "io/history.h"
+
+// Number of rows of a column, 0 if it is not a one-dimensional array.
+static hsize_t count_rows(hid_t dataset)
+{
+    hid_t space = H5Dget_space(dataset);
+    hsize_t rows = 0;
+    if (space >= 0 && H5Sget_simple_extent_ndims(space) == 1)
+        H5Sget_simple_extent_dims(space, &rows, NULL);
+    H5Sclose(space);
+    return rows;
+}
+
+static char *read_name(hid_t group, hsize_t index)
+{
+    ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, index, NULL, 0,
+                                        H5P_DEFAULT);
+    char *name = length > 0 ? malloc((size_t)length + 1) : NULL;
+    if (name)
+        H5Lget_name_by_idx(group, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, index, name,
+                           (size_t)length + 1, H5P_DEFAULT);
+    return name;
+}
+
+// The first `rows` values of a column.
+static bool read_values(hid_t dataset, hsize_t rows, double *values)
+{
+    hsize_t start = 0;
+    hid_t memory = H5Screate_simple(1, &rows, NULL), space = H5Dget_space(dataset);
+    bool fine = H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &rows, NULL) >= 0 &&
+                H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values) >= 0;
+    H5Sclose(space);
+    H5Sclose(memory);
+    return fine;
+}
+
+// Rows that all columns have: a killed run may have written more of some of them.
+static bool read_names(hid_t group, history_data *history)
+{
+    history->name = calloc(history->columns + 1, sizeof *history->name);
+    if (!history->name)
+        return false;
+    history->rows = SIZE_MAX;
+    for (size_t i = 0; i < history->columns; i++) {
+        history->name[i] = read_name(group, i);
+        hid_t dataset = history->name[i] ? H5Dopen2(group, history->name[i], H5P_DEFAULT) : -1;
+        if (dataset < 0)
+            return false;
+        hsize_t rows = count_rows(dataset);
+        history->rows = rows < history->rows ? (size_t)rows : history->rows;
+        H5Dclose(dataset);
+    }
+    return true;
+}
+
+static bool read_columns(hid_t group, history_data *history)
+{
+    if (!read_names(group, history))
+        return false;
+    history->value = malloc((history->columns * history->rows + 1) * sizeof *history->value);
+    bool fine = history->value != NULL;
+    for (size_t i = 0; fine && i < history->columns; i++) {
+        hid_t dataset = H5Dopen2(group, history->name[i], H5P_DEFAULT);
+        fine = read_values(dataset, history->rows, history->value + i * history->rows);
+        H5Dclose(dataset);
+    }
+    return fine;
+}
+
+static void read_instants(hid_t file, history_data *history)
+{
+    hid_t group = H5Gopen2(file, "rockets/1", H5P_DEFAULT);
+    history->t_ignition = hdf5_read_number(group, "t_ignition");
+    history->t_release = hdf5_read_number(group, "t_release");
+    history->t_front = hdf5_read_number(group, "t_front");
+    history->t_middle = hdf5_read_number(group, "t_middle");
+    history->t_rear = hdf5_read_number(group, "t_rear");
+    if (group >= 0)
+        H5Gclose(group);
+}
+
+static ld_status read_file(hid_t file, const char *path, history_data *history, ld_error *error)
+{
+    history->title = hdf5_read_text(file, "title");
+    read_instants(file, history);
+    hid_t group = H5Gopen2(file, "history", H5P_DEFAULT);
+    H5G_info_t info = {0};
+    if (group < 0 || H5Gget_info(group, &info) < 0 || info.nlinks == 0) {
+        if (group >= 0)
+            H5Gclose(group);
+        return ld_fail(error, LD_ERR_INPUT, "%s holds no history", path);
+    }
+    history->columns = (size_t)info.nlinks;
+    ld_status status = read_columns(group, history) ? LD_OK : hdf5_failed(error, "read", path);
+    H5Gclose(group);
+    return status;
+}
+
+ld_status history_read(const char *path, history_data *history, ld_error *error)
+{
+    memset(history, 0, sizeof *history);
+    hdf5_quiet quiet = hdf5_quiet_begin();
+    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    ld_status status = LD_OK;
+    if (file < 0) {
+        status = hdf5_failed(error, "read", path);
+    } else {
+        status = read_file(file, path, history, error);
+        H5Fclose(file);
+    }
+    hdf5_quiet_end(&quiet);
+    if (status)
+        history_free(history);
+    return status;
+}
+
+void history_free(history_data *history)
+{
+    for (size_t i = 0; history->name && i < history->columns; i++)
+        free(history->name[i]);
+    free(history->name);
+    free(history->value);
+    free(history->title);
+    memset(history, 0, sizeof *history);
+}
+
+const double *history_column(const history_data *history, const char *name)
+{
+    for (size_t i = 0; i < history->columns; i++)
+        if (strcmp(history->name[i], name) == 0)
+            return history->value + i * history->rows;
+    return NULL;
+}

@@ -1,0 +1,196 @@
+#include "launchdyn/output.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/history.h"
+
+// Files of a results folder, in the order in which they get their names: summary.json comes last,
+// so that where it stands the others belong to it.
+enum { HDF5, CSV, SUMMARY, FILES };
+
+static const char *const file_name[FILES] = {"history.h5", "history.csv", "summary.json"};
+
+struct ld_output {
+    const ld_model *model;
+    char *folder;
+    size_t made_from; // length of the folder's part that was there before
+    char *path[FILES], *part[FILES];
+    history_hdf5 *hdf5;
+    history_csv *csv; // NULL: not wanted
+    ld_sink sink;
+};
+
+static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
+{
+    ld_output *output = self;
+    ld_status status = history_hdf5_begin(output->hdf5, columns, count, error);
+    if (!status && output->csv)
+        status = history_csv_begin(output->csv, columns, count, error);
+    return status;
+}
+
+static ld_status row(void *self, const double *values, size_t count, ld_error *error)
+{
+    ld_output *output = self;
+    ld_status status = history_hdf5_row(output->hdf5, values, error);
+    if (!status && output->csv)
+        status = history_csv_row(output->csv, values, count, error);
+    return status;
+}
+
+// Makes the folder, parents first; made_from remembers what was there.
+static ld_status make_folder(ld_output *output, ld_error *error)
+{
+    char *path = output->folder;
+    bool made = false;
+    for (size_t end = 1;; end++) {
+        char letter = path[end];
+        if (letter && letter != '/')
+            continue;
+        path[end] = '\0';
+        if (mkdir(path, 0777) == 0) {
+            made = true;
+        } else if (errno != EEXIST) {
+            return ld_fail(error, LD_ERR_FILE, "cannot make the folder %s: %s", path,
+                           strerror(errno));
+        }
+        path[end] = letter;
+        if (!made)
+            output->made_from = end;
+        if (!letter)
+            return LD_OK;
+    }
+}
+
+// Removes the folders that were made and are empty.
+static void remove_folders(ld_output *output)
+{
+    char *path = output->folder;
+    for (size_t end = strlen(path); end > output->made_from; end--)
+        if (!path[end] || path[end] == '/') {
+            path[end] = '\0';
+            if (rmdir(path) != 0)
+                return;
+        }
+}
+
+static char *join(const char *folder, const char *name, const char *ending)
+{
+    size_t size = strlen(folder) + strlen(name) + strlen(ending) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s%s", folder, name, ending);
+    return path;
+}
+
+static ld_status set_paths(ld_output *output, const char *folder, ld_error *error)
+{
+    bool fine = (output->folder = strdup(folder)) != NULL;
+    for (int i = 0; fine && i < FILES; i++) {
+        output->path[i] = join(folder, file_name[i], "");
+        output->part[i] = join(folder, file_name[i], ".part");
+        fine = output->path[i] && output->part[i];
+    }
+    if (!fine)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
+    output->made_from = strlen(folder);
+    return LD_OK;
+}
+
+static void free_output(ld_output *output)
+{
+    for (int i = 0; i < FILES; i++) {
+        free(output->path[i]);
+        free(output->part[i]);
+    }
+    free(output->folder);
+    free(output);
+}
+
+ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld_output **output,
+                         ld_error *error)
+{
+    if (!*folder)
+        return ld_fail(error, LD_ERR_INPUT, "the results need the name of a folder");
+    ld_output *opened = calloc(1, sizeof *opened);
+    if (!opened)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
+    opened->model = model;
+    opened->sink = (ld_sink){opened, begin, row};
+    ld_status status = set_paths(opened, folder, error);
+    if (!status)
+        status = make_folder(opened, error);
+    if (!status)
+        status = history_hdf5_create(opened->part[HDF5], model->title ? model->title : "",
+                                     &opened->hdf5, error);
+    if (!status && csv)
+        status = history_csv_create(opened->part[CSV], &opened->csv, error);
+    if (status)
+        ld_output_discard(opened);
+    else
+        *output = opened;
+    return status;
+}
+
+const ld_sink *ld_output_sink(ld_output *output)
+{
+    return &output->sink;
+}
+
+// Closes the histories; `summary` NULL: they are not wanted any more.
+static ld_status close_histories(ld_output *output, const ld_summary *summary, ld_error *error)
+{
+    ld_status status = LD_OK, csv_status = LD_OK;
+    if (output->csv)
+        csv_status = history_csv_close(output->csv, error);
+    if (output->hdf5)
+        status = history_hdf5_close(output->hdf5, summary, error);
+    output->csv = NULL;
+    output->hdf5 = NULL;
+    return status ? status : csv_status;
+}
+
+// Takes an earlier run's summary away, then gives every file its name.
+static ld_status put_in_place(ld_output *output, ld_error *error)
+{
+    if (unlink(output->path[SUMMARY]) != 0 && errno != ENOENT)
+        return ld_fail(error, LD_ERR_FILE, "cannot replace %s: %s", output->path[SUMMARY],
+                       strerror(errno));
+    for (int i = 0; i < FILES; i++)
+        if (rename(output->part[i], output->path[i]) != 0 &&
+            (errno != ENOENT || (unlink(output->path[i]) != 0 && errno != ENOENT)))
+            return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", output->path[i],
+                           strerror(errno));
+    return LD_OK;
+}
+
+ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error)
+{
+    ld_status status = close_histories(output, summary, error);
+    if (!status)
+        status = ld_summary_write(output->part[SUMMARY], output->model, summary, error);
+    if (!status)
+        status = put_in_place(output, error);
+    if (status)
+        ld_output_discard(output);
+    else
+        free_output(output);
+    return status;
+}
+
+void ld_output_discard(ld_output *output)
+{
+    if (!output)
+        return;
+    close_histories(output, NULL, NULL);
+    for (int i = 0; i < FILES; i++)
+        if (output->part[i])
+            unlink(output->part[i]);
+    if (output->folder)
+        remove_folders(output);
+    free_output(output);
+}

@@ -1,0 +1,283 @@
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "io/numeric_locale.h"
+#include "launchdyn/output.h"
+
+// A JSON text on its way to a file: indented by two blanks a level, commas as they are needed.
+typedef struct json_writer {
+    FILE *file;
+    int level;
+    bool first; // no member of the innermost object or array yet
+} json_writer;
+
+static void json_new_line(json_writer *json)
+{
+    fprintf(json->file, "%s\n%*s", json->first ? "" : ",", 2 * json->level, "");
+    json->first = false;
+}
+
+// Length of the UTF-8 sequence at `text` (2 to 4), 0 where it is not a valid one.
+static size_t utf8_length(const unsigned char *text)
+{
+    size_t length = text[0] >= 0xC2 && text[0] < 0xE0   ? 2
+                    : text[0] >= 0xE0 && text[0] < 0xF0 ? 3
+                    : text[0] >= 0xF0 && text[0] < 0xF5 ? 4
+                                                        : 0;
+    for (size_t i = 1; i < length; i++)
+        if ((text[i] & 0xC0) != 0x80)
+            return 0;
+    bool wrong = (text[0] == 0xE0 && text[1] < 0xA0) || (text[0] == 0xED && text[1] > 0x9F) ||
+                 (text[0] == 0xF0 && text[1] < 0x90) || (text[0] == 0xF4 && text[1] > 0x8F);
+    return wrong ? 0 : length;
+}
+
+// A string in quotes; bytes that are not UTF-8 become U+FFFD.
+static void json_string(json_writer *json, const char *text)
+{
+    fputc('"', json->file);
+    for (const unsigned char *letter = (const unsigned char *)text; *letter;) {
+        size_t length = *letter < 0x80 ? 1 : utf8_length(letter);
+        if (*letter == '"' || *letter == '\\')
+            fprintf(json->file, "\\%c", *letter);
+        else if (*letter == '\n')
+            fputs("\\n", json->file);
+        else if (*letter < 0x20)
+            fprintf(json->file, "\\u%04x", *letter);
+        else if (length == 0)
+            fputs("\\ufffd", json->file);
+        else
+            fwrite(letter, 1, length, json->file);
+        letter += length ? length : 1;
+    }
+    fputc('"', json->file);
+}
+
+// The name of a member; NULL in an array.
+static void json_key(json_writer *json, const char *key)
+{
+    json_new_line(json);
+    if (!key)
+        return;
+    json_string(json, key);
+    fputs(": ", json->file);
+}
+
+static void json_open(json_writer *json, const char *key, char bracket)
+{
+    if (json->level > 0)
+        json_key(json, key);
+    fputc(bracket, json->file);
+    json->level++;
+    json->first = true;
+}
+
+static void json_close(json_writer *json, char bracket)
+{
+    json->level--;
+    if (!json->first)
+        fprintf(json->file, "\n%*s", 2 * json->level, "");
+    fputc(bracket, json->file);
+    json->first = false;
+}
+
+static void json_text(json_writer *json, const char *key, const char *text)
+{
+    json_key(json, key);
+    json_string(json, text);
+}
+
+static void json_number(json_writer *json, const char *key, double value)
+{
+    json_key(json, key);
+    if (isfinite(value))
+        fprintf(json->file, "%.17g", value);
+    else
+        fputs("null", json->file);
+}
+
+static void json_integer(json_writer *json, const char *key, long long value)
+{
+    json_key(json, key);
+    fprintf(json->file, "%lld", value);
+}
+
+// One value an adaptor, by its name.
+static void write_adaptors(json_writer *json, const char *key, const ld_model *model,
+                           const double *values)
+{
+    json_open(json, key, '{');
+    for (int i = 0; i < model->rocket.adaptor_count; i++)
+        json_number(json, model->rocket.adaptor[i].name, values[i]);
+    json_close(json, '}');
+}
+
+static void write_relative(json_writer *json, const ld_rocket_summary *rocket)
+{
+    json_open(json, "relative", '{');
+    json_number(json, "y", rocket->relative.y);
+    json_number(json, "z", rocket->relative.z);
+    json_number(json, "psi", rocket->relative.psi);
+    json_number(json, "theta", rocket->relative.theta);
+    json_number(json, "gamma", rocket->relative.gamma);
+    json_number(json, "w_x", rocket->relative.w_x);
+    json_number(json, "w_y", rocket->relative.w_y);
+    json_number(json, "w_z", rocket->relative.w_z);
+    json_close(json, '}');
+}
+
+static void write_tip(json_writer *json, const ld_rocket_summary *rocket)
+{
+    json_open(json, "tip", '{');
+    json_number(json, "y", rocket->tip.y);
+    json_number(json, "z", rocket->tip.z);
+    json_number(json, "pitch", rocket->tip.pitch);
+    json_number(json, "yaw", rocket->tip.yaw);
+    json_number(json, "vy", rocket->tip.vy);
+    json_number(json, "vz", rocket->tip.vz);
+    json_number(json, "pitch_rate", rocket->tip.pitch_rate);
+    json_number(json, "yaw_rate", rocket->tip.yaw_rate);
+    json_close(json, '}');
+}
+
+static void write_rocket(json_writer *json, const ld_model *model, const ld_rocket_summary *rocket)
+{
+    json_open(json, NULL, '{');
+    json_integer(json, "tube", rocket->tube);
+    json_number(json, "t_ignition", rocket->t_ignition);
+    json_number(json, "t_release", rocket->t_release);
+    json_number(json, "t_front", rocket->t_front);
+    json_number(json, "t_middle", rocket->t_middle);
+    json_number(json, "t_rear", rocket->t_rear);
+    write_adaptors(json, "t_exit", model, rocket->t_exit);
+    json_number(json, "muzzle_speed", rocket->muzzle_speed);
+    json_number(json, "inertial_speed", rocket->inertial_speed);
+    json_number(json, "spin_rate", rocket->spin_rate);
+    json_number(json, "pitch", rocket->pitch);
+    json_number(json, "yaw", rocket->yaw);
+    json_number(json, "pitch_rate", rocket->pitch_rate);
+    json_number(json, "yaw_rate", rocket->yaw_rate);
+    write_relative(json, rocket);
+    write_tip(json, rocket);
+    write_adaptors(json, "max_contact_force", model, rocket->max_contact_force);
+    json_number(json, "max_slot_force", rocket->max_slot_force);
+    json_close(json, '}');
+}
+
+static void write_equilibrium(json_writer *json, const ld_model *model,
+                              const ld_equilibrium_summary *equilibrium)
+{
+    json_open(json, "equilibrium", '{');
+    json_number(json, "lock_force", equilibrium->lock_force);
+    json_number(json, "slot_force", equilibrium->slot_force);
+    write_adaptors(json, "contact_force", model, equilibrium->contact_force);
+    json_open(json, "tip_sag", '{');
+    json_number(json, "y", equilibrium->tip_sag[0]);
+    json_number(json, "z", equilibrium->tip_sag[1]);
+    json_close(json, '}');
+    json_number(json, "residual", equilibrium->residual);
+    json_close(json, '}');
+}
+
+static void write_energy(json_writer *json, const ld_energy *energy)
+{
+    json_open(json, "energy", '{');
+    json_number(json, "kinetic", energy->kinetic);
+    json_number(json, "potential", energy->potential);
+    json_number(json, "elastic", energy->elastic);
+    json_open(json, "work", '{');
+    json_number(json, "thrust", energy->work.thrust);
+    json_number(json, "gravity_rocket", energy->work.gravity_rocket);
+    json_number(json, "contact_normal", energy->work.contact_normal);
+    json_number(json, "contact_friction", energy->work.contact_friction);
+    json_number(json, "slot", energy->work.slot);
+    json_number(json, "slot_friction", energy->work.slot_friction);
+    json_number(json, "lock", energy->work.lock);
+    json_number(json, "support_damping", energy->work.support_damping);
+    json_number(json, "modal_damping", energy->work.modal_damping);
+    json_number(json, "base", energy->work.base);
+    json_number(json, "mass_change", energy->work.mass_change);
+    json_close(json, '}');
+    json_number(json, "residual", energy->residual);
+    json_number(json, "residual_relative", energy->residual_relative);
+    json_close(json, '}');
+}
+
+static void write_modes(json_writer *json, const ld_summary *summary)
+{
+    json_open(json, "modes", '[');
+    for (int i = 0; i < summary->mode_count; i++) {
+        const ld_mode *mode = &summary->mode[i];
+        json_open(json, NULL, '{');
+        json_number(json, "frequency", mode->frequency);
+        json_number(json, "damping", mode->damping);
+        json_number(json, "real", mode->real);
+        json_text(json, "shape", mode->shape ? mode->shape : "");
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
+static void write_end(json_writer *json, const ld_summary *summary)
+{
+    json_number(json, "t_end", summary->t_end);
+    json_key(json, "complete");
+    fputs(summary->complete ? "true" : "false", json->file);
+    json_key(json, "stopped");
+    if (summary->complete)
+        fputs("null", json->file);
+    else
+        json_string(json, summary->stopped);
+    json_open(json, "notes", '[');
+    for (int i = 0; i < summary->note_count; i++)
+        json_text(json, NULL, summary->note[i]);
+    json_close(json, ']');
+}
+
+static void write_statistics(json_writer *json, const ld_statistics *statistics)
+{
+    json_open(json, "statistics", '{');
+    json_integer(json, "steps", statistics->steps);
+    json_integer(json, "rhs_evaluations", statistics->rhs_evaluations);
+    json_number(json, "cpu_seconds", statistics->cpu_seconds);
+    json_number(json, "cpu_seconds_setup", statistics->cpu_seconds_setup);
+    json_close(json, '}');
+}
+
+static void write_summary(json_writer *json, const ld_model *model, const ld_summary *summary)
+{
+    json_open(json, NULL, '{');
+    json_text(json, "title", model->title ? model->title : "");
+    json_text(json, "version", LD_VERSION);
+    write_end(json, summary);
+    json_open(json, "rockets", '[');
+    for (int i = 0; i < summary->rocket_count; i++)
+        write_rocket(json, model, &summary->rocket[i]);
+    json_close(json, ']');
+    write_equilibrium(json, model, &summary->equilibrium);
+    write_energy(json, &summary->energy);
+    write_modes(json, summary);
+    write_statistics(json, &summary->statistics);
+    json_close(json, '}');
+    fputc('\n', json->file);
+}
+
+ld_status ld_summary_write(const char *path, const ld_model *model, const ld_summary *summary,
+                           ld_error *error)
+{
+    json_writer json = {.file = fopen(path, "w")};
+    if (!json.file)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    locale_t before = numeric_locale_enter();
+    write_summary(&json, model, summary);
+    numeric_locale_leave(before);
+    bool wrong = fflush(json.file) != 0 || ferror(json.file);
+    int number = errno;
+    wrong |= fclose(json.file) != 0;
+    if (!wrong)
+        return LD_OK;
+    unlink(path);
+    return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(number));
+}
