@@ -1,0 +1,87 @@
+// Cost of a row in history.h5 and history.csv, and of opening and closing the files: 60 and 110
+// columns, process CPU time.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "io/history.h"
+
+enum { MOST_COLUMNS = 110, ROWS = 50000 };
+
+static char names[MOST_COLUMNS][16];
+static ld_column columns[MOST_COLUMNS];
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static void check(ld_status status, const ld_error *error)
+{
+    if (status) {
+        fprintf(stderr, "%s\n", error->text);
+        exit(1);
+    }
+}
+
+static void print(const char *what, size_t count, double rows, double ends)
+{
+    printf("%-12s %4zu columns  %7.2f us a row  %7.2f ms to open and close\n", what, count,
+           rows / ROWS * 1e6, ends * 1e3);
+}
+
+static void bench_hdf5(const char *path, size_t count, const double *values)
+{
+    ld_error error;
+    history_hdf5 *history = NULL;
+    double start = now();
+    check(history_hdf5_create(path, "bench", &history, &error), &error);
+    check(history_hdf5_begin(history, columns, count, &error), &error);
+    double opened = now();
+    for (size_t row = 0; row < ROWS; row++)
+        check(history_hdf5_row(history, values + row % 64, &error), &error);
+    double written = now();
+    check(history_hdf5_close(history, NULL, &error), &error);
+    print("history.h5", count, written - opened, opened - start + now() - written);
+}
+
+static void bench_csv(const char *path, size_t count, const double *values)
+{
+    ld_error error;
+    history_csv *history = NULL;
+    double start = now();
+    check(history_csv_create(path, &history, &error), &error);
+    check(history_csv_begin(history, columns, count, &error), &error);
+    double opened = now();
+    for (size_t row = 0; row < ROWS / 10; row++)
+        check(history_csv_row(history, values + row % 64, count, &error), &error);
+    double written = now();
+    check(history_csv_close(history, &error), &error);
+    print("history.csv", count, 10 * (written - opened), opened - start + now() - written);
+}
+
+int main(void)
+{
+    double values[MOST_COLUMNS + 64];
+    for (int i = 0; i < MOST_COLUMNS + 64; i++)
+        values[i] = sin(i) * pow(10, i % 7 - 3);
+    for (int i = 0; i < MOST_COLUMNS; i++) {
+        snprintf(names[i], sizeof names[i], "column%d", i);
+        columns[i] = (ld_column){names[i], "m", "a column of the benchmark"};
+    }
+    char folder[] = "/tmp/launchdyn-bench-XXXXXX", path[64];
+    if (!mkdtemp(folder))
+        return 1;
+    snprintf(path, sizeof path, "%s/history", folder);
+    for (size_t count = 60; count <= MOST_COLUMNS; count += 50) {
+        bench_hdf5(path, count, values);
+        unlink(path);
+        bench_csv(path, count, values);
+        unlink(path);
+    }
+    return rmdir(folder) != 0;
+}
