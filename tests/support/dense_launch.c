@@ -90,6 +90,8 @@ static jet rotation_series(jet x, int first)
         power1 = (k + 1) * power;
         power *= x.v;
         factorial /= -(double)((top + 1) * (top + 2));
+        if (k > 1 && fabs(factorial * power2) < 1e-24)
+            break;
     }
     return jet_apply(x, f, f1, f2);
 }
@@ -178,7 +180,7 @@ typedef struct mode_family {
 static jet shape_at(const jet_scene *scene, const mode_family *family, int derivative, double xi)
 {
     jet r = jet_constant(0);
-    if (scene->n) {
+    if (scene->n && family->count) {
         r.n = scene->n;
         memset(r.d, 0, (size_t)r.n * sizeof *r.d);
     }
@@ -221,24 +223,35 @@ static const tube_element *element_at(const flexible_tube *tube, double x)
     return &tube->element[i];
 }
 
-// Deformation at station x: displacement u and rotation vector phi, in R.
-static void deformation(const jet_scene *scene, jet x, jet3 *u, jet3 *phi)
+// A family of modes at the element that holds station x.
+static jet family_at(const jet_scene *scene, char family, int derivative, jet x)
 {
     const flexible_tube *tube = scene->dense->tube;
     const tube_element *element = element_at(tube, x.v);
-    mode_family b_y = {&element->b[0][0], 4, LD_NB, tube->nb, 0};
-    mode_family b_z = {&element->b[0][0], 4, LD_NB, tube->nb, tube->nb};
-    mode_family tau = {&element->tau[0][0], 2, LD_NT, tube->nt, 2 * tube->nb};
-    mode_family a = {&element->a[0][0], 2, LD_NA, tube->na, 2 * tube->nb + tube->nt};
-    jet xi = jet_sub(x, jet_constant(element->x0));
-    u->c[0] = shape_sum(scene, &a, 0, xi);
-    u->c[1] = shape_sum(scene, &b_y, 0, xi);
-    u->c[2] = shape_sum(scene, &b_z, 0, xi);
-    if (phi) {
-        phi->c[0] = shape_sum(scene, &tau, 0, xi);
-        phi->c[1] = jet_scale(-1, shape_sum(scene, &b_z, 1, xi));
-        phi->c[2] = shape_sum(scene, &b_y, 1, xi);
-    }
+    mode_family modes;
+    if (family == 'y' || family == 'z')
+        modes = (mode_family){&element->b[0][0], 4, LD_NB, tube->nb, family == 'y' ? 0 : tube->nb};
+    else if (family == 't')
+        modes = (mode_family){&element->tau[0][0], 2, LD_NT, tube->nt, 2 * tube->nb};
+    else
+        modes = (mode_family){&element->a[0][0], 2, LD_NA, tube->na, 2 * tube->nb + tube->nt};
+    return shape_sum(scene, &modes, derivative, jet_sub(x, jet_constant(element->x0)));
+}
+
+// Place of the axis point of station x, in R.
+static jet3 axis_point(const jet_scene *scene, jet x)
+{
+    jet3 p = {{jet_add(x, family_at(scene, 'a', 0, x)), family_at(scene, 'y', 0, x),
+               family_at(scene, 'z', 0, x)}};
+    return p;
+}
+
+// Rotation vector of the section at station x, in R.
+static jet3 section_turn(const jet_scene *scene, jet x)
+{
+    jet3 phi = {{family_at(scene, 't', 0, x), jet_scale(-1, family_at(scene, 'z', 1, x)),
+                 family_at(scene, 'y', 1, x)}};
+    return phi;
 }
 
 // Section frame at station s, in R; beyond the ends straight on along the end section's axis.
@@ -254,9 +267,8 @@ static jet_frame section_in_R(const jet_scene *scene, jet s)
         section.r = point_in(&section, &along);
         return section;
     }
-    jet3 phi;
-    deformation(scene, s, &section.r, &phi);
-    section.r.c[0] = jet_add(section.r.c[0], s);
+    jet3 phi = section_turn(scene, s);
+    section.r = axis_point(scene, s);
     section.A = rotation_of(&phi);
     return section;
 }
@@ -349,7 +361,7 @@ static void add_polar(equations *eq, const jet_scene *scene, const jet *phi_x, d
     double form[DENSE_MAX_COORDINATES], curl[DENSE_MAX_COORDINATES];
     double rate = phi_x->e, rate_dot = phi_x->te;
     for (int k = 0; k < eq->n; k++) {
-        form[k] = phi_x->d[k];
+        form[k] = k < phi_x->n ? phi_x->d[k] : 0;
         curl[k] = 0;
     }
     for (int i = 0; i < 3; i++) {
@@ -376,13 +388,13 @@ static void add_tube(equations *eq, const jet_scene *scene)
     const dense_launch *dense = scene->dense;
     for (int i = 0; i < dense->point_count; i++) {
         const dense_tube_point *point = &dense->point[i];
-        jet3 u, phi;
-        deformation(scene, jet_constant(point->at), &u, point->polar != 0 ? &phi : NULL);
-        u.c[0] = jet_add(u.c[0], jet_constant(point->at));
-        jet3 p = point_in(&scene->R, &u);
+        jet at = jet_constant(point->at);
+        jet3 local = axis_point(scene, at), p = point_in(&scene->R, &local);
         add_mass(eq, &p, point->mass, dense->model->gravity);
-        if (point->polar != 0)
-            add_polar(eq, scene, &phi.c[0], point->polar);
+        if (point->polar != 0) {
+            jet phi_x = family_at(scene, 't', 0, at);
+            add_polar(eq, scene, &phi_x, point->polar);
+        }
     }
 }
 
