@@ -100,21 +100,20 @@ static jet rotation_series(jet x, int first)
 static jet33 rotation_of(const jet3 *th)
 {
     jet x = jet3_dot(th, th), a = rotation_series(x, 1), b = rotation_series(x, 2);
-    jet3 ath, bth;
-    for (int i = 0; i < 3; i++) {
-        ath.c[i] = jet_mul(a, th->c[i]);
-        bth.c[i] = jet_mul(b, th->c[i]);
-    }
+    jet3 bth;
     jet33 A;
+    for (int i = 0; i < 3; i++)
+        bth.c[i] = jet_mul(b, th->c[i]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             A.c[i][j] = jet_mul(bth.c[i], th->c[j]);
-    jet diagonal = jet_sub(jet_constant(1), jet_mul(b, x));
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        A.c[i][i] = jet_add(A.c[i][i], diagonal);
-        A.c[j][i] = jet_add(A.c[j][i], ath.c[k]);
-        A.c[i][j] = jet_sub(A.c[i][j], ath.c[k]);
+        jet ath = jet_mul(a, th->c[k]), bx = jet_mul(b, x);
+        A.c[i][i].v += 1;
+        jet_increase(&A.c[i][i], -1, &bx);
+        jet_increase(&A.c[j][i], 1, &ath);
+        jet_increase(&A.c[i][j], -1, &ath);
     }
     return A;
 }
@@ -153,8 +152,11 @@ static void scene_set(jet_scene *scene, const dense_launch *dense, const dense_s
 // Point with coordinates p in a frame.
 static jet3 point_in(const jet_frame *frame, const jet3 *p)
 {
-    jet3 turned = jet33_turn(&frame->A, p);
-    return jet3_add(&frame->r, &turned);
+    jet3 r = frame->r;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            jet_accumulate(&r.c[i], &frame->A.c[i][j], &p->c[j]);
+    return r;
 }
 
 static jet_frame frame_in(const jet_frame *outer, const jet_frame *inner)
@@ -208,11 +210,15 @@ static jet shape_sum(const jet_scene *scene, const mode_family *family, int deri
     jet r = shape_at(scene, family, derivative, xi.v);
     if (xi.n == 0 && xi.t == 0 && xi.e == 0 && xi.te == 0)
         return r;
-    jet step = jet_sub(xi, jet_constant(xi.v));
+    jet step = xi, square = jet_constant(0);
+    step.v = 0;
+    jet_accumulate(&square, &step, &step);
     jet slope = shape_at(scene, family, derivative + 1, xi.v);
     jet curvature = shape_at(scene, family, derivative + 2, xi.v);
-    r = jet_add(r, jet_mul(slope, step));
-    return jet_add(r, jet_scale(0.5, jet_mul(curvature, jet_mul(step, step))));
+    curvature = jet_scale(0.5, curvature);
+    jet_accumulate(&r, &slope, &step);
+    jet_accumulate(&r, &curvature, &square);
+    return r;
 }
 
 static const tube_element *element_at(const flexible_tube *tube, double x)
@@ -235,7 +241,8 @@ static jet family_at(const jet_scene *scene, char family, int derivative, jet x)
         modes = (mode_family){&element->tau[0][0], 2, LD_NT, tube->nt, 2 * tube->nb};
     else
         modes = (mode_family){&element->a[0][0], 2, LD_NA, tube->na, 2 * tube->nb + tube->nt};
-    return shape_sum(scene, &modes, derivative, jet_sub(x, jet_constant(element->x0)));
+    x.v -= element->x0;
+    return shape_sum(scene, &modes, derivative, x);
 }
 
 // Place of the axis point of station x, in R.
@@ -305,8 +312,10 @@ static jet foot_of(const jet_scene *moving, const jet_scene *still, const jet3 *
     }
     // each pass is exact to one order more in the derivatives, which end at the second
     jet foot = jet_constant(s);
-    for (int i = 0; i < 2; i++)
-        foot = jet_axpy(foot, -1 / slope, foot_residual(moving, foot, &p));
+    for (int i = 0; i < 2; i++) {
+        jet residual = foot_residual(moving, foot, &p);
+        jet_increase(&foot, -1 / slope, &residual);
+    }
     return foot;
 }
 

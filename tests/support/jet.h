@@ -73,32 +73,33 @@ JET_INLINE jet jet_scale(double f, jet a)
     return a;
 }
 
-// a + f b
-JET_INLINE jet jet_axpy(jet a, double f, jet b)
+// a += f b
+JET_INLINE void jet_increase(jet *a, double f, const jet *b)
 {
-    a.v += f * b.v;
-    a.t += f * b.t;
-    a.e += f * b.e;
-    a.te += f * b.te;
-    if (a.n && b.n) {
-        for (int k = 0; k < a.n; k++)
-            a.d[k] += f * b.d[k];
-    } else if (b.n) {
-        a.n = b.n;
-        for (int k = 0; k < b.n; k++)
-            a.d[k] = f * b.d[k];
+    a->v += f * b->v;
+    a->t += f * b->t;
+    a->e += f * b->e;
+    a->te += f * b->te;
+    if (b->n && !a->n) {
+        a->n = b->n;
+        for (int k = 0; k < b->n; k++)
+            a->d[k] = f * b->d[k];
+    } else {
+        for (int k = 0; k < b->n; k++)
+            a->d[k] += f * b->d[k];
     }
-    return a;
 }
 
 JET_INLINE jet jet_add(jet a, jet b)
 {
-    return jet_axpy(a, 1, b);
+    jet_increase(&a, 1, &b);
+    return a;
 }
 
 JET_INLINE jet jet_sub(jet a, jet b)
 {
-    return jet_axpy(a, -1, b);
+    jet_increase(&a, -1, &b);
+    return a;
 }
 
 JET_INLINE jet jet_mul(jet a, jet b)
@@ -185,19 +186,11 @@ JET_INLINE jet3 jet3_freeze(jet3 a)
     return (jet3){{jet_freeze(a.c[0]), jet_freeze(a.c[1]), jet_freeze(a.c[2])}};
 }
 
-JET_INLINE jet3 jet3_add(const jet3 *a, const jet3 *b)
-{
-    jet3 r;
-    for (int i = 0; i < 3; i++)
-        r.c[i] = jet_add(a->c[i], b->c[i]);
-    return r;
-}
-
 JET_INLINE jet3 jet3_sub(const jet3 *a, const jet3 *b)
 {
-    jet3 r;
+    jet3 r = *a;
     for (int i = 0; i < 3; i++)
-        r.c[i] = jet_sub(a->c[i], b->c[i]);
+        jet_increase(&r.c[i], -1, &b->c[i]);
     return r;
 }
 
