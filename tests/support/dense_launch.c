@@ -261,13 +261,16 @@ static jet3 section_turn(const jet_scene *scene, jet x)
     return phi;
 }
 
-// Section frame at station s, in R; beyond the ends straight on along the end section's axis.
+// Section frame at station s, in R; beyond the ends straight on along the end section's axis. The
+// margin keeps a place at the tip (to rounding) on the tube, whose curvature there need not be
+// zero.
 static jet_frame section_in_R(const jet_scene *scene, jet s)
 {
     jet_frame section;
     double length = scene->dense->tube->length;
     double end = s.v < 0 ? 0 : length;
-    if (s.v < 0 || s.v > length) {
+    const double margin = 1e-9;
+    if (s.v < -margin || s.v > length + margin) {
         section = section_in_R(scene, jet_constant(end));
         jet beyond = jet_sub(s, jet_constant(end));
         jet3 along = {{beyond, jet_constant(0), jet_constant(0)}};

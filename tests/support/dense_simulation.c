@@ -55,7 +55,7 @@ static void set_unit(double A[3][3])
             A[i][j] = i == j;
 }
 
-static void base_at(const ld_model *model, double t, dense_base *base)
+void dense_base_at(const ld_model *model, double t, dense_base *base)
 {
     const ld_base *given = &model->base;
     memset(base, 0, sizeof *base);
@@ -128,7 +128,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, den
     const ld_motor *motor = &rocket->motor;
     double tau = (t - launch->ignition) / motor->time_scale;
     memset(on, 0, sizeof *on);
-    base_at(launch->model, t, &on->base);
+    dense_base_at(launch->model, t, &on->base);
     mass_at(rocket, burnt_at(motor, tau), on);
     on->thrust = thrust_at(motor, tau, (middle - launch->ignition) / motor->time_scale);
     on->locked = launch->locked;
@@ -359,6 +359,29 @@ static bool find_balance(const balance_problem *balance, double *u)
     return norm_of(residual, n) < 1e-5;
 }
 
+// Where a rigid rocket lies on a straight lower wall: the two adaptors on either side of its mass
+// centre whose line no other one crosses, pressed in a little. Height of O1 and slope.
+static void lay_down(const ld_rocket *rocket, double center, double *height, double *slope)
+{
+    const ld_adaptor *adaptor = rocket->adaptor;
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        for (int j = 0; j < rocket->adaptor_count; j++) {
+            if (!(adaptor[i].at <= center && center < adaptor[j].at))
+                continue;
+            double rise =
+                (adaptor[i].clearance - adaptor[j].clearance) / (adaptor[j].at - adaptor[i].at);
+            double start = -adaptor[i].clearance - rise * adaptor[i].at;
+            bool free = true;
+            for (int k = 0; k < rocket->adaptor_count; k++)
+                free = free && start + rise * adaptor[k].at >= -adaptor[k].clearance - 1e-9;
+            if (free) {
+                *height = start - 5e-6;
+                *slope = rise;
+                return;
+            }
+        }
+}
+
 static void co_move(dense_state *state, const dense_base *base)
 {
     double *place[2] = {state->r, state->r_O1}, *speed[2] = {state->v, state->v_O1};
@@ -390,13 +413,7 @@ static bool start(launch_run *launch, double t, double *x)
     memset(balance.on.base.v, 0, sizeof balance.on.base.v);
     memset(balance.on.base.w, 0, sizeof balance.on.base.w);
     if (model->run.start == LD_START_EQUILIBRIUM) {
-        // rear and foremost adaptor pressing on the lower wall
-        const ld_adaptor *rear = &model->rocket.adaptor[0], *front = rear;
-        for (int i = 1; i < model->rocket.adaptor_count; i++)
-            if (model->rocket.adaptor[i].at > front->at)
-                front = &model->rocket.adaptor[i];
-        u[6 + nq] = -rear->clearance - 5e-6;
-        u[8 + nq] = (rear->clearance - front->clearance) / (front->at - rear->at);
+        lay_down(&model->rocket, balance.on.center[0], &u[6 + nq], &u[8 + nq]);
         dense_launch_output output;
         double residual[DENSE_MAX_COORDINATES];
         if (!find_balance(&balance, u) || !residual_of(&balance, u, residual, &output))
@@ -423,7 +440,7 @@ static bool start(launch_run *launch, double t, double *x)
     dense_launch_tip(&launch->dense, &state, &balance.on.base, tip);
     memcpy(launch->summary->equilibrium.tip_sag, tip, sizeof launch->summary->equilibrium.tip_sag);
     dense_base base;
-    base_at(model, t, &base);
+    dense_base_at(model, t, &base);
     co_move(&state, &base);
     launch->s = input.s;
     launch->locked = model->rocket.lock.present;
@@ -533,7 +550,7 @@ static void summarise(launch_run *launch, double t, const double *x,
     dense_base base;
     double tip[8], d[3], d_dot[3];
     unpack(launch, x, &state);
-    base_at(launch->model, t, &base);
+    dense_base_at(launch->model, t, &base);
     summary->muzzle_speed = output->s_dot;
     summary->inertial_speed = norm_of(state.v_O1, 3);
     summary->spin_rate = state.w_B[0];

@@ -26,6 +26,9 @@ typedef struct dense_summary {
     bool complete; // the rocket has left the tube
 } dense_summary;
 
+// Pose and rates of the base at time t [s] of the run's clock.
+void dense_base_at(const ld_model *model, double t, dense_base *base);
+
 // Runs `model` (base fixed, or prescribed by sines and a velocity; not by a table) with steps of at
 // most `step` [s]. Returns false where the equilibrium or the dense system fails or the rocket is
 // still in the tube at the model's stuck time.
