@@ -24,7 +24,7 @@ typedef struct tube_state {
     double ct_y, ct_z, c_y, c_z; // ct . q_y ...
     double cp_t_dot;             // cp . q_t_dot
     // factors of the condensed 6 x 6 matrix: see factor()
-    double m, my, jx, l_yx, l_yz, l_zx, l_zy, d_y, l_zwy, d_z;
+    double per_m, per_my, per_jx, per_dy, per_dz, l_yx, l_yz, l_zx, l_zy, l_zwy;
 } tube_state;
 
 // A direction of constraint: unit wrench on the rocket about O1 and on the tube (formulation.md,
@@ -183,8 +183,8 @@ LD_INLINE quat quaternion_of(v3 th)
 {
     double h2 = 0.25 * v3_norm2(th), c, s; // s = sin(h)/(2 h)
     if (h2 < 1e-4) {
-        c = 1 - h2 / 2 * (1 - h2 / 12 * (1 - h2 / 30 * (1 - h2 / 56)));
-        s = 0.5 * (1 - h2 / 6 * (1 - h2 / 20 * (1 - h2 / 42 * (1 - h2 / 72))));
+        c = 1 + h2 * (-1.0 / 2 + h2 * (1.0 / 24 + h2 * (-1.0 / 720 + h2 * (1.0 / 40320))));
+        s = 0.5 + h2 * (-1.0 / 12 + h2 * (1.0 / 240 + h2 * (-1.0 / 10080 + h2 * (1.0 / 725760))));
     } else {
         double h = sqrt(h2);
         c = cos(h);
@@ -287,22 +287,22 @@ LD_INLINE void factor(const launching_system *self, tube_state *tube)
 {
     const flexible_tube *data = &self->tube;
     double my = self->m - data->ctct, off = data->ctc - self->Sx;
-    tube->m = self->m;
-    tube->my = my;
-    tube->jx = self->jx;
-    tube->l_yx = tube->ct_z / self->m;  // (wy, vx)/m
-    tube->l_yz = off / my;              // (wy, vz)/my
-    tube->l_zx = -tube->ct_y / self->m; // (wz, vx)/m
-    tube->l_zy = -off / my;             // (wz, vy)/my
+    tube->per_m = 1 / self->m;
+    tube->per_my = 1 / my;
+    tube->per_jx = 1 / self->jx;
+    tube->l_yx = tube->ct_z * tube->per_m;  // (wy, vx)/m
+    tube->l_yz = off * tube->per_my;        // (wy, vz)/my
+    tube->l_zx = -tube->ct_y * tube->per_m; // (wz, vx)/m
+    tube->l_zy = -off * tube->per_my;       // (wz, vy)/my
     double j = data->j0 - data->cc;
     double syy =
         j + self->tail_inertia.y + tube->qz_qz - tube->l_yx * tube->ct_z - tube->l_yz * off;
     double szz =
         j + self->tail_inertia.z + tube->qy_qy + tube->l_zx * tube->ct_y + tube->l_zy * off;
     double szy = -tube->qy_qz - tube->l_zx * tube->ct_z;
-    tube->d_y = syy;
-    tube->l_zwy = szy / syy;
-    tube->d_z = szz - tube->l_zwy * szy;
+    tube->per_dy = 1 / syy;
+    tube->l_zwy = szy * tube->per_dy;
+    tube->per_dz = 1 / (szz - tube->l_zwy * szy);
 }
 
 // L^-1 of (force, moment); kept undivided by the diagonal.
@@ -319,18 +319,18 @@ LD_INLINE void forward(const tube_state *tube, v3 f, v3 m, double out[6])
 // x^T D^-1 y of two forward-substituted vectors.
 LD_INLINE double product(const tube_state *tube, const double x[6], const double y[6])
 {
-    return x[0] * y[0] / tube->m + (x[1] * y[1] + x[2] * y[2]) / tube->my + x[3] * y[3] / tube->jx +
-           x[4] * y[4] / tube->d_y + x[5] * y[5] / tube->d_z;
+    return x[0] * y[0] * tube->per_m + (x[1] * y[1] + x[2] * y[2]) * tube->per_my +
+           x[3] * y[3] * tube->per_jx + x[4] * y[4] * tube->per_dy + x[5] * y[5] * tube->per_dz;
 }
 
 // L^-T D^-1 of a forward-substituted vector: translational and rotational acceleration.
 LD_INLINE void backward(const tube_state *tube, const double x[6], v3 *a, v3 *w_dot)
 {
-    double wz = x[5] / tube->d_z;
-    double wy = x[4] / tube->d_y - tube->l_zwy * wz;
-    *a = v3_make(x[0] / tube->m - tube->l_yx * wy - tube->l_zx * wz,
-                 x[1] / tube->my - tube->l_zy * wz, x[2] / tube->my - tube->l_yz * wy);
-    *w_dot = v3_make(x[3] / tube->jx, wy, wz);
+    double wz = x[5] * tube->per_dz;
+    double wy = x[4] * tube->per_dy - tube->l_zwy * wz;
+    *a = v3_make(x[0] * tube->per_m - tube->l_yx * wy - tube->l_zx * wz,
+                 x[1] * tube->per_my - tube->l_zy * wz, x[2] * tube->per_my - tube->l_yz * wy);
+    *w_dot = v3_make(x[3] * tube->per_jx, wy, wz);
 }
 
 // C h_q: what the modal forces put on the rigid equations.
@@ -354,8 +354,9 @@ LD_INLINE void sine_cosine(double x, double *s, double *c)
 {
     double x2 = x * x;
     if (x2 < 1e-3) {
-        *s = x * (1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72))));
-        *c = 1 - x2 / 2 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56)));
+        *s =
+            x * (1 + x2 * (-1.0 / 6 + x2 * (1.0 / 120 + x2 * (-1.0 / 5040 + x2 * (1.0 / 362880)))));
+        *c = 1 + x2 * (-1.0 / 2 + x2 * (1.0 / 24 + x2 * (-1.0 / 720 + x2 * (1.0 / 40320))));
     } else {
         *s = sin(x);
         *c = cos(x);

@@ -135,29 +135,41 @@ LD_INLINE void section_rates_load(const element_motion *motion, const section *s
     }
 }
 
-// Station of the section whose plane holds point C (in R): e_x . A_RP(s)^T (C - P(s)) = 0, by
-// Newton from `guess`. On return `motion` and `s` belong to the station.
+// e_x . A_RP(x)^T (C - P(x)): how far C lies in front of the section at x.
+LD_INLINE double section_gap(const launching_system *self, const element_motion *motion, double x,
+                             v3 C)
+{
+    double length = self->tube.length;
+    double inside = x < 0 ? 0 : x > length ? length : x, xi = inside - motion->element->x0;
+    v3 th = v3_make(motion->t[0] + xi * motion->t[1], -poly1(motion->z, xi), poly1(motion->y, xi));
+    rv_coefficients k = rv_coefficients_of(v3_norm2(th));
+    v3 axis = v3_make(1 - k.b * (th.y * th.y + th.z * th.z), k.b * th.x * th.y + k.a * th.z,
+                      k.b * th.x * th.z - k.a * th.y);
+    v3 P = v3_make(inside, poly0(motion->y, xi), poly0(motion->z, xi));
+    return v3_dot(axis, v3_sub(C, P)) - (x - inside);
+}
+
+// Station of the section whose plane holds point C (in R): e_x . A_RP(s)^T (C - P(s)) = 0, from
+// `guess`. On return `motion` and `s` belong to the station.
 LD_INLINE void section_foot(const launching_system *self, const modal_state *q, v3 C, double guess,
                             element_motion *motion, section *s)
 {
     double x = guess;
     s->index = flexible_tube_find(&self->tube, x);
     element_load(self, q, s->index, motion);
-    for (int iteration = 0; iteration < 8; iteration++) {
-        section_load(self, motion, x, s);
-        v3 axis = m3_column(s->A, 0), gap = v3_sub(C, s->P);
-        double residual = v3_dot(axis, gap);
-        // d/dx of the residual: -axis . t + (Jl k0 x axis) . gap
-        double slope = v3_dot(v3_cross(m3_apply(s->Jl, s->k0), axis), gap) - v3_dot(axis, s->t);
-        double step = -residual / slope;
-        if (!(fabs(step) > 1e-14))
-            return;
+    // by the secant; the first slope is -1, wrong by curvature times offset (1e-6 in a launch)
+    double step = section_gap(self, motion, x, C), gap = step;
+    for (int iteration = 0; iteration < 20 && fabs(step) > 1e-14; iteration++) {
+        double before = gap;
         x += step;
         if (__builtin_expect(x < motion->element->x0 || x >= motion->element->x1, 0)) {
             s->index = flexible_tube_find(&self->tube, x);
             element_load(self, q, s->index, motion);
         }
+        gap = section_gap(self, motion, x, C);
+        step *= gap / (before - gap);
     }
+    section_load(self, motion, x, s);
 }
 
 #endif
