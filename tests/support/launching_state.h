@@ -1,0 +1,139 @@
+// Random states of the launching subsystem, the same for the program and for the dense check.
+#ifndef LD_TESTS_SUPPORT_LAUNCHING_STATE_H
+#define LD_TESTS_SUPPORT_LAUNCHING_STATE_H
+
+#include <string.h>
+
+#include "support/dense_launch.h"
+#include "support/draw.h"
+#include "systems/launching.h"
+
+typedef struct launching_case {
+    double state[32 + 2 * LD_MAX_MODAL];
+    launching_input input;
+    launching_phase phase;
+    dense_launch_input dense;
+} launching_case;
+
+static inline void copy_matrix(double to[3][3], m3 from)
+{
+    memcpy(to, from.a, sizeof from.a);
+}
+
+// Moves s_dot (and with a smooth bore w_SBx) to zero for a locked state: the lock holds them.
+static inline void hold_locked(const launching_system *system, double *state)
+{
+    launching_pose pose;
+    launching_output out;
+    launching_section section;
+    const launching_layout *at = &system->layout;
+    launching_rocket_pose(system, state, &pose, &out);
+    launching_section_at(system, state, state[at->x], &section);
+    v3 axis = m3_column(section.A, 0);
+    v3 v_material = v3_add(section.v, v3_cross(section.w, v3_sub(pose.p1, section.P)));
+    double slip = v3_dot(axis, v3_sub(pose.v_O1, v_material));
+    v3_store(state + at->V, v3_axpy(pose.v_O1, -slip, axis));
+    if (!system->slot) {
+        double roll = v3_dot(axis, v3_sub(pose.w_B, section.w));
+        v3_store(state + at->V + 3, v3_axpy(pose.w_B, -roll, axis));
+    }
+}
+
+// A state with large motion of the frame, centimetre deflections, the rocket somewhere in the tube
+// with deep contacts, and speeds of every kind.
+static inline void draw_state(const launching_system *system, uint64_t *seed, bool locked,
+                              launching_case *c)
+{
+    const launching_layout *at = &system->layout;
+    const flexible_tube *tube = &system->tube;
+    double *y = c->state;
+    memset(c, 0, sizeof *c);
+    m3 A = draw_rotation(seed);
+    quat q = q_from_matrix(A);
+    v3_store(y + at->r, draw_v3(seed, 2));
+    memcpy(y + at->quaternion, &q, sizeof q);
+    v3_store(y + at->v, draw_v3(seed, 3));
+    v3_store(y + at->w, draw_v3(seed, 2));
+    for (int i = 0; i < at->nq; i++) {
+        int mode = i < 2 * tube->nb ? i % tube->nb : i - 2 * tube->nb;
+        bool bending = i < 2 * tube->nb;
+        y[at->q + i] = draw(seed) * (bending ? 0.05 : 1e-3) / (1 + mode * mode);
+        y[at->q_dot + i] = draw(seed) * (bending ? 5 : 0.3) / (1 + mode);
+    }
+    y[at->x] = 0.3 + 0.25 * (1 + draw(seed));
+    for (int i = 1; i < 6; i++)
+        y[at->x + i] = draw(seed) * (i < 3 ? 1e-3 : i < 5 ? 2e-3 : 3);
+    v3 v = v3_from(y + at->v), w = v3_from(y + at->w);
+    launching_pose pose;
+    launching_output out;
+    launching_rocket_pose(system, y, &pose, &out);
+    v3 v_O1 = v3_add(v3_add(v, v3_cross(w, pose.p1)), draw_v3(seed, 1));
+    v_O1 = v3_axpy(v_O1, 20 * (1 + draw(seed)), m3_column(pose.A_RS, 0));
+    v3_store(y + at->V, v_O1);
+    v3_store(y + at->V + 3, v3_add(w, draw_v3(seed, 10)));
+    // base near the tube, moving
+    m3 turn = q_matrix((quat){1, 0.01 * draw(seed), 0.01 * draw(seed), 0.01 * draw(seed)});
+    c->input.base.A = m3_mul(A, turn);
+    c->input.base.q = q_from_matrix(c->input.base.A);
+    c->input.base.r = v3_add(v3_from(y + at->r), draw_v3(seed, 1e-3));
+    c->input.base.v = draw_v3(seed, 3);
+    c->input.base.w = draw_v3(seed, 1);
+    c->input.thrust = 7000 * (1 + draw(seed));
+    c->input.mass.m = 50 + 10 * draw(seed);
+    c->input.mass.c = v3_add(v3_make(1.1, 0, 0), draw_v3(seed, 1e-2));
+    c->input.mass.J = draw_inertia(seed, c->input.mass.m);
+    c->phase.rocket = true;
+    c->phase.locked = locked;
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        c->phase.touch_speed[i] = 0.1 + 0.05 * draw(seed);
+    if (locked)
+        hold_locked(system, y);
+    if (system->slot)
+        launching_project(system, &c->input, &c->phase, y);
+    if (locked && system->slot)
+        for (int k = 0; k < 30; k++) { // the two constraints in turn
+            hold_locked(system, y);
+            launching_project(system, &c->input, &c->phase, y);
+        }
+}
+
+// Fills the dense check's input from the same numbers.
+static inline void copy_to_dense(const launching_system *system, launching_case *c)
+{
+    const launching_layout *at = &system->layout;
+    const double *y = c->state;
+    dense_launch_input *d = &c->dense;
+    dense_conditions *conditions = &d->conditions;
+    memcpy(d->r, y + at->r, sizeof d->r);
+    memcpy(d->quaternion, y + at->quaternion, sizeof d->quaternion);
+    memcpy(d->v, y + at->v, sizeof d->v);
+    memcpy(d->w, y + at->w, sizeof d->w);
+    memcpy(d->q, y + at->q, (size_t)at->nq * sizeof(double));
+    memcpy(d->q_dot, y + at->q_dot, (size_t)at->nq * sizeof(double));
+    d->s = y[at->x];
+    d->y = y[at->x + 1];
+    d->z = y[at->x + 2];
+    d->psi = y[at->x + 3];
+    d->theta = y[at->x + 4];
+    d->gamma = y[at->x + 5];
+    memcpy(d->V, y + at->V, sizeof d->V);
+    v3_store(conditions->base.r, c->input.base.r);
+    copy_matrix(conditions->base.A, c->input.base.A);
+    v3_store(conditions->base.v, c->input.base.v);
+    v3_store(conditions->base.w, c->input.base.w);
+    const rocket_mass *mass = &c->input.mass;
+    conditions->mass = mass->m;
+    v3_store(conditions->center, mass->c);
+    for (int i = 0; i < 3; i++)
+        conditions->inertia[i] = mass->J.a[i][i];
+    conditions->products[0] = mass->J.a[0][1];
+    conditions->products[1] = mass->J.a[0][2];
+    conditions->products[2] = mass->J.a[1][2];
+    conditions->thrust = c->input.thrust;
+    conditions->locked = c->phase.locked;
+    conditions->frictionless = c->phase.frictionless;
+    memcpy(conditions->passed, c->phase.passed, sizeof conditions->passed);
+    memcpy(conditions->touch_speed, c->phase.touch_speed, sizeof conditions->touch_speed);
+}
+
+#endif
