@@ -46,14 +46,13 @@ LD_INLINE double contact_elastic(const contact_law *law, double p)
 /// first touch (lankarani-nikravesh alone).
 LD_INLINE double contact_normal(const contact_law *law, double p, double p_dot, double touch_speed)
 {
-    double elastic = contact_elastic(law, p);
     switch (law->kind) {
-    case LD_CONTACT_KELVIN_VOIGT:
-        return fmax(0, elastic + law->c * p_dot);
+    case LD_CONTACT_KELVIN_VOIGT: // linear
+        return fmax(0, law->k * p + law->c * p_dot);
     case LD_CONTACT_LANKARANI_NIKRAVESH:
-        return elastic * fmax(0, 1 + law->zeta * p_dot / touch_speed);
+        return contact_elastic(law, p) * fmax(0, 1 + law->zeta * p_dot / touch_speed);
     default:
-        return elastic * fmax(0, 1 + law->chi * p_dot);
+        return contact_elastic(law, p) * fmax(0, 1 + law->chi * p_dot);
     }
 }
 

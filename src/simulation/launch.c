@@ -1,5 +1,7 @@
 // The run: start, ignition, release, adaptors leaving, end; rows out at the output steps.
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -20,6 +22,9 @@ launching_outcome simulation_evaluate(const ld_simulation *self, const launching
                                       const launching_phase *phase, const double *y,
                                       launching_output *output)
 {
+    if (self->model->run.formulation == LD_FORMULATION_OVERALL)
+        return launching_evaluate_general(&self->launching, LD_FORMULATION_OVERALL, input, phase, y,
+                                          output);
     return launching_evaluate(&self->launching, input, phase, y, output);
 }
 
@@ -42,6 +47,10 @@ static int rhs(double t, const double *y, double *y_dot, void *user)
     self->jammed = outcome == LAUNCHING_JAMMED;
     if (outcome)
         return -1;
+    if (self->model->run.formulation == LD_FORMULATION_OVERALL) {
+        self->fallbacks += out.fell_back;
+        self->worst_condition = fmax(self->worst_condition, out.condition);
+    }
     launching_rates(&self->launching, y, &out, self->phase.rocket, y_dot);
     memcpy(y_dot + self->work, out.power, sizeof out.power);
     return all_finite(self->state_count, y_dot) ? 0 : -1;
@@ -230,6 +239,8 @@ static void set_up_phase(launch_run *run)
     self->phase = simulation_start_phase(self);
     self->piece = -1;
     self->jammed = false;
+    self->fallbacks = 0;
+    self->worst_condition = 0;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
     run->summary->rocket_count = 1;
     rocket->tube = self->model->firing[0].tube;
@@ -570,6 +581,30 @@ static ld_status begin(launch_run *run)
     return status ? status : write_row(run, run->t_start, y);
 }
 
+static void add_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
+
+static void add_note(ld_summary *summary, const char *format, ...)
+{
+    int capacity = (int)(sizeof summary->note / sizeof summary->note[0]);
+    if (summary->note_count == capacity)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(summary->note[summary->note_count++], sizeof summary->note[0], format, arguments);
+    va_end(arguments);
+}
+
+static void note_formulation(const ld_simulation *self, ld_summary *summary)
+{
+    if (self->model->run.formulation != LD_FORMULATION_OVERALL)
+        return;
+    add_note(summary, "overall form: condition of the tube's transfer matrix up to %.2g",
+             self->worst_condition);
+    if (self->fallbacks)
+        add_note(summary, "overall form: %lld of %lld evaluations fell back on the reduced form",
+                 (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
+}
+
 static void summarise(launch_run *run, ld_status status, double cpu_seconds)
 {
     ld_simulation *self = run->self;
@@ -588,6 +623,7 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
                       &summary->energy);
     summary->statistics.steps = integrator_steps(run->integrator);
     summary->statistics.rhs_evaluations = integrator_evaluations(run->integrator);
+    note_formulation(self, summary);
 }
 
 ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,

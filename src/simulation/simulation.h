@@ -22,7 +22,8 @@ struct ld_simulation {
     double t_ignition;
     int piece; // of the thrust curve
     bool jammed;
-    double greatest_lock_force;
+    int64_t fallbacks; // evaluations in which the overall form did not hold
+    double worst_condition;
 
     int column_count;
     ld_column column[LD_MAX_COLUMNS];

@@ -44,6 +44,9 @@ static void pack_element(const flexible_tube *tube, const tube_element *from, pa
     for (int j = 0; j < tube->nt; j++)
         for (int k = 0; k < 2; k++)
             to->tau[j][k] = from->tau[k][j];
+    for (int j = 0; j < tube->na; j++)
+        for (int k = 0; k < 2; k++)
+            to->a[j][k] = from->a[k][j];
 }
 
 static double element_shape(const tube_element *element, int j, double x)
@@ -89,6 +92,8 @@ static void build_supports(launching_system *self)
         }
         for (int j = 0; j < tube->nt; j++)
             to->tau[j] = element->tau[0][j] + (from->at - element->x0) * element->tau[1][j];
+        for (int j = 0; j < tube->na; j++)
+            to->a[j] = element->a[0][j] + (from->at - element->x0) * element->a[1][j];
     }
     for (int j = 0; j < tube->nb; j++) {
         set_row(self, self->row_count - 2, j, tube->ct[j]);

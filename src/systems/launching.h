@@ -37,6 +37,7 @@ typedef struct packed_element {
     v4d by_mode[LD_NB];
     v4d by_power[4][LD_LANES_B];
     double tau[LD_NT][2];
+    double a[LD_NA][2];
     v4d ctb, cb; // ct . b and c . b as polynomials
 } packed_element;
 
@@ -45,6 +46,7 @@ typedef struct launching_support {
     v3 K, C, Kr, Cr;   // springs and dampers, base axes
     bool isotropic;    // Kr the same about all three axes
     double tau[LD_NT]; // torsion shapes there
+    double a[LD_NA];   // axial shapes there
 } launching_support;
 
 typedef struct launching_system {
@@ -131,6 +133,9 @@ typedef struct launching_output {
     double power[POWER_COUNT];
     double elastic;             // [J] of supports and modes
     v3 base_force, base_moment; // [N], [N m] on the base, moment about T's origin, in T
+    double y_dot[6];            // overall form alone: derivative of y
+    double condition;           // overall form alone: of L_I Q L_O^T of the tube
+    bool fell_back;             // overall form alone
     adaptor_report adaptor[LD_MAX_ADAPTORS];
 } launching_output;
 
@@ -147,6 +152,16 @@ void launching_free(launching_system *self);
 launching_outcome launching_evaluate(const launching_system *self, const launching_input *input,
                                      const launching_phase *phase, const double *state,
                                      launching_output *output);
+
+// The same from the general mass matrix, in the reduced form or in the paper's overall form: tail
+// and tube as 13 x 13 transfer matrices, 19 unknowns (20 while locked; formulation.md, section 4).
+// The overall form also gives y_dot and the condition of the tube's transfer matrix; where that one
+// cannot hold it falls back on the reduced form and says so in `fell_back`.
+launching_outcome launching_evaluate_general(const launching_system *self,
+                                             ld_formulation formulation,
+                                             const launching_input *input,
+                                             const launching_phase *phase, const double *state,
+                                             launching_output *output);
 
 // Derivative of the state from the accelerations found.
 void launching_rates(const launching_system *self, const double *state,

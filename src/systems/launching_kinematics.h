@@ -10,6 +10,7 @@
 typedef struct modal_state {
     v4d y[LD_LANES_B], z[LD_LANES_B], y_dot[LD_LANES_B], z_dot[LD_LANES_B];
     const double *t, *t_dot; // torsion
+    const double *a, *a_dot; // axial
 } modal_state;
 
 LD_INLINE double lane(const v4d *lanes, int j)
@@ -22,6 +23,7 @@ typedef struct element_motion {
     const packed_element *element;
     v4d y, z, y_dot, z_dot; // coefficients of xi^0..3
     double t[2], t_dot[2];  // torsion: value at x0, slope
+    double a[2], a_dot[2];  // stretch, likewise
 } element_motion;
 
 LD_INLINE void element_load(const launching_system *self, const modal_state *q, int index,
@@ -43,7 +45,14 @@ LD_INLINE void element_load(const launching_system *self, const modal_state *q, 
         d0 += element->tau[j][0] * q->t_dot[j];
         d1 += element->tau[j][1] * q->t_dot[j];
     }
-    *motion = (element_motion){element, y, z, y_dot, z_dot, {t0, t1}, {d0, d1}};
+    double a0 = 0, a1 = 0, e0 = 0, e1 = 0;
+    for (int j = 0; j < self->tube.na; j++) {
+        a0 += element->a[j][0] * q->a[j];
+        a1 += element->a[j][1] * q->a[j];
+        e0 += element->a[j][0] * q->a_dot[j];
+        e1 += element->a[j][1] * q->a_dot[j];
+    }
+    *motion = (element_motion){element, y, z, y_dot, z_dot, {t0, t1}, {d0, d1}, {a0, a1}, {e0, e1}};
 }
 
 LD_INLINE double poly0(v4d c, double x)
@@ -62,16 +71,17 @@ LD_INLINE double poly2(v4d c, double x)
 // Section at station x (formulation.md, sections 1 and 3); all vectors in R. Beyond the ends the
 // axis goes on straight (model.md, section 3): forces then act through the end section at `root`.
 typedef struct section {
-    int index; // element
-    double x;  // station
-    double xi; // of the shapes, from the element's x0
-    v3 P;      // point of the axis
-    v3 root;   // axis point of the section that carries forces (P itself inside the tube)
-    v3 t;      // dP/dx
-    v3 th;     // rotation vector
-    v3 k0;     // d th/dx
-    m3 A;      // A_RP
-    m3 Jl;     // left Jacobian
+    int index;     // element
+    double x;      // station
+    double beyond; // x less the end's station, outside the tube
+    double xi;     // of the shapes, from the element's x0
+    v3 P;          // point of the axis
+    v3 root;       // axis point of the section that carries forces (P itself inside the tube)
+    v3 t;          // dP/dx
+    v3 th;         // rotation vector
+    v3 k0;         // d th/dx
+    m3 A;          // A_RP
+    m3 Jl;         // left Jacobian
 } section;
 
 LD_INLINE void section_load(const launching_system *self, const element_motion *motion, double x,
@@ -84,8 +94,8 @@ LD_INLINE void section_load(const launching_system *self, const element_motion *
     s->xi = xi;
     double uy = poly0(motion->y, xi), uy1 = poly1(motion->y, xi);
     double uz = poly0(motion->z, xi), uz1 = poly1(motion->z, xi);
-    s->P = s->root = v3_make(inside, uy, uz);
-    s->t = v3_make(1, uy1, uz1);
+    s->P = s->root = v3_make(inside + (motion->a[0] + xi * motion->a[1]), uy, uz);
+    s->t = v3_make(1 + motion->a[1], uy1, uz1);
     s->th = v3_make(motion->t[0] + xi * motion->t[1], -uz1, uy1);
     s->k0 = v3_make(motion->t[1], -poly2(motion->z, xi), poly2(motion->y, xi));
     rv_coefficients k = rv_coefficients_of(v3_norm2(s->th));
@@ -100,9 +110,10 @@ LD_INLINE void section_load(const launching_system *self, const element_motion *
         s->A.a[i][i] += 1 - k.b * t2;
         s->Jl.a[i][i] += 1 - k.c * t2;
     }
-    if (__builtin_expect(x != inside, 0)) {
+    s->beyond = x - inside;
+    if (__builtin_expect(s->beyond != 0, 0)) {
         v3 axis = m3_column(s->A, 0);
-        s->P = v3_axpy(s->P, x - inside, axis);
+        s->P = v3_axpy(s->P, s->beyond, axis);
         s->t = axis;
         s->k0 = v3_zero();
     }
@@ -121,15 +132,16 @@ LD_INLINE void section_rates_load(const element_motion *motion, const section *s
 {
     double xi = s->xi;
     double uy1 = poly1(motion->y_dot, xi), uz1 = poly1(motion->z_dot, xi);
-    r->u_dot = v3_make(0, poly0(motion->y_dot, xi), poly0(motion->z_dot, xi));
-    r->u1_dot = v3_make(0, uy1, uz1);
+    r->u_dot = v3_make(motion->a_dot[0] + xi * motion->a_dot[1], poly0(motion->y_dot, xi),
+                       poly0(motion->z_dot, xi));
+    r->u1_dot = v3_make(motion->a_dot[1], uy1, uz1);
     r->th_dot = v3_make(motion->t_dot[0] + xi * motion->t_dot[1], -uz1, uy1);
     r->k0_dot = v3_make(motion->t_dot[1], -poly2(motion->z_dot, xi), poly2(motion->y_dot, xi));
     r->w = m3_apply(s->Jl, r->th_dot);
-    if (__builtin_expect(s->root.x != s->x, 0)) {
+    if (__builtin_expect(s->beyond != 0, 0)) {
         v3 axis = m3_column(s->A, 0);
         v3 axis_dot = v3_cross(r->w, axis);
-        r->u_dot = v3_axpy(r->u_dot, s->x - s->root.x, axis_dot);
+        r->u_dot = v3_axpy(r->u_dot, s->beyond, axis_dot);
         r->u1_dot = axis_dot;
         r->k0_dot = v3_zero();
     }
@@ -145,7 +157,8 @@ LD_INLINE double section_gap(const launching_system *self, const element_motion 
     rv_coefficients k = rv_coefficients_of(v3_norm2(th));
     v3 axis = v3_make(1 - k.b * (th.y * th.y + th.z * th.z), k.b * th.x * th.y + k.a * th.z,
                       k.b * th.x * th.z - k.a * th.y);
-    v3 P = v3_make(inside, poly0(motion->y, xi), poly0(motion->z, xi));
+    v3 P = v3_make(inside + (motion->a[0] + xi * motion->a[1]), poly0(motion->y, xi),
+                   poly0(motion->z, xi));
     return v3_dot(axis, v3_sub(C, P)) - (x - inside);
 }
 
