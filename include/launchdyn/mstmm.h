@@ -1,0 +1,202 @@
+/// Multibody systems by the transfer matrix method: chains and trees of rigid bodies, beams and
+/// hinges at acceleration level, order N.
+///
+/// A system is described by a list of elements. An element is a body (rigid, or a beam) together
+/// with the hinge that carries it on its parent: another element, or the ground. The body's frame
+/// sits on the outboard side of its hinge; at zero coordinates it coincides with the hinge frame,
+/// which is fixed on the parent at `at`, turned by `attitude`. The ground's frame is the inertial
+/// one. SI units and radians throughout.
+///
+/// Coordinates q and speeds u are flat arrays, element by element in the order of the description:
+///   weld         -                                              -
+///   revolute     angle about axis                               its rate
+///   prismatic    displacement along axis                        its rate
+///   cylindrical  displacement along axis, angle about it        their rates
+///   universal    angle about axis, then about axis_2            their rates
+///   spherical    quaternion w x y z, body to hinge frame        angular velocity relative to the
+///                                                               parent, in body axes (3)
+///   free         position of the body's origin in the hinge     its rate (3), angular velocity
+///                frame (3), quaternion as above (4)             relative to the parent, body axes
+///                (3)
+/// A beam's modal coordinates q_y, q_z, q_t, q_a (and their rates) follow those of its hinge.
+/// Generalised forces tau belong to the speeds: their power is tau . u. They act on the body and
+/// with opposite sign on its parent.
+///
+/// A system holds its workspace: use one per thread. Nothing is allocated after ld_mstmm_create
+/// but in ld_mstmm_accelerations_overall, ld_mstmm_vibration and ld_mstmm_integrate.
+#ifndef LAUNCHDYN_MSTMM_H
+#define LAUNCHDYN_MSTMM_H
+
+#include <stdint.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ld_mstmm ld_mstmm;
+
+typedef enum ld_hinge {
+    LD_HINGE_WELD,
+    LD_HINGE_REVOLUTE,
+    LD_HINGE_PRISMATIC,
+    LD_HINGE_CYLINDRICAL,
+    LD_HINGE_UNIVERSAL,
+    LD_HINGE_SPHERICAL,
+    LD_HINGE_FREE,
+} ld_hinge;
+
+/// A flexible tube or beam of round sections (equal second moments in both planes) along its body
+/// frame's x axis: Euler-Bernoulli bending, torsion and stretch as small vibrations in a frame that
+/// rides on its input end, by component modes.
+typedef struct ld_mstmm_beam {
+    double length; ///< [m]
+    int section_count;
+    const ld_section *section;   ///< from x = 0 on; bore radius is not used
+    int bending, torsion, axial; ///< number of modes: bending per plane
+    int elements;                ///< finite elements at least; 0: 40
+    double damping;              ///< [-] ratio, of the modes clamped at x = 0
+    ld_mode_span span;           ///< LD_SPAN_CLAMPED or LD_SPAN_FREE_FREE
+} ld_mstmm_beam;
+
+/// One body and the hinge that carries it. All not mentioned may be zero.
+typedef struct ld_mstmm_element {
+    const char *name;
+    const char *parent; ///< name of the element that carries it; NULL: the ground
+    double at[3]; ///< [m] the hinge on the parent, parent's axes; on a beam: station along it,
+                  ///< then y and z in the axes of the deformed section there
+    double attitude[4]; ///< quaternion, hinge frame to parent's axes (any length); zeros: parallel
+    ld_hinge hinge;
+    double axis[3];      ///< in the hinge frame (any length)
+    double axis_2[3];    ///< universal: second axis, turned by the first angle
+    double stiffness[6]; ///< of springs in the hinge, one per speed [N m/rad] or [N/m]; spherical
+                         ///< and free: against the rotation vector in body axes
+    double damping[6];   ///< of dampers in the hinge, one per speed
+    double rest[2];      ///< coordinates without spring force (hinges with one or two axes)
+    double mass;         ///< [kg]
+    double center[3];    ///< [m] mass centre, body axes
+    double inertia[6];   ///< [kg m2] matrix elements xx yy zz xy xz yz about the mass centre
+    const ld_mstmm_beam *beam; ///< not NULL: the body is this beam (mass, center, inertia unused)
+} ld_mstmm_element;
+
+/// Builds a system in a uniform gravity field [m/s2]. Fails with a sentence that names the element:
+/// a parent that does not exist, elements in a circle, a name given twice (closed loops are not
+/// supported), a massless end body, a mass or an inertia that no body can have, a missing axis.
+ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const double gravity[3],
+                          ld_mstmm **out, ld_error *error);
+void ld_mstmm_free(ld_mstmm *system);
+
+/// Length of q and of u.
+int ld_mstmm_coordinate_count(const ld_mstmm *system);
+int ld_mstmm_speed_count(const ld_mstmm *system);
+/// Index of an element by name, -1 where there is none.
+int ld_mstmm_find(const ld_mstmm *system, const char *name);
+/// Where an element's coordinates begin in q, and its speeds in u.
+int ld_mstmm_coordinate_offset(const ld_mstmm *system, int element);
+int ld_mstmm_speed_offset(const ld_mstmm *system, int element);
+/// The reference state: zeros and unit quaternions.
+void ld_mstmm_reference(const ld_mstmm *system, double *q);
+
+/// Forward dynamics by the reduced sweep (Riccati form of the transfer equations, formulation.md
+/// section 2): u_dot from q, u, hinge forces `tau` (NULL: none) and applied wrenches (NULL: none;
+/// else 6 for each element: force, then moment about the body's origin, inertial axes). Springs and
+/// dampers of the hinges are added. Fails where a hinge's state is singular, with its name.
+ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
+                                 const double *tau, const double *wrench, double *u_dot,
+                                 ld_error *error);
+
+/// Inverse dynamics: the hinge forces `tau` that make `u_dot` (on top of springs and dampers).
+void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
+                     const double *wrench, double *tau);
+
+typedef enum ld_mstmm_form {
+    LD_MSTMM_PAPER,  ///< each hinge acceleration eliminated by the next hinge's equation
+    LD_MSTMM_HINGES, ///< all hinge accelerations kept as unknowns
+} ld_mstmm_form;
+
+/// How far an overall transfer equation may be trusted.
+typedef struct ld_mstmm_overall {
+    int order; ///< of the equations solved
+    double
+        residual; ///< largest |tau wanted - tau needed for the result| over the largest force met
+    char warning[256]; ///< empty, or a sentence: the form cannot hold here
+} ld_mstmm_overall;
+
+/// Forward dynamics by the overall transfer equation: the product of the elements' 13 x 13 matrices
+/// closed by the conditions at both ends. For comparison and study: it loses digits with the length
+/// of the chain (`report`, may be NULL). Fails with LD_ERR_NUMERIC where it has none left.
+ld_status ld_mstmm_accelerations_overall(ld_mstmm *system, ld_mstmm_form form, const double *q,
+                                         const double *u, const double *tau, double *u_dot,
+                                         ld_mstmm_overall *report, ld_error *error);
+
+typedef struct ld_mstmm_energies {
+    double kinetic;   ///< [J]
+    double potential; ///< in gravity, zero at the inertial origin
+    double elastic;   ///< of beams and hinge springs
+} ld_mstmm_energies;
+
+ld_mstmm_energies ld_mstmm_energy(ld_mstmm *system, const double *q, const double *u);
+/// Linear momentum [kg m/s] and angular momentum about the inertial origin [kg m2/s].
+void ld_mstmm_momentum(ld_mstmm *system, const double *q, const double *u, double linear[3],
+                       double angular[3]);
+
+/// Place and motion of a point of an element in inertial axes.
+typedef struct ld_mstmm_point {
+    double position[3];
+    double velocity[3];
+    double attitude[4]; ///< quaternion, body (or beam section) axes to inertial axes
+    double rate[3];     ///< angular velocity of the body (or section), inertial axes
+} ld_mstmm_point;
+
+/// The point `at` of an element: body axes, or station, y, z on a beam.
+ld_mstmm_point ld_mstmm_locate(ld_mstmm *system, const double *q, const double *u, int element,
+                               const double at[3]);
+
+/// Rates of the coordinates q from the speeds u.
+void ld_mstmm_rates(const ld_mstmm *system, const double *q, const double *u, double *q_dot);
+
+/// One mode of the system linearised at an equilibrium.
+typedef struct ld_mstmm_mode {
+    double frequency; ///< [Hz] |eigenvalue|/(2 pi); real eigenvalues (overdamped, unstable): 0
+    double damping;   ///< [-] ratio -Re/|eigenvalue|; negative: it grows
+    double rate;      ///< [1/s] real part of the eigenvalue
+} ld_mstmm_mode;
+
+/// Natural frequencies, damping ratios and mode shapes at the equilibrium q held by constant `tau`
+/// (NULL: none), ascending. modes: at most speed_count are written, `count` tells how many;
+/// shapes (NULL: none): count rows of speed_count displacements (in the sense of the speeds), real
+/// and imaginary part in turn, the largest one 1. Fails where q is no equilibrium.
+ld_status ld_mstmm_vibration(ld_mstmm *system, const double *q, const double *tau,
+                             ld_mstmm_mode *modes, double *shapes, int *count, ld_error *error);
+
+/// Drive forces at an instant: fills tau [speed_count] and wrench [6 per element], zero on entry.
+typedef void (*ld_mstmm_drive)(double t, const double *q, const double *u, double *tau,
+                               double *wrench, void *context);
+/// Receives the state at every output instant; other than 0 stops the integration.
+typedef int (*ld_mstmm_sink)(double t, const double *q, const double *u, void *context);
+
+typedef struct ld_mstmm_settings {
+    double rtol, atol;    ///< tolerances; 0: 1e-8 each
+    double output_step;   ///< [s] between calls of the sink
+    ld_mstmm_drive drive; ///< NULL: no drive forces
+    ld_mstmm_sink sink;   ///< NULL: none
+    void *context;
+} ld_mstmm_settings;
+
+typedef struct ld_mstmm_statistics {
+    int64_t steps, evaluations;
+} ld_mstmm_statistics;
+
+/// Integrates from t_0 to t_1 by error-controlled Dormand-Prince steps; q and u hold the start and
+/// get the end. statistics may be NULL.
+ld_status ld_mstmm_integrate(ld_mstmm *system, const ld_mstmm_settings *settings, double t_0,
+                             double t_1, double *q, double *u, ld_mstmm_statistics *statistics,
+                             ld_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
