@@ -1,0 +1,118 @@
+// Forward dynamics by the reduced sweep: nanoseconds an evaluation and a body, medians, one thread.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "../tests/support/multibody_case.h"
+#include "launchdyn/mstmm.h"
+
+enum { REPEATS = 31 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec * 1e9 + (double)t.tv_nsec;
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// Median time of one evaluation [ns]; each one starts from slightly changed coordinates.
+static double measure(ld_mstmm *system, double *q, const double *u, const double *tau)
+{
+    int n = ld_mstmm_speed_count(system);
+    double *u_dot = malloc((size_t)n * sizeof *u_dot), time[REPEATS], sum = 0;
+    int calls = 200000 / n + 1;
+    for (int k = 0; k < REPEATS; k++) {
+        double start = now();
+        for (int i = 0; i < calls; i++) {
+            q[0] += 1e-9;
+            ld_mstmm_accelerations(system, q, u, tau, NULL, u_dot, NULL);
+            sum += u_dot[n - 1];
+        }
+        time[k] = (now() - start) / calls;
+    }
+    qsort(time, REPEATS, sizeof *time, compare);
+    free(u_dot);
+    return isfinite(sum) ? time[REPEATS / 2] : NAN;
+}
+
+// A revolute chain of the reference file's kind with n bodies, every one different, axes in general
+// directions.
+static double chain(int n)
+{
+    ld_mstmm_element *element = calloc((size_t)n, sizeof *element);
+    char(*name)[16] = calloc((size_t)n, sizeof *name);
+    double *q = calloc((size_t)n, 4 * sizeof *q), *u = q + n, *tau = u + n, ns = NAN;
+    srand(1);
+    for (int i = 0; i < n; i++) {
+        snprintf(name[i], sizeof *name, "%d", i);
+        double r[16];
+        for (int k = 0; k < 16; k++)
+            r[k] = 2.0 * rand() / RAND_MAX - 1;
+        element[i] = (ld_mstmm_element){
+            .name = name[i],
+            .parent = i ? name[i - 1] : NULL,
+            .at = {i ? 0.2 + 0.02 * r[0] : 0, 0.01 * r[1], 0.02 * r[2]},
+            .hinge = LD_HINGE_REVOLUTE,
+            .axis = {0.3 * r[3], i % 2 ? 1 : 0.3 * r[4], i % 2 ? 0.3 * r[5] : 1},
+            .mass = 1.3 + 0.3 * r[6],
+            .center = {0.1 + 0.01 * r[7], 0.012 * r[8], 0.008 * r[9]},
+            .inertia = {0.0021 + 0.0001 * r[10], 0.0058, 0.0062, 0.0002 * r[11], 0.0001 * r[12],
+                        0.00015},
+        };
+        q[i] = r[13];
+        u[i] = 0.5 * r[14];
+        tau[i] = r[15];
+    }
+    ld_mstmm *system;
+    ld_error error;
+    const double gravity[3] = {0, 0, -9.81};
+    if (ld_mstmm_create(element, n, gravity, &system, &error))
+        fprintf(stderr, "%s\n", error.text);
+    else {
+        ns = measure(system, q, u, tau);
+        ld_mstmm_free(system);
+    }
+    free(element);
+    free(name);
+    free(q);
+    return ns;
+}
+
+static double reference(const char *name)
+{
+    static multibody_case c;
+    ld_mstmm *system;
+    if (read_multibody_case(name, &c) ||
+        ld_mstmm_create(c.element, c.count, c.gravity, &system, NULL))
+        return NAN;
+    double ns = measure(system, c.q, c.u, c.tau);
+    ld_mstmm_free(system);
+    return ns;
+}
+
+int main(void)
+{
+    const int counts[] = {3, 10, 30, 100, 300, 1000, 3000, 10000};
+    double previous = 0;
+    printf("%-10s %12s %12s %10s\n", "system", "ns", "ns/body", "exponent");
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        double ns = chain(counts[i]);
+        printf("chain %-5d %12.0f %12.1f", counts[i], ns, ns / counts[i]);
+        if (i > 0)
+            printf(" %10.3f", log(ns / previous) / log((double)counts[i] / counts[i - 1]));
+        printf("\n");
+        previous = ns;
+    }
+    const char *const cases[] = {"chain3", "chain10", "chain100", "vehicle"};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        printf("%-10s %12.0f\n", cases[i], reference(cases[i]));
+    return 0;
+}
