@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-typedef double lanes __attribute__((vector_size(16)));
+typedef double two __attribute__((vector_size(16)));
 typedef int64_t bits __attribute__((vector_size(16)));
 
 // Beyond this angle the reduction below would lose digits.
@@ -14,32 +14,32 @@ static const double largest = 5e5;
 // Sun's fdlibm (k_sin.c, k_cos.c, e_rem_pio2.c).
 static void pair(const double *angle, double *sine, double *cosine)
 {
-    lanes x;
+    two x;
     memcpy(&x, angle, sizeof x);
 
     // n = nearest integer of x/(pi/2), in the low bits of a large double; y + tail = x - n pi/2
-    lanes shifted = x * 0.63661977236758134 + 6755399441055744.0;
-    lanes n = shifted - 6755399441055744.0;
-    lanes first = x - n * 1.57079632673412561417e+00;
-    lanes second = n * 6.07710050630396597660e-11;
-    lanes third = n * 2.02226624879595063154e-21;
-    lanes middle = first - second;
-    lanes lost = (first - middle) - second;
-    lanes y = middle - (third - lost);
-    lanes tail = (middle - y) - (third - lost);
+    two shifted = x * 0.63661977236758134 + 6755399441055744.0;
+    two n = shifted - 6755399441055744.0;
+    two first = x - n * 1.57079632673412561417e+00;
+    two second = n * 6.07710050630396597660e-11;
+    two third = n * 2.02226624879595063154e-21;
+    two middle = first - second;
+    two lost = (first - middle) - second;
+    two y = middle - (third - lost);
+    two tail = (middle - y) - (third - lost);
 
     // sine and cosine of y + tail
-    lanes z = y * y, cube = z * y;
-    lanes p = 2.75573137070700676789e-06 +
-              z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
+    two z = y * y, cube = z * y;
+    two p = 2.75573137070700676789e-06 +
+            z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
     p = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * p);
-    lanes s = y - ((z * (0.5 * tail - cube * p) - tail) - cube * -1.66666666666666324348e-01);
-    lanes r = -2.75573143513906633035e-07 +
-              z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11);
+    two s = y - ((z * (0.5 * tail - cube * p) - tail) - cube * -1.66666666666666324348e-01);
+    two r = -2.75573143513906633035e-07 +
+            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11);
     r = 4.16666666666666019037e-02 +
         z * (-1.38888888888741095749e-03 + z * (2.48015872894767294178e-05 + z * r));
-    lanes half = 0.5 * z, w = 1.0 - half;
-    lanes c = w + (((1.0 - w) - half) + (z * (z * r) - y * tail));
+    two half = 0.5 * z, w = 1.0 - half;
+    two c = w + (((1.0 - w) - half) + (z * (z * r) - y * tail));
 
     // odd quadrants swap the two, the second and third change the sign of the sine, the first and
     // second that of the cosine

@@ -249,8 +249,7 @@ static bool allocate(ld_mstmm *s)
     s->cosine = array(n + 1, sizeof *s->cosine, &missing);
     s->motion = array(n, sizeof *s->motion, &missing);
     s->axis = array(u, sizeof *s->axis, &missing);
-    s->branch_Z = array(k, sizeof *s->branch_Z, &missing);
-    s->branch_zf = array(k, sizeof *s->branch_zf, &missing);
+    s->branch = array(k, sizeof *s->branch, &missing);
     s->branch_x = array(k, sizeof *s->branch_x, &missing);
     s->tau = array(u, sizeof *s->tau, &missing);
     s->wrench = array(n, sizeof *s->wrench, &missing);
@@ -267,8 +266,8 @@ void ld_mstmm_free(ld_mstmm *s)
     void *blocks[] = {s->name,     s->element,  s->element_node, s->element_q, s->element_u,
                       s->q_length, s->u_length, s->body_axes,    s->node,      s->inertia,
                       s->beam_of,  s->beams,    s->angle_q,      s->angle,     s->sine,
-                      s->cosine,   s->motion,   s->axis,         s->branch_Z,  s->branch_zf,
-                      s->branch_x, s->tau,      s->wrench,       s->place};
+                      s->cosine,   s->motion,   s->axis,         s->branch,    s->branch_x,
+                      s->tau,      s->wrench,   s->place};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         free(blocks[i]);
     free(s);
@@ -447,6 +446,15 @@ static void link_shares(ld_mstmm *s)
 
 // ---- create
 
+static void choose_sweep(ld_mstmm *s)
+{
+    s->sweep = &sweep_default;
+#ifdef LD_HAVE_AVX2
+    if (__builtin_cpu_supports("avx2"))
+        s->sweep = &sweep_avx2;
+#endif
+}
+
 static ld_status copy_elements(ld_mstmm *s, const tree *t, const ld_mstmm_element *elements,
                                ld_error *error)
 {
@@ -516,7 +524,8 @@ ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const dou
     if (!status && !allocate(s))
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
     if (!status) {
-        s->motion[0].A = m3_identity();
+        v4d_store_m3(s->motion[0].A, m3_identity());
+        choose_sweep(s);
         builder b = {.system = s, .tree = &t};
         for (int k = 0; !status && k < count; k++)
             status = add_element(&b, t.order[k], error);
@@ -577,7 +586,7 @@ ld_status multibody_singular(const ld_mstmm *s, int i, ld_error *error)
 {
     int element = s->node[i].element >= 0 ? s->node[i].element : s->node[i + 1].element;
     const node_motion *m = &s->motion[i];
-    bool finite_state = isfinite(m->A.a[0][0] + m->w.x + m->w.y + m->w.z + v3_norm2(m->r));
+    bool finite_state = isfinite(m->A[0][0] + v4d_sum3(m->w) + v4d_sum3(m->r));
     return ld_fail(error, LD_ERR_NUMERIC,
                    finite_state ? "element '%s': its hinge is in a singular state, nothing resists "
                                   "along one of its axes"

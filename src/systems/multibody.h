@@ -10,6 +10,7 @@
 
 #include "elements/beam.h"
 #include "launchdyn/mstmm.h"
+#include "math/lanes_vec3.h"
 #include "math/spatial.h"
 
 typedef enum node_hinge { NODE_WELD, NODE_TURN, NODE_SLIDE, NODE_BALL, NODE_FREE } node_hinge;
@@ -46,22 +47,34 @@ typedef struct node_beam {
 
 // Motion of a node in inertial axes, from q and u alone.
 typedef struct node_motion {
-    m3 A;         // internal to inertial axes
-    v3 w;         // angular velocity
-    v3 r;         // from the parent's origin to this one's
-    spatial bias; // [a; alpha] = T(r) [a; alpha]_parent + axes u_dot + bias
+    v4d A[3];               // columns: internal to inertial axes
+    v4d w;                  // angular velocity
+    v4d r;                  // from the parent's origin to this one's
+    v4d bias_a, bias_alpha; // [a; alpha] = T(r) [a; alpha]_parent + axes u_dot + bias
 } node_motion;
 
-// One axis of a hinge after the reduced step: u_dot = rate - V . (T x_parent + the axes before).
+// What a subtree exerts at a cut, F = Z x + zf, by the columns of Z = [A, B; T, C], T = B^T.
+typedef struct share {
+    v4d A[3], T[3], B[3], C[3];
+    v4d f, m; // zf
+} share;
+
+// One axis of a hinge after the reduced step: u_dot = rate - V . x, x the parent's acceleration
+// (hinges with one axis) or T x and the axes before (balls and free hinges).
 typedef struct axis_record {
-    spatial V; // Z e/D
+    v4d V_a, V_alpha; // Z e/D
     double rate;
 } axis_record;
+
+typedef struct spatial_lanes {
+    v4d a, alpha;
+} spatial_lanes;
 
 struct ld_mstmm {
     int element_count, node_count; // the ground not counted
     int q_count, u_count, axis_count, angle_count, branch_count, beam_count;
     spatial base; // acceleration of the ground less gravity
+    const struct sweep *sweep;
     v3 gravity;
     bool has_springs;
 
@@ -84,19 +97,33 @@ struct ld_mstmm {
     double *angle, *sine, *cosine;
     node_motion *motion; // [node_count + 1]
     axis_record *axis;
-    spatial_matrix *branch_Z;
-    spatial *branch_zf;
-    spatial *branch_x;
-    double *tau;     // with springs and dampers
-    spatial *wrench; // inverse dynamics, by node
-    spatial *place;  // origin's position and velocity, by node
+    share *branch;        // sums over children
+    spatial_lanes *branch_x; // accelerations of nodes with several children
+    double *tau;          // with springs and dampers
+    spatial *wrench;      // inverse dynamics, by node
+    spatial *place;       // origin's position and velocity, by node
 };
 
-// Motion of all nodes, beams included.
-void multibody_move(ld_mstmm *system, const double *q, const double *u);
+// The hot functions, compiled for the instruction sets that the machine may have.
+typedef struct sweep {
+    // Motion of all nodes, beams included.
+    void (*move)(ld_mstmm *system, const double *q, const double *u);
+    // From the tips inwards; returns 0, or the node whose hinge is singular.
+    int (*inwards)(ld_mstmm *system, const double *tau, const double *wrench);
+    // From the ground outwards: the accelerations.
+    void (*outwards)(ld_mstmm *system, double *u_dot);
+} sweep;
+
+extern const sweep sweep_default, sweep_avx2;
+
+// Motion of all nodes.
+LD_INLINE void multibody_move(ld_mstmm *system, const double *q, const double *u)
+{
+    system->sweep->move(system, q, u);
+}
 
 // Positions and velocities of the nodes' origins into `place`; after multibody_move.
-void multibody_place(ld_mstmm *system, const double *q, const double *u);
+void multibody_place(ld_mstmm *system, const double *u);
 
 // Forces of springs and dampers added to tau (NULL: none) in the workspace; returns them, or tau
 // itself where there are none.
@@ -107,15 +134,20 @@ double multibody_spring_energy(const ld_mstmm *system, const double *q);
 // The error of a hinge that offers no resistance, at node i, or of a state that is not finite.
 ld_status multibody_singular(const ld_mstmm *system, int i, ld_error *error);
 
-// Hinge frame of a node in inertial axes, before its own turns.
-LD_INLINE m3 node_hinge_axes(const ld_mstmm *system, const node *n)
+// Internal axes of node i in inertial axes.
+LD_INLINE m3 node_axes(const ld_mstmm *system, int i)
 {
-    return m3_mul(system->motion[n->parent].A, n->G);
+    return v4d_m3(system->motion[i].A);
+}
+// Hinge frame of node i in inertial axes, before its own turns.
+LD_INLINE m3 node_hinge_axes(const ld_mstmm *system, int i)
+{
+    return m3_mul(node_axes(system, system->node[i].parent), system->node[i].G);
 }
 // Body axes of node i's element in inertial axes: a beam's floating frame R.
 LD_INLINE m3 node_body_axes(const ld_mstmm *system, int i)
 {
-    return m3_mul(system->motion[i].A, m3_transpose(system->body_axes[system->node[i].element]));
+    return m3_mul(node_axes(system, i), m3_transpose(system->body_axes[system->node[i].element]));
 }
 
 #endif

@@ -16,32 +16,34 @@ static spatial accelerate(ld_mstmm *system, int i, spatial x, const double *u_do
         return spatial_turn(node_body_axes(system, n->parent),
                             beam_output_acceleration(b->body, b->output));
     }
-    x = spatial_add(spatial_shift(m->r, x), m->bias);
+    m3 A = node_axes(system, i);
+    x = spatial_add(spatial_shift(v4d_v3(m->r), x),
+                    (spatial){v4d_v3(m->bias_a), v4d_v3(m->bias_alpha)});
     switch (n->hinge) {
     case NODE_TURN:
-        x.angular = v3_axpy(x.angular, u_dot[n->u], m3_column(m->A, 2));
+        x.angular = v3_axpy(x.angular, u_dot[n->u], m3_column(A, 2));
         break;
     case NODE_SLIDE:
-        x.linear = v3_axpy(x.linear, u_dot[n->u], m3_column(m->A, 2));
+        x.linear = v3_axpy(x.linear, u_dot[n->u], m3_column(A, 2));
         break;
     case NODE_WELD:
         break;
     case NODE_BALL:
-        x.angular = v3_add(x.angular, m3_apply(m->A, v3_from(u_dot + n->u)));
+        x.angular = v3_add(x.angular, m3_apply(A, v3_from(u_dot + n->u)));
         break;
     case NODE_FREE:
-        x.linear = v3_add(x.linear, m3_apply(node_hinge_axes(system, n), v3_from(u_dot + n->u)));
-        x.angular = v3_add(x.angular, m3_apply(m->A, v3_from(u_dot + n->u + 3)));
+        x.linear = v3_add(x.linear, m3_apply(node_hinge_axes(system, i), v3_from(u_dot + n->u)));
+        x.angular = v3_add(x.angular, m3_apply(A, v3_from(u_dot + n->u + 3)));
         break;
     }
     return x;
 }
 
 // Wrench about the origin that a rigid body needs for the acceleration x.
-static spatial needed(const node_inertia *body, const node_motion *m, spatial x)
+static spatial needed(const node_inertia *body, m3 A, v3 w, spatial x)
 {
-    v3 w = m->w, mc = m3_apply(m->A, body->moment);
-    sym3 J = sym3_turn(m->A, body->inertia);
+    v3 mc = m3_apply(A, body->moment);
+    sym3 J = sym3_turn(A, body->inertia);
     v3 centripetal = v3_cross(w, v3_cross(w, mc));
     return (spatial){
         v3_add(v3_axpy(centripetal, body->mass, x.linear), v3_cross(x.angular, mc)),
@@ -54,7 +56,7 @@ static spatial needed(const node_inertia *body, const node_motion *m, spatial x)
 static void project(const ld_mstmm *system, int i, spatial F, double *tau)
 {
     const node *n = &system->node[i];
-    m3 A = system->motion[i].A;
+    m3 A = node_axes(system, i);
     switch (n->hinge) {
     case NODE_TURN:
         tau[n->u] = v3_dot(m3_column(A, 2), F.angular);
@@ -68,7 +70,7 @@ static void project(const ld_mstmm *system, int i, spatial F, double *tau)
         v3_store(tau + n->u, m3_apply_transposed(A, F.angular));
         break;
     case NODE_FREE:
-        v3_store(tau + n->u, m3_apply_transposed(node_hinge_axes(system, n), F.linear));
+        v3_store(tau + n->u, m3_apply_transposed(node_hinge_axes(system, i), F.linear));
         v3_store(tau + n->u + 3, m3_apply_transposed(A, F.angular));
         break;
     }
@@ -88,7 +90,8 @@ void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const d
         x[i] = accelerate(system, i, x[n->parent], u_dot);
         F[i] = (spatial){v3_zero(), v3_zero()};
         if (n->body == NODE_RIGID) {
-            F[i] = needed(&system->inertia[i], &system->motion[i], x[i]);
+            F[i] = needed(&system->inertia[i], node_axes(system, i), v4d_v3(system->motion[i].w),
+                          x[i]);
         } else if (n->body == NODE_BEAM) {
             m3 A_R = node_body_axes(system, i);
             F[i] = spatial_turn(
@@ -114,7 +117,7 @@ void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const d
         if (n->body == NODE_BEAM)
             memcpy(tau + b->modes_u, b->body->h + 6, (size_t)b->body->modes * sizeof *tau);
         project(system, i, F[i], tau);
-        F[n->parent] = spatial_add(F[n->parent], wrench_shift(system->motion[i].r, F[i]));
+        F[n->parent] = spatial_add(F[n->parent], wrench_shift(v4d_v3(system->motion[i].r), F[i]));
     }
 
     // less what springs and dampers give
@@ -131,16 +134,17 @@ ld_mstmm_energies ld_mstmm_energy(ld_mstmm *system, const double *q, const doubl
 {
     ld_mstmm_energies sum = {.elastic = multibody_spring_energy(system, q)};
     multibody_move(system, q, u);
-    multibody_place(system, q, u);
+    multibody_place(system, u);
     for (int i = 1; i <= system->node_count; i++) {
         const node *n = &system->node[i];
-        const node_motion *m = &system->motion[i];
+        m3 A = node_axes(system, i);
+        v3 w_I = v4d_v3(system->motion[i].w);
         v3 position = system->place[i].linear, velocity = system->place[i].angular;
         double mass = system->inertia[i].mass;
-        v3 mc = m3_apply(m->A, system->inertia[i].moment);
+        v3 mc = m3_apply(A, system->inertia[i].moment);
         if (n->body == NODE_RIGID) {
-            v3 w = m3_apply_transposed(m->A, m->w);
-            sum.kinetic += 0.5 * mass * v3_norm2(velocity) + v3_dot(velocity, v3_cross(m->w, mc)) +
+            v3 w = m3_apply_transposed(A, w_I);
+            sum.kinetic += 0.5 * mass * v3_norm2(velocity) + v3_dot(velocity, v3_cross(w_I, mc)) +
                            0.5 * v3_dot(w, sym3_apply(system->inertia[i].inertia, w));
         } else if (n->body == NODE_BEAM) {
             const node_beam *b = &system->beam_of[i];
@@ -150,7 +154,7 @@ ld_mstmm_energies ld_mstmm_energy(ld_mstmm *system, const double *q, const doubl
             mc = m3_apply(A_R, tube_first_moment(tube, q + b->modes_q));
             sum.kinetic +=
                 tube_kinetic_energy(tube, m3_apply_transposed(A_R, velocity),
-                                    m3_apply_transposed(A_R, m->w), q + b->modes_q, u + b->modes_u);
+                                    m3_apply_transposed(A_R, w_I), q + b->modes_q, u + b->modes_u);
             sum.elastic += tube_elastic_energy(tube, q + b->modes_q);
         } else {
             continue;
@@ -165,17 +169,18 @@ void ld_mstmm_momentum(ld_mstmm *system, const double *q, const double *u, doubl
 {
     v3 p = v3_zero(), l = v3_zero();
     multibody_move(system, q, u);
-    multibody_place(system, q, u);
+    multibody_place(system, u);
     for (int i = 1; i <= system->node_count; i++) {
         const node *n = &system->node[i];
-        const node_motion *m = &system->motion[i];
+        m3 A = node_axes(system, i);
+        v3 w_I = v4d_v3(system->motion[i].w);
         v3 position = system->place[i].linear, velocity = system->place[i].angular, p_i, l_i;
         if (n->body == NODE_RIGID) {
             const node_inertia *body = &system->inertia[i];
-            v3 mc = m3_apply(m->A, body->moment);
-            v3 w = m3_apply_transposed(m->A, m->w);
-            p_i = v3_axpy(v3_cross(m->w, mc), body->mass, velocity);
-            l_i = v3_add(v3_cross(mc, velocity), m3_apply(m->A, sym3_apply(body->inertia, w)));
+            v3 mc = m3_apply(A, body->moment);
+            v3 w = m3_apply_transposed(A, w_I);
+            p_i = v3_axpy(v3_cross(w_I, mc), body->mass, velocity);
+            l_i = v3_add(v3_cross(mc, velocity), m3_apply(A, sym3_apply(body->inertia, w)));
         } else if (n->body == NODE_BEAM) {
             m3 A_R = node_body_axes(system, i);
             const node_beam *b = &system->beam_of[i];
@@ -199,11 +204,10 @@ ld_mstmm_point ld_mstmm_locate(ld_mstmm *system, const double *q, const double *
                                const double at[3])
 {
     int i = system->element_node[element];
-    const node_motion *m = &system->motion[i];
     multibody_move(system, q, u);
-    multibody_place(system, q, u);
+    multibody_place(system, u);
     v3 position = system->place[i].linear, velocity = system->place[i].angular;
-    v3 w = m->w, r = v3_from(at);
+    v3 w = v4d_v3(system->motion[i].w), r = v3_from(at);
     m3 A = node_body_axes(system, i);
     if (system->node[i].body == NODE_BEAM) {
         // to the deformed section first

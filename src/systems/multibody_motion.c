@@ -1,132 +1,28 @@
-// Motion of all nodes from coordinates and speeds, outwards from the ground.
+// Places, velocities and the forces of springs from coordinates and speeds.
 #include <string.h>
 
 #include "math/rotation_vector.h"
-#include "math/sine_cosine.h"
 #include "systems/multibody.h"
 
-// Internal axes of a turned node: H Rz(angle).
-LD_INLINE m3 turned(m3 H, double sine, double cosine)
-{
-    m3 A;
-    for (int i = 0; i < 3; i++) {
-        A.a[i][0] = cosine * H.a[i][0] + sine * H.a[i][1];
-        A.a[i][1] = cosine * H.a[i][1] - sine * H.a[i][0];
-        A.a[i][2] = H.a[i][2];
-    }
-    return A;
-}
-
-// A section node follows its beam's deformed section, known in the beam's floating frame.
-static void move_section(ld_mstmm *system, int i)
-{
-    const node *n = &system->node[i];
-    const node_beam *b = &system->beam_of[i];
-    const node_motion *parent = &system->motion[n->parent];
-    node_motion *m = &system->motion[i];
-    const tube_section_state *section = &b->body->output[b->output].section;
-    m3 A_R = m3_mul(parent->A, n->G);
-    m->A = m3_mul(A_R, section->rotation);
-    m->w = v3_add(parent->w, m3_apply(A_R, section->spin));
-    m->r = m3_apply(A_R, section->position);
-}
-
-static void move_beam(ld_mstmm *system, int i, const double *q, const double *u)
-{
-    const node_beam *b = &system->beam_of[i];
-    const node_motion *m = &system->motion[i];
-    m3 Q = system->body_axes[system->node[i].element];
-    v3 w_R = m3_apply(Q, m3_apply_transposed(m->A, m->w));
-    beam_move(b->body, w_R, q + b->modes_q, u + b->modes_u);
-}
-
-void multibody_move(ld_mstmm *system, const double *q, const double *u)
-{
-    // sines and cosines of all turns
-    for (int k = 0; k < system->angle_count; k++)
-        system->angle[k] = q[system->angle_q[k]];
-    sine_cosine(system->angle_count, system->angle, system->sine, system->cosine);
-
-    for (int i = 1; i <= system->node_count; i++) {
-        const node *n = &system->node[i];
-        const node_motion *parent = &system->motion[n->parent];
-        node_motion *m = &system->motion[i];
-        if (n->body == NODE_SECTION) {
-            move_section(system, i);
-            continue;
-        }
-        v3 w = parent->w;
-        v3 r = m3_apply(parent->A, n->at);
-        m3 H = m3_mul(parent->A, n->G);
-        switch (n->hinge) {
-        case NODE_TURN: {
-            v3 spin = v3_scale(u[n->u], m3_column(H, 2));
-            m->A = turned(H, system->sine[n->angle], system->cosine[n->angle]);
-            m->w = v3_add(w, spin);
-            m->r = r;
-            m->bias = (spatial){v3_cross(w, v3_cross(w, r)), v3_cross(w, spin)};
-            break;
-        }
-        case NODE_SLIDE: {
-            v3 e = m3_column(H, 2);
-            r = v3_axpy(r, q[n->q], e);
-            m->A = H;
-            m->w = w;
-            m->r = r;
-            m->bias = (spatial){v3_cross(w, v3_axpy(v3_cross(w, r), 2 * u[n->u], e)), v3_zero()};
-            break;
-        }
-        case NODE_WELD:
-            m->A = H;
-            m->w = w;
-            m->r = r;
-            m->bias = (spatial){v3_cross(w, v3_cross(w, r)), v3_zero()};
-            break;
-        case NODE_BALL: {
-            m->A = m3_mul(H, q_matrix(q_from(q + n->q)));
-            v3 spin = m3_apply(m->A, v3_from(u + n->u));
-            m->w = v3_add(w, spin);
-            m->r = r;
-            m->bias = (spatial){v3_cross(w, v3_cross(w, r)), v3_cross(w, spin)};
-            break;
-        }
-        case NODE_FREE: {
-            m->A = m3_mul(H, q_matrix(q_from(q + n->q + 3)));
-            v3 spin = m3_apply(m->A, v3_from(u + n->u + 3));
-            v3 slide = m3_apply(H, v3_from(u + n->u));
-            r = v3_add(r, m3_apply(H, v3_from(q + n->q)));
-            m->w = v3_add(w, spin);
-            m->r = r;
-            m->bias = (spatial){v3_cross(w, v3_axpy(v3_cross(w, r), 2, slide)), v3_cross(w, spin)};
-            break;
-        }
-        }
-        if (n->body == NODE_BEAM)
-            move_beam(system, i, q, u);
-    }
-}
-
-void multibody_place(ld_mstmm *system, const double *q, const double *u)
+void multibody_place(ld_mstmm *system, const double *u)
 {
     system->place[0] = (spatial){v3_zero(), v3_zero()};
     for (int i = 1; i <= system->node_count; i++) {
         const node *n = &system->node[i];
-        const node_motion *parent = &system->motion[n->parent];
-        const node_motion *m = &system->motion[i];
-        v3 position = v3_add(system->place[n->parent].linear, m->r);
-        v3 velocity = v3_add(system->place[n->parent].angular, v3_cross(parent->w, m->r));
+        v3 r = v4d_v3(system->motion[i].r), w = v4d_v3(system->motion[n->parent].w);
+        v3 position = v3_add(system->place[n->parent].linear, r);
+        v3 velocity = v3_add(system->place[n->parent].angular, v3_cross(w, r));
         if (n->body == NODE_SECTION) {
             const node_beam *b = &system->beam_of[i];
-            velocity = v3_add(velocity, m3_apply(node_hinge_axes(system, n),
+            velocity = v3_add(velocity, m3_apply(node_hinge_axes(system, i),
                                                  b->body->output[b->output].section.velocity));
         } else if (n->hinge == NODE_SLIDE) {
-            velocity = v3_axpy(velocity, u[n->u], m3_column(m->A, 2));
+            velocity = v3_axpy(velocity, u[n->u], v4d_v3(system->motion[i].A[2]));
         } else if (n->hinge == NODE_FREE) {
-            velocity = v3_add(velocity, m3_apply(node_hinge_axes(system, n), v3_from(u + n->u)));
+            velocity = v3_add(velocity, m3_apply(node_hinge_axes(system, i), v3_from(u + n->u)));
         }
         system->place[i] = (spatial){position, velocity};
     }
-    (void)q;
 }
 
 // Moment of a rotational spring on the body, in body axes: -Jl(-phi)^-T K phi, the gradient of

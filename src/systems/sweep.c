@@ -1,212 +1,424 @@
-// The reduced sweep (formulation.md, section 2): the Riccati form of the transfer equations. From
-// the tips inwards every cut gets F = Z [a; alpha] + zf, then one sweep outwards gives the
-// accelerations. Gravity is the ground's acceleration -g.
+// The reduced sweep (formulation.md, section 2): the Riccati form of the transfer equations. One
+// sweep outwards gives the motion; from the tips inwards every cut gets F = Z [a; alpha] + zf; a
+// last sweep outwards gives the accelerations. Gravity is the ground's acceleration -g.
+//
+// This file is compiled twice where the machine may have wider registers: see sweep_avx2.c.
 #include <float.h>
-#include <string.h>
 
+#include "math/quaternion.h"
+#include "math/sine_cosine.h"
 #include "systems/multibody.h"
 
-// What a subtree exerts at a cut: F = Z x + zf.
-typedef struct share {
-    spatial_matrix Z;
-    spatial zf;
-} share;
+#ifndef SWEEP_NAME
+#define SWEEP_NAME sweep_default
+#endif
 
-// A single axis e = [0; turn] (or [slide; 0]) is eliminated: its row e . F = tau gives
-// u_dot = rate - V . (acceleration without it), what is left passes on. Returns 0, or 1 where
-// e . Z e vanishes against Z: nothing resists along the axis.
-LD_INLINE int eliminate(share *s, axis_record *record, spatial U, double D, double scale,
-                        double along, double tau)
+// ---- motion
+
+// A section node follows its beam's deformed section, known in the beam's floating frame.
+static void move_section(ld_mstmm *system, int i)
 {
-    double inverse = 1 / D;
-    double rate = (tau - along) * inverse;
-    spatial V = {v3_scale(inverse, U.linear), v3_scale(inverse, U.angular)};
-    record->V = V;
-    record->rate = rate;
-    spatial_matrix_less(&s->Z, U, V);
-    s->zf = spatial_axpy(s->zf, rate, U);
-    return !(D > 4 * DBL_EPSILON * scale);
+    const node *n = &system->node[i];
+    const node_beam *b = &system->beam_of[i];
+    node_motion *m = &system->motion[i];
+    const tube_section_state *section = &b->body->output[b->output].section;
+    m3 A_R = node_hinge_axes(system, i);
+    v4d_store_m3(m->A, m3_mul(A_R, section->rotation));
+    m->w = system->motion[n->parent].w + v4d_from_v3(m3_apply(A_R, section->spin));
+    m->r = v4d_from_v3(m3_apply(A_R, section->position));
 }
 
-LD_INLINE int eliminate_turn(share *s, axis_record *record, v3 e, double tau)
+static void move_beam(ld_mstmm *system, int i, const double *q, const double *u)
 {
-    spatial U = {m3_apply(s->Z.B, e), sym3_apply(s->Z.C, e)};
-    return eliminate(s, record, U, v3_dot(e, U.angular), sym3_trace(s->Z.C),
-                     v3_dot(e, s->zf.angular), tau);
+    const node_beam *b = &system->beam_of[i];
+    v3 w = v4d_v3(system->motion[i].w);
+    v3 w_R = m3_apply_transposed(node_body_axes(system, i), w);
+    beam_move(b->body, w_R, q + b->modes_q, u + b->modes_u);
 }
 
-LD_INLINE int eliminate_slide(share *s, axis_record *record, v3 e, double tau)
+// Balls and free hinges turn by a quaternion. H: the hinge frame.
+static void move_several(ld_mstmm *system, int i, const v4d H[3], const double *q,
+                         const double *u)
 {
-    spatial U = {sym3_apply(s->Z.A, e), m3_apply_transposed(s->Z.B, e)};
-    return eliminate(s, record, U, v3_dot(e, U.linear), sym3_trace(s->Z.A), v3_dot(e, s->zf.linear),
-                     tau);
+    const node *n = &system->node[i];
+    const node_motion *parent = &system->motion[n->parent];
+    node_motion *m = &system->motion[i];
+    int slides = n->hinge == NODE_FREE ? 3 : 0;
+    const double *turn = u + n->u + slides;
+    m3 A = q_matrix(q_from(q + n->q + slides));
+    for (int j = 0; j < 3; j++)
+        m->A[j] = v4d_combine(H, A.a[0][j], A.a[1][j], A.a[2][j]);
+    v4d spin = v4d_combine(m->A, turn[0], turn[1], turn[2]), slide = v4d_all(0);
+    if (slides) {
+        const double *at = q + n->q, *rate = u + n->u;
+        m->r += v4d_combine(H, at[0], at[1], at[2]);
+        slide = v4d_combine(H, rate[0], rate[1], rate[2]);
+    }
+    m->w = parent->w + spin;
+    m->bias_a = v4d_cross(parent->w, v4d_cross(parent->w, m->r) + 2 * slide);
+    m->bias_alpha = v4d_cross(parent->w, spin);
 }
 
-// A rigid body's own share added: M x + (w x (w x m c), w x J w).
+static void move(ld_mstmm *system, const double *q, const double *u)
+{
+    // sines and cosines of all turns
+    for (int k = 0; k < system->angle_count; k++)
+        system->angle[k] = q[system->angle_q[k]];
+    sine_cosine(system->angle_count, system->angle, system->sine, system->cosine);
+
+    for (int i = 1; i <= system->node_count; i++) {
+        const node *n = &system->node[i];
+        const node_motion *parent = &system->motion[n->parent];
+        node_motion *m = &system->motion[i];
+        if (n->body == NODE_SECTION) {
+            move_section(system, i);
+            continue;
+        }
+        v4d w = parent->w, H[3];
+        for (int j = 0; j < 3; j++)
+            H[j] = v4d_combine(parent->A, n->G.a[0][j], n->G.a[1][j], n->G.a[2][j]);
+        m->r = v4d_combine(parent->A, n->at.x, n->at.y, n->at.z);
+        switch (n->hinge) {
+        case NODE_TURN: {
+            v4d sine = v4d_all(system->sine[n->angle]);
+            v4d cosine = v4d_all(system->cosine[n->angle]);
+            v4d spin = H[2] * v4d_all(u[n->u]);
+            m->A[0] = H[0] * cosine + H[1] * sine;
+            m->A[1] = H[1] * cosine - H[0] * sine;
+            m->A[2] = H[2];
+            m->w = w + spin;
+            m->bias_a = v4d_cross(w, v4d_cross(w, m->r));
+            m->bias_alpha = v4d_cross(w, spin);
+            break;
+        }
+        case NODE_SLIDE:
+        case NODE_WELD: {
+            m->A[0] = H[0];
+            m->A[1] = H[1];
+            m->A[2] = H[2];
+            m->w = w;
+            v4d drift = v4d_all(0);
+            if (n->hinge == NODE_SLIDE) {
+                m->r += H[2] * v4d_all(q[n->q]);
+                drift = H[2] * v4d_all(2 * u[n->u]);
+            }
+            m->bias_a = v4d_cross(w, v4d_cross(w, m->r) + drift);
+            m->bias_alpha = v4d_all(0);
+            break;
+        }
+        default:
+            move_several(system, i, H, q, u);
+        }
+        if (n->body == NODE_BEAM)
+            move_beam(system, i, q, u);
+    }
+}
+
+// ---- inwards
+
+// s += t
+LD_INLINE void add_share(share *s, const share *t)
+{
+    for (int j = 0; j < 3; j++) {
+        s->A[j] += t->A[j];
+        s->T[j] += t->T[j];
+        s->B[j] += t->B[j];
+        s->C[j] += t->C[j];
+    }
+    s->f += t->f;
+    s->m += t->m;
+}
+
+// A rigid body's own share added: M x + (w x (w x m c), w x J w), M = [m E, -m ~c; m ~c, J].
 LD_INLINE void add_rigid_body(share *s, const node_inertia *body, const node_motion *motion)
 {
+    const v4d *A = motion->A;
+    const v3 *c = &body->moment;
+    const sym3 *I = &body->inertia;
+    v4d w = motion->w, mc = v4d_combine(A, c->x, c->y, c->z);
+
+    // J = A I A^T by columns
+    v4d H[3] = {v4d_combine(A, I->xx, I->xy, I->xz), v4d_combine(A, I->xy, I->yy, I->yz),
+                  v4d_combine(A, I->xz, I->yz, I->zz)};
+    v4d J[3];
+    for (int i = 0; i < 3; i++)
+        J[i] = v4d_combine(H, A[0][i], A[1][i], A[2][i]);
+
+    // -m ~c by columns
+    v4d skew[3] = {__builtin_shufflevector(mc, mc, 3, 2, 1, 3) * (v4d){0, -1, 1, 0},
+                     __builtin_shufflevector(mc, mc, 2, 3, 0, 3) * (v4d){1, 0, -1, 0},
+                     __builtin_shufflevector(mc, mc, 1, 0, 3, 3) * (v4d){-1, 1, 0, 0}};
     double m = body->mass;
-    v3 w = motion->w, mc = m3_apply(motion->A, body->moment);
-    sym3 J = sym3_turn(motion->A, body->inertia);
-    s->Z.A.xx += m;
-    s->Z.A.yy += m;
-    s->Z.A.zz += m;
-    s->Z.B.a[0][1] += mc.z;
-    s->Z.B.a[0][2] -= mc.y;
-    s->Z.B.a[1][0] -= mc.z;
-    s->Z.B.a[1][2] += mc.x;
-    s->Z.B.a[2][0] += mc.y;
-    s->Z.B.a[2][1] -= mc.x;
-    s->Z.C = sym3_add(s->Z.C, J);
-    s->zf.linear = v3_add(s->zf.linear, v3_cross(w, v3_cross(w, mc)));
-    s->zf.angular = v3_add(s->zf.angular, v3_cross(w, sym3_apply(J, w)));
+    s->A[0] += (v4d){m, 0, 0, 0};
+    s->A[1] += (v4d){0, m, 0, 0};
+    s->A[2] += (v4d){0, 0, m, 0};
+    for (int j = 0; j < 3; j++) {
+        s->B[j] += skew[j];
+        s->T[j] -= skew[j];
+        s->C[j] += J[j];
+    }
+    s->f += v4d_cross(w, v4d_cross(w, mc));
+    s->m += v4d_cross(w, v4d_combine(J, w[0], w[1], w[2]));
+}
+
+// U = Z e of a turn or a slide along e.
+LD_INLINE spatial_lanes along_turn(const share *s, v4d e)
+{
+    return (spatial_lanes){v4d_combine(s->B, e[0], e[1], e[2]),
+                        v4d_combine(s->C, e[0], e[1], e[2])};
+}
+
+LD_INLINE spatial_lanes along_slide(const share *s, v4d e)
+{
+    return (spatial_lanes){v4d_combine(s->A, e[0], e[1], e[2]),
+                        v4d_combine(s->T, e[0], e[1], e[2])};
+}
+
+// A single axis e of a hinge is eliminated: with U = Z e, D = e . U, its row e . F = tau gives
+// u_dot = rate - V . (acceleration without it); what is left passes on.
+LD_INLINE void eliminate(share *s, axis_record *record, spatial_lanes U, double inverse, double rate)
+{
+    v4d V_a = U.a * v4d_all(inverse), V_alpha = U.alpha * v4d_all(inverse);
+    record->V_a = V_a;
+    record->V_alpha = V_alpha;
+    record->rate = rate;
+    v4d scale = v4d_all(inverse);
+    for (int j = 0; j < 3; j++) {
+        v4d a = v4d_all(U.a[j]), alpha = v4d_all(U.alpha[j]);
+        s->A[j] -= U.a * a * scale;
+        s->T[j] -= U.alpha * a * scale;
+        s->B[j] -= U.a * alpha * scale;
+        s->C[j] -= U.alpha * alpha * scale;
+    }
+    s->f += U.a * v4d_all(rate);
+    s->m += U.alpha * v4d_all(rate);
+}
+
+// Whether D vanishes against Z's own resistance along all axes of its kind.
+LD_INLINE int is_singular(double D, const v4d column[3])
+{
+    return !(D > 4 * DBL_EPSILON * (column[0][0] + column[1][1] + column[2][2]));
+}
+
+// All axes of a ball or of a free hinge, the last one first. Nothing passes a free hinge but its
+// drive.
+static int eliminate_several(ld_mstmm *system, int i, share *s, const double *tau)
+{
+    const node *n = &system->node[i];
+    m3 H = node_hinge_axes(system, i);
+    int slides = n->hinge == NODE_FREE ? 3 : 0, singular = 0;
+    for (int k = slides + 2; k >= 0; k--) {
+        bool turn = k >= slides;
+        v4d e = turn ? system->motion[i].A[k - slides] : v4d_from_v3(m3_column(H, k));
+        spatial_lanes U = turn ? along_turn(s, e) : along_slide(s, e);
+        double D = v4d_dot3(e, turn ? U.alpha : U.a);
+        singular |= is_singular(D, turn ? s->C : s->A);
+        double force = tau[n->u + k] - v4d_dot3(e, turn ? s->m : s->f);
+        eliminate(s, system->axis + n->axis + k, U, 1 / D, force / D);
+    }
+    for (int j = 0; slides && j < 3; j++)
+        s->A[j] = s->T[j] = s->B[j] = s->C[j] = v4d_all(0);
+    return singular;
+}
+
+// The upper triangle from the lower one.
+LD_INLINE void mirror(v4d C[3])
+{
+    C[1] = __builtin_shufflevector(C[0], C[1], 1, 5, 6, 7);
+    v4d last = __builtin_shufflevector(C[0], C[1], 2, 6, 2, 6);
+    C[2] = __builtin_shufflevector(last, C[2], 0, 1, 6, 7);
+}
+
+// To the parent's origin: T^T Z T with T = [E, -~r; 0, E], T^T zf.
+LD_INLINE void shift(share *s, v4d r)
+{
+    v4d x = v4d_all(r[0]), y = v4d_all(r[1]), z = v4d_all(r[2]);
+    s->B[0] += s->A[2] * y - s->A[1] * z;
+    s->B[1] += s->A[0] * z - s->A[2] * x;
+    s->B[2] += s->A[1] * x - s->A[0] * y;
+    s->C[0] += s->T[2] * y - s->T[1] * z;
+    s->C[1] += s->T[0] * z - s->T[2] * x;
+    s->C[2] += s->T[1] * x - s->T[0] * y;
+    for (int j = 0; j < 3; j++) {
+        s->T[j] += v4d_cross(r, s->A[j]);
+        s->C[j] += v4d_cross(r, s->B[j]);
+    }
+    s->m += v4d_cross(r, s->f);
+    mirror(s->C);
+}
+
+// zf counts from the parent's motion alone: + Z bias.
+LD_INLINE void add_bias(share *s, v4d a, v4d alpha)
+{
+    s->f +=
+        v4d_combine(s->A, a[0], a[1], a[2]) + v4d_combine(s->B, alpha[0], alpha[1], alpha[2]);
+    s->m +=
+        v4d_combine(s->T, a[0], a[1], a[2]) + v4d_combine(s->C, alpha[0], alpha[1], alpha[2]);
+}
+
+// A hinge with one axis: the share goes to the parent's origin first and the axis is eliminated
+// there, so that the division waits for nothing. V then belongs to the parent's acceleration.
+LD_INLINE int pass_turn(share *s, axis_record *record, const node_motion *motion, double tau)
+{
+    v4d e = motion->A[2], r = motion->r;
+    spatial_lanes U = along_turn(s, e);
+    double D = v4d_dot3(e, U.alpha);
+    double force =
+        tau - v4d_sum3(e * s->m + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
+    int singular = is_singular(D, s->C);
+    add_bias(s, motion->bias_a, motion->bias_alpha);
+    shift(s, r);
+    U.alpha += v4d_cross(r, U.a);
+    eliminate(s, record, U, 1 / D, force / D);
+    return singular;
+}
+
+LD_INLINE int pass_slide(share *s, axis_record *record, const node_motion *motion, double tau)
+{
+    v4d e = motion->A[2], r = motion->r;
+    spatial_lanes U = along_slide(s, e);
+    double D = v4d_dot3(e, U.a);
+    double force =
+        tau - v4d_sum3(e * s->f + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
+    int singular = is_singular(D, s->A);
+    add_bias(s, motion->bias_a, motion->bias_alpha);
+    shift(s, r);
+    U.alpha += v4d_cross(r, U.a);
+    eliminate(s, record, U, 1 / D, force / D);
+    return singular;
+}
+
+static spatial_matrix share_matrix(const share *s)
+{
+    return (spatial_matrix){sym3_of(v4d_m3(s->A)), v4d_m3(s->B), sym3_of(v4d_m3(s->C))};
 }
 
 // What hangs on a section loads the beam.
 static void load_beam(ld_mstmm *system, int i, const share *s)
 {
-    m3 A_R = node_body_axes(system, system->node[i].parent), back = m3_transpose(A_R);
-    spatial_matrix Z = spatial_matrix_turn(back, &s->Z);
+    m3 back = m3_transpose(node_body_axes(system, system->node[i].parent));
+    spatial_matrix Z = share_matrix(s), Z_R = spatial_matrix_turn(back, &Z);
+    spatial zf = {v4d_v3(s->f), v4d_v3(s->m)};
     const node_beam *b = &system->beam_of[i];
-    beam_load(b->body, b->output, &Z, spatial_turn(back, s->zf));
+    beam_load(b->body, b->output, &Z_R, spatial_turn(back, zf));
 }
 
-// The beam's share at its input end, its sections' loads included. Returns 0 or 1: singular.
+// The beam's share at its input end, its sections' loads included. Returns 0, or 1: singular.
 static int reduce_beam(ld_mstmm *system, int i, const double *tau, share *s)
 {
     m3 A_R = node_body_axes(system, i);
     const node_beam *b = &system->beam_of[i];
-    spatial_matrix Z;
+    spatial_matrix Z_R, Z;
     spatial zf;
-    if (beam_reduce(b->body, tau + b->modes_u, &Z, &zf))
+    if (beam_reduce(b->body, tau + b->modes_u, &Z_R, &zf))
         return 1;
-    s->Z = spatial_matrix_turn(A_R, &Z);
-    s->zf = spatial_turn(A_R, zf);
+    Z = spatial_matrix_turn(A_R, &Z_R);
+    zf = spatial_turn(A_R, zf);
+    v4d_store_m3(s->A, sym3_full(Z.A));
+    v4d_store_m3(s->T, m3_transpose(Z.B));
+    v4d_store_m3(s->B, Z.B);
+    v4d_store_m3(s->C, sym3_full(Z.C));
+    s->f = v4d_from_v3(zf.linear);
+    s->m = v4d_from_v3(zf.angular);
     return 0;
 }
 
-// All axes of a ball or of a free hinge, the last one first.
-static int eliminate_several(ld_mstmm *system, int i, share *s, const double *tau)
-{
-    const node *n = &system->node[i];
-    axis_record *record = system->axis + n->axis;
-    m3 A = system->motion[i].A;
-    int slides = n->hinge == NODE_FREE ? 3 : 0, singular = 0;
-    for (int k = 2; k >= 0; k--)
-        singular |= eliminate_turn(s, record + slides + k, m3_column(A, k), tau[n->u + slides + k]);
-    if (slides) {
-        m3 H = node_hinge_axes(system, n);
-        for (int k = 2; k >= 0; k--)
-            singular |= eliminate_slide(s, record + k, m3_column(H, k), tau[n->u + k]);
-        memset(&s->Z, 0, sizeof s->Z);
-    }
-    return singular;
-}
-
-// From the tips inwards. Returns 0, or the node whose hinge is singular.
-static int sweep_inwards(ld_mstmm *system, const double *tau, const double *wrench)
+static int inwards(ld_mstmm *system, const double *tau, const double *wrench)
 {
     static const share nothing;
     share s = nothing;
-    for (int k = 0; k < system->branch_count; k++) {
-        system->branch_Z[k] = nothing.Z;
-        system->branch_zf[k] = nothing.zf;
-    }
+    for (int k = 0; k < system->branch_count; k++)
+        system->branch[k] = nothing;
     for (int i = system->node_count; i >= 1; i--) {
         const node *n = &system->node[i];
         const node_motion *motion = &system->motion[i];
-        if (n->branch >= 0) {
-            spatial_matrix_add(&s.Z, &system->branch_Z[n->branch]);
-            s.zf = spatial_add(s.zf, system->branch_zf[n->branch]);
-        }
+        int singular = 0;
+        if (n->branch >= 0)
+            add_share(&s, &system->branch[n->branch]);
 
         // the body
-        int singular = 0;
-        if (n->body == NODE_RIGID)
+        if (n->body == NODE_RIGID) {
             add_rigid_body(&s, &system->inertia[i], motion);
-        else if (n->body == NODE_BEAM)
+        } else if (n->body == NODE_BEAM) {
             singular = reduce_beam(system, i, tau, &s);
-        else {
+        } else {
             load_beam(system, i, &s);
             s = nothing;
             continue;
         }
         if (wrench && n->element >= 0) {
-            const double *F = wrench + 6 * n->element;
-            s.zf.linear = v3_sub(s.zf.linear, v3_from(F));
-            s.zf.angular = v3_sub(s.zf.angular, v3_from(F + 3));
+            s.f -= v4d_from_v3(v3_from(wrench + 6 * n->element));
+            s.m -= v4d_from_v3(v3_from(wrench + 6 * n->element + 3));
         }
 
-        // its hinge; from here zf belongs to the acceleration T x of the parent's motion alone
-        s.zf = spatial_add(s.zf, spatial_apply(&s.Z, motion->bias));
-        switch (n->hinge) {
-        case NODE_TURN:
-            singular |=
-                eliminate_turn(&s, &system->axis[n->axis], m3_column(motion->A, 2), tau[n->u]);
-            break;
-        case NODE_SLIDE:
-            singular |=
-                eliminate_slide(&s, &system->axis[n->axis], m3_column(motion->A, 2), tau[n->u]);
-            break;
-        case NODE_WELD:
-            break;
-        default:
-            singular |= eliminate_several(system, i, &s, tau);
+        // its hinge, and on to the parent
+        if (n->hinge == NODE_TURN) {
+            singular |= pass_turn(&s, &system->axis[n->axis], motion, tau[n->u]);
+        } else if (n->hinge == NODE_SLIDE) {
+            singular |= pass_slide(&s, &system->axis[n->axis], motion, tau[n->u]);
+        } else {
+            add_bias(&s, motion->bias_a, motion->bias_alpha);
+            if (n->hinge != NODE_WELD)
+                singular |= eliminate_several(system, i, &s, tau);
+            shift(&s, motion->r);
         }
         if (singular)
             return i;
-
-        // to the parent
-        spatial_matrix_shift(motion->r, &s.Z);
-        s.zf = wrench_shift(motion->r, s.zf);
         if (!n->leads) {
             int branch = system->node[n->parent].branch;
-            if (branch >= 0) {
-                spatial_matrix_add(&system->branch_Z[branch], &s.Z);
-                system->branch_zf[branch] = spatial_add(system->branch_zf[branch], s.zf);
-            }
+            if (branch >= 0)
+                add_share(&system->branch[branch], &s);
             s = nothing;
         }
     }
     return 0;
 }
 
-LD_INLINE double solve_axis(const axis_record *record, spatial x)
+// ---- outwards
+
+LD_INLINE double solve_axis(const axis_record *record, spatial_lanes x)
 {
-    return record->rate - spatial_dot(record->V, x);
+    return record->rate - v4d_sum3(record->V_a * x.a + record->V_alpha * x.alpha);
 }
 
-static spatial accelerate_several(const ld_mstmm *system, int i, spatial x, double *u_dot)
+static spatial_lanes accelerate_several(const ld_mstmm *system, int i, spatial_lanes x, double *u_dot)
 {
     const node *n = &system->node[i];
     const axis_record *record = system->axis + n->axis;
-    m3 A = system->motion[i].A;
     int slides = n->hinge == NODE_FREE ? 3 : 0;
     if (slides) {
-        m3 H = node_hinge_axes(system, n);
+        m3 H = node_hinge_axes(system, i);
         for (int k = 0; k < 3; k++) {
             u_dot[n->u + k] = solve_axis(record + k, x);
-            x.linear = v3_axpy(x.linear, u_dot[n->u + k], m3_column(H, k));
+            x.a += v4d_from_v3(m3_column(H, k)) * v4d_all(u_dot[n->u + k]);
         }
     }
     for (int k = 0; k < 3; k++) {
         u_dot[n->u + slides + k] = solve_axis(record + slides + k, x);
-        x.angular = v3_axpy(x.angular, u_dot[n->u + slides + k], m3_column(A, k));
+        x.alpha += system->motion[i].A[k] * v4d_all(u_dot[n->u + slides + k]);
     }
     return x;
 }
 
-static spatial accelerate_section(const ld_mstmm *system, int i)
+static spatial_lanes accelerate_section(const ld_mstmm *system, int i)
 {
     const node_beam *b = &system->beam_of[i];
     m3 A_R = node_body_axes(system, system->node[i].parent);
-    return spatial_turn(A_R, beam_output_acceleration(b->body, b->output));
+    spatial x = spatial_turn(A_R, beam_output_acceleration(b->body, b->output));
+    return (spatial_lanes){v4d_from_v3(x.linear), v4d_from_v3(x.angular)};
 }
 
-// Outwards from the ground.
-static void sweep_outwards(ld_mstmm *system, double *u_dot)
+static void accelerate_beam(const ld_mstmm *system, int i, spatial_lanes x, double *u_dot)
 {
-    spatial x = system->base;
+    const node_beam *b = &system->beam_of[i];
+    spatial x_I = {v4d_v3(x.a), v4d_v3(x.alpha)};
+    beam_accelerate(b->body, spatial_turn_back(node_body_axes(system, i), x_I), u_dot + b->modes_u);
+}
+
+static void outwards(ld_mstmm *system, double *u_dot)
+{
+    const spatial_lanes base = {v4d_from_v3(system->base.linear), v4d_from_v3(system->base.angular)};
+    spatial_lanes x = base;
     for (int i = 1; i <= system->node_count; i++) {
         const node *n = &system->node[i];
         const node_motion *motion = &system->motion[i];
@@ -214,43 +426,30 @@ static void sweep_outwards(ld_mstmm *system, double *u_dot)
             x = accelerate_section(system, i);
         } else {
             if (!n->leads)
-                x = n->parent ? system->branch_x[system->node[n->parent].branch] : system->base;
-            x = spatial_shift(motion->r, x);
-            switch (n->hinge) {
-            case NODE_TURN:
-                u_dot[n->u] = solve_axis(&system->axis[n->axis], x);
-                x.angular = v3_axpy(x.angular, u_dot[n->u], m3_column(motion->A, 2));
-                break;
-            case NODE_SLIDE:
-                u_dot[n->u] = solve_axis(&system->axis[n->axis], x);
-                x.linear = v3_axpy(x.linear, u_dot[n->u], m3_column(motion->A, 2));
-                break;
-            case NODE_WELD:
-                break;
-            default:
-                x = accelerate_several(system, i, x, u_dot);
+                x = n->parent ? system->branch_x[system->node[n->parent].branch] : base;
+            v4d carried = v4d_cross(x.alpha, motion->r);
+            if (n->hinge == NODE_TURN) {
+                double rate = solve_axis(&system->axis[n->axis], x);
+                x.alpha += motion->A[2] * v4d_all(rate);
+                x.a += carried;
+                u_dot[n->u] = rate;
+            } else if (n->hinge == NODE_SLIDE) {
+                double rate = solve_axis(&system->axis[n->axis], x);
+                x.a += carried + motion->A[2] * v4d_all(rate);
+                u_dot[n->u] = rate;
+            } else {
+                x.a += carried;
+                if (n->hinge != NODE_WELD)
+                    x = accelerate_several(system, i, x, u_dot);
             }
-            x = spatial_add(x, motion->bias);
-            if (n->body == NODE_BEAM) {
-                const node_beam *b = &system->beam_of[i];
-                beam_accelerate(b->body, spatial_turn_back(node_body_axes(system, i), x),
-                                u_dot + b->modes_u);
-            }
+            x.a += motion->bias_a;
+            x.alpha += motion->bias_alpha;
+            if (n->body == NODE_BEAM)
+                accelerate_beam(system, i, x, u_dot);
         }
         if (n->branch >= 0)
             system->branch_x[n->branch] = x;
     }
 }
 
-ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
-                                 const double *tau, const double *wrench, double *u_dot,
-                                 ld_error *error)
-{
-    tau = multibody_hinge_forces(system, q, u, tau);
-    multibody_move(system, q, u);
-    int singular = sweep_inwards(system, tau, wrench);
-    if (singular)
-        return multibody_singular(system, singular, error);
-    sweep_outwards(system, u_dot);
-    return LD_OK;
-}
+const sweep SWEEP_NAME = {move, inwards, outwards};
