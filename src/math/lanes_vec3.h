@@ -6,11 +6,6 @@
 #include "math/lanes.h"
 #include "math/mat3.h"
 
-// Passing these vectors by value between inlined functions crosses no binary interface.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
-
 LD_INLINE v4d v4d_from_v3(v3 v)
 {
     return (v4d){v.x, v.y, v.z, 0};

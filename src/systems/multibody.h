@@ -97,11 +97,11 @@ struct ld_mstmm {
     double *angle, *sine, *cosine;
     node_motion *motion; // [node_count + 1]
     axis_record *axis;
-    share *branch;        // sums over children
+    share *branch;           // sums over children
     spatial_lanes *branch_x; // accelerations of nodes with several children
-    double *tau;          // with springs and dampers
-    spatial *wrench;      // inverse dynamics, by node
-    spatial *place;       // origin's position and velocity, by node
+    double *tau;             // with springs and dampers
+    spatial *wrench;         // inverse dynamics, by node
+    spatial *place;          // origin's position and velocity, by node
 };
 
 // The hot functions, compiled for the instruction sets that the machine may have.

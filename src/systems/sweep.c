@@ -37,8 +37,7 @@ static void move_beam(ld_mstmm *system, int i, const double *q, const double *u)
 }
 
 // Balls and free hinges turn by a quaternion. H: the hinge frame.
-static void move_several(ld_mstmm *system, int i, const v4d H[3], const double *q,
-                         const double *u)
+static void move_several(ld_mstmm *system, int i, const v4d H[3], const double *q, const double *u)
 {
     const node *n = &system->node[i];
     const node_motion *parent = &system->motion[n->parent];
@@ -139,15 +138,15 @@ LD_INLINE void add_rigid_body(share *s, const node_inertia *body, const node_mot
 
     // J = A I A^T by columns
     v4d H[3] = {v4d_combine(A, I->xx, I->xy, I->xz), v4d_combine(A, I->xy, I->yy, I->yz),
-                  v4d_combine(A, I->xz, I->yz, I->zz)};
+                v4d_combine(A, I->xz, I->yz, I->zz)};
     v4d J[3];
     for (int i = 0; i < 3; i++)
         J[i] = v4d_combine(H, A[0][i], A[1][i], A[2][i]);
 
     // -m ~c by columns
     v4d skew[3] = {__builtin_shufflevector(mc, mc, 3, 2, 1, 3) * (v4d){0, -1, 1, 0},
-                     __builtin_shufflevector(mc, mc, 2, 3, 0, 3) * (v4d){1, 0, -1, 0},
-                     __builtin_shufflevector(mc, mc, 1, 0, 3, 3) * (v4d){-1, 1, 0, 0}};
+                   __builtin_shufflevector(mc, mc, 2, 3, 0, 3) * (v4d){1, 0, -1, 0},
+                   __builtin_shufflevector(mc, mc, 1, 0, 3, 3) * (v4d){-1, 1, 0, 0}};
     double m = body->mass;
     s->A[0] += (v4d){m, 0, 0, 0};
     s->A[1] += (v4d){0, m, 0, 0};
@@ -165,18 +164,19 @@ LD_INLINE void add_rigid_body(share *s, const node_inertia *body, const node_mot
 LD_INLINE spatial_lanes along_turn(const share *s, v4d e)
 {
     return (spatial_lanes){v4d_combine(s->B, e[0], e[1], e[2]),
-                        v4d_combine(s->C, e[0], e[1], e[2])};
+                           v4d_combine(s->C, e[0], e[1], e[2])};
 }
 
 LD_INLINE spatial_lanes along_slide(const share *s, v4d e)
 {
     return (spatial_lanes){v4d_combine(s->A, e[0], e[1], e[2]),
-                        v4d_combine(s->T, e[0], e[1], e[2])};
+                           v4d_combine(s->T, e[0], e[1], e[2])};
 }
 
 // A single axis e of a hinge is eliminated: with U = Z e, D = e . U, its row e . F = tau gives
 // u_dot = rate - V . (acceleration without it); what is left passes on.
-LD_INLINE void eliminate(share *s, axis_record *record, spatial_lanes U, double inverse, double rate)
+LD_INLINE void eliminate(share *s, axis_record *record, spatial_lanes U, double inverse,
+                         double rate)
 {
     v4d V_a = U.a * v4d_all(inverse), V_alpha = U.alpha * v4d_all(inverse);
     record->V_a = V_a;
@@ -250,10 +250,8 @@ LD_INLINE void shift(share *s, v4d r)
 // zf counts from the parent's motion alone: + Z bias.
 LD_INLINE void add_bias(share *s, v4d a, v4d alpha)
 {
-    s->f +=
-        v4d_combine(s->A, a[0], a[1], a[2]) + v4d_combine(s->B, alpha[0], alpha[1], alpha[2]);
-    s->m +=
-        v4d_combine(s->T, a[0], a[1], a[2]) + v4d_combine(s->C, alpha[0], alpha[1], alpha[2]);
+    s->f += v4d_combine(s->A, a[0], a[1], a[2]) + v4d_combine(s->B, alpha[0], alpha[1], alpha[2]);
+    s->m += v4d_combine(s->T, a[0], a[1], a[2]) + v4d_combine(s->C, alpha[0], alpha[1], alpha[2]);
 }
 
 // A hinge with one axis: the share goes to the parent's origin first and the axis is eliminated
@@ -263,8 +261,7 @@ LD_INLINE int pass_turn(share *s, axis_record *record, const node_motion *motion
     v4d e = motion->A[2], r = motion->r;
     spatial_lanes U = along_turn(s, e);
     double D = v4d_dot3(e, U.alpha);
-    double force =
-        tau - v4d_sum3(e * s->m + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
+    double force = tau - v4d_sum3(e * s->m + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
     int singular = is_singular(D, s->C);
     add_bias(s, motion->bias_a, motion->bias_alpha);
     shift(s, r);
@@ -278,8 +275,7 @@ LD_INLINE int pass_slide(share *s, axis_record *record, const node_motion *motio
     v4d e = motion->A[2], r = motion->r;
     spatial_lanes U = along_slide(s, e);
     double D = v4d_dot3(e, U.a);
-    double force =
-        tau - v4d_sum3(e * s->f + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
+    double force = tau - v4d_sum3(e * s->f + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
     int singular = is_singular(D, s->A);
     add_bias(s, motion->bias_a, motion->bias_alpha);
     shift(s, r);
@@ -381,7 +377,8 @@ LD_INLINE double solve_axis(const axis_record *record, spatial_lanes x)
     return record->rate - v4d_sum3(record->V_a * x.a + record->V_alpha * x.alpha);
 }
 
-static spatial_lanes accelerate_several(const ld_mstmm *system, int i, spatial_lanes x, double *u_dot)
+static spatial_lanes accelerate_several(const ld_mstmm *system, int i, spatial_lanes x,
+                                        double *u_dot)
 {
     const node *n = &system->node[i];
     const axis_record *record = system->axis + n->axis;
@@ -417,7 +414,8 @@ static void accelerate_beam(const ld_mstmm *system, int i, spatial_lanes x, doub
 
 static void outwards(ld_mstmm *system, double *u_dot)
 {
-    const spatial_lanes base = {v4d_from_v3(system->base.linear), v4d_from_v3(system->base.angular)};
+    const spatial_lanes base = {v4d_from_v3(system->base.linear),
+                                v4d_from_v3(system->base.angular)};
     spatial_lanes x = base;
     for (int i = 1; i <= system->node_count; i++) {
         const node *n = &system->node[i];
