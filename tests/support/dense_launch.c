@@ -677,19 +677,19 @@ static void add_thrust(equations *eq, const jet_scene *scene, double thrust)
 }
 
 // The slot's angle at s and its slope: linear between the table's points, constant outside.
-static double slot_angle(const ld_table *table, double s, double *slope)
+static double slot_angle(const ld_table *table, int piece, double s, double *slope)
 {
     const double *row = table->data;
-    size_t last = table->rows - 1;
+    int last = (int)table->rows;
+    if (piece == 0)
+        for (piece = 1; piece <= last && s >= row[2 * (piece - 1)]; piece++)
+            ;
     *slope = 0;
-    if (s < row[0])
-        return row[1];
-    for (size_t i = 0; i < last; i++, row += 2)
-        if (s < row[2]) {
-            *slope = (row[3] - row[1]) / (row[2] - row[0]);
-            return row[1] + *slope * (s - row[0]);
-        }
-    return row[1];
+    if (piece == 1 || piece > last)
+        return row[piece == 1 ? 1 : 2 * last - 1];
+    row += 2 * (piece - 2);
+    *slope = (row[3] - row[1]) / (row[2] - row[0]);
+    return row[1] + *slope * (s - row[0]);
 }
 
 static void add_slot(equations *eq, const jet_scene *scene, const dense_conditions *on, jet s,
@@ -705,7 +705,7 @@ static void add_slot(equations *eq, const jet_scene *scene, const dense_conditio
     jet3 r_E = seen_from(&section, &E), frozen = jet3_freeze(r_E);
     jet3 tube = point_in(&material, &frozen), v_rel = jet3_sub(&E, &tube);
     // directions across and along the slot, in the section, then in I
-    double value = slot_angle(&slot->angle, s.v, &slope);
+    double value = slot_angle(&slot->angle, on->slot_piece, s.v, &slope);
     jet alpha = jet_apply(s, value, slope, 0), sine = jet_sin(alpha), cosine = jet_cos(alpha);
     jet radius = jet_add(jet_mul(r_E.c[1], r_E.c[1]), jet_mul(r_E.c[2], r_E.c[2]));
     jet inverse = jet_inverse(jet_sqrt(radius));

@@ -47,14 +47,16 @@ typedef struct dense_base {
 // What acts at one instant, beside the state.
 typedef struct dense_conditions {
     dense_base base;
-    double mass;                  // [kg] of the rocket
-    double center[3];             // [m] in B, eccentricity included
-    double inertia[3];            // [kg m2] about the mass centre, in B
-    double products[3];           // [kg m2] J_xy, J_xz, J_yz of the matrix
-    double thrust;                // [N]; point and direction are the model's
-    bool locked;                  // lock closed (slot friction off; slot `none`: roll held too)
-    bool frictionless;            // all friction off (for the equilibrium)
-    bool passed[LD_MAX_ADAPTORS]; // adaptor has left the tube
+    double mass;        // [kg] of the rocket
+    double center[3];   // [m] in B, eccentricity included
+    double inertia[3];  // [kg m2] about the mass centre, in B
+    double products[3]; // [kg m2] J_xy, J_xz, J_yz of the matrix
+    double thrust;      // [N]; point and direction are the model's
+    int slot_piece; // stretch of the slot's table: 0 as s says, 1 before its first point, 2 between
+                    // the first and the second, ... (held by an integrator while it passes a point)
+    bool locked;    // lock closed (slot friction off; slot `none`: roll held too)
+    bool frictionless;                   // all friction off (for the equilibrium)
+    bool passed[LD_MAX_ADAPTORS];        // adaptor has left the tube
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] of Lankarani-Nikravesh; 0: the reference speed
 } dense_conditions;
 

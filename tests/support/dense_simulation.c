@@ -15,8 +15,10 @@ typedef struct launch_run {
     int size, rocket; // count of numbers, where the rocket's begin
     double ignition;  // [s] on the run's clock
     bool locked, passed[LD_MAX_ADAPTORS];
-    double touch_speed[LD_MAX_ADAPTORS];
-    double s; // [m] where O1 was last
+    bool apart[LD_MAX_ADAPTORS];         // adaptor was off the wall
+    double touch_speed[LD_MAX_ADAPTORS]; // [m/s] when it last touched
+    int slot_piece;                      // stretch of the slot's table, as in dense_conditions
+    double s;                            // [m] where O1 was last
     double step;
     dense_summary *summary;
 } launch_run;
@@ -132,6 +134,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, den
     mass_at(rocket, burnt_at(motor, tau), on);
     on->thrust = thrust_at(motor, tau, (middle - launch->ignition) / motor->time_scale);
     on->locked = launch->locked;
+    on->slot_piece = launch->slot_piece;
     memcpy(on->passed, launch->passed, sizeof on->passed);
     memcpy(on->touch_speed, launch->touch_speed, sizeof on->touch_speed);
 }
@@ -443,6 +446,11 @@ static bool start(launch_run *launch, double t, double *x)
     dense_base_at(model, t, &base);
     co_move(&state, &base);
     launch->s = input.s;
+    const ld_table *angle = &model->tubes.slot.angle;
+    if (model->tubes.slot.kind == LD_SLOT_HELIX && angle->rows > 1)
+        for (launch->slot_piece = 1; launch->slot_piece <= (int)angle->rows &&
+                                     angle->data[2 * (launch->slot_piece - 1)] <= input.s;)
+            launch->slot_piece++;
     launch->locked = model->rocket.lock.present;
     pack(launch, &state, x);
     return true;
@@ -450,16 +458,27 @@ static bool start(launch_run *launch, double t, double *x)
 
 // ---------------------------------------------------------------- events and summary
 
-enum { RELEASE = LD_MAX_ADAPTORS, EVENTS };
+// Exit of adaptor i is event i, its touch TOUCH + i.
+enum { RELEASE = LD_MAX_ADAPTORS, SLOT_POINT, TOUCH, EVENTS = TOUCH + LD_MAX_ADAPTORS };
 
 // Positive once the event has happened; negative where it cannot (any more).
 static double event(const launch_run *launch, int which, const dense_launch_output *output)
 {
+    const ld_model *model = launch->model;
+    const ld_table *angle = &model->tubes.slot.angle;
     if (which == RELEASE)
-        return launch->locked ? output->lock_force - launch->model->rocket.lock.release_force : -1;
-    if (which >= launch->model->rocket.adaptor_count || launch->passed[which])
+        return launch->locked ? output->lock_force - model->rocket.lock.release_force : -1;
+    if (which == SLOT_POINT)
+        return launch->slot_piece && launch->slot_piece <= (int)angle->rows
+                   ? output->s - angle->data[2 * (launch->slot_piece - 1)]
+                   : -1;
+    int adaptor = which < TOUCH ? which : which - TOUCH;
+    if (adaptor >= model->rocket.adaptor_count || launch->passed[adaptor])
         return -1;
-    return output->contact[which].s - launch->model->tubes.length;
+    if (which < TOUCH)
+        return output->contact[adaptor].s - model->tubes.length;
+    bool latches = model->rocket.contact.law == LD_CONTACT_LANKARANI_NIKRAVESH;
+    return latches && launch->apart[adaptor] ? output->contact[adaptor].penetration : -1;
 }
 
 // A step that ends at the first event within it, if there is one (*which; else -1).
@@ -510,16 +529,15 @@ static void watch(launch_run *launch, const dense_launch_output *output)
     for (int i = 0; i < launch->model->rocket.adaptor_count; i++) {
         summary->max_contact_force[i] =
             fmax(summary->max_contact_force[i], norm_of(output->contact[i].force, 3));
-        // while apart: the speed with which it would touch now
-        if (output->contact[i].penetration <= 0)
-            launch->touch_speed[i] = fmax(0, output->contact[i].penetration_rate);
+        if (output->contact[i].penetration < -1e-11)
+            launch->apart[i] = true;
     }
     summary->max_slot_force = fmax(summary->max_slot_force, fabs(output->slot_force));
     summary->slot_drift = fmax(summary->slot_drift, fabs(output->slot_drift));
     launch->s = output->s;
 }
 
-static void note_event(launch_run *launch, int which, double t)
+static void note_event(launch_run *launch, int which, double t, const dense_launch_output *output)
 {
     dense_summary *summary = launch->summary;
     const ld_rocket *rocket = &launch->model->rocket;
@@ -527,6 +545,15 @@ static void note_event(launch_run *launch, int which, double t)
     if (which == RELEASE) {
         launch->locked = false;
         summary->t_release = since;
+        return;
+    }
+    if (which == SLOT_POINT) {
+        launch->slot_piece++;
+        return;
+    }
+    if (which >= TOUCH) {
+        launch->apart[which - TOUCH] = false;
+        launch->touch_speed[which - TOUCH] = output->contact[which - TOUCH].penetration_rate;
         return;
     }
     launch->passed[which] = true;
@@ -607,7 +634,7 @@ static bool run(launch_run *launch, double t, double *x)
             if (i == 0 && !derivative(launch, t, t + 0.5 * h, x, k1, &before))
                 return false;
             if (event(launch, RELEASE, &before) > 0) {
-                note_event(launch, RELEASE, t);
+                note_event(launch, RELEASE, t, &before);
                 which = RELEASE;
                 break;
             }
@@ -620,7 +647,7 @@ static bool run(launch_run *launch, double t, double *x)
             t = which < 0 ? from + (i + 1) * h0 : t + h;
             if (which >= 0) {
                 watch(launch, &output);
-                note_event(launch, which, t);
+                note_event(launch, which, t, &output);
             }
             if (which == 0) {
                 summarise(launch, t, x, &output);
