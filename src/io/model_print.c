@@ -46,12 +46,13 @@ static void print_choice(FILE *stream, const field_row *f, const void *base)
 // A value that fits on one line.
 static void print_scalar(FILE *stream, const field_row *f, const void *base)
 {
-    int value = (int)f->range.low;
+    int value;
     switch (f->kind) {
     case FIELD_NUMBER:
         print_number(stream, field_at_const(base, f), f->count, f->unit);
         return;
     case FIELD_INTEGER:
+        value = (int)f->range.low;
         if (f->offset != FIELD_NOWHERE)
             memcpy(&value, field_at_const(base, f), sizeof value);
         fprintf(stream, "%d", value);

@@ -202,7 +202,7 @@ static ld_status read_scenario(const char *file, text_source *source, const char
     *messages = (ld_messages){0};
     ld_model_init(&fresh);
     pthread_mutex_lock(&one_reader);
-    reader.units = units_create();
+    reader.units = units_open();
     if (!plain || !reader.units) {
         reader.no_memory = true;
     } else if (file) {
@@ -214,7 +214,6 @@ static ld_status read_scenario(const char *file, text_source *source, const char
     }
     if (source && !reader.no_memory)
         read_source(&reader, source, sets, count, &fresh);
-    units_free(reader.units);
     pthread_mutex_unlock(&one_reader);
     reader_finish_messages(&reader);
     if (reader.no_memory)

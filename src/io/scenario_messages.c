@@ -62,10 +62,11 @@ void ld_messages_print(const ld_messages *messages, FILE *stream)
 // The line of the source's text that holds `place`.
 static char *source_line(text_place place)
 {
-    const char *text = place.source->text, *end = text + place.source->length;
-    if (place.line == 0 || !text)
+    const text_source *source = place.source;
+    if (place.line == 0)
         return strdup("");
-    for (int line = place.source->first_line; line < place.line && text < end; text++)
+    const char *text = source->text, *end = text + source->length;
+    for (int line = source->first_line; line < place.line && text < end; text++)
         line += *text == '\n';
     size_t length = 0;
     while (text + length < end && text[length] != '\n' && text[length] != '\r' && text[length])

@@ -52,40 +52,30 @@ static bool map_symbol(ut_system *system, const char *symbol, const char *defini
     return good;
 }
 
-unit_system *units_create(void)
+static bool build(unit_system *units)
 {
     static const char *const base[] = {"m", "kg", "s", "rad"};
     ut_set_error_message_handler(ut_ignore);
-    unit_system *units = calloc(1, sizeof *units);
-    if (!units)
-        return NULL;
     units->system = ut_new_system();
     bool good = units->system != NULL;
     for (int i = 0; good && i < 4; i++) {
-        units->base[i] = ut_new_base_unit(units->system);
-        good = units->base[i] &&
-               ut_map_symbol_to_unit(base[i], UT_ASCII, units->base[i]) == UT_SUCCESS;
+        ut_unit *unit = units->base[i] = ut_new_base_unit(units->system);
+        good = unit && ut_map_symbol_to_unit(base[i], UT_ASCII, unit) == UT_SUCCESS;
     }
     for (size_t i = 0; good && i < sizeof prefixes / sizeof prefixes[0]; i++)
         good = ut_add_symbol_prefix(units->system, prefixes[i].symbol, prefixes[i].factor) ==
                UT_SUCCESS;
     for (size_t i = 0; good && i < sizeof derived / sizeof derived[0]; i++)
         good = map_symbol(units->system, derived[i].symbol, derived[i].definition);
-    if (!good) {
-        units_free(units);
-        return NULL;
-    }
-    return units;
+    return good;
 }
 
-void units_free(unit_system *units)
+unit_system *units_open(void)
 {
-    if (!units)
-        return;
-    for (int i = 0; i < 4; i++)
-        ut_free(units->base[i]);
-    ut_free_system(units->system);
-    free(units);
+    static unit_system units;
+    static bool built;
+    built = built || build(&units);
+    return built ? &units : NULL;
 }
 
 // Takes one factor, "m", "m2", "s-2", "m^2" or "%", from the front of `text`; returns its end (NULL

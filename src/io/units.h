@@ -16,9 +16,9 @@ typedef enum units_result {
     UNITS_MEMORY,
 } units_result;
 
-// Builds the system; NULL without memory. Not for use by two threads at once.
-unit_system *units_create(void);
-void units_free(unit_system *units);
+// The system of the whole program, built at first use (NULL without memory) and kept: udunits2
+// never frees the prefixes of a system. Not for use by two threads at once.
+unit_system *units_open(void);
 
 // Factor from unit `text` to `target` (an SI unit; "" for a plain number, where "%" is allowed).
 // `unknown` (32 characters) receives the name of an unknown unit.

@@ -75,7 +75,6 @@ bool field_has_form(const field_row *field, int form)
 
 static void initialise(const field_row *f, void *base)
 {
-    int whole = isnan(f->initial) ? 0 : (int)f->initial;
     if (f->kind == FIELD_BLOCK) {
         field_initialise(f->block, field_at(base, f));
         if (f->words)
@@ -86,6 +85,7 @@ static void initialise(const field_row *f, void *base)
         for (int i = 0; i < f->count; i++)
             ((double *)field_at(base, f))[i] = f->initial;
     } else if (f->kind == FIELD_INTEGER || f->kind == FIELD_CHOICE) {
+        int whole = isnan(f->initial) ? 0 : (int)f->initial;
         memcpy(field_at(base, f), &whole, sizeof whole);
     }
 }

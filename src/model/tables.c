@@ -434,8 +434,8 @@ static const field_block run_block = {.fields = run_fields};
 // ---- the whole
 
 static const field_row scenario_fields[] = {
-    {"launchdyn", .kind = FIELD_INTEGER, .offset = FIELD_NOWHERE, .required = true, .range = {1, 1},
-     .doc = "version of the language"},
+    {"launchdyn", .kind = FIELD_INTEGER, .offset = FIELD_NOWHERE, .required = true,
+     .range = {1, 1, 0, 0}, .doc = "version of the language"},
     {"title", .kind = FIELD_TEXT, .offset = offsetof(ld_model, title), .initial_doc = "none",
      .doc = "one line that names the scenario"},
     {"environment", SAME_STRUCT(environment_block), .initial_doc = "as below",

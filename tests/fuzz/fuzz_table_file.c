@@ -1,0 +1,53 @@
+// Any text, read as a RASP .eng file and as a motion in CSV, ends with messages or with a table.
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <unistd.h>
+
+#include "launchdyn/scenario.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static const char scenario[] =
+    "launchdyn: 1\nbase: {kind: fixed}\ntubes:\n  length: 3 m\n"
+    "  sections: [{from: 0 m, inner_radius: 80 mm, outer_radius: 85 mm}]\n"
+    "  material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m3}\n"
+    "  supports: [{at: 1 m, stiffness: 1 1 1 N/m, rotational_stiffness: 1 1 1 N.m/rad}]\n"
+    "  slot: none\nrocket:\n  mass: 60 kg\n  center: 1 0 0 m\n  inertia: 1 24 24 kg.m2\n"
+    "  empty: {mass: 40 kg, center: 1 0 0 m, inertia: 1 18 18 kg.m2}\n"
+    "  adaptors: [{name: a, at: 0 m, clearance: 1 mm}, {name: b, at: 1 m, clearance: 1 mm}]\n"
+    "  contact: {stiffness: 5e7 N/m}\n  lock: none\n"
+    "  motor: {thrust: [[0 s, 1 N], [1 s, 0 N]]}\n";
+
+static void read_with(const char *set)
+{
+    ld_model model;
+    ld_messages messages;
+    ld_status status = ld_scenario_read_text(scenario, sizeof scenario - 1, "fuzz", "", &set, 1,
+                                             &model, &messages);
+    if ((status == LD_OK) != (messages.count == 0) || status == LD_ERR_MEMORY)
+        abort();
+    if (status == LD_OK)
+        ld_model_free(&model);
+    ld_messages_free(&messages);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char names[2][64], set[160];
+    snprintf(names[0], sizeof names[0], "/tmp/launchdyn-fuzz-%ld.eng", (long)getpid());
+    snprintf(names[1], sizeof names[1], "/tmp/launchdyn-fuzz-%ld.csv", (long)getpid());
+    for (int i = 0; i < 2; i++) {
+        FILE *stream = fopen(names[i], "wb");
+        if (!stream || fwrite(data, 1, size, stream) != size || fclose(stream) != 0)
+            abort();
+        snprintf(set, sizeof set,
+                 i == 0 ? "rocket.motor.thrust=%s" : "base={kind: prescribed, motion: {table: %s}}",
+                 names[i]);
+        read_with(set);
+        unlink(names[i]);
+    }
+    return 0;
+}
