@@ -53,8 +53,8 @@ typedef struct ld_figure {
     const char *description; ///< one line
 } ld_figure;
 
-/// The standard figures, `count` of them.
-const ld_figure *ld_figures(size_t *count);
+/// The standard figures, by index from 0; NULL after the last.
+const ld_figure *ld_figure_at(size_t index);
 
 /// Draws figures of the run in `folder`, one below the other, with gnuplot, which must be in PATH.
 /// @param names `count` names of figures

@@ -2,6 +2,8 @@
 #ifndef LAUNCHDYN_STATUS_H
 #define LAUNCHDYN_STATUS_H
 
+#include <stddef.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -39,6 +41,10 @@ const char *ld_status_name(ld_status status);
 /// Writes status and formatted text into `error` (if not NULL) and returns `status`, so that a
 /// failing function can end with `return ld_fail(error, LD_ERR_INPUT, "...", ...);`.
 ld_status ld_fail(ld_error *error, ld_status status, const char *format, ...) LD_PRINTF(3, 4);
+
+/// The one of `count` names that is nearest to `word` by edit distance, for "did you mean"; NULL if
+/// none is near.
+const char *ld_nearest_name(const char *word, const char *const *names, size_t count);
 
 #ifdef __cplusplus
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "io/scenario_reader.h"
-#include "io/suggestion.h"
+#include "base/suggestion.h"
 #include "model/field.h"
 
 enum { PATH = 512 };

@@ -7,7 +7,7 @@
 
 #include <udunits2.h>
 
-#include "io/suggestion.h"
+#include "base/suggestion.h"
 
 struct unit_system {
     ut_system *system;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "io/suggestion.h"
+#include "base/suggestion.h"
 #include "io/units.h"
 
 static const double pi = 3.14159265358979323846;

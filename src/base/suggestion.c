@@ -1,8 +1,10 @@
-#include "io/suggestion.h"
+#include "base/suggestion.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "launchdyn/status.h"
 
 enum { LONGEST = 40 };
 
@@ -49,4 +51,12 @@ void suggestion_offer(name_suggestion *suggestion, const char *name)
         suggestion->distance = distance;
         suggestion->name = name;
     }
+}
+
+const char *ld_nearest_name(const char *word, const char *const *names, size_t count)
+{
+    name_suggestion nearest = suggestion_begin(word);
+    for (size_t i = 0; i < count; i++)
+        suggestion_offer(&nearest, names[i]);
+    return nearest.name;
 }

@@ -1,6 +1,6 @@
 // "Did you mean": the nearest of the names offered, by edit distance.
-#ifndef LD_IO_SUGGESTION_H
-#define LD_IO_SUGGESTION_H
+#ifndef LD_BASE_SUGGESTION_H
+#define LD_BASE_SUGGESTION_H
 
 typedef struct name_suggestion {
     const char *wanted;

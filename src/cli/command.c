@@ -1,0 +1,116 @@
+#include "cli/command.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "launchdyn/scenario.h"
+
+void command_complain(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("launchdyn: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+}
+
+int command_fail(ld_status status, const ld_error *error)
+{
+    command_complain("%s", error->text);
+    return status == LD_ERR_INPUT ? EXIT_INPUT : EXIT_FAILED;
+}
+
+// "unknown option --cvs (did you mean --csv?)"
+static void complain_option(poptContext context, const struct poptOption *options, int problem)
+{
+    enum { MOST = 16 };
+    const char *names[MOST];
+    size_t count = 0;
+    for (; count < MOST && options[count].longName; count++)
+        names[count] = options[count].longName;
+    const char *option = poptBadOption(context, POPT_BADOPTION_NOALIAS);
+    const char *name = option + strspn(option, "-");
+    const char *nearest = problem == POPT_ERROR_BADOPT ? ld_nearest_name(name, names, count) : NULL;
+    if (nearest)
+        command_complain("unknown option %s (did you mean --%s?)", option, nearest);
+    else
+        command_complain("%s: %s", option, poptStrerror(problem));
+}
+
+static void print_help(const command *self, poptContext context)
+{
+    printf("%s\n\n", self->summary);
+    fflush(stdout);
+    poptPrintHelp(context, stdout, 0);
+    if (self->help)
+        self->help();
+}
+
+bool command_line_read(command_line *line, const command *self, int argc, const char **argv,
+                       const struct poptOption *options, size_t count, int *code)
+{
+    line->context = poptGetContext("launchdyn", argc, argv, options, POPT_CONTEXT_NO_EXEC);
+    poptSetOtherOptionHelp(line->context, self->arguments);
+    int found = poptGetNextOpt(line->context);
+    line->word = poptGetArgs(line->context);
+    for (line->count = 0; line->word && line->word[line->count];)
+        line->count++;
+    *code = EXIT_INPUT;
+    if (found == 'h') {
+        print_help(self, line->context);
+        *code = 0;
+    } else if (found < -1) {
+        complain_option(line->context, options, found);
+    } else if (line->count != count) {
+        command_complain("%s wants %s; see launchdyn %s --help", self->name, self->arguments,
+                         self->name);
+    } else {
+        return true;
+    }
+    command_line_end(line);
+    return false;
+}
+
+void command_line_end(command_line *line)
+{
+    poptFreeContext(line->context);
+}
+
+// Reads the scenario; prints what is wrong with it.
+static ld_status read_model(const char *file, char **sets, ld_model *model)
+{
+    ld_messages messages = {0};
+    size_t count = 0;
+    while (sets && sets[count])
+        count++;
+    ld_status status = ld_scenario_read(file, (const char *const *)sets, count, model, &messages);
+    if (status) {
+        ld_messages_print(&messages, stderr);
+        ld_messages_free(&messages);
+    }
+    return status;
+}
+
+int command_on_model(const command *self, int argc, const char **argv,
+                     const struct poptOption *options, char ***sets,
+                     int (*work)(const ld_model *model, void *data), void *data)
+{
+    command_line line;
+    int code = 0;
+    if (command_line_read(&line, self, argc, argv, options, 1, &code)) {
+        ld_model model;
+        code = EXIT_INPUT;
+        if (!read_model(line.word[0], *sets, &model)) {
+            code = work(&model, data);
+            ld_model_free(&model);
+        }
+        command_line_end(&line);
+    }
+    for (char **set = *sets; set && *set; set++)
+        free(*set);
+    free(*sets);
+    return code;
+}

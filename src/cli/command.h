@@ -1,0 +1,71 @@
+// The parts that the commands of launchdyn share.
+#ifndef LD_CLI_COMMAND_H
+#define LD_CLI_COMMAND_H
+
+#include <popt.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
+
+// What the command ends with, beside 0; an interrupted run ends with 128 + the signal's number.
+enum { EXIT_FAILED = 1, EXIT_INPUT = 2 };
+
+// One command: a row of the table in main.c.
+typedef struct command command;
+struct command {
+    const char *name;
+    const char *arguments; // e.g. "FILE"
+    const char *summary;   // one line
+    void (*help)(void);    // prints what --help adds; NULL: nothing
+    int (*run)(const command *self, int argc, const char **argv);
+};
+
+int command_run(const command *self, int argc, const char **argv);
+int command_check(const command *self, int argc, const char **argv);
+int command_modes(const command *self, int argc, const char **argv);
+int command_plot(const command *self, int argc, const char **argv);
+void command_plot_help(void);
+
+// The options that a command knows end with these two.
+#define COMMAND_HELP                                                                               \
+    {                                                                                              \
+        "help", 'h', POPT_ARG_NONE, NULL, 'h', "Show this help and stop", NULL                     \
+    }
+#define COMMAND_END                                                                                \
+    {                                                                                              \
+        NULL, '\0', 0, NULL, 0, NULL, NULL                                                         \
+    }
+#define COMMAND_SETS(sets)                                                                         \
+    {                                                                                              \
+        "set", '\0', POPT_ARG_ARGV, sets, 0, "Set a key of the scenario; may be repeated",         \
+            "PATH=VALUE"                                                                           \
+    }
+
+// What stands on the command line beside the options.
+typedef struct command_line {
+    poptContext context;
+    const char *const *word;
+    size_t count;
+} command_line;
+
+// Reads the options and `count` words; argv[0] is "launchdyn NAME". Returns true to go on, then
+// command_line_end() is due; false to end with *code.
+bool command_line_read(command_line *line, const command *self, int argc, const char **argv,
+                       const struct poptOption *options, size_t count, int *code);
+void command_line_end(command_line *line);
+
+// Prints "launchdyn: text" on stderr.
+void command_complain(const char *format, ...) LD_PRINTF(1, 2);
+
+// Prints the error and returns the exit code that belongs to its status.
+int command_fail(ld_status status, const ld_error *error);
+
+// A command on one scenario: reads the options and the file with its overrides, which `options` put
+// into *sets, and does `work` on the model. Returns the exit code.
+int command_on_model(const command *self, int argc, const char **argv,
+                     const struct poptOption *options, char ***sets,
+                     int (*work)(const ld_model *model, void *data), void *data);
+
+#endif

@@ -1,0 +1,113 @@
+// The command launchdyn: a table of commands, and which of them is meant.
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/command.h"
+
+static int command_help(const command *self, int argc, const char **argv);
+static int command_version(const command *self, int argc, const char **argv);
+
+static const command commands[] = {
+    {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run},
+    {"check", "FILE", "Check a scenario file and print what was understood, in SI", NULL,
+     command_check},
+    {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes},
+    {"plot", "DIR", "Draw figures of a run with gnuplot", command_plot_help, command_plot},
+    {"version", "", "Print the version", NULL, command_version},
+    {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help},
+};
+
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static const command *find(const char *name)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(commands[i].name, name) == 0)
+            return &commands[i];
+    return NULL;
+}
+
+static int complain_unknown(const char *name)
+{
+    const char *names[COMMANDS];
+    for (int i = 0; i < COMMANDS; i++)
+        names[i] = commands[i].name;
+    const char *nearest = ld_nearest_name(name, names, COMMANDS);
+    const char *kind = *name == '-' ? "option" : "command";
+    if (nearest)
+        command_complain("unknown %s %s (did you mean %s?)", kind, name, nearest);
+    else
+        command_complain("unknown %s %s; see launchdyn help", kind, name);
+    return EXIT_INPUT;
+}
+
+static void print_commands(FILE *stream)
+{
+    fputs("launchdyn simulates how a rocket leaves a flexible tube on a fixed or moving base.\n\n"
+          "Usage: launchdyn COMMAND [OPTION...] ...\n\n",
+          stream);
+    for (int i = 0; i < COMMANDS; i++)
+        fprintf(stream, "  %-8s%-11s%s\n", commands[i].name, commands[i].arguments,
+                commands[i].summary);
+    fputs("\n\"launchdyn COMMAND --help\" lists the options of a command.\n", stream);
+}
+
+static int start(const command *chosen, int argc, const char **argv)
+{
+    char name[32];
+    snprintf(name, sizeof name, "launchdyn %s", chosen->name);
+    argv[0] = name;
+    return chosen->run(chosen, argc, argv);
+}
+
+static int command_help(const command *self, int argc, const char **argv)
+{
+    (void)self;
+    if (argc < 2) {
+        print_commands(stdout);
+        return 0;
+    }
+    const command *chosen = find(argv[1]);
+    if (!chosen)
+        return complain_unknown(argv[1]);
+    if (chosen->run == command_help || chosen->run == command_version) {
+        print_commands(stdout);
+        return 0;
+    }
+    const char *help[] = {argv[0], "--help", NULL};
+    return start(chosen, 2, help);
+}
+
+static int command_version(const command *self, int argc, const char **argv)
+{
+    (void)self, (void)argc, (void)argv;
+    puts("launchdyn " LD_VERSION);
+    return 0;
+}
+
+// The command that the first word names; the usual options stand for commands too.
+static int dispatch(int argc, const char **argv)
+{
+    if (argc < 2) {
+        print_commands(stderr);
+        return EXIT_INPUT;
+    }
+    const char *name = argv[1];
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
+        name = "help";
+    else if (strcmp(name, "--version") == 0)
+        name = "version";
+    const command *chosen = find(name);
+    return chosen ? start(chosen, argc - 1, argv + 1) : complain_unknown(name);
+}
+
+int main(int argc, char **argv)
+{
+    int code = dispatch(argc, (const char **)argv);
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        command_complain("cannot print: %s", strerror(errno));
+        return code ? code : EXIT_FAILED;
+    }
+    return code;
+}

@@ -1,0 +1,54 @@
+// launchdyn modes: natural frequencies of the tube on its supports and of the whole at equilibrium.
+#include <stdio.h>
+
+#include "cli/command.h"
+#include "launchdyn/simulation.h"
+
+enum { MOST = 2 * LD_MAX_MODES };
+
+static void print_modes(const char *title, const ld_mode *modes, int count)
+{
+    printf("%s\n       frequency [Hz]  damping ratio [%%]  shape\n", title);
+    for (int i = 0; i < count; i++) {
+        const ld_mode *mode = &modes[i];
+        if (mode->frequency > 0)
+            printf("%4d %16.4f %18.4f  %s\n", i + 1, mode->frequency, mode->damping * 100,
+                   mode->shape);
+        else
+            printf("%4d %16s %14.5g 1/s  %s\n", i + 1, "-", mode->real, mode->shape);
+    }
+}
+
+static ld_status list_modes(const ld_model *model, ld_error *error)
+{
+    static ld_mode modes[MOST];
+    ld_simulation *simulation = NULL;
+    ld_status status = ld_simulation_create(model, &simulation, error);
+    if (status)
+        return status;
+    int count = ld_simulation_tube_modes(simulation, modes, MOST);
+    print_modes("Tube and tail on their supports, base held", modes, count);
+    status = ld_simulation_system_modes(simulation, modes, MOST, &count, error);
+    if (!status) {
+        putchar('\n');
+        print_modes("Tube, tail and locked rocket about their equilibrium, no Coulomb friction",
+                    modes, count);
+    }
+    ld_simulation_free(simulation);
+    return status;
+}
+
+static int print_all_modes(const ld_model *model, void *data)
+{
+    (void)data;
+    ld_error error;
+    ld_status status = list_modes(model, &error);
+    return status ? command_fail(status, &error) : 0;
+}
+
+int command_modes(const command *self, int argc, const char **argv)
+{
+    char **sets = NULL;
+    const struct poptOption options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
+    return command_on_model(self, argc, argv, options, &sets, print_all_modes, NULL);
+}

@@ -1,0 +1,66 @@
+#include "cli/progress.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t stop_signal;
+
+static void ask_to_stop(int number)
+{
+    stop_signal = number;
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+void progress_start(run_progress *progress, bool quiet)
+{
+    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    *progress = (run_progress){.shown = !quiet && isatty(STDERR_FILENO), .start = now()};
+    progress->latest = progress->start;
+}
+
+// "[######............]  31 %   12.4 %/s   5.6 s left"
+static void draw(const run_progress *progress, double share)
+{
+    enum { WIDTH = 40 };
+    char bar[WIDTH + 1] = "";
+    for (int i = 0; i < WIDTH; i++)
+        bar[i] = i < share * WIDTH ? '#' : '.';
+    double rate = share / (progress->latest - progress->start);
+    fprintf(stderr, "\r[%s] %3.0f %% %8.3g %%/s %8.1f s left ", bar, share * 100, rate * 100,
+            rate > 0 ? (1 - share) / rate : 0);
+    fflush(stderr);
+}
+
+bool progress_share(void *self, double share)
+{
+    run_progress *progress = self;
+    double time = progress->shown ? now() : 0;
+    if (progress->shown && time - progress->latest > 0.2) {
+        progress->latest = time;
+        progress->drawn = true;
+        draw(progress, share);
+    }
+    return stop_signal == 0;
+}
+
+void progress_end(run_progress *progress)
+{
+    if (progress->drawn)
+        fprintf(stderr, "\r%79s\r", "");
+    progress->drawn = false;
+}
+
+int progress_signal(void)
+{
+    return stop_signal;
+}

@@ -1,0 +1,25 @@
+// How far a run is, on stderr where that is a terminal; and the wish to stop it.
+#ifndef LD_CLI_PROGRESS_H
+#define LD_CLI_PROGRESS_H
+
+#include <stdbool.h>
+
+typedef struct run_progress {
+    bool shown;           // draw a line at all
+    bool drawn;           // there is one on the terminal
+    double start, latest; // [s] of the start and of the line last drawn
+} run_progress;
+
+// From now on SIGINT and SIGTERM ask for a stop; a second one ends the program at once.
+void progress_start(run_progress *progress, bool quiet);
+
+// For ld_run_options.progress: false once a stop was asked for.
+bool progress_share(void *self, double share);
+
+// Takes the line away.
+void progress_end(run_progress *progress);
+
+// The signal that asked for a stop, 0 if none did.
+int progress_signal(void);
+
+#endif

@@ -1,0 +1,158 @@
+// Drawing figures: from a folder of results through gnuplot to a picture.
+#include "io/plot.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { MOST_FIGURES = 32 };
+
+extern char **environ;
+
+static ld_status unknown_figure(const char *name, ld_error *error)
+{
+    const char *names[MOST_FIGURES];
+    char list[256] = "";
+    size_t count = 0;
+    for (const ld_figure *figure; (figure = ld_figure_at(count)) != NULL; count++) {
+        names[count] = figure->name;
+        size_t length = strlen(list);
+        snprintf(list + length, sizeof list - length, "%s%s", count ? ", " : "", figure->name);
+    }
+    const char *nearest = ld_nearest_name(name, names, count);
+    return ld_fail(error, LD_ERR_INPUT, "there is no figure \"%.40s\"%s%s%s; there are %s", name,
+                   nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "",
+                   list);
+}
+
+static ld_status find_format(const char *file, plot_format *format, ld_error *error)
+{
+    static const char *const endings[] = {
+        [PLOT_SVG] = ".svg", [PLOT_PDF] = ".pdf", [PLOT_PNG] = ".png"};
+    const char *ending = strrchr(file, '.');
+    for (int i = 0; ending && i < 3; i++)
+        if (strcasecmp(ending, endings[i]) == 0) {
+            *format = (plot_format)i;
+            return LD_OK;
+        }
+    return ld_fail(error, LD_ERR_INPUT, "a picture's name ends in .svg, .pdf or .png: %.200s",
+                   file);
+}
+
+// ---- gnuplot ----
+
+// The last line that gnuplot printed, its complaint.
+static void read_complaint(FILE *printed, char *complaint, size_t size)
+{
+    char line[256];
+    snprintf(complaint, size, "it gives no reason");
+    rewind(printed);
+    while (fgets(line, sizeof line, printed)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (line[strspn(line, " \t^")])
+            snprintf(complaint, size, "%s", line + strspn(line, " \t"));
+    }
+}
+
+// Runs gnuplot from PATH on the script, without a shell and without the user's settings.
+static ld_status run_gnuplot(FILE *script, FILE *printed, ld_error *error)
+{
+    char *arguments[] = {"gnuplot", "--default-settings", NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, fileno(script), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(printed), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(printed), STDERR_FILENO);
+    pid_t child = 0;
+    int problem = posix_spawnp(&child, arguments[0], &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (problem == ENOENT)
+        return ld_fail(error, LD_ERR_MISSING,
+                       "gnuplot not found: install it (Debian: apt install gnuplot-nox)");
+    if (problem)
+        return ld_fail(error, LD_ERR_MISSING, "cannot run gnuplot: %s", strerror(problem));
+    int code = 0;
+    while (waitpid(child, &code, 0) < 0 && errno == EINTR)
+        ;
+    if (code == 0)
+        return LD_OK;
+    char complaint[256];
+    read_complaint(printed, complaint, sizeof complaint);
+    return ld_fail(error, LD_ERR_FILE, "gnuplot failed: %s", complaint);
+}
+
+// Draws into the file `part`.
+static ld_status draw(const history_data *history, const plot_figure *const *figures, size_t count,
+                      plot_format format, const char *part, ld_error *error)
+{
+    FILE *script = tmpfile(), *printed = tmpfile();
+    ld_status status = LD_OK;
+    if (!script || !printed)
+        status = ld_fail(error, LD_ERR_FILE, "cannot make a temporary file: %s", strerror(errno));
+    if (!status)
+        status = plot_write_script(script, history, figures, count, format, part, error);
+    if (!status && (fflush(script) != 0 || ferror(script) || lseek(fileno(script), 0, SEEK_SET)))
+        status = ld_fail(error, LD_ERR_FILE, "cannot write a temporary file: %s", strerror(errno));
+    if (!status)
+        status = run_gnuplot(script, printed, error);
+    if (script)
+        fclose(script);
+    if (printed)
+        fclose(printed);
+    return status;
+}
+
+// Draws under a temporary name beside the picture, then gives it its own.
+static ld_status draw_in_place(const history_data *history, const plot_figure *const *figures,
+                               size_t count, plot_format format, const char *file, ld_error *error)
+{
+    char part[4096];
+    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
+        return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
+    int probe = open(part, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (probe < 0)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
+    close(probe);
+    ld_status status = draw(history, figures, count, format, part, error);
+    if (!status && rename(part, file) != 0)
+        status = ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
+    if (status)
+        unlink(part);
+    return status;
+}
+
+static ld_status read_folder(const char *folder, history_data *history, ld_error *error)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/history.h5", folder);
+    if (access(path, F_OK) != 0)
+        return ld_fail(error, LD_ERR_INPUT, "no results in %.400s: there is no history.h5", folder);
+    return history_read(path, history, error);
+}
+
+ld_status ld_plot(const char *folder, const char *const *names, size_t count, const char *file,
+                  ld_error *error)
+{
+    const plot_figure *figures[MOST_FIGURES];
+    plot_format format = PLOT_SVG;
+    if (count == 0 || count > MOST_FIGURES)
+        return ld_fail(error, LD_ERR_INPUT, "name 1 to %d figures", MOST_FIGURES);
+    for (size_t i = 0; i < count; i++)
+        if (!(figures[i] = plot_figure_find(names[i])))
+            return unknown_figure(names[i], error);
+    ld_status status = find_format(file, &format, error);
+    if (status)
+        return status;
+    history_data history;
+    status = read_folder(folder, &history, error);
+    if (!status) {
+        status = draw_in_place(&history, figures, count, format, file, error);
+        history_free(&history);
+    }
+    return status;
+}
