@@ -7,12 +7,22 @@
 #include "io/plot.h"
 
 // Lengths of the page in pixels of the svg; pdf takes one for a point, png makes two of it.
-enum { WIDTH = 1000, HEADING = 40, PANEL = 250, LEFT = 75, RIGHT = 20, TOP = 50, BOTTOM = 48 };
+enum {
+    WIDTH = 1000,
+    TITLE = 34,
+    HEADING = 34,
+    PANEL = 240,
+    LEFT = 75,
+    RIGHT = 25,
+    TOP = 44,
+    BOTTOM = 50
+};
 enum { MOST_CURVES = 16 };
 
 typedef struct instant {
     const char *name;
-    double t; // [s] from ignition
+    double t;           // [s] from ignition
+    const char *offset; // of the name from a point of a curve, in letters
 } instant;
 
 enum { INSTANTS = 4 };
@@ -28,6 +38,7 @@ typedef struct plot_drawing {
     FILE *script;
     const history_data *history;
     const plot_panel *panel;
+    const char *heading;     // of the figure, to be written with its first panel, or NULL
     int index;               // of the panel on the page
     double height;           // of the page
     double left, top, width; // of the panel on the page, from above
@@ -253,28 +264,58 @@ static void write_instants_on_curve(plot_drawing *drawing)
                 nearest = row;
         if (isfinite(t) && nearest < drawing->history->rows)
             fprintf(drawing->script,
-                    "set label '%s' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#404040' offset "
-                    "0.8, 0.4 font ',9' tc rgb '#606060' front\n",
-                    drawing->instant[i].name, drawing->x[nearest], drawing->y[nearest]);
+                    "set label '%s' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#404040' offset %s "
+                    "font ',9' tc rgb '#606060' front\n",
+                    drawing->instant[i].name, drawing->x[nearest], drawing->y[nearest],
+                    drawing->instant[i].offset);
     }
 }
 
-static void write_axes(const plot_drawing *drawing)
+// A text at a place of the page, `top` pixels below its upper edge.
+static void write_text(const plot_drawing *drawing, const char *text, double left, double top,
+                       const char *style)
+{
+    fputs("set label ", drawing->script);
+    write_quoted(drawing->script, text);
+    fprintf(drawing->script, " at screen %.6f, screen %.6f %s\n", left / WIDTH,
+            1 - top / drawing->height, style);
+}
+
+static void write_headings(plot_drawing *drawing)
+{
+    const char *title = drawing->history->title;
+    if (drawing->index == 0 && title)
+        write_text(drawing, title, 16, TITLE * 0.55, "left font ',17'");
+    if (drawing->heading) {
+        double above = 1 - (drawing->top - HEADING) / drawing->height;
+        fprintf(drawing->script,
+                "set arrow from screen 0.016, screen %.6f to screen 0.984, screen %.6f nohead lw 1 "
+                "lc rgb '#c0c0c0'\n",
+                above, above);
+        write_text(drawing, drawing->heading, 16, drawing->top - HEADING * 0.35, "left font ',14'");
+    }
+    drawing->heading = NULL;
+}
+
+static void write_axes(plot_drawing *drawing)
 {
     const plot_panel *panel = drawing->panel;
     FILE *script = drawing->script;
-    double bottom = drawing->top + PANEL - BOTTOM;
-    fprintf(script, "unset label\nunset arrow\n");
+    double top = drawing->top + TOP, bottom = drawing->top + PANEL - BOTTOM;
+    char unit[64];
     fprintf(script, "set lmargin at screen %.6f\nset rmargin at screen %.6f\n",
             (drawing->left + LEFT) / WIDTH, (drawing->left + drawing->width - RIGHT) / WIDTH);
     fprintf(script, "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
-            1 - (drawing->top + TOP) / drawing->height, 1 - bottom / drawing->height);
+            1 - top / drawing->height, 1 - bottom / drawing->height);
     fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", drawing->x_range[0],
             drawing->x_range[1], drawing->y_range[0], drawing->y_range[1]);
-    fprintf(script, "set xlabel '%s'\nset ylabel '%s%s%s'\n",
-            panel->x_column ? panel->x_label : "time from ignition [ms]",
-            panel->x_column ? "" : "[", panel->y_label, panel->x_column ? "" : "]");
-    fprintf(script, "set label \"%s\" at graph 0, 1.15 left font ',12'\n", panel->title);
+    snprintf(unit, sizeof unit, panel->x_column ? "%s" : "[%s]", panel->y_label);
+    write_text(drawing, panel->title, drawing->left + LEFT, top - 26, "left font ',11'");
+    write_text(drawing, unit, drawing->left + 18, (top + bottom) / 2,
+               "center rotate by 90 font ',10'");
+    write_text(drawing, panel->x_column ? panel->x_label : "time from ignition [ms]",
+               drawing->left + (LEFT + drawing->width - RIGHT) / 2, bottom + 34,
+               "center font ',10'");
 }
 
 static void write_plot(const plot_drawing *drawing)
@@ -307,6 +348,8 @@ static void write_panel(plot_drawing *drawing)
     }
     for (int i = 0; i < drawing->count; i++)
         write_curve(drawing, i);
+    fputs("unset label\nunset arrow\n", drawing->script);
+    write_headings(drawing);
     write_axes(drawing);
     if (drawing->count > 0 && drawing->panel->x_column)
         write_instants_on_curve(drawing);
@@ -323,6 +366,9 @@ static void write_panel(plot_drawing *drawing)
 static double place_panels(const plot_figure *figure, double top, plot_drawing *drawing)
 {
     bool right = false;
+    top += HEADING;
+    if (drawing)
+        drawing->heading = figure->about.description;
     for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++) {
         const plot_panel *panel = &figure->panel[i];
         if (drawing) {
@@ -341,9 +387,9 @@ static double place_panels(const plot_figure *figure, double top, plot_drawing *
 
 static double page_height(const plot_figure *const *figures, size_t count)
 {
-    double height = HEADING;
+    double height = TITLE;
     for (size_t i = 0; i < count; i++)
-        height = place_panels(figures[i], height + HEADING, NULL);
+        height = place_panels(figures[i], height, NULL);
     return height;
 }
 
@@ -363,43 +409,14 @@ static void write_terminal(FILE *script, plot_format format, double height, cons
     fputs(" noenhanced\nset encoding utf8\nset output ", script);
     write_quoted(script, output);
     fputs("\nset multiplot\n"
-          "set key at graph 1, 1.15 right center horizontal samplen 2 spacing 1 font ',10'\n"
+          "set key at graph 1, 1.15 right center horizontal Left reverse samplen 2 font ',10'\n"
           "set grid lc rgb '#e0e0e0' lw 0.8\nset border 3 lc rgb '#404040'\n"
-          "set tics nomirror font ',10'\nset xlabel font ',10' offset 0,0.3\n"
-          "set ylabel font ',10' offset 0.5,0\nset format '%g'\n",
+          "set tics nomirror font ',10'\nset format '%g'\n",
           script);
     static const char *const colour[] = {"0072B2", "D55E00", "009E73",
                                          "CC79A7", "E69F00", "56B4E9"};
     for (int i = 0; i < 6; i++)
         fprintf(script, "set style line %d lw 1.5 lc rgb '#%s'\n", i + 1, colour[i]);
-}
-
-// A heading at the left, `top` pixels below the page's upper edge.
-static void write_heading(FILE *script, const char *text, double top, double height, int size)
-{
-    fputs("unset label\nset label ", script);
-    write_quoted(script, text);
-    fprintf(script,
-            " at screen 0.015, screen %.6f left font ',%d'\n"
-            "set lmargin at screen 0.1\nset rmargin at screen 0.2\n"
-            "set tmargin at screen 0.2\nset bmargin at screen 0.1\n"
-            "unset border\nunset tics\nunset xlabel\nunset ylabel\nplot [0:1] [0:1] NaN notitle\n"
-            "set border 3\nset tics nomirror\n",
-            1 - top / height, size);
-}
-
-static void write_page(FILE *script, const plot_figure *const *figures, size_t count,
-                       plot_drawing *drawing)
-{
-    double top = HEADING;
-    write_heading(script, drawing->history->title ? drawing->history->title : "", HEADING * 0.6,
-                  drawing->height, 15);
-    for (size_t i = 0; i < count; i++) {
-        write_heading(script, figures[i]->about.description, top + HEADING * 0.6, drawing->height,
-                      13);
-        top = place_panels(figures[i], top + HEADING, drawing);
-    }
-    fputs("unset multiplot\nunset output\n", script);
 }
 
 ld_status plot_write_script(FILE *script, const history_data *history,
@@ -417,10 +434,10 @@ ld_status plot_write_script(FILE *script, const history_data *history,
         .stack = malloc((2 * rows + 8) * sizeof(size_t)),
         .t = history_column(history, "t"),
         .t_ignition = isfinite(history->t_ignition) ? history->t_ignition : 0,
-        .instant = {{"release", history->t_release},
-                    {"front", history->t_front},
-                    {"middle", history->t_middle},
-                    {"rear", history->t_rear}},
+        .instant = {{"release", history->t_release, "-3.2, -0.8"},
+                    {"front", history->t_front, "0.8, 0.6"},
+                    {"middle", history->t_middle, "0.8, -0.8"},
+                    {"rear", history->t_rear, "0.8, 0.6"}},
     };
     ld_status status = LD_OK;
     if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack) {
@@ -430,7 +447,10 @@ ld_status plot_write_script(FILE *script, const history_data *history,
     } else {
         locale_t before = numeric_locale_enter();
         write_terminal(script, format, drawing.height, output);
-        write_page(script, figures, count, &drawing);
+        double top = TITLE;
+        for (size_t i = 0; i < count; i++)
+            top = place_panels(figures[i], top, &drawing);
+        fputs("unset multiplot\nunset output\n", script);
         numeric_locale_leave(before);
     }
     free(drawing.x);
