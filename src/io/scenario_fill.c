@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scenario_reader.h"
 #include "base/suggestion.h"
+#include "io/scenario_reader.h"
 #include "model/field.h"
 
 enum { PATH = 512 };
