@@ -140,26 +140,40 @@ static void refuse_word(scenario_reader *reader, const field_row *f, const tree_
         refuse_value(reader, f, value, path);
 }
 
+// The word that stands for a number, where the choice has one and the text looks like a number.
+static const field_word *word_for_number(const field_row *f, const char *text)
+{
+    for (const field_word *w = f->words; w->name; w++)
+        if (!w->name[0] && strchr("0123456789+-.", text[0]))
+            return w;
+    return NULL;
+}
+
+// The value chosen by a word or a number; FIELD_WORD_LATER after a message.
+static int choose(scenario_reader *reader, const field_row *f, const tree_node *value, void *base,
+                  const char *path)
+{
+    const field_word *word = field_word_find(f->words, value->text);
+    if (word) {
+        if (word->value == FIELD_WORD_LATER)
+            reader_refuse(reader, value->at, path, "%s is not simulated yet", word->name);
+        return word->value;
+    }
+    word = word_for_number(f, value->text);
+    if (!word)
+        refuse_word(reader, f, value, path);
+    else if (quantity_read(reader, f, value->at, path, value->text,
+                           (double *)((char *)base + f->other), 1))
+        return word->value;
+    return FIELD_WORD_LATER;
+}
+
 static void read_choice(scenario_reader *reader, const field_row *f, const tree_node *value,
                         void *base, const char *path)
 {
-    const field_word *word = NULL, *number = NULL;
     int chosen = FIELD_WORD_LATER;
-    if (!is_scalar(reader, f, value, path)) {
-    } else if ((word = field_word_find(f->words, value->text)) != NULL) {
-        chosen = word->value;
-        if (chosen == FIELD_WORD_LATER)
-            reader_refuse(reader, value->at, path, "%s is not simulated yet", word->name);
-    } else {
-        for (const field_word *w = f->words; w->name; w++)
-            if (!w->name[0] && strchr("0123456789+-.", value->text[0]))
-                number = w;
-        if (!number)
-            refuse_word(reader, f, value, path);
-        else if (quantity_read(reader, f, value->at, path, value->text,
-                               (double *)((char *)base + f->other), 1))
-            chosen = number->value;
-    }
+    if (is_scalar(reader, f, value, path))
+        chosen = choose(reader, f, value, base, path);
     if (f->offset != FIELD_NOWHERE)
         memcpy(field_at(base, f), &chosen, sizeof chosen);
 }
@@ -273,7 +287,7 @@ static void read_table(scenario_reader *reader, const field_row *f, const tree_n
     bool good = false;
     if (value->kind == NODE_LIST)
         good = read_rows(reader, f, value, path, table);
-    else if (!is_scalar(reader, f, value, path) || f->table->source == TABLE_ROWS)
+    else if (!is_scalar(reader, f, value, path))
         good = false;
     else if (f->table->source == TABLE_CONSTANT)
         good = read_constant(reader, f, value, path, table);

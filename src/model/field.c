@@ -3,14 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int field_count(const field_block *block)
-{
-    int count = 0;
-    while (block->fields[count].name)
-        count++;
-    return count;
-}
-
 const field_row *field_find(const field_block *block, const char *name)
 {
     for (const field_row *f = block->fields; f->name; f++)
@@ -185,7 +177,6 @@ static void table_expectation(const table_format *table, char *text, size_t size
         append(text, size, unit_name(table->column[i].unit));
     }
     static const char *const others[] = {
-        [TABLE_ROWS] = "]",
         [TABLE_CONSTANT] = "] or one value of the last",
         [TABLE_MOTION] = "] or the name of a .csv file",
         [TABLE_THRUST] = "] or the name of an .eng file",

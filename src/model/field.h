@@ -38,11 +38,11 @@ typedef struct field_word {
 
 enum { FIELD_WORD_LATER = -1 };
 
+// What may stand in place of a table's rows.
 typedef enum table_source {
-    TABLE_ROWS,     // rows in the scenario only
-    TABLE_CONSTANT, // or one value of the last column
-    TABLE_MOTION,   // or a CSV file whose header names columns and units
-    TABLE_THRUST,   // or a RASP .eng file
+    TABLE_CONSTANT, // one value, of the last column
+    TABLE_MOTION,   // a CSV file whose header names columns and units
+    TABLE_THRUST,   // a RASP .eng file
 } table_source;
 
 enum { FIELD_MAX_COLUMNS = 8 };
@@ -87,8 +87,6 @@ typedef struct field_block {
 
 extern const field_block scenario_block; // the root
 
-// Number of rows of `block`'s table.
-int field_count(const field_block *block);
 // The row of key `name`, or NULL.
 const field_row *field_find(const field_block *block, const char *name);
 // The word of that name in a list that ends with a NULL name, or NULL.
