@@ -88,7 +88,8 @@ ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const dou
                           ld_mstmm **out, ld_error *error);
 void ld_mstmm_free(ld_mstmm *system);
 
-/// Length of q and of u.
+/// Number of elements; length of q and of u.
+int ld_mstmm_element_count(const ld_mstmm *system);
 int ld_mstmm_coordinate_count(const ld_mstmm *system);
 int ld_mstmm_speed_count(const ld_mstmm *system);
 /// Index of an element by name, -1 where there is none.

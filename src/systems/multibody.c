@@ -435,6 +435,7 @@ static ld_status add_element(builder *b, int e, ld_error *error)
 static void link_shares(ld_mstmm *s)
 {
     s->branch_count = 0;
+    s->node[0].branch = -1;
     for (int i = 1; i <= s->node_count; i++) {
         node *n = &s->node[i], *parent = &s->node[n->parent];
         bool section = n->body == NODE_SECTION;
@@ -542,6 +543,11 @@ ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const dou
 }
 
 // ---- questions
+
+int ld_mstmm_element_count(const ld_mstmm *s)
+{
+    return s->element_count;
+}
 
 int ld_mstmm_coordinate_count(const ld_mstmm *s)
 {
