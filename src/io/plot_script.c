@@ -114,45 +114,51 @@ static void set_y(plot_drawing *drawing, int curve)
         drawing->y[i] = drawing->curve[curve].y[i] * drawing->panel->y_factor;
 }
 
-static void include(double range[2], const double *values, size_t rows)
+static bool drawable(const plot_drawing *drawing, size_t i)
 {
-    for (size_t i = 0; i < rows; i++)
-        if (isfinite(values[i])) {
-            range[0] = fmin(range[0], values[i]);
-            range[1] = fmax(range[1], values[i]);
-        }
+    return isfinite(drawing->x[i]) && isfinite(drawing->y[i]);
+}
+
+static void include(double range[2], double value)
+{
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
 }
 
 // Room around the values; something to draw even where they are all the same.
 static void widen(double range[2], double share)
 {
-    double room = (range[1] - range[0]) * share;
-    if (!(room > fmax(fabs(range[0]), fabs(range[1])) * 1e-12))
-        room = fmax(fabs(range[0]) * 0.1, 1e-9);
+    double room = (range[1] - range[0]) * share, largest = fmax(fabs(range[0]), fabs(range[1]));
+    if (!(room > largest * 1e-12))
+        room = largest > 0 ? largest * 0.1 : 1;
     range[0] -= room;
     range[1] += room;
 }
 
+// The ranges of what is drawn; 0 to 1 where that is nothing.
 static void set_ranges(plot_drawing *drawing)
 {
-    size_t rows = drawing->history->rows;
-    drawing->x_range[0] = drawing->y_range[0] = INFINITY;
-    drawing->x_range[1] = drawing->y_range[1] = -INFINITY;
-    include(drawing->x_range, drawing->x, rows);
+    double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};
     for (int i = 0; i < drawing->count; i++) {
         set_y(drawing, i);
-        include(drawing->y_range, drawing->y, rows);
+        for (size_t row = 0; row < drawing->history->rows; row++)
+            if (drawable(drawing, row)) {
+                include(x, drawing->x[row]);
+                include(y, drawing->y[row]);
+            }
     }
-    widen(drawing->x_range, drawing->panel->x_column ? 0.05 : 0.01);
-    widen(drawing->y_range, 0.06);
+    if (x[0] > x[1]) {
+        drawing->count = 0;
+        x[0] = y[0] = 0;
+        x[1] = y[1] = 1;
+    }
+    widen(x, drawing->panel->x_column ? 0.05 : 0.01);
+    widen(y, 0.06);
+    memcpy(drawing->x_range, x, sizeof x);
+    memcpy(drawing->y_range, y, sizeof y);
 }
 
 // ---- thinning: points that would not be seen are left out (Douglas and Peucker) ----
-
-static bool drawable(const plot_drawing *drawing, size_t i)
-{
-    return isfinite(drawing->x[i]) && isfinite(drawing->y[i]);
-}
 
 // Square of the distance of point i from the straight line a to b, in shares of the panel.
 static double distance2(const plot_drawing *drawing, size_t i, size_t a, size_t b)
@@ -231,10 +237,12 @@ static void write_quoted(FILE *script, const char *text)
     fputc('\'', script);
 }
 
-// A vertical line at each key instant, its name above; names that would meet step aside.
+// A vertical line at each key instant, its name above; where names would meet, one step higher.
 static void write_instants_in_time(const plot_drawing *drawing)
 {
-    double across = drawing->x_range[1] - drawing->x_range[0];
+    double pixels = drawing->width - LEFT - RIGHT,
+           across = drawing->x_range[1] - drawing->x_range[0], before = -INFINITY;
+    bool raised = false;
     for (int i = 0; i < INSTANTS; i++) {
         double x = drawing->instant[i].t * 1e3;
         if (!(x >= drawing->x_range[0] && x <= drawing->x_range[1]))
@@ -243,10 +251,11 @@ static void write_instants_in_time(const plot_drawing *drawing)
                 "set arrow from %.8g, graph 0 to %.8g, graph 1 nohead lw 1 dt (4,3) lc rgb "
                 "'#808080' back\n",
                 x, x);
-        bool at_the_edge = x - drawing->x_range[0] < 0.05 * across;
-        fprintf(drawing->script,
-                "set label '%s' at %.8g, graph 1.03 %s font ',9' tc rgb '#606060'\n",
-                drawing->instant[i].name, x, at_the_edge ? "left" : "center");
+        double place = (x - drawing->x_range[0]) / across * pixels;
+        raised = !raised && place - before < 45;
+        before = place;
+        fprintf(drawing->script, "set label '%s' at %.8g, graph %g %s font ',9' tc rgb '#606060'\n",
+                drawing->instant[i].name, x, raised ? 1.10 : 1.03, place < 20 ? "left" : "center");
     }
 }
 
@@ -339,13 +348,9 @@ static void write_plot(const plot_drawing *drawing)
 static void write_panel(plot_drawing *drawing)
 {
     find_curves(drawing);
-    if (!set_x(drawing) || !any_finite(drawing->x, drawing->history->rows))
+    if (!set_x(drawing))
         drawing->count = 0;
     set_ranges(drawing);
-    if (drawing->count == 0) {
-        drawing->x_range[0] = drawing->y_range[0] = 0;
-        drawing->x_range[1] = drawing->y_range[1] = 1;
-    }
     for (int i = 0; i < drawing->count; i++)
         write_curve(drawing, i);
     fputs("unset label\nunset arrow\n", drawing->script);
@@ -399,7 +404,8 @@ static void write_terminal(FILE *script, plot_format format, double height, cons
         fprintf(script, "set terminal svg size %d,%.0f font 'sans-serif,12' background 'white'",
                 WIDTH, height);
     else if (format == PLOT_PDF)
-        fprintf(script, "set terminal pdfcairo size %.4fin,%.4fin font 'sans-serif,12'",
+        fprintf(script,
+                "set terminal pdfcairo size %.4fin,%.4fin font 'sans-serif,12' fontscale 0.75",
                 WIDTH / 72.0, height / 72);
     else
         fprintf(script,
