@@ -1,0 +1,276 @@
+// The command as a user meets it: what it prints, its exit codes, the files it leaves.
+#include "support/check.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+// What a line of shell gave, in a folder of its own where `launchdyn` is the command just built and
+// examples/ the scenarios of the tree.
+static struct {
+    char folder[64];
+    int code;
+    char out[1 << 14], err[1 << 14];
+} shell;
+
+static int set_up(void **state)
+{
+    (void)state;
+    char command[512];
+    strcpy(shell.folder, "/tmp/launchdyn-command-XXXXXX");
+    if (!mkdtemp(shell.folder))
+        return -1;
+    snprintf(command, sizeof command, "cd %s && ln -s %s/launchdyn . && ln -s %s/examples .",
+             shell.folder, LD_BINARY_DIR, LD_SOURCE_DIR);
+    return system(command);
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", shell.folder);
+    return system(command);
+}
+
+static void read_back(const char *name, char *text, size_t size)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", shell.folder, name);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, size - 1, file)] = '\0';
+    fclose(file);
+}
+
+static int run(const char *line)
+{
+    char command[1024];
+    snprintf(command, sizeof command, "cd %s; PATH=.:$PATH; { %s; } >.out 2>.err </dev/null",
+             shell.folder, line);
+    int status = system(command);
+    shell.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    read_back(".out", shell.out, sizeof shell.out);
+    read_back(".err", shell.err, sizeof shell.err);
+    return shell.code;
+}
+
+static void expect_in(const char *text, const char *part)
+{
+    if (!strstr(text, part))
+        fail_msg("\"%s\" is not in:\n%s", part, text);
+}
+
+// A line that ends with `code`, prints nothing on stdout and this on stderr.
+static void expect_complaint(const char *line, int code, const char *text)
+{
+    run(line);
+    if (shell.code != code || *shell.out)
+        fail_msg("%s: code %d, printed \"%s\" and \"%s\"", line, shell.code, shell.out, shell.err);
+    expect_in(shell.err, text);
+}
+
+static void test_help_and_version(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn version"), 0);
+    assert_memory_equal(shell.out, "launchdyn ", 10);
+    assert_int_equal(run("launchdyn --version"), 0);
+    assert_memory_equal(shell.out, "launchdyn ", 10);
+    assert_int_equal(run("launchdyn help"), 0);
+    expect_in(shell.out, "  modes   FILE       List natural frequencies");
+    assert_string_equal(shell.err, "");
+    assert_int_equal(run("launchdyn help >a; launchdyn --help >b; cmp a b"), 0);
+    assert_int_equal(run("launchdyn help run"), 0);
+    expect_in(shell.out, "Usage: launchdyn run");
+    expect_in(shell.out, "--set PATH=VALUE");
+    assert_int_equal(run("launchdyn plot -h"), 0);
+    expect_in(shell.out, "tip-rate");
+}
+
+static void test_wrong_words(void **state)
+{
+    (void)state;
+    expect_complaint("launchdyn", 2, "Usage: launchdyn COMMAND");
+    expect_complaint("launchdyn rum x", 2, "launchdyn: unknown command rum (did you mean run?)\n");
+    expect_complaint("launchdyn abracadabra", 2,
+                     "launchdyn: unknown command abracadabra; see launchdyn help\n");
+    expect_complaint("launchdyn help rum", 2, "unknown command rum (did you mean run?)\n");
+    expect_complaint("launchdyn run --cvs x", 2, "unknown option --cvs (did you mean --csv?)\n");
+    expect_complaint("launchdyn run -z x", 2, "launchdyn: -z: unknown option\n");
+    expect_complaint("launchdyn run x --out", 2, "launchdyn: --out: missing argument\n");
+    expect_complaint("launchdyn run", 2, "launchdyn: run wants FILE; see launchdyn run --help\n");
+    expect_complaint("launchdyn run a b", 2, "launchdyn: run wants FILE");
+    expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv needs --out DIR\n");
+    expect_complaint("launchdyn plot x", 2, "plot wants -o FILE.svg");
+    expect_complaint("launchdyn plot x --what tipp -o x.svg", 2, "did you mean tip?");
+    expect_complaint("launchdyn plot x -o x.svg", 2, "no results in x");
+}
+
+static void test_run_writes_results(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn run examples/fixed.yaml --out a/b --csv"), 0);
+    expect_in(shell.out, "\n  muzzle speed ");
+    assert_string_equal(shell.err, "");
+    assert_int_equal(run("ls a/b; jq -r '.complete, .rockets[0].tube' a/b/summary.json"), 0);
+    assert_string_equal(shell.out, "history.csv\nhistory.h5\nsummary.json\ntrue\n8\n");
+    // the exit of the summary is the last row with the rocket in it
+    assert_int_equal(
+        run("awk -F, 'NR==1 {for (i = 1; i <= NF; i++) if ($i == \"rocket.s_dot [m/s]\")"
+            " c = i} $c != \"nan\" {v = $c} END {print v}' a/b/history.csv; "
+            "jq '.rockets[0].muzzle_speed' a/b/summary.json"),
+        0);
+    double last = 0, muzzle = 1;
+    assert_int_equal(sscanf(shell.out, "%lf %lf", &last, &muzzle), 2);
+    CHECK_NEAR("last s_dot of the history [m/s]", last, muzzle, 1e-13);
+    assert_int_equal(run("grep -c . a/b/history.csv"), 0);
+    CHECK_WITHIN("lines of history.csv, 0.16 s at 0.1 ms", atof(shell.out), 1580, 1620);
+    assert_int_equal(run("launchdyn plot a/b -o a/b/x.svg && rsvg-convert a/b/x.svg >/dev/null"),
+                     0);
+}
+
+static void test_table_alone_writes_nothing(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn run examples/fixed.yaml && ls"), 0);
+    expect_in(shell.out, "examples\nlaunchdyn\n");
+    assert_int_equal(run("launchdyn run examples/fixed.yaml --quiet"), 0);
+    assert_string_equal(shell.out, "");
+    assert_string_equal(shell.err, "");
+}
+
+static void test_set_overrides(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn check examples/fixed.yaml --set rocket.mass='61 kg' "
+                         "--set 'title=other title'"),
+                     0);
+    expect_in(shell.out, "mass: 61");
+    expect_in(shell.out, "other title");
+    assert_int_equal(run("launchdyn run examples/fixed.yaml -q -o light; "
+                         "launchdyn run examples/fixed.yaml -q -o heavy --set rocket.mass='61 kg'; "
+                         "jq .rockets[0].muzzle_speed light/summary.json heavy/summary.json"),
+                     0);
+    double light = 0, heavy = 0;
+    assert_int_equal(sscanf(shell.out, "%lf %lf", &light, &heavy), 2);
+    // v^2 = 2 (F/m - g sin) s roughly: 1 kg of 60 costs about 0.8 % of the speed
+    CHECK_WITHIN("speed lost to 1 kg, share", (light - heavy) / light, 0.006, 0.011);
+    // check prints a scenario that reads back as itself
+    assert_int_equal(run("launchdyn check examples/fixed.yaml >one.yaml && "
+                         "launchdyn check one.yaml >two.yaml && cmp one.yaml two.yaml"),
+                     0);
+}
+
+static void test_bad_input_leaves_nothing(void **state)
+{
+    (void)state;
+    expect_complaint("launchdyn run none.yaml --out o", 2, "none.yaml: error: ");
+    expect_complaint("launchdyn run examples/fixed.yaml --out o --set rocket.mas='61 kg'", 2,
+                     "rocket.mas: unknown key, did you mean \"mass\"?");
+    expect_complaint("launchdyn check examples/fixed.yaml --set rocket.mass=61", 2, "rocket.mass");
+    expect_complaint("launchdyn modes examples/fixed.yaml --set rocket.mass=-1kg", 2,
+                     "rocket.mass");
+    assert_int_equal(run("ls"), 0);
+    assert_string_equal(shell.out, "examples\nlaunchdyn\n");
+}
+
+static void test_places_that_cannot_be_written(void **state)
+{
+    (void)state;
+    expect_complaint("launchdyn run examples/fixed.yaml --out /dev/null/x", 1,
+                     "launchdyn: cannot make the folder /dev/null/x: Not a directory\n");
+    expect_complaint("launchdyn version >/dev/full", 1,
+                     "launchdyn: cannot print: No space left on device\n");
+}
+
+static void test_a_launch_that_cannot_happen(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn run examples/fixed.yaml --out o "
+                         "--set rocket.lock.release_force='50 kN' --set run.stuck_time='50 ms'"),
+                     1);
+    expect_in(shell.err, "launchdyn: the lock never let go");
+    expect_in(shell.out, "\nStopped at ");
+    assert_int_equal(run("jq -r '.complete, .stopped, .rockets[0].t_release' o/summary.json"), 0);
+    expect_in(shell.out, "false\nthe lock never let go");
+    expect_in(shell.out, "\nnull\n");
+    assert_int_equal(run("h5dump -a /stopped o/history.h5 && h5dump -H -d /history/t o/history.h5"),
+                     0);
+    expect_in(shell.out, "the lock never let go");
+    assert_int_equal(run("launchdyn plot o -o o/x.svg"), 0);
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+// A run of a thousand seconds is asked to stop by the signal.
+static void stop_by(int number)
+{
+    char command[512];
+    snprintf(command, sizeof command,
+             "cd %s && exec ./launchdyn run examples/fixed.yaml --out stopped "
+             "--set run.stuck_time='1000 s' --set rocket.lock.release_force='50 kN' "
+             ">.out 2>.err",
+             shell.folder);
+    pid_t child = fork();
+    if (child == 0) {
+        execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+        _exit(127);
+    }
+    nanosleep(&(struct timespec){0, 700000000}, NULL);
+    double start = now();
+    int status = 0;
+    kill(child, number);
+    waitpid(child, &status, 0);
+    CHECK_BELOW("seconds from the signal to the end", now() - start, 1.0);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 128 + number);
+    assert_int_equal(run("jq -r .complete stopped/summary.json; ls stopped"), 0);
+    assert_string_equal(shell.out, "false\nhistory.h5\nsummary.json\n");
+}
+
+static void test_interrupted(void **state)
+{
+    (void)state;
+    stop_by(SIGINT);
+    stop_by(SIGTERM);
+}
+
+static void test_modes_table(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn modes examples/fixed.yaml"), 0);
+    expect_in(shell.out, "Tube and tail on their supports, base held\n");
+    expect_in(shell.out, "rocket");
+    double frequency = 0;
+    const char *row = strstr(shell.out, "\n   1 ");
+    assert_non_null(row);
+    frequency = strtod(row + 5, NULL);
+    CHECK_WITHIN("first frequency on the supports [Hz]", frequency, 67.9, 68.0);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_help_and_version),
+        TEST(test_wrong_words),
+        TEST(test_run_writes_results),
+        TEST(test_table_alone_writes_nothing),
+        TEST(test_set_overrides),
+        TEST(test_bad_input_leaves_nothing),
+        TEST(test_places_that_cannot_be_written),
+        TEST(test_a_launch_that_cannot_happen),
+        TEST(test_interrupted),
+        TEST(test_modes_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,248 @@
+// Figures: what the script says against the history, what gnuplot makes of it, what can go wrong.
+#include "support/check.h"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/plot.h"
+#include "support/made_launch.h"
+
+static char folder[64];
+
+static const char *in(const char *name)
+{
+    static char path[4][128];
+    static int next;
+    char *chosen = path[next++ % 4];
+    snprintf(chosen, sizeof *path, "%s/%s", folder, name);
+    return chosen;
+}
+
+// A made-up run of 160 ms in `folder`/run.
+static int set_up(void **state)
+{
+    (void)state;
+    static ld_model model;
+    static ld_summary summary;
+    ld_output *output = NULL;
+    strcpy(folder, "/tmp/launchdyn-plot-XXXXXX");
+    if (!mkdtemp(folder))
+        return -1;
+    made_model(&model);
+    made_summary(&summary, 1);
+    return ld_output_open(in("run"), &model, false, &output, NULL) ||
+           made_run(ld_output_sink(output), 1605, NULL) || ld_output_finish(output, &summary, NULL);
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+static int run(const char *format, const char *path)
+{
+    char command[256];
+    snprintf(command, sizeof command, format, path);
+    return system(command);
+}
+
+// The script of one figure of the made-up run, to be freed.
+static char *script_of(const char *name)
+{
+    history_data history;
+    assert_int_equal(history_read(in("run/history.h5"), &history, NULL), LD_OK);
+    const plot_figure *figure = plot_figure_find(name);
+    assert_non_null(figure);
+    char *text = NULL;
+    size_t length = 0;
+    FILE *script = open_memstream(&text, &length);
+    assert_int_equal(plot_write_script(script, &history, &figure, 1, PLOT_SVG, "it's", NULL),
+                     LD_OK);
+    fclose(script);
+    history_free(&history);
+    return text;
+}
+
+// Largest distance, over the rows of a made column, of the thinned curve from the full one, as a
+// share of the panel's size. Fails if the data block is not there.
+static double farthest(const char *script, const char *block, int column, double factor,
+                       size_t rows, size_t *points)
+{
+    const char *place = strstr(script, block);
+    assert_non_null(place);
+    double x[2], y[2], values[MADE_COLUMNS], a[2], b[2], worst2 = 0;
+    int read = 0;
+    size_t row = 0;
+    assert_int_equal(sscanf(strstr(place, "set xrange"),
+                            "set xrange [%lf:%lf]\nset yrange [%lf:%lf]", &x[0], &x[1], &y[0],
+                            &y[1]),
+                     4);
+    place += strlen(block);
+    assert_int_equal(sscanf(place, "%lf %lf\n%n", &a[0], &a[1], &read), 2);
+    for (*points = 1; row < rows; *points += 1) {
+        place += read;
+        assert_int_equal(sscanf(place, "%lf %lf\n%n", &b[0], &b[1], &read), 2);
+        double across = (b[0] - a[0]) / (x[1] - x[0]), up = (b[1] - a[1]) / (y[1] - y[0]);
+        for (; row < rows; row++) {
+            made_row(row, values);
+            if (values[0] * 1e3 > b[0] + 1e-9)
+                break;
+            double px = (values[0] * 1e3 - a[0]) / (x[1] - x[0]),
+                   py = (values[column] * factor - a[1]) / (y[1] - y[0]),
+                   cross = px * up - py * across;
+            worst2 = fmax(worst2, cross * cross / (across * across + up * up));
+        }
+        a[0] = b[0];
+        a[1] = b[1];
+    }
+    return sqrt(worst2);
+}
+
+static void test_curves_are_the_history(void **state)
+{
+    (void)state;
+    char *script = script_of("tip");
+    size_t points = 0;
+    CHECK_BELOW("thinned tip.y from the history, share of the panel",
+                farthest(script, "$p0c0 << EOD\n", 33, 1e3, 1605, &points), 1.0 / 3000);
+    CHECK_WITHIN("points left of 1605", (double)points, 80, 200);
+    CHECK_BELOW("thinned tip.yaw from the history, share of the panel",
+                farthest(script, "$p1c1 << EOD\n", 36, 1e3, 1605, &points), 1.0 / 3000);
+    free(script);
+    script = script_of("travel");
+    CHECK_BELOW("thinned rocket.s until it leaves, share of the panel",
+                farthest(script, "$p0c0 << EOD\n", 41, 1, 1601, &points), 1.0 / 3000);
+    free(script);
+}
+
+static void test_instants_titles_and_names(void **state)
+{
+    (void)state;
+    char *script = script_of("contact");
+    static const char *const expected[] = {
+        "set output 'it''s'\n",
+        "set label 'Made-up launch, \"in quotes\" and in ''quotes'', ±1 %' at screen",
+        "set arrow from 3.3336, graph 0 to 3.3336, graph 1 ",
+        "set arrow from 95.2, graph 0 to 95.2, graph 1 ",
+        "set arrow from 127.3, graph 0 to 127.3, graph 1 ",
+        "set label 'release' at 3.3336, graph ",
+        "set label 'middle' at 127.3, graph ",
+        "$p0c0 using 1:2 with lines ls 1 title 'rear'",
+        "$p0c1 using 1:2 with lines ls 2 title 'middle'",
+        "$p0c2 using 1:2 with lines ls 3 title 'front'",
+        "set label '[kN]' at screen",
+        "set label 'time from ignition [ms]' at screen",
+    };
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        if (!strstr(script, expected[i]))
+            fail_msg("not in the script: %s", expected[i]);
+    free(script);
+}
+
+static void test_every_figure_in_every_format(void **state)
+{
+    (void)state;
+    const char *names[32];
+    size_t count = 0;
+    ld_error error = {0};
+    for (const ld_figure *figure; (figure = ld_figure_at(count)) != NULL; count++)
+        names[count] = figure->name;
+    static const struct {
+        const char *file, *magic;
+    } formats[] = {{"all.svg", "<?xml"}, {"all.pdf", "%PDF-"}, {"all.PNG", "\x89PNG\r"}};
+    for (size_t i = 0; i < 3; i++) {
+        char start[6] = "";
+        if (ld_plot(in("run"), names, count, in(formats[i].file), &error))
+            fail_msg("%s", error.text);
+        FILE *file = fopen(in(formats[i].file), "r");
+        assert_non_null(fgets(start, sizeof start, file));
+        fclose(file);
+        assert_memory_equal(start, formats[i].magic, 5);
+    }
+    assert_int_equal(run("rsvg-convert %s >/dev/null", in("all.svg")), 0);
+    assert_int_equal(run("test \"$(ls %s)\" = 'all.PNG\nall.pdf\nall.svg\nrun'", folder), 0);
+}
+
+// A run that ended before its first row, or has none of the columns, draws empty panels.
+static void test_nothing_to_show(void **state)
+{
+    (void)state;
+    const char *figures[] = {"contact", "phase"};
+    const ld_column t = {"t", "s", "time"};
+    ld_error error = {0};
+    for (int rows = 0; rows < 2; rows++) {
+        history_hdf5 *history;
+        mkdir(in("few"), 0777);
+        assert_int_equal(history_hdf5_create(in("few/history.h5"), "few", &history, NULL), LD_OK);
+        assert_int_equal(history_hdf5_begin(history, &t, 1, NULL), LD_OK);
+        for (int i = 0; i < rows; i++)
+            assert_int_equal(history_hdf5_row(history, &(double){0}, NULL), LD_OK);
+        assert_int_equal(history_hdf5_close(history, NULL, NULL), LD_OK);
+        if (ld_plot(in("few"), figures, 2, in("few.svg"), &error))
+            fail_msg("%s", error.text);
+    }
+}
+
+static void expect(const char *where, const char *figure, const char *file, ld_status status,
+                   const char *text)
+{
+    ld_error error = {0};
+    assert_int_equal(ld_plot(where, &figure, 1, file, &error), status);
+    if (!strstr(error.text, text))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, text);
+    printf("    %s\n", error.text);
+}
+
+static void test_what_can_be_wrong(void **state)
+{
+    (void)state;
+    expect(in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
+           "there is no figure \"tipp\" (did you mean tip?); there are tip, tip-rate, travel, "
+           "relative, phase, attitude, contact, slot, energy");
+    expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT, "no figure \"spaghetti\"; there are");
+    expect(in("run"), "tip", in("x.jpg"), LD_ERR_INPUT, "ends in .svg, .pdf or .png");
+    expect(in("run"), "tip", in("none/x.svg"), LD_ERR_FILE, "No such file or directory");
+    expect(in("none"), "tip", in("x.svg"), LD_ERR_INPUT, "there is no history.h5");
+    assert_int_not_equal(access(in("x.svg"), F_OK), 0);
+}
+
+// Another gnuplot, or none, in PATH; an earlier picture stays.
+static void test_without_gnuplot(void **state)
+{
+    (void)state;
+    char *path = strdup(getenv("PATH"));
+    const char *tip = "tip";
+    assert_int_equal(ld_plot(in("run"), &tip, 1, in("x.svg"), NULL), LD_OK);
+    assert_int_equal(run("cd %s && cp x.svg before", folder), 0);
+    setenv("PATH", folder, 1);
+    expect(in("run"), "tip", in("x.svg"), LD_ERR_MISSING,
+           "gnuplot not found: install it (Debian: apt install gnuplot-nox)");
+    FILE *script = fopen(in("gnuplot"), "w");
+    fputs("#!/bin/sh\necho 'line 7: it cannot'\necho\nexit 1\n", script);
+    fclose(script);
+    chmod(in("gnuplot"), 0755);
+    expect(in("run"), "tip", in("x.svg"), LD_ERR_FILE, "gnuplot failed: line 7: it cannot");
+    setenv("PATH", path, 1);
+    free(path);
+    assert_int_equal(run("cd %s && cmp x.svg before", folder), 0);
+    assert_int_not_equal(access(in("x.svg.part"), F_OK), 0);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_curves_are_the_history),
+        TEST(test_instants_titles_and_names),
+        TEST(test_every_figure_in_every_format),
+        TEST(test_nothing_to_show),
+        TEST(test_what_can_be_wrong),
+        TEST(test_without_gnuplot),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
