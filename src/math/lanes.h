@@ -5,7 +5,19 @@
 
 #include "math/vec3.h"
 
-typedef double v4d __attribute__((vector_size(32)));
+typedef double v4d __attribute__((vector_size(32), may_alias));
+
+/// An array of doubles that is also read as lanes: `count` a multiple of 4.
+#define LANE_ARRAY(name, count) _Alignas(32) double name[count]
+
+LD_INLINE v4d *v4d_lanes(double *array)
+{
+    return (v4d *)array;
+}
+LD_INLINE const v4d *v4d_lanes_of(const double *array)
+{
+    return (const v4d *)array;
+}
 
 LD_INLINE v4d v4d_all(double a)
 {
@@ -24,8 +36,9 @@ LD_INLINE double v4d_sum(v4d a)
     } while (0)
 
 /// Dot product of two arrays of `count` lanes.
-LD_INLINE double v4d_dot(int count, const v4d *a, const v4d *b)
+LD_INLINE double v4d_dot(int count, const double *p, const double *q)
 {
+    const v4d *a = v4d_lanes_of(p), *b = v4d_lanes_of(q);
     v4d sum = a[0] * b[0];
     for (int i = 1; i < count; i++)
         sum += a[i] * b[i];

@@ -22,11 +22,6 @@ static void lay_out(launching_layout *at, int nq)
     at->count = n;
 }
 
-static void set_lane(v4d *lanes, int j, double value)
-{
-    lanes[j / 4][j % 4] = value;
-}
-
 // Packs the shapes of one element by mode and by power.
 static void pack_element(const flexible_tube *tube, const tube_element *from, packed_element *to)
 {
@@ -37,7 +32,7 @@ static void pack_element(const flexible_tube *tube, const tube_element *from, pa
         for (int k = 0; k < 4; k++) {
             double shape = from->b[k][j];
             to->by_mode[j][k] = shape;
-            set_lane(to->by_power[k], j, shape);
+            to->by_power[k][j] = shape;
             to->ctb[k] += tube->ct[j] * shape;
             to->cb[k] += tube->c[j] * shape;
         }
@@ -64,8 +59,8 @@ static double element_slope(const tube_element *element, int j, double x)
 
 static void set_row(launching_system *self, int row, int j, double value)
 {
-    set_lane(self->rows[row], j, value);
-    set_lane(self->rows_by_mode[j], row, value);
+    self->rows[row][j] = value;
+    self->rows_by_mode[j][row] = value;
 }
 
 // Supports, and the rows that never change: b and b' at the supports, ct, c.
@@ -98,8 +93,8 @@ static void build_supports(launching_system *self)
     for (int j = 0; j < tube->nb; j++) {
         set_row(self, self->row_count - 2, j, tube->ct[j]);
         set_row(self, self->row_count - 1, j, tube->c[j]);
-        set_lane(self->om2, j, tube->om2_b[j]);
-        set_lane(self->dmp, j, tube->dmp_b[j]);
+        self->om2[j] = tube->om2_b[j];
+        self->dmp[j] = tube->dmp_b[j];
     }
 }
 

@@ -19,7 +19,6 @@
 #include "systems/base_motion.h"
 
 enum {
-    LD_LANES_B = LD_NB / 4,
     LD_MAX_MODAL = 2 * LD_NB + LD_NT + LD_NA,
     LD_FIXED_ROWS = 2 * LD_MAX_SUPPORTS + 4, // b and b' at each support, ct, c; padded
 };
@@ -34,11 +33,11 @@ typedef struct launching_layout {
 // modes) and by power (modes side by side, for forces on the modes).
 typedef struct packed_element {
     double x0, x1;
-    v4d by_mode[LD_NB];
-    v4d by_power[4][LD_LANES_B];
+    _Alignas(32) double by_mode[LD_NB][4];
+    _Alignas(32) double by_power[4][LD_NB];
     double tau[LD_NT][2];
     double a[LD_NA][2];
-    v4d ctb, cb; // ct . b and c . b as polynomials
+    double ctb[4], cb[4]; // ct . b and c . b as polynomials
 } packed_element;
 
 typedef struct launching_support {
@@ -62,12 +61,14 @@ typedef struct launching_system {
 
     int support_count;
     launching_support support[LD_MAX_SUPPORTS];
-    int row_count;                              // 2 support_count + 2
-    int row_lanes;                              // lanes of four rows
-    v4d rows_by_mode[LD_NB][LD_FIXED_ROWS / 4]; // b, b' at the supports, then ct, c
-    v4d rows[LD_FIXED_ROWS][LD_LANES_B];
-    v4d om2[LD_LANES_B], dmp[LD_LANES_B]; // bending
-    packed_element *packed;               // [tube.element_count], 64-byte aligned
+    int row_count; // 2 support_count + 2
+    int row_lanes; // lanes of four rows
+    // b, b' at the supports, then ct, c: by mode and by row
+    _Alignas(32) double rows_by_mode[LD_NB][LD_FIXED_ROWS];
+    _Alignas(32) double rows[LD_FIXED_ROWS][LD_NB];
+    LANE_ARRAY(om2, LD_NB); // bending
+    LANE_ARRAY(dmp, LD_NB);
+    packed_element *packed; // [tube.element_count], 64-byte aligned
 
     int adaptor_count;
     double adaptor_at[LD_MAX_ADAPTORS];

@@ -11,7 +11,8 @@
 // Generalised force on the tube: the rigid part about R's origin, the modal part in lanes.
 typedef struct tube_force {
     v3 f, m;
-    v4d y[LD_LANES_B], z[LD_LANES_B];
+    LANE_ARRAY(y, LD_NB);
+    LANE_ARRAY(z, LD_NB);
     double t[LD_NT];
     double a[LD_NA];
 } tube_force;
@@ -24,8 +25,10 @@ typedef struct tube_state {
     v3 v, w, g;
     modal_state modal;
     double qy_qy, qz_qz, qy_qz;
-    v4d row_y[LD_FIXED_ROWS / 4], row_z[LD_FIXED_ROWS / 4]; // fixed rows on q_y, q_z
-    v4d row_y_dot[LD_FIXED_ROWS / 4], row_z_dot[LD_FIXED_ROWS / 4];
+    LANE_ARRAY(row_y, LD_FIXED_ROWS); // fixed rows on q_y, q_z
+    LANE_ARRAY(row_z, LD_FIXED_ROWS);
+    LANE_ARRAY(row_y_dot, LD_FIXED_ROWS);
+    LANE_ARRAY(row_z_dot, LD_FIXED_ROWS);
     double ct_y, ct_z, c_y, c_z; // ct . q_y ...
     double cp_t_dot;             // cp . q_t_dot
     // factors of the condensed 6 x 6 matrix: see factor()
@@ -45,7 +48,8 @@ typedef struct direction {
 
 // Shapes at the rocket's section, for products between directions.
 typedef struct section_shapes {
-    v4d b[LD_LANES_B], b1[LD_LANES_B];
+    LANE_ARRAY(b, LD_NB);
+    LANE_ARRAY(b1, LD_NB);
     double tau[LD_NT];
     double ct0, ct1, c0, c1; // ct . b, ct . b', c . b, c . b'
     double bb, bb1, b1b1, tt, cp_tau;
@@ -82,22 +86,22 @@ LD_INLINE void load_tube(const int lanes, const launching_system *self, const do
     for (int r = 0; r < self->row_lanes; r++) {
         v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;
         for (int j = 0; j < nb; j++) {
-            v4d row = self->rows_by_mode[j][r];
-            y += row * v4d_all(lane(q->y, j));
-            z += row * v4d_all(lane(q->z, j));
-            y_dot += row * v4d_all(lane(q->y_dot, j));
-            z_dot += row * v4d_all(lane(q->z_dot, j));
+            v4d row = v4d_lanes_of(self->rows_by_mode[j])[r];
+            y += row * v4d_all(q->y[j]);
+            z += row * v4d_all(q->z[j]);
+            y_dot += row * v4d_all(q->y_dot[j]);
+            z_dot += row * v4d_all(q->z_dot[j]);
         }
-        tube->row_y[r] = y;
-        tube->row_z[r] = z;
-        tube->row_y_dot[r] = y_dot;
-        tube->row_z_dot[r] = z_dot;
+        v4d_lanes(tube->row_y)[r] = y;
+        v4d_lanes(tube->row_z)[r] = z;
+        v4d_lanes(tube->row_y_dot)[r] = y_dot;
+        v4d_lanes(tube->row_z_dot)[r] = z_dot;
     }
     int ct = 2 * self->support_count, c = ct + 1;
-    tube->ct_y = lane(tube->row_y, ct);
-    tube->ct_z = lane(tube->row_z, ct);
-    tube->c_y = lane(tube->row_y, c);
-    tube->c_z = lane(tube->row_z, c);
+    tube->ct_y = tube->row_y[ct];
+    tube->ct_z = tube->row_z[ct];
+    tube->c_y = tube->row_y[c];
+    tube->c_z = tube->row_z[c];
     tube->qy_qy = v4d_dot(lanes, q->y, q->y);
     tube->qz_qz = v4d_dot(lanes, q->z, q->z);
     tube->qy_qz = v4d_dot(lanes, q->y, q->z);
@@ -112,8 +116,8 @@ LD_INLINE void tube_own_forces(const int lanes, const launching_system *self, tu
     const modal_state *q = &tube->modal;
     v3 w = tube->w, g = tube->g;
     int ct = 2 * self->support_count, c = ct + 1;
-    double ct_yd = lane(tube->row_y_dot, ct), ct_zd = lane(tube->row_z_dot, ct);
-    double c_yd = lane(tube->row_y_dot, c), c_zd = lane(tube->row_z_dot, c);
+    double ct_yd = tube->row_y_dot[ct], ct_zd = tube->row_z_dot[ct];
+    double c_yd = tube->row_y_dot[c], c_zd = tube->row_z_dot[c];
     double cp_td = 0;
     for (int j = 0; j < data->nt; j++)
         cp_td += data->cp[j] * q->t_dot[j];
@@ -146,17 +150,21 @@ LD_INLINE void tube_own_forces(const int lanes, const launching_system *self, tu
     double yy = w.x * w.x + w.z * w.z, zz = w.x * w.x + w.y * w.y, yz = -w.y * w.z;
     double cy = -w.x * w.y, cz = -w.x * w.z, two_wx = 2 * w.x;
     double dissipated = 0, stored = 0;
-    const v4d *row_ct = self->rows[ct], *row_c = self->rows[c];
+    const v4d *row_ct = v4d_lanes_of(self->rows[ct]), *row_c = v4d_lanes_of(self->rows[c]);
+    const v4d *om2 = v4d_lanes_of(self->om2), *dmp = v4d_lanes_of(self->dmp);
+    const v4d *qy = v4d_lanes_of(q->y), *qz = v4d_lanes_of(q->z);
+    const v4d *qy_dot = v4d_lanes_of(q->y_dot), *qz_dot = v4d_lanes_of(q->z_dot);
+    v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
     v4d damped = v4d_all(0), elastic = v4d_all(0);
     for (int k = 0; k < lanes; k++) {
-        v4d ky = self->om2[k] * q->y[k], kz = self->om2[k] * q->z[k];
-        v4d dy = self->dmp[k] * q->y_dot[k], dz = self->dmp[k] * q->z_dot[k];
-        h->y[k] = v4d_all(yy) * q->y[k] + v4d_all(yz) * q->z[k] + v4d_all(cy) * row_c[k] +
-                  v4d_all(two_wx) * q->z_dot[k] + v4d_all(g.y) * row_ct[k] - ky - dy;
-        h->z[k] = v4d_all(zz) * q->z[k] + v4d_all(yz) * q->y[k] + v4d_all(cz) * row_c[k] -
-                  v4d_all(two_wx) * q->y_dot[k] + v4d_all(g.z) * row_ct[k] - kz - dz;
-        damped += dy * q->y_dot[k] + dz * q->z_dot[k];
-        elastic += ky * q->y[k] + kz * q->z[k];
+        v4d ky = om2[k] * qy[k], kz = om2[k] * qz[k];
+        v4d dy = dmp[k] * qy_dot[k], dz = dmp[k] * qz_dot[k];
+        hy[k] = v4d_all(yy) * qy[k] + v4d_all(yz) * qz[k] + v4d_all(cy) * row_c[k] +
+                v4d_all(two_wx) * qz_dot[k] + v4d_all(g.y) * row_ct[k] - ky - dy;
+        hz[k] = v4d_all(zz) * qz[k] + v4d_all(yz) * qy[k] + v4d_all(cz) * row_c[k] -
+                v4d_all(two_wx) * qy_dot[k] + v4d_all(g.z) * row_ct[k] - kz - dz;
+        damped += dy * qy_dot[k] + dz * qz_dot[k];
+        elastic += ky * qy[k] + kz * qz[k];
     }
     for (int j = 0; j < data->nt; j++) {
         double kt = data->om2_t[j] * q->t[j], dt = data->dmp_t[j] * q->t_dot[j];
@@ -226,11 +234,10 @@ LD_INLINE void support_forces(const int lanes, const launching_system *self, con
             stretch += support->a[j] * tube->modal.a[j];
             stretch_dot += support->a[j] * tube->modal.a_dot[j];
         }
-        v3 P = v3_make(support->x + stretch, lane(tube->row_y, 2 * k), lane(tube->row_z, 2 * k));
-        v3 th = v3_make(twist, -lane(tube->row_z, 2 * k + 1), lane(tube->row_y, 2 * k + 1));
-        v3 u_dot = v3_make(stretch_dot, lane(tube->row_y_dot, 2 * k), lane(tube->row_z_dot, 2 * k));
-        v3 th_dot =
-            v3_make(twist_dot, -lane(tube->row_z_dot, 2 * k + 1), lane(tube->row_y_dot, 2 * k + 1));
+        v3 P = v3_make(support->x + stretch, tube->row_y[2 * k], tube->row_z[2 * k]);
+        v3 th = v3_make(twist, -tube->row_z[2 * k + 1], tube->row_y[2 * k + 1]);
+        v3 u_dot = v3_make(stretch_dot, tube->row_y_dot[2 * k], tube->row_z_dot[2 * k]);
+        v3 th_dot = v3_make(twist_dot, -tube->row_z_dot[2 * k + 1], tube->row_y_dot[2 * k + 1]);
         m3 Jl = rv_left_jacobian(th);
         // displacement and its rate, in base axes
         v3 place = v3_add(r, m3_apply(A_TR, P));
@@ -256,10 +263,11 @@ LD_INLINE void support_forces(const int lanes, const launching_system *self, con
         v3 mu = m3_apply_transposed(Jl, m);
         h->f = v3_add(h->f, f);
         h->m = v3_add(h->m, v3_add(m, v3_cross(P, f)));
-        const v4d *b = self->rows[2 * k], *b1 = self->rows[2 * k + 1];
+        const v4d *b = v4d_lanes_of(self->rows[2 * k]), *b1 = v4d_lanes_of(self->rows[2 * k + 1]);
+        v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
         for (int i = 0; i < lanes; i++) {
-            h->y[i] += v4d_all(f.y) * b[i] + v4d_all(mu.z) * b1[i];
-            h->z[i] += v4d_all(f.z) * b[i] - v4d_all(mu.y) * b1[i];
+            hy[i] += v4d_all(f.y) * b[i] + v4d_all(mu.z) * b1[i];
+            hz[i] += v4d_all(f.z) * b[i] - v4d_all(mu.y) * b1[i];
         }
         for (int j = 0; j < self->tube.nt; j++)
             h->t[j] += mu.x * support->tau[j];
@@ -283,13 +291,14 @@ LD_INLINE void apply_at_section(const int lanes, const launching_system *self, c
     // weights of the powers of xi: b and b' against force and moment
     double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};
     double z[4] = {f.z, f.z * xi - mu.y, f.z * x2 - mu.y * 2 * xi, f.z * x3 - mu.y * 3 * x2};
+    const v4d *p0 = v4d_lanes_of(element->by_power[0]), *p1 = v4d_lanes_of(element->by_power[1]);
+    const v4d *p2 = v4d_lanes_of(element->by_power[2]), *p3 = v4d_lanes_of(element->by_power[3]);
+    v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
     for (int i = 0; i < lanes; i++) {
-        const v4d p0 = element->by_power[0][i], p1 = element->by_power[1][i],
-                  p2 = element->by_power[2][i], p3 = element->by_power[3][i];
-        h->y[i] +=
-            v4d_all(y[0]) * p0 + v4d_all(y[1]) * p1 + v4d_all(y[2]) * p2 + v4d_all(y[3]) * p3;
-        h->z[i] +=
-            v4d_all(z[0]) * p0 + v4d_all(z[1]) * p1 + v4d_all(z[2]) * p2 + v4d_all(z[3]) * p3;
+        hy[i] += v4d_all(y[0]) * p0[i] + v4d_all(y[1]) * p1[i] + v4d_all(y[2]) * p2[i] +
+                 v4d_all(y[3]) * p3[i];
+        hz[i] += v4d_all(z[0]) * p0[i] + v4d_all(z[1]) * p1[i] + v4d_all(z[2]) * p2[i] +
+                 v4d_all(z[3]) * p3[i];
     }
     for (int j = 0; j < self->tube.nt; j++)
         h->t[j] += mu.x * (element->tau[j][0] + xi * element->tau[j][1]);
@@ -658,11 +667,12 @@ LD_INLINE void load_shapes(const int lanes, const launching_system *self, const 
     LANES_NOT_EMPTY(lanes);
     const packed_element *element = &self->packed[s->index];
     v4d x = v4d_all(s->xi), x2 = v4d_all(2 * s->xi), x3 = v4d_all(3 * s->xi);
+    const v4d *p0 = v4d_lanes_of(element->by_power[0]), *p1 = v4d_lanes_of(element->by_power[1]);
+    const v4d *p2 = v4d_lanes_of(element->by_power[2]), *p3 = v4d_lanes_of(element->by_power[3]);
+    v4d *b = v4d_lanes(shapes->b), *b1 = v4d_lanes(shapes->b1);
     for (int i = 0; i < lanes; i++) {
-        const v4d p0 = element->by_power[0][i], p1 = element->by_power[1][i],
-                  p2 = element->by_power[2][i], p3 = element->by_power[3][i];
-        shapes->b[i] = p0 + x * (p1 + x * (p2 + x * p3));
-        shapes->b1[i] = p1 + x2 * p2 + x3 * (x * p3);
+        b[i] = p0[i] + x * (p1[i] + x * (p2[i] + x * p3[i]));
+        b1[i] = p1[i] + x2 * p2[i] + x3 * (x * p3[i]);
     }
     shapes->bb = v4d_dot(lanes, shapes->b, shapes->b);
     shapes->bb1 = v4d_dot(lanes, shapes->b, shapes->b1);
@@ -877,15 +887,19 @@ LD_INLINE void modal_accelerations(const int lanes, const launching_system *self
 {
     int ct = 2 * self->support_count, c = ct + 1, nb = self->tube.nb;
     const modal_state *q = &tube->modal;
-    v4d y[LD_LANES_B], z[LD_LANES_B];
+    v4d y[LD_NB / 4], z[LD_NB / 4];
+    const v4d *hy = v4d_lanes_of(h->y), *hz = v4d_lanes_of(h->z);
+    const v4d *qy = v4d_lanes_of(q->y), *qz = v4d_lanes_of(q->z);
+    const v4d *row_ct = v4d_lanes_of(self->rows[ct]), *row_c = v4d_lanes_of(self->rows[c]);
     for (int i = 0; i < lanes; i++) {
-        y[i] = h->y[i] - v4d_all(a.y) * self->rows[ct][i] + v4d_all(w_dot.x) * q->z[i] -
-               v4d_all(w_dot.z) * self->rows[c][i];
-        z[i] = h->z[i] - v4d_all(a.z) * self->rows[ct][i] - v4d_all(w_dot.x) * q->y[i] +
-               v4d_all(w_dot.y) * self->rows[c][i];
+        y[i] = hy[i] - v4d_all(a.y) * row_ct[i] + v4d_all(w_dot.x) * qz[i] -
+               v4d_all(w_dot.z) * row_c[i];
+        z[i] = hz[i] - v4d_all(a.z) * row_ct[i] - v4d_all(w_dot.x) * qy[i] +
+               v4d_all(w_dot.y) * row_c[i];
         if (shapes) {
-            y[i] -= v4d_all(force.y) * shapes->b[i] + v4d_all(mu.z) * shapes->b1[i];
-            z[i] -= v4d_all(force.z) * shapes->b[i] - v4d_all(mu.y) * shapes->b1[i];
+            const v4d *b = v4d_lanes_of(shapes->b), *b1 = v4d_lanes_of(shapes->b1);
+            y[i] -= v4d_all(force.y) * b[i] + v4d_all(mu.z) * b1[i];
+            z[i] -= v4d_all(force.z) * b[i] - v4d_all(mu.y) * b1[i];
         }
     }
     memcpy(q_ddot, y, (size_t)nb * sizeof(double));

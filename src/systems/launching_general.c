@@ -33,8 +33,8 @@ static void flatten(const launching_system *self, const tube_force *force, doubl
     v3_store(h, v3_add(v3_from(h), force->f));
     v3_store(h + 3, v3_add(v3_from(h + 3), force->m));
     for (int j = 0; j < nb; j++) {
-        h[6 + j] += lane(force->y, j);
-        h[6 + nb + j] += lane(force->z, j);
+        h[6 + j] += force->y[j];
+        h[6 + nb + j] += force->z[j];
     }
     for (int j = 0; j < nt; j++)
         h[6 + 2 * nb + j] += force->t[j];

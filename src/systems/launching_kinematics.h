@@ -8,22 +8,23 @@
 
 // Modal coordinates and speeds, in lanes (padded with zeros) and torsion apart.
 typedef struct modal_state {
-    v4d y[LD_LANES_B], z[LD_LANES_B], y_dot[LD_LANES_B], z_dot[LD_LANES_B];
+    LANE_ARRAY(y, LD_NB);
+    LANE_ARRAY(z, LD_NB);
+    LANE_ARRAY(y_dot, LD_NB);
+    LANE_ARRAY(z_dot, LD_NB);
     const double *t, *t_dot; // torsion
     const double *a, *a_dot; // axial
 } modal_state;
 
-LD_INLINE double lane(const v4d *lanes, int j)
-{
-    return lanes[j >> 2][j & 3];
-}
-
 // The deflection of one element as polynomials in xi.
 typedef struct element_motion {
     const packed_element *element;
-    v4d y, z, y_dot, z_dot; // coefficients of xi^0..3
-    double t[2], t_dot[2];  // torsion: value at x0, slope
-    double a[2], a_dot[2];  // stretch, likewise
+    LANE_ARRAY(y, 4); // coefficients of xi^0..3
+    LANE_ARRAY(z, 4);
+    LANE_ARRAY(y_dot, 4);
+    LANE_ARRAY(z_dot, 4);
+    double t[2], t_dot[2]; // torsion: value at x0, slope
+    double a[2], a_dot[2]; // stretch, likewise
 } element_motion;
 
 LD_INLINE void element_load(const launching_system *self, const modal_state *q, int index,
@@ -32,11 +33,11 @@ LD_INLINE void element_load(const launching_system *self, const modal_state *q, 
     const packed_element *element = &self->packed[index];
     v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;
     for (int j = 0; j < self->tube.nb; j++) {
-        v4d shape = element->by_mode[j];
-        y += shape * v4d_all(lane(q->y, j));
-        z += shape * v4d_all(lane(q->z, j));
-        y_dot += shape * v4d_all(lane(q->y_dot, j));
-        z_dot += shape * v4d_all(lane(q->z_dot, j));
+        v4d shape = *v4d_lanes_of(element->by_mode[j]);
+        y += shape * v4d_all(q->y[j]);
+        z += shape * v4d_all(q->z[j]);
+        y_dot += shape * v4d_all(q->y_dot[j]);
+        z_dot += shape * v4d_all(q->z_dot[j]);
     }
     double t0 = 0, t1 = 0, d0 = 0, d1 = 0;
     for (int j = 0; j < self->tube.nt; j++) {
@@ -52,18 +53,26 @@ LD_INLINE void element_load(const launching_system *self, const modal_state *q, 
         e0 += element->a[j][0] * q->a_dot[j];
         e1 += element->a[j][1] * q->a_dot[j];
     }
-    *motion = (element_motion){element, y, z, y_dot, z_dot, {t0, t1}, {d0, d1}, {a0, a1}, {e0, e1}};
+    motion->element = element;
+    *v4d_lanes(motion->y) = y;
+    *v4d_lanes(motion->z) = z;
+    *v4d_lanes(motion->y_dot) = y_dot;
+    *v4d_lanes(motion->z_dot) = z_dot;
+    motion->t[0] = t0, motion->t[1] = t1;
+    motion->t_dot[0] = d0, motion->t_dot[1] = d1;
+    motion->a[0] = a0, motion->a[1] = a1;
+    motion->a_dot[0] = e0, motion->a_dot[1] = e1;
 }
 
-LD_INLINE double poly0(v4d c, double x)
+LD_INLINE double poly0(const double *c, double x)
 {
     return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
 }
-LD_INLINE double poly1(v4d c, double x)
+LD_INLINE double poly1(const double *c, double x)
 {
     return c[1] + x * (2 * c[2] + x * (3 * c[3]));
 }
-LD_INLINE double poly2(v4d c, double x)
+LD_INLINE double poly2(const double *c, double x)
 {
     return 2 * c[2] + 6 * c[3] * x;
 }

@@ -1,0 +1,118 @@
+// Cost of a launch: one evaluation of the launching subsystem's accelerations, set-up, a whole launch.
+// Medians of many, process CPU time; the reference launcher on a fixed base at default settings.
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "launchdyn/scenario.h"
+#include "simulation/simulation.h"
+
+enum { REPEATS = 41, EVALUATIONS = 2000 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void print(const char *what, double *sample, int count, double unit, const char *name)
+{
+    qsort(sample, (size_t)count, sizeof *sample, ascending);
+    printf("%-58s median %8.3f  least %8.3f %s\n", what, sample[count / 2] / unit,
+           sample[0] / unit, name);
+}
+
+// A state in the tube with `contacts` adaptors on the wall.
+static void bench_evaluation(ld_simulation *simulation, int contacts, const char *what)
+{
+    double y[LD_MAX_STATES], sample[REPEATS];
+    ld_equilibrium_summary unused;
+    launching_phase phase = simulation_start_phase(simulation);
+    launching_input input;
+    launching_output out;
+    const launching_layout *at = &simulation->launching.layout;
+    if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
+        return;
+    simulation->piece = 1;
+    simulation_input(simulation, 0.1, &input);
+    phase.locked = false;
+    y[at->x] = 0.7;
+    y[at->V] = 10;
+    if (contacts == 3)
+        y[at->x + 1] -= 1e-3;
+    for (int r = 0; r < REPEATS; r++) {
+        double start = now();
+        for (int i = 0; i < EVALUATIONS; i++) {
+            y[at->x + 1] += 1e-12; // a new state each time
+            launching_evaluate(&simulation->launching, &input, &phase, y, &out);
+        }
+        sample[r] = (now() - start) / EVALUATIONS;
+    }
+    print(what, sample, REPEATS, 1e-9, "ns");
+}
+
+static void bench_form(ld_simulation *simulation, ld_formulation form, const char *what)
+{
+    double y[LD_MAX_STATES], sample[REPEATS];
+    ld_equilibrium_summary unused;
+    launching_phase phase = simulation_start_phase(simulation);
+    launching_input input;
+    launching_output out;
+    if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
+        return;
+    simulation_input(simulation, 0.1, &input);
+    for (int r = 0; r < REPEATS; r++) {
+        double start = now();
+        for (int i = 0; i < EVALUATIONS / 20; i++)
+            launching_evaluate_general(&simulation->launching, form, &input, &phase, y, &out);
+        sample[r] = (now() - start) / (EVALUATIONS / 20);
+    }
+    print(what, sample, REPEATS, 1e-9, "ns");
+}
+
+static void bench_run(const ld_model *model)
+{
+    double setup[REPEATS], run[REPEATS];
+    ld_summary summary;
+    for (int r = 0; r < REPEATS; r++) {
+        ld_simulation *simulation;
+        double start = now();
+        if (ld_simulation_create(model, &simulation, NULL))
+            return;
+        setup[r] = now() - start;
+        start = now();
+        ld_simulation_run(simulation, NULL, &summary, NULL);
+        run[r] = now() - start;
+        ld_simulation_free(simulation);
+    }
+    print("set-up (modes, coefficients)", setup, REPEATS, 1e-3, "ms");
+    print("whole launch, start in equilibrium included", run, REPEATS, 1e-3, "ms");
+    printf("    %lld steps, %lld evaluations: %.0f ns each, all told\n",
+           (long long)summary.statistics.steps, (long long)summary.statistics.rhs_evaluations,
+           1e9 * run[REPEATS / 2] / (double)summary.statistics.rhs_evaluations);
+}
+
+int main(void)
+{
+    ld_model model;
+    ld_messages messages = {0};
+    ld_simulation *simulation;
+    if (ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages) ||
+        ld_simulation_create(&model, &simulation, NULL))
+        return 1;
+    bench_evaluation(simulation, 2, "evaluation, reduced, fast layout, 2 of 3 in contact");
+    bench_evaluation(simulation, 3, "evaluation, reduced, fast layout, 3 of 3 in contact");
+    bench_form(simulation, LD_FORMULATION_REDUCED, "evaluation, reduced, general matrix");
+    bench_form(simulation, LD_FORMULATION_OVERALL, "evaluation, overall 19 x 19");
+    ld_simulation_free(simulation);
+    bench_run(&model);
+    ld_model_free(&model);
+    return 0;
+}
