@@ -151,9 +151,12 @@ static double newton(const ld_simulation *self, const launching_input *input,
         }
         if (!(next < now))
             break;
+        bool rounding = now < 1e-6 && next > 0.1 * now;
         memcpy(y, trial, size);
         memcpy(r, r_trial, sizeof r);
         now = next;
+        if (rounding)
+            break;
     }
     return now;
 }

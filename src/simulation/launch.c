@@ -41,19 +41,37 @@ static int rhs(double t, const double *y, double *y_dot, void *user)
 {
     ld_simulation *self = user;
     launching_input input;
-    launching_output out;
+    launching_output *out = &self->latest.out;
     simulation_input(self, t, &input);
-    launching_outcome outcome = simulation_evaluate(self, &input, &self->phase, y, &out);
+    launching_outcome outcome = simulation_evaluate(self, &input, &self->phase, y, out);
+    self->latest.t = t;
+    self->latest.s = y[self->launching.layout.x];
     self->jammed = outcome == LAUNCHING_JAMMED;
     if (outcome)
         return -1;
     if (self->model->run.formulation == LD_FORMULATION_OVERALL) {
-        self->fallbacks += out.fell_back;
-        self->worst_condition = fmax(self->worst_condition, out.condition);
+        self->fallbacks += out->fell_back;
+        self->worst_condition = fmax(self->worst_condition, out->condition);
     }
-    launching_rates(&self->launching, y, &out, self->phase.rocket, y_dot);
-    memcpy(y_dot + self->work, out.power, sizeof out.power);
+    launching_rates(&self->launching, y, out, self->phase.rocket, y_dot);
+    memcpy(y_dot + self->work, out->power, sizeof out->power);
     return all_finite(self->state_count, y_dot) ? 0 : -1;
+}
+
+// What the equations gave at (t, y): the latest evaluation where it is that one, else a new one.
+// NULL where they have no solution.
+static const launching_output *output_at(ld_simulation *self, double t, const double *y)
+{
+    if (self->latest.t != t || self->latest.s != y[self->launching.layout.x]) {
+        launching_input input;
+        simulation_input(self, t, &input);
+        self->latest.t = NAN;
+        if (simulation_evaluate(self, &input, &self->phase, y, &self->latest.out))
+            return NULL;
+        self->latest.t = t;
+        self->latest.s = y[self->launching.layout.x];
+    }
+    return &self->latest.out;
 }
 
 // Events: lock release, then each adaptor at the tip, then (lankarani-nikravesh alone) its
@@ -62,31 +80,25 @@ static int events(double t, const double *y, double *g, void *user)
 {
     ld_simulation *self = user;
     int count = self->launching.adaptor_count;
-    double feet[LD_MAX_ADAPTORS];
     const launching_phase *phase = &self->phase;
     for (int i = 0; i < 1 + 2 * count; i++)
         g[i] = 1;
     if (!phase->rocket)
         return 0;
+    const launching_output *out = output_at(self, t, y);
+    if (!out)
+        return -1;
+    if (phase->locked)
+        g[0] = 1 - out->lock_force / self->model->rocket.lock.release_force;
     bool touching = self->launching.contact.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
-    if (phase->locked || touching) {
-        launching_input input;
-        launching_output out;
-        simulation_input(self, t, &input);
-        if (simulation_evaluate(self, &input, phase, y, &out))
-            return -1;
-        if (phase->locked)
-            g[0] = self->model->rocket.lock.present
-                       ? 1 - out.lock_force / self->model->rocket.lock.release_force
-                       : 1;
-        for (int i = 0; i < count && touching; i++)
-            if (!phase->passed[i])
-                g[1 + count + i] = out.adaptor[i].penetration / 1e-3;
+    double length = self->launching.tube.length;
+    for (int i = 0; i < count; i++) {
+        if (phase->passed[i])
+            continue;
+        g[1 + i] = (length - out->adaptor[i].s) / length;
+        if (touching)
+            g[1 + count + i] = out->adaptor[i].penetration / 1e-3;
     }
-    launching_feet(&self->launching, phase, y, feet);
-    for (int i = 0; i < count; i++)
-        if (!phase->passed[i])
-            g[1 + i] = (self->launching.tube.length - feet[i]) / self->launching.tube.length;
     return 0;
 }
 
@@ -119,6 +131,7 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
     self->state_count = self->work + POWER_COUNT;
     self->t_ignition = model->firing[0].at;
     history_build(self);
+    self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
     self->cpu_seconds_setup = (double)(clock() - start) / CLOCKS_PER_SEC;
     *out = self;
     return LD_OK;
@@ -220,7 +233,7 @@ static ld_status make_integrator(launch_run *run)
     }
     integrator_settings settings = {
         .n = (size_t)self->state_count,
-        .method = INTEGRATOR_DORMAND_PRINCE,
+        .method = INTEGRATOR_CASH_KARP,
         .rtol = tolerance,
         .atol = atol,
         .absolute = absolute,
@@ -270,10 +283,14 @@ static ld_status find_start(launch_run *run, double *y)
 
 // ---- what happens at events ----
 
-static void record_exit(launch_run *run, double t, const double *y)
+static void record_exit(launch_run *run, double t, const double *landed)
 {
     ld_simulation *self = run->self;
     const launching_layout *at = &self->launching.layout;
+    // the curvature jumps at the tip: its inner value counts, on whichever side the step landed
+    double y[LD_MAX_STATES];
+    memcpy(y, landed, (size_t)self->state_count * sizeof(double));
+    y[at->x] = fmin(y[at->x], self->launching.tube.length);
     ld_rocket_summary *rocket = &run->summary->rocket[0];
     launching_output out;
     launching_pose pose;
@@ -371,17 +388,16 @@ static void watch_forces(launch_run *run, double t, const double *y)
     if (!self->phase.rocket)
         return;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
-    launching_input input;
-    launching_output out;
-    simulation_input(self, t, &input);
-    if (simulation_evaluate(self, &input, &self->phase, y, &out))
+    const launching_output *out = output_at(self, t, y);
+    if (!out)
         return;
     for (int i = 0; i < self->launching.adaptor_count; i++)
         if (!self->phase.passed[i])
-            rocket->max_contact_force[i] = fmax(rocket->max_contact_force[i], out.adaptor[i].force);
-    rocket->max_slot_force = fmax(rocket->max_slot_force, fabs(out.N));
+            rocket->max_contact_force[i] =
+                fmax(rocket->max_contact_force[i], out->adaptor[i].force);
+    rocket->max_slot_force = fmax(rocket->max_slot_force, fabs(out->N));
     if (self->phase.locked)
-        run->greatest_lock_force = fmax(run->greatest_lock_force, out.lock_force);
+        run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
 }
 
 // ---- what ends a run early ----
@@ -434,12 +450,16 @@ static ld_status check_base(launch_run *run, double t)
                    "the table of the base's motion does not cover t = %.6g s", t);
 }
 
+// Every millisecond of physics: the caller hears of it, and the tube is looked at.
 static ld_status report_progress(launch_run *run, double t)
 {
     const ld_run_options *options = run->options;
-    if (!options || !options->progress || t < run->next_progress)
+    if (t < run->next_progress)
         return LD_OK;
     run->next_progress = t + 1e-3;
+    ld_status status = check_tube(run, t, integrator_state(run->integrator));
+    if (status || !options || !options->progress)
+        return status;
     // a launch's end is not known: the travel's share is the estimate
     const ld_simulation *self = run->self;
     double length = self->launching.tube.length, s0 = self->model->rocket.start_at;
@@ -479,12 +499,24 @@ static bool pass_stop(launch_run *run, double t)
         self->piece++;
         changed = true;
     }
-    if (t >= self->t_ignition && self->phase.locked && !self->model->rocket.lock.present) {
-        self->phase.locked = false;
-        run->summary->rocket[0].t_release = t - self->t_ignition;
-        changed = true;
-    }
     return changed;
+}
+
+// A jump of the thrust, or the start itself, can carry the lock's force past the release force
+// without a crossing that the integrator could locate.
+static void let_go_at_once(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    self->latest.t = NAN;
+    if (!self->phase.locked)
+        return;
+    const launching_output *out = output_at(self, t, y);
+    if (!out || !(out->lock_force > self->model->rocket.lock.release_force))
+        return;
+    run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
+    self->phase.locked = false;
+    self->latest.t = NAN;
+    run->summary->rocket[0].t_release = t - self->t_ignition;
 }
 
 static bool finished(const launch_run *run, double t)
@@ -497,7 +529,8 @@ static bool finished(const launch_run *run, double t)
 
 static ld_status step_failed(launch_run *run)
 {
-    if (!run->self->jammed)
+    double t = integrator_time(run->integrator);
+    if (check_tube(run, t, integrator_state(run->integrator)) || !run->self->jammed)
         return LD_ERR_NUMERIC;
     return ld_fail(run->error, LD_ERR_LAUNCH,
                    "the knob jams in the slot at t = %.6g s: with this angle and friction no slot "
@@ -522,15 +555,15 @@ static ld_status after_step(launch_run *run, integrator_outcome outcome)
             restart_output(run, t);
     }
     if (!status)
-        status = check_tube(run, t, y);
-    if (!status)
         status = check_progress(run, t, y);
     if (!status)
         status = check_base(run, t);
     if (!status)
         status = report_progress(run, t);
-    if (!status && (changed || outcome == INTEGRATOR_EVENT))
+    if (!status && (changed || outcome == INTEGRATOR_EVENT)) {
+        let_go_at_once(run, t, y);
         status = integrator_start(run->integrator, t, y, run->error);
+    }
     return status;
 }
 
@@ -573,6 +606,8 @@ static ld_status begin(launch_run *run)
     run->energy_start = energy.kinetic + energy.potential + energy.elastic;
     if (run->t_start >= self->t_ignition)
         pass_stop(run, run->t_start);
+    self->phase.locked = self->model->rocket.lock.present;
+    let_go_at_once(run, run->t_start, y);
     restart_output(run, run->t_start);
     run->next_progress = run->t_start;
     status = make_integrator(run);
@@ -614,7 +649,8 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
         memcpy(summary->stopped, run->error->text, sizeof summary->stopped);
     summary->statistics.cpu_seconds = cpu_seconds;
     summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
-    summary->mode_count = ld_simulation_tube_modes(self, summary->mode, LD_MAX_MODES);
+    summary->mode_count = self->mode_count;
+    memcpy(summary->mode, self->mode, sizeof summary->mode);
     if (!run->integrator)
         return;
     double t = integrator_time(run->integrator);

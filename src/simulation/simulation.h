@@ -22,6 +22,10 @@ struct ld_simulation {
     double t_ignition;
     int piece; // of the thrust curve
     bool jammed;
+    struct {         // the latest evaluation, which at a step's end is that of the step's end
+        double t, s; // [s], and the rocket's travel [m]: what it belongs to
+        launching_output out;
+    } latest;
     int64_t fallbacks; // evaluations in which the overall form did not hold
     double worst_condition;
 
@@ -29,6 +33,8 @@ struct ld_simulation {
     ld_column column[LD_MAX_COLUMNS];
     char column_text[LD_MAX_COLUMNS][2][96]; // names and descriptions of columns that are counted
     double cpu_seconds_setup;
+    int mode_count;
+    ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
 };
 
 // Thrust, mass and base at time t.

@@ -176,12 +176,43 @@ static void options_equal_dense(void **state)
     reference_model_free(&model);
 }
 
+// The wider instructions give the same bits.
+static void wide_instructions_give_the_same_bits(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
+    reference_model(&model);
+    assert_int_equal(launching_build(system, &model, &error), LD_OK);
+    if (!system->wide_instructions)
+        printf("    this processor has none: nothing to compare\n");
+    uint64_t seed = 7;
+    for (int k = 0; k < 300; k++) {
+        launching_case c;
+        launching_output wide, plain;
+        bool has = system->wide_instructions;
+        memset(&wide, 0, sizeof wide);
+        memset(&plain, 0, sizeof plain);
+        draw_state(system, &seed, k % 4 == 0, &c);
+        launching_evaluate(system, &c.input, &c.phase, c.state, &wide);
+        system->wide_instructions = false;
+        launching_evaluate(system, &c.input, &c.phase, c.state, &plain);
+        system->wide_instructions = has;
+        assert_memory_equal(&wide, &plain, sizeof wide);
+    }
+    launching_free(system);
+    free(system);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reduced_equals_dense),
         cmocka_unit_test(overall_equals_dense),
         cmocka_unit_test(options_equal_dense),
+        cmocka_unit_test(wide_instructions_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
