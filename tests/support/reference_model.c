@@ -81,7 +81,6 @@ static void fill_rocket(ld_rocket *rocket)
                                    .reference_penetration = 1e-3,
                                    .restitution = 0.5,
                                    .reference_speed = 0.5,
-                                   .damping = 5e3,
                                    .friction = 0.12,
                                    .friction_speed = 0.01};
     // lock and motor
@@ -93,7 +92,7 @@ static void fill_rocket(ld_rocket *rocket)
 
 void reference_model(ld_model *model)
 {
-    memset(model, 0, sizeof *model);
+    ld_model_init(model);
     static const char title[] = "Reference launcher, fixed base";
     model->title = malloc(sizeof title);
     memcpy(model->title, title, sizeof title);
