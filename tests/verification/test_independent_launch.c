@@ -272,9 +272,9 @@ static void overall_form_gives_the_same_launch(void **state)
 
 int main(void)
 {
-    static const bounds usual = {3e-9, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 1e-2};
-    static const bounds ringing = {3e-9, 2e-5, 4e-7, 1e-4, 1e-6, 8e-3, 1e-2};
-    static const bounds uneven = {5e-8, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 1e-2};
+    static const bounds usual = {3e-9, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
+    static const bounds ringing = {3e-9, 2e-5, 4e-7, 1e-4, 1e-6, 8e-3, 2e-2};
+    static const bounds uneven = {9e-8, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
     static scenario scenarios[] = {
         {"reference", reference, 100e-6, usual},
         {"no slot", no_slot, 100e-6, ringing},
