@@ -9,12 +9,12 @@
 
 void command_complain(const char *format, ...)
 {
+    char text[2 * LD_ERROR_TEXT];
     va_list arguments;
     va_start(arguments, format);
-    fputs("launchdyn: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    fprintf(stderr, "launchdyn: %s\n", text);
 }
 
 int command_fail(ld_status status, const ld_error *error)

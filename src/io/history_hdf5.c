@@ -114,6 +114,8 @@ static bool create_columns(history_hdf5 *history, const ld_column *columns, size
 ld_status history_hdf5_begin(history_hdf5 *history, const ld_column *columns, size_t count,
                              ld_error *error)
 {
+    if (count == 0)
+        return ld_fail(error, LD_ERR_INPUT, "a history needs columns");
     for (size_t i = 0; i < count; i++)
         if (!*columns[i].name || strchr(columns[i].name, '/'))
             return ld_fail(error, LD_ERR_INPUT, "\"%s\" cannot be the name of a column",
