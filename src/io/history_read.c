@@ -62,9 +62,9 @@ static bool read_names(hid_t group, history_data *history)
 
 static bool read_columns(hid_t group, history_data *history)
 {
-    if (!read_names(group, history))
+    if (!read_names(group, history) || history->rows > SIZE_MAX / 16 / history->columns)
         return false;
-    history->value = calloc(history->columns * history->rows + 1, sizeof *history->value);
+    history->value = malloc((history->columns * history->rows + 1) * sizeof *history->value);
     bool fine = history->value != NULL;
     for (size_t i = 0; fine && i < history->columns; i++) {
         hid_t dataset = H5Dopen2(group, history->name[i], H5P_DEFAULT);
