@@ -58,7 +58,7 @@ typedef struct ld_mstmm_beam {
     int bending, torsion, axial; ///< number of modes: bending per plane
     int elements;                ///< finite elements at least; 0: 40
     double damping;              ///< [-] ratio, of the modes clamped at x = 0
-    ld_mode_span span;           ///< LD_SPAN_CLAMPED or LD_SPAN_FREE_FREE
+    ld_mode_span span;           ///< LD_SPAN_FREE_FREE, or clamped shapes
 } ld_mstmm_beam;
 
 /// One body and the hinge that carries it. All not mentioned may be zero.
@@ -119,9 +119,8 @@ typedef enum ld_mstmm_form {
 
 /// How far an overall transfer equation may be trusted.
 typedef struct ld_mstmm_overall {
-    int order; ///< of the equations solved
-    double
-        residual; ///< largest |tau wanted - tau needed for the result| over the largest force met
+    int order;         ///< of the equations solved
+    double loss;       ///< largest difference from the reduced sweep over the largest acceleration
     char warning[256]; ///< empty, or a sentence: the form cannot hold here
 } ld_mstmm_overall;
 

@@ -24,9 +24,6 @@ static ld_status check(const ld_mstmm_beam *given, const char *name, ld_error *e
             "element '%s': a beam has at most %d bending modes a plane, %d torsional and "
             "%d axial ones",
             name, LD_NB, LD_NT, LD_NA);
-    if (given->span == LD_SPAN_SUPPORTED)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "element '%s': a beam's modes span clamped or free-free shapes", name);
     for (int i = 0; i < given->section_count; i++) {
         const ld_section *s = &given->section[i];
         if (!(s->mass_per_length > 0) || !(s->bending_stiffness > 0) ||
@@ -51,12 +48,13 @@ ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, 
     model->length = given->length;
     model->section_count = given->section_count;
     memcpy(model->section, given->section, (size_t)given->section_count * sizeof *given->section);
-    model->modes = (ld_modes){.bending = given->bending,
-                              .torsion = given->torsion,
-                              .axial = given->axial,
-                              .elements = given->elements ? given->elements : DEFAULT_ELEMENTS,
-                              .span = given->span,
-                              .damping = given->damping};
+    model->modes =
+        (ld_modes){.bending = given->bending,
+                   .torsion = given->torsion,
+                   .axial = given->axial,
+                   .elements = given->elements ? given->elements : DEFAULT_ELEMENTS,
+                   .span = given->span == LD_SPAN_FREE_FREE ? LD_SPAN_FREE_FREE : LD_SPAN_CLAMPED,
+                   .damping = given->damping};
     ld_error reason = {0};
     status = flexible_tube_build(&self->tube, model, &reason);
     free(model);

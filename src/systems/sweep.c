@@ -194,10 +194,15 @@ LD_INLINE void eliminate(share *s, axis_record *record, spatial_lanes U, double 
     s->m += U.alpha * v4d_all(rate);
 }
 
-// Whether D vanishes against Z's own resistance along all axes of its kind.
-LD_INLINE int is_singular(double D, const v4d column[3])
+LD_INLINE double trace(const v4d column[3])
 {
-    return !(D > 4 * DBL_EPSILON * (column[0][0] + column[1][1] + column[2][2]));
+    return column[0][0] + column[1][1] + column[2][2];
+}
+
+// Whether D vanishes against what Z resists along all axes of its kind.
+LD_INLINE int is_singular(double D, double all)
+{
+    return !(D > 4 * DBL_EPSILON * all);
 }
 
 // All axes of a ball or of a free hinge, the last one first. Nothing passes a free hinge but its
@@ -207,12 +212,13 @@ static int eliminate_several(ld_mstmm *system, int i, share *s, const double *ta
     const node *n = &system->node[i];
     m3 H = node_hinge_axes(system, i);
     int slides = n->hinge == NODE_FREE ? 3 : 0, singular = 0;
+    double all_turns = trace(s->C), all_slides = trace(s->A);
     for (int k = slides + 2; k >= 0; k--) {
         bool turn = k >= slides;
         v4d e = turn ? system->motion[i].A[k - slides] : v4d_from_v3(m3_column(H, k));
         spatial_lanes U = turn ? along_turn(s, e) : along_slide(s, e);
         double D = v4d_dot3(e, turn ? U.alpha : U.a);
-        singular |= is_singular(D, turn ? s->C : s->A);
+        singular |= is_singular(D, turn ? all_turns : all_slides);
         double force = tau[n->u + k] - v4d_dot3(e, turn ? s->m : s->f);
         eliminate(s, system->axis + n->axis + k, U, 1 / D, force / D);
     }
@@ -262,7 +268,7 @@ LD_INLINE int pass_turn(share *s, axis_record *record, const node_motion *motion
     spatial_lanes U = along_turn(s, e);
     double D = v4d_dot3(e, U.alpha);
     double force = tau - v4d_sum3(e * s->m + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
-    int singular = is_singular(D, s->C);
+    int singular = is_singular(D, trace(s->C));
     add_bias(s, motion->bias_a, motion->bias_alpha);
     shift(s, r);
     U.alpha += v4d_cross(r, U.a);
@@ -276,7 +282,7 @@ LD_INLINE int pass_slide(share *s, axis_record *record, const node_motion *motio
     spatial_lanes U = along_slide(s, e);
     double D = v4d_dot3(e, U.a);
     double force = tau - v4d_sum3(e * s->f + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
-    int singular = is_singular(D, s->A);
+    int singular = is_singular(D, trace(s->A));
     add_bias(s, motion->bias_a, motion->bias_alpha);
     shift(s, r);
     U.alpha += v4d_cross(r, U.a);

@@ -1,0 +1,150 @@
+// Descriptions that make no system are refused with a sentence that names the element, and states
+// in which a hinge is singular likewise.
+#include "launchdyn/mstmm.h"
+
+#include <string.h>
+
+#include "support/check.h"
+
+static const double gravity[3] = {0, -9.81, 0};
+
+static ld_mstmm_element body(const char *name, const char *parent)
+{
+    return (ld_mstmm_element){.name = name,
+                              .parent = parent,
+                              .at = {1, 0, 0},
+                              .hinge = LD_HINGE_REVOLUTE,
+                              .axis = {0, 0, 1},
+                              .mass = 2,
+                              .center = {0.5, 0, 0},
+                              .inertia = {0.1, 0.2, 0.2}};
+}
+
+static void refused(const ld_mstmm_element *elements, int count, const char *sentence)
+{
+    ld_mstmm *system = NULL;
+    ld_error error = {0};
+    assert_int_equal(ld_mstmm_create(elements, count, gravity, &system, &error), LD_ERR_INPUT);
+    if (strcmp(error.text, sentence))
+        fail_msg("got:  %s\nnot:  %s", error.text, sentence);
+    assert_null(system);
+}
+
+static void test_bad_descriptions(void **state)
+{
+    (void)state;
+    ld_mstmm_element e[3] = {body("a", NULL), body("b", "a"), body("c", "b")};
+    refused(e, 0, "a system needs at least one element and gravity");
+
+    e[1].parent = "x";
+    refused(e, 3, "element 'b': its parent 'x' does not exist");
+    e[1].parent = "c";
+    refused(e, 3,
+            "element 'b' is its own ancestor: a circle never reaches the ground (closed loops are "
+            "not supported)");
+    e[1].parent = "b";
+    refused(e, 3,
+            "element 'b' is its own ancestor: a circle never reaches the ground (closed loops are "
+            "not supported)");
+    e[1] = body("a", NULL);
+    refused(e, 3,
+            "element 'a' is given twice: a body has one inboard hinge, closed loops are not "
+            "supported");
+    e[1] = body("", "a");
+    refused(e, 3, "element number 2 needs a name of 1 to 63 letters");
+
+    e[1] = body("b", "a");
+    e[2].mass = 0;
+    refused(e, 3, "element 'c': an end body without mass");
+    e[2].mass = -1;
+    refused(e, 3, "element 'c': its mass is negative (-1 kg)");
+    e[2].mass = NAN;
+    refused(e, 3, "element 'c': a value is not finite");
+    e[2] = body("c", "b");
+    const char *const no_body =
+        "element 'c': its inertia is that of no body (each principal moment "
+        "must be positive or 0 and none above the sum of the other two)";
+    e[2].inertia[1] = -0.2;
+    refused(e, 3, no_body);
+    e[2].inertia[1] = 0.5;
+    refused(e, 3, no_body);
+    e[2].inertia[1] = 0.2;
+    e[2].inertia[3] = 0.3;
+    refused(e, 3, no_body);
+
+    e[2] = body("c", "b");
+    e[2].axis[2] = 0;
+    refused(e, 3, "element 'c': its revolute hinge needs an axis");
+    e[2] = body("c", "b");
+    e[2].hinge = LD_HINGE_UNIVERSAL;
+    refused(e, 3, "element 'c': its universal hinge needs two axes");
+    e[2].axis_2[2] = 2;
+    refused(e, 3, "element 'c': the two axes of its universal hinge are parallel");
+    e[2] = body("c", "b");
+    e[2].hinge = (ld_hinge)77;
+    refused(e, 3, "element 'c': no such hinge");
+    e[2] = body("c", "b");
+    e[2].stiffness[0] = -1;
+    refused(e, 3, "element 'c': stiffness and damping of its hinge must not be negative");
+
+    const ld_section section = {.mass_per_length = 2,
+                                .axial_stiffness = 1e6,
+                                .bending_stiffness = 50,
+                                .torsion_stiffness = 40,
+                                .polar_inertia = 1e-3};
+    ld_mstmm_beam beam = {.length = 0.8, .section_count = 1, .section = &section, .bending = 2};
+    e[1].beam = &beam;
+    e[2] = body("c", "b");
+    refused(e, 3, "element 'c': its station 1 m is not on the beam 'b' (0 to 0.8 m)");
+    beam.length = 0;
+    refused(e, 2, "element 'b': a beam needs a length above 0 and at least one section");
+    beam.length = 0.8;
+    beam.bending = 1000;
+    refused(
+        e, 3,
+        "element 'b': a beam has at most 24 bending modes a plane, 8 torsional and 8 axial ones");
+}
+
+// A point mass on its own axis: nothing resists the turn.
+static void test_singular_hinges(void **state)
+{
+    (void)state;
+    ld_mstmm_element e[2] = {body("arm", NULL), body("bob", "arm")};
+    memset(e[1].inertia, 0, sizeof e[1].inertia);
+    memset(e[1].center, 0, sizeof e[1].center);
+    ld_mstmm *system;
+    ld_error error = {0};
+    double q[2] = {0.3, 0.4}, u[2] = {1, 2}, u_dot[2];
+    assert_int_equal(ld_mstmm_create(e, 2, gravity, &system, &error), LD_OK);
+    assert_int_equal(ld_mstmm_accelerations(system, q, u, NULL, NULL, u_dot, &error),
+                     LD_ERR_NUMERIC);
+    assert_string_equal(error.text, "element 'bob': its hinge is in a singular state, nothing "
+                                    "resists along one of its axes");
+    ld_mstmm_free(system);
+
+    // a point mass off a ball: no resistance about the line through it, whatever the rounding
+    e[1].hinge = LD_HINGE_SPHERICAL;
+    e[1].center[0] = 0.3;
+    e[1].center[1] = 0.2;
+    e[1].center[2] = 0.1;
+    double q_ball[5] = {0.3, 0.1, 0.2, 0.3, 0.4}, u_ball[4] = {1, 2, 3, 4}, u_dot_ball[4];
+    assert_int_equal(ld_mstmm_create(e, 2, gravity, &system, &error), LD_OK);
+    assert_int_equal(ld_mstmm_accelerations(system, q_ball, u_ball, NULL, NULL, u_dot_ball, &error),
+                     LD_ERR_NUMERIC);
+    assert_string_equal(error.text, "element 'bob': its hinge is in a singular state, nothing "
+                                    "resists along one of its axes");
+    q_ball[0] = NAN;
+    assert_int_equal(ld_mstmm_accelerations(system, q_ball, u_ball, NULL, NULL, u_dot_ball, &error),
+                     LD_ERR_NUMERIC);
+    assert_string_equal(error.text, "element 'bob': its state is not finite");
+    ld_mstmm_free(system);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bad_descriptions),
+        cmocka_unit_test(test_singular_hinges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
