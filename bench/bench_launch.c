@@ -1,5 +1,6 @@
-// Cost of a launch: one evaluation of the launching subsystem's accelerations, set-up, a whole launch.
-// Medians of many, process CPU time; the reference launcher on a fixed base at default settings.
+// Cost of a launch: one evaluation of the launching subsystem's accelerations, set-up, a whole
+// launch. Medians of many, process CPU time; the reference launcher on a fixed base at default
+// settings.
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -25,8 +26,8 @@ static int ascending(const void *a, const void *b)
 static void print(const char *what, double *sample, int count, double unit, const char *name)
 {
     qsort(sample, (size_t)count, sizeof *sample, ascending);
-    printf("%-58s median %8.3f  least %8.3f %s\n", what, sample[count / 2] / unit,
-           sample[0] / unit, name);
+    printf("%-58s median %8.3f  least %8.3f %s\n", what, sample[count / 2] / unit, sample[0] / unit,
+           name);
 }
 
 // A state in the tube with `contacts` adaptors on the wall.
