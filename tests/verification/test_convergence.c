@@ -1,0 +1,269 @@
+// The launch converges: in the modes of every span to the same answer, in the tolerance through
+// every event (formulation.md, section 7, items 4 and 10); and it repeats bit by bit.
+// ctest: slow
+#include <stdlib.h>
+
+#include "launchdyn/simulation.h"
+#include "support/check.h"
+#include "support/reference_model.h"
+
+static ld_summary launch(const ld_model *model)
+{
+    ld_simulation *simulation;
+    ld_summary summary;
+    ld_error error;
+    if (ld_simulation_create(model, &simulation, &error) ||
+        ld_simulation_run(simulation, NULL, &summary, &error))
+        fail_msg("%s", error.text);
+    ld_simulation_free(simulation);
+    return summary;
+}
+
+// What a user reads, and how far two launches differ in it.
+typedef struct muzzle {
+    double instant;  // [s] largest of t_release, t_front, t_middle, t_rear
+    double speed;    // [m/s] muzzle speed
+    double rates[3]; // [rad/s] pitch rate, yaw rate, spin
+    double angle;    // [rad] pitch, yaw
+} muzzle;
+
+static muzzle difference(const ld_summary *a, const ld_summary *b)
+{
+    const ld_rocket_summary *p = &a->rocket[0], *q = &b->rocket[0];
+    muzzle d = {.speed = fabs(p->muzzle_speed - q->muzzle_speed),
+                .rates = {fabs(p->pitch_rate - q->pitch_rate), fabs(p->yaw_rate - q->yaw_rate),
+                          fabs(p->spin_rate - q->spin_rate)},
+                .angle = fmax(fabs(p->pitch - q->pitch), fabs(p->yaw - q->yaw))};
+    d.instant = fmax(fmax(fabs(p->t_release - q->t_release), fabs(p->t_front - q->t_front)),
+                     fmax(fabs(p->t_middle - q->t_middle), fabs(p->t_rear - q->t_rear)));
+    return d;
+}
+
+static void eccentric_model(ld_model *model)
+{
+    reference_model(model);
+    model->rocket.eccentricity[0] = 0.5e-3;
+}
+
+static void print_head(const char *what)
+{
+    printf("  %-18s instants [s]  speed [m/s]  pitch rate, yaw rate, spin [rad/s], angles [rad]\n",
+           what);
+}
+
+static void print_row(const char *what, int steps, const muzzle *d)
+{
+    printf("  %-18s   %9.1e    %9.1e   %9.1e %9.1e %9.1e %9.1e  %d steps\n", what, d->instant,
+           d->speed, d->rates[0], d->rates[1], d->rates[2], d->angle, steps);
+}
+
+static const struct {
+    ld_mode_span span;
+    const char *name;
+} spans[] = {{LD_SPAN_SUPPORTED, "supported"},
+             {LD_SPAN_CLAMPED, "clamped"},
+             {LD_SPAN_FREE_FREE, "free-free"}};
+
+// One row for each span: the greatest of the three differences from `truth`.
+static muzzle compare_spans(ld_model *model, const ld_summary *truth)
+{
+    muzzle worst = {0};
+    for (int i = 0; i < 3; i++) {
+        char name[32];
+        model->tubes.modes.span = spans[i].span;
+        ld_summary summary = launch(model);
+        muzzle d = difference(&summary, truth);
+        snprintf(name, sizeof name, "%s %d, %d", spans[i].name, model->tubes.modes.bending,
+                 model->tubes.modes.torsion);
+        print_row(name, (int)summary.statistics.steps, &d);
+        worst.instant = fmax(worst.instant, d.instant);
+        worst.speed = fmax(worst.speed, d.speed);
+        for (int k = 0; k < 3; k++)
+            worst.rates[k] = fmax(worst.rates[k], d.rates[k]);
+    }
+    model->tubes.modes.span = LD_SPAN_SUPPORTED;
+    return worst;
+}
+
+static void spans_converge_in_bending(void **state)
+{
+    (void)state;
+    static const int modes[] = {4, 6, 8, 12, 16};
+    static const double instant[] = {3e-7, 1.5e-7, 1e-7, 8e-8, 7e-8};
+    static const double speed[] = {1e-4, 6e-5, 3e-5, 8e-6, 6e-6};
+    static const double rate[] = {2e-3, 1e-3, 4e-4, 1.5e-4, 1e-4};
+    ld_model model;
+    eccentric_model(&model);
+    model.run.tolerance = 1e-7;
+    model.tubes.modes.torsion = 8;
+    model.tubes.modes.bending = 24;
+    ld_summary truth = launch(&model);
+    print_head("span, bending, torsion");
+    for (int k = 0; k < 5; k++) {
+        model.tubes.modes.bending = modes[k];
+        muzzle worst = compare_spans(&model, &truth);
+        CHECK_BELOW("instants [s]", worst.instant, instant[k]);
+        CHECK_BELOW("muzzle speed [m/s]", worst.speed, speed[k]);
+        CHECK_BELOW("pitch rate [rad/s]", worst.rates[0], rate[k]);
+        CHECK_BELOW("yaw rate [rad/s]", worst.rates[1], rate[k]);
+        CHECK_BELOW("spin [rad/s]", worst.rates[2], 2e-3);
+    }
+    reference_model_free(&model);
+}
+
+// Torsion: the supports and the slot bear moments at points, where the shapes have no kink, so that
+// the spin converges with the first power only.
+static void spans_converge_in_torsion(void **state)
+{
+    (void)state;
+    static const int modes[] = {1, 2, 4, 8};
+    static const double spin[] = {1.6e-2, 8e-3, 3e-3, 1.6e-3};
+    ld_model model;
+    eccentric_model(&model);
+    model.run.tolerance = 1e-7;
+    model.tubes.modes.torsion = 8;
+    model.tubes.modes.bending = 8;
+    ld_summary truth = launch(&model);
+    print_head("span, bending, torsion");
+    for (int k = 0; k < 4; k++) {
+        model.tubes.modes.torsion = modes[k];
+        muzzle worst = compare_spans(&model, &truth);
+        CHECK_BELOW("spin [rad/s]", worst.rates[2], spin[k]);
+    }
+    reference_model_free(&model);
+}
+
+// What a user gets by default against everything finer at once.
+static void defaults_are_converged(void **state)
+{
+    (void)state;
+    ld_model model;
+    eccentric_model(&model);
+    print_head("default against fine");
+    for (int i = 0; i < 2; i++) {
+        model.rocket.eccentricity[0] = i * 0.5e-3;
+        ld_summary usual = launch(&model);
+        ld_model fine = model;
+        fine.tubes.modes.bending = 24;
+        fine.tubes.modes.torsion = 8;
+        fine.tubes.modes.elements = 160;
+        fine.run.tolerance = 1e-8;
+        ld_summary truth = launch(&fine);
+        muzzle d = difference(&usual, &truth);
+        print_row(i ? "eccentric 0.5 mm" : "reference", (int)usual.statistics.steps, &d);
+        CHECK_BELOW("instants [s]", d.instant, 8e-8);
+        CHECK_BELOW("muzzle speed [m/s]", d.speed, 1e-5);
+        CHECK_BELOW("pitch rate [rad/s]", d.rates[0], 3e-4);
+        CHECK_BELOW("yaw rate [rad/s]", d.rates[1], 3e-4);
+        CHECK_BELOW("spin [rad/s]", d.rates[2], 4e-3);
+    }
+    reference_model_free(&model);
+}
+
+// ---- tolerance ----
+
+// Corners and a jump of the thrust on the way.
+static void set_thrust(ld_model *model)
+{
+    free(model->rocket.motor.thrust.data);
+    model->rocket.motor.thrust = reference_table(
+        7, 2,
+        (double[]){0, 0, 0.01, 15e3, 0.05, 15e3, 0.05, 12e3, 0.09, 17e3, 0.13, 14e3, 2.5, 15e3});
+}
+
+enum { TOLERANCES = 7 };
+static const double tolerances[TOLERANCES] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+
+typedef struct tolerance_bounds {
+    double instant[TOLERANCES], speed[TOLERANCES], rate[TOLERANCES], spin[TOLERANCES];
+} tolerance_bounds;
+
+static void check_tolerances(ld_model *model, const tolerance_bounds *bound)
+{
+    model->run.tolerance = 1e-12;
+    ld_summary truth = launch(model);
+    print_head("tolerance");
+    for (int i = 0; i < TOLERANCES; i++) {
+        char name[32];
+        model->run.tolerance = tolerances[i];
+        ld_summary summary = launch(model);
+        muzzle d = difference(&summary, &truth);
+        snprintf(name, sizeof name, "%.0e", tolerances[i]);
+        print_row(name, (int)summary.statistics.steps, &d);
+        CHECK_BELOW("instants [s]", d.instant, bound->instant[i]);
+        CHECK_BELOW("muzzle speed [m/s]", d.speed, bound->speed[i]);
+        CHECK_BELOW("pitch and yaw rate [rad/s]", fmax(d.rates[0], d.rates[1]), bound->rate[i]);
+        CHECK_BELOW("spin [rad/s]", d.rates[2], bound->spin[i]);
+    }
+}
+
+// The whole thing, touching and parting adaptors and the nodes of the tube included: they are kinks
+// that step control passes.
+static void tolerance_converges(void **state)
+{
+    (void)state;
+    ld_model model;
+    eccentric_model(&model);
+    set_thrust(&model);
+    static const tolerance_bounds bound = {
+        .instant = {4e-8, 2.5e-9, 5e-10, 8e-11, 1e-11, 7e-12, 2e-12},
+        .speed = {2e-7, 2e-7, 8e-8, 8e-8, 3e-8, 1.2e-8, 3.5e-9},
+        .rate = {7e-6, 3e-6, 6e-7, 6e-7, 2e-8, 1.2e-8, 1e-9},
+        .spin = {1.2e-5, 1.2e-5, 4e-6, 2e-6, 2e-6, 8e-7, 2.5e-7}};
+    check_tolerances(&model, &bound);
+    reference_model_free(&model);
+}
+
+// Smooth between the events (release, corners and jump of the thrust, three exits): adaptors
+// without clearance, a tube of one element with its supports at the ends, no friction. The longest
+// step allowed, 0.2 ms, makes it exact already at coarse tolerances: what is left at 1e-4 comes
+// from the events, nearly nothing.
+static void tolerance_converges_between_events(void **state)
+{
+    (void)state;
+    ld_model model;
+    eccentric_model(&model);
+    set_thrust(&model);
+    model.tubes.support[0].at = 0;
+    model.tubes.support[1].at = model.tubes.length;
+    model.tubes.modes.elements = 1;
+    model.tubes.modes.bending = 2;
+    model.tubes.modes.torsion = 1;
+    model.tubes.slot.friction = 0;
+    model.rocket.contact.law = LD_CONTACT_BILATERAL;
+    model.rocket.contact.friction = 0;
+    static const tolerance_bounds bound = {
+        .instant = {8e-12, 8e-12, 8e-12, 8e-12, 8e-12, 8e-12, 5e-12},
+        .speed = {5e-9, 4e-10, 4e-10, 4e-10, 1.5e-10, 5e-11, 2e-11},
+        .rate = {1e-8, 6e-10, 6e-10, 5e-10, 5e-10, 5e-11, 6e-12},
+        .spin = {3e-6, 1.5e-7, 1.5e-7, 1.5e-7, 5e-8, 3e-9, 5e-10}};
+    check_tolerances(&model, &bound);
+    reference_model_free(&model);
+}
+
+static void same_bits_again(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_summary first, second;
+    eccentric_model(&model);
+    first = launch(&model);
+    second = launch(&model);
+    first.statistics.cpu_seconds = second.statistics.cpu_seconds = 0;
+    first.statistics.cpu_seconds_setup = second.statistics.cpu_seconds_setup = 0;
+    assert_memory_equal(&first, &second, sizeof first);
+    reference_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(spans_converge_in_bending),
+        cmocka_unit_test(spans_converge_in_torsion),
+        cmocka_unit_test(defaults_are_converged),
+        cmocka_unit_test(tolerance_converges),
+        cmocka_unit_test(tolerance_converges_between_events),
+        cmocka_unit_test(same_bits_again),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
