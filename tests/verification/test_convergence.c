@@ -234,9 +234,9 @@ static void tolerance_converges_between_events(void **state)
     model.rocket.contact.friction = 0;
     static const tolerance_bounds bound = {
         .instant = {8e-12, 8e-12, 8e-12, 8e-12, 8e-12, 8e-12, 5e-12},
-        .speed = {5e-9, 4e-10, 4e-10, 4e-10, 1.5e-10, 5e-11, 2e-11},
-        .rate = {1e-8, 6e-10, 6e-10, 5e-10, 5e-10, 5e-11, 6e-12},
-        .spin = {3e-6, 1.5e-7, 1.5e-7, 1.5e-7, 5e-8, 3e-9, 5e-10}};
+        .speed = {5e-9, 4e-10, 4e-10, 5e-10, 2e-10, 5e-11, 2e-11},
+        .rate = {1e-8, 1e-8, 1e-8, 8e-9, 1.5e-9, 1.3e-10, 1.5e-11},
+        .spin = {3e-6, 1.5e-7, 1.5e-7, 1.8e-7, 6e-8, 6e-9, 6e-10}};
     check_tolerances(&model, &bound);
     reference_model_free(&model);
 }
