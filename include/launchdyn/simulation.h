@@ -74,18 +74,24 @@ typedef struct ld_energy {
     double residual_relative; ///< the same over the largest single work
 } ld_energy;
 
-/// One natural frequency. `damping` is the ratio, `shape` says what moves most.
+/// One natural frequency, of the linearised system without its dampers, and what the dampers do to
+/// that shape.
 typedef struct ld_mode {
-    double frequency; ///< [Hz]; 0 for an overdamped or rigid one
-    double damping;   ///< [-] ratio
-    double real;      ///< [1/s] real part of the eigenvalue
-    const char *shape;
+    double frequency;  ///< [Hz] undamped
+    double damping;    ///< [-] ratio
+    double real;       ///< [1/s] -damping 2 pi frequency
+    const char *shape; ///< what moves most
 } ld_mode;
+
+/// An eigenvalue of the linearised system with its dampers [1/s]; one of each conjugate pair.
+typedef struct ld_pole {
+    double real, imaginary; ///< [1/s], [rad/s] >= 0
+} ld_pole;
 
 typedef struct ld_statistics {
     int64_t steps;
     int64_t rhs_evaluations;
-    double cpu_seconds;       ///< of the run, without set-up
+    double cpu_seconds;       ///< of the run, without set-up and without the history's rows
     double cpu_seconds_setup; ///< modes, coefficients, tables
 } ld_statistics;
 
@@ -135,15 +141,18 @@ typedef struct ld_run_options {
 ld_status ld_simulation_run(ld_simulation *simulation, const ld_run_options *options,
                             ld_summary *summary, ld_error *error);
 
-/// Natural frequencies of tube and tail on their supports (base held), from the finite elements.
+/// Natural frequencies of tube and tail on their supports (base held), ascending.
 /// @return the number written to `modes` (at most `capacity`)
 int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity);
 
-/// Eigenvalues of the launching subsystem (tube, tail, rocket on its adaptors, lock closed)
-/// linearised at its static equilibrium, without Coulomb friction; ascending frequency.
-/// @return LD_OK or LD_ERR_NUMERIC
+/// The launching subsystem (tube, tail, rocket on its adaptors, lock closed) linearised at its
+/// static equilibrium, without Coulomb friction: undamped modes by ascending frequency, and the
+/// eigenvalues with damping by ascending modulus. Those that lock and slot leave at zero are left
+/// out.
+/// @return LD_OK, LD_ERR_NUMERIC or LD_ERR_MEMORY
 ld_status ld_simulation_system_modes(ld_simulation *simulation, ld_mode *modes, int capacity,
-                                     int *count, ld_error *error);
+                                     int *count, ld_pole *poles, int pole_capacity, int *pole_count,
+                                     ld_error *error);
 
 /// Columns of the history, in order.
 size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns);

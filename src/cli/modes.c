@@ -9,30 +9,37 @@ enum { MOST = 2 * LD_MAX_MODES };
 static void print_modes(const char *title, const ld_mode *modes, int count)
 {
     printf("%s\n       frequency [Hz]  damping ratio [%%]  shape\n", title);
-    for (int i = 0; i < count; i++) {
-        const ld_mode *mode = &modes[i];
-        if (mode->frequency > 0)
-            printf("%4d %16.4f %18.4f  %s\n", i + 1, mode->frequency, mode->damping * 100,
-                   mode->shape);
-        else
-            printf("%4d %16s %14.5g 1/s  %s\n", i + 1, "-", mode->real, mode->shape);
-    }
+    for (int i = 0; i < count; i++)
+        printf("%4d %16.4f %18.4f  %s\n", i + 1, modes[i].frequency, modes[i].damping * 100,
+               modes[i].shape);
+}
+
+static void print_poles(const ld_pole *poles, int count)
+{
+    puts("Its eigenvalues with damping\n           real [1/s]  imaginary [rad/s]");
+    for (int i = 0; i < count; i++)
+        printf("%4d %16.6g %18.6g\n", i + 1, poles[i].real, poles[i].imaginary);
 }
 
 static ld_status list_modes(const ld_model *model, ld_error *error)
 {
     static ld_mode modes[MOST];
+    static ld_pole poles[2 * MOST];
     ld_simulation *simulation = NULL;
     ld_status status = ld_simulation_create(model, &simulation, error);
     if (status)
         return status;
-    int count = ld_simulation_tube_modes(simulation, modes, MOST);
-    print_modes("Tube and tail on their supports, base held", modes, count);
-    status = ld_simulation_system_modes(simulation, modes, MOST, &count, error);
+    int count = ld_simulation_tube_modes(simulation, modes, MOST), pole_count;
+    print_modes("Tube and tail on their supports, base held, undamped frequencies", modes, count);
+    status = ld_simulation_system_modes(simulation, modes, MOST, &count, poles, 2 * MOST,
+                                        &pole_count, error);
     if (!status) {
         putchar('\n');
-        print_modes("Tube, tail and locked rocket about their equilibrium, no Coulomb friction",
+        print_modes("Tube, tail and locked rocket about their equilibrium, no Coulomb friction, "
+                    "undamped",
                     modes, count);
+        putchar('\n');
+        print_poles(poles, pole_count);
     }
     ld_simulation_free(simulation);
     return status;

@@ -40,22 +40,19 @@ tip_state tip_state_of(const ld_simulation *self, const base_frame *base, const 
     };
 }
 
-void simulation_energy(const ld_simulation *self, double t, const double *y, double energy_start,
+void simulation_energy(const ld_simulation *self, const launching_input *input,
+                       const launching_output *out, const double *y, double energy_start,
                        ld_energy *energy)
 {
-    launching_input input;
-    launching_output out;
     const double *work = y + self->work;
-    simulation_input(self, t, &input);
-    launching_evaluate(&self->launching, &input, &self->phase, y, &out);
     double sum = 0, largest = 0;
     for (int i = 0; i < POWER_COUNT; i++) {
         sum += work[i];
         largest = fmax(largest, fabs(work[i]));
     }
-    energy->kinetic = launching_kinetic_energy(&self->launching, &input, &self->phase, y);
+    energy->kinetic = launching_kinetic_energy(&self->launching, input, &self->phase, y);
     energy->potential = launching_potential_energy(&self->launching, y);
-    energy->elastic = out.elastic;
+    energy->elastic = out->elastic;
     energy->work = (ld_work){.thrust = work[POWER_THRUST],
                              .gravity_rocket = work[POWER_GRAVITY_ROCKET],
                              .contact_normal = work[POWER_CONTACT_NORMAL],
@@ -276,7 +273,7 @@ void history_row(const ld_simulation *self, double t, const double *y, double en
         for (int i = 0; i < 25 + 5 * self->launching.adaptor_count; i++)
             *to++ = NAN;
     ld_energy energy;
-    simulation_energy(self, t, y, energy_start, &energy);
+    simulation_energy(self, &input, &out, y, energy_start, &energy);
     to = put(to, (double[]){energy.kinetic, energy.potential, energy.elastic}, 3);
     to = put(to, y + self->work, POWER_COUNT);
     *to = energy.residual;

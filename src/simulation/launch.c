@@ -165,6 +165,7 @@ typedef struct launch_run {
     double last_row;      // time of the last row written
     double next_progress;
     double greatest_lock_force;
+    double cpu_output; // [s] spent on rows and their sink
 } launch_run;
 
 static double output_step(const launch_run *run, double t)
@@ -173,14 +174,23 @@ static double output_step(const launch_run *run, double t)
     return t < run->self->t_ignition ? settings->output_step_lead_in : settings->output_step_tube;
 }
 
+static double cpu_now(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
 static ld_status write_row(launch_run *run, double t, const double *y)
 {
     const ld_sink *sink = run->options ? run->options->sink : NULL;
     if (!sink || t == run->last_row)
         return LD_OK;
     run->last_row = t;
+    double start = cpu_now();
     history_row(run->self, t, y, run->energy_start, run->row);
-    return sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
+    ld_status status =
+        sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
+    run->cpu_output += cpu_now() - start;
+    return status;
 }
 
 // Rows that fell into the last step.
@@ -583,6 +593,16 @@ static ld_status loop(launch_run *run)
     return LD_OK;
 }
 
+static void energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
+                      ld_energy *energy)
+{
+    launching_input input;
+    launching_output out;
+    simulation_input(self, t, &input);
+    simulation_evaluate(self, &input, &self->phase, y, &out);
+    simulation_energy(self, &input, &out, y, energy_start, energy);
+}
+
 static ld_status begin(launch_run *run)
 {
     ld_simulation *self = run->self;
@@ -597,12 +617,14 @@ static ld_status begin(launch_run *run)
     if (!status)
         status = find_start(run, y);
     const ld_sink *sink = run->options ? run->options->sink : NULL;
+    double before = cpu_now();
     if (!status && sink)
         status = sink->begin(sink->self, self->column, (size_t)self->column_count, run->error);
+    run->cpu_output += cpu_now() - before;
     if (status)
         return status;
     ld_energy energy;
-    simulation_energy(self, run->t_start, y, 0, &energy);
+    energy_at(self, run->t_start, y, 0, &energy);
     run->energy_start = energy.kinetic + energy.potential + energy.elastic;
     if (run->t_start >= self->t_ignition)
         pass_stop(run, run->t_start);
@@ -655,8 +677,7 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
         return;
     double t = integrator_time(run->integrator);
     summary->t_end = t;
-    simulation_energy(self, t, integrator_state(run->integrator), run->energy_start,
-                      &summary->energy);
+    energy_at(self, t, integrator_state(run->integrator), run->energy_start, &summary->energy);
     summary->statistics.steps = integrator_steps(run->integrator);
     summary->statistics.rhs_evaluations = integrator_evaluations(run->integrator);
     note_formulation(self, summary);
@@ -666,7 +687,7 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
                             ld_error *error)
 {
     ld_error own;
-    clock_t start = clock();
+    double start = cpu_now();
     memset(summary, 0, sizeof *summary);
     double row[LD_MAX_COLUMNS], between[LD_MAX_STATES];
     launch_run run = {.self = self,
@@ -678,7 +699,7 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
     ld_status status = begin(&run);
     if (!status)
         status = loop(&run);
-    summarise(&run, status, (double)(clock() - start) / CLOCKS_PER_SEC);
+    summarise(&run, status, cpu_now() - start - run.cpu_output);
     integrator_free(run.integrator);
     return status;
 }

@@ -6,12 +6,14 @@
 
 #include "simulation/simulation.h"
 
-// First-order unknowns: place and attitude of R (6), q, then of the rocket s, y_S, z_S, psi, theta,
-// gamma; and their speeds: v, w, q_dot, V. Without the rocket its twelve are left out.
+static const double TWO_PI = 6.283185307179586476925286766559;
+
+// Unknowns: place and attitude of R (6), q, then of the rocket s, y_S, z_S, psi, theta, gamma;
+// their speeds v, w, q_dot, V. At rest x_dot = T v, v_dot = -K x - C v. Without the rocket its six
+// are left out.
 typedef struct linear_system {
-    int n;     // unknowns
-    int half;  // displacements
-    double *A; // n x n, by columns
+    int half;          // displacements, and speeds
+    double *T, *K, *C; // half x half, by columns
 } linear_system;
 
 static void displace(const ld_simulation *self, int half, int unknown, double change, double *y)
@@ -53,13 +55,20 @@ static int rates(const ld_simulation *self, const launching_input *input,
     return 0;
 }
 
-static int linearise(const ld_simulation *self, const launching_input *input,
-                     const launching_phase *phase, const double *y, linear_system *system)
+static ld_status linearise(const ld_simulation *self, const launching_input *input,
+                           const launching_phase *phase, const double *y, linear_system *system,
+                           ld_error *error)
 {
-    int n = system->n, half = system->half;
+    int half = 6 + self->launching.layout.nq + (phase->rocket ? 6 : 0);
     double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], trial[LD_MAX_STATES];
-    size_t size = (size_t)self->state_count * sizeof(double);
-    for (int j = 0; j < n; j++) {
+    size_t size = (size_t)self->state_count * sizeof(double), square = (size_t)half * (size_t)half;
+    system->half = half;
+    system->T = calloc(3 * square, sizeof(double));
+    if (!system->T)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
+    system->K = system->T + square;
+    system->C = system->T + 2 * square;
+    for (int j = 0; j < 2 * half; j++) {
         double h = j < half ? 1e-7 : 1e-5;
         memcpy(trial, y, size);
         displace(self, half, j, h, trial);
@@ -67,16 +76,22 @@ static int linearise(const ld_simulation *self, const launching_input *input,
         memcpy(trial, y, size);
         displace(self, half, j, -h, trial);
         if (bad || rates(self, input, phase, trial, half, minus))
-            return -1;
-        for (int i = 0; i < n; i++)
-            system->A[i + n * j] = (plus[i] - minus[i]) / (2 * h);
+            return ld_fail(error, LD_ERR_NUMERIC, "the equations cannot be linearised");
+        for (int i = 0; i < half; i++) {
+            double of_speed = (plus[half + i] - minus[half + i]) / (2 * h);
+            if (j < half) {
+                system->K[i + half * j] = -of_speed;
+            } else {
+                system->C[i + half * (j - half)] = -of_speed;
+                system->T[i + half * (j - half)] = (plus[i] - minus[i]) / (2 * h);
+            }
+        }
     }
-    return 0;
+    return LD_OK;
 }
 
 // Which part moves most in an eigenvector: the group with the largest kinetic energy.
-static const char *shape_of(const ld_simulation *self, int half, bool rocket, const double *real,
-                            const double *imaginary)
+static const char *shape_of(const ld_simulation *self, bool rocket, const double *speeds)
 {
     enum { VERTICAL, LATERAL, ALONG, TWIST, ROCKET_Y, ROCKET_Z, ROCKET_ROLL, GROUPS };
     static const char *const names[GROUPS] = {
@@ -92,7 +107,7 @@ static const char *shape_of(const ld_simulation *self, int half, bool rocket, co
     const double mass[6] = {m, m, m, launching->jx, j, j};
     const int group[6] = {ALONG, VERTICAL, LATERAL, TWIST, LATERAL, VERTICAL};
     for (int i = 0; i < 6 + nq + (rocket ? 6 : 0); i++) {
-        double amount = real[half + i] * real[half + i] + imaginary[half + i] * imaginary[half + i];
+        double amount = speeds[i] * speeds[i];
         int k = i - 6;
         if (i < 6)
             energy[group[i]] += mass[i] * amount;
@@ -121,87 +136,129 @@ static const char *shape_of(const ld_simulation *self, int half, bool rocket, co
 static int by_frequency(const void *a, const void *b)
 {
     const ld_mode *p = a, *q = b;
-    if (p->frequency != q->frequency)
-        return p->frequency < q->frequency ? -1 : 1;
-    return p->real < q->real ? -1 : p->real > q->real;
+    return (p->frequency > q->frequency) - (p->frequency < q->frequency);
 }
 
-// Eigenvalues with positive imaginary part, and real ones; those that the constraints leave at zero
-// are dropped.
-static int collect(const ld_simulation *self, const linear_system *system, bool rocket,
-                   const double *wr, const double *wi, const double *vectors, ld_mode *modes,
-                   int capacity)
+// left^T C right/(left^T right): what the dampers do to a mode, 2 zeta omega.
+static double modal_damping(int n, const double *C, const double *left, const double *right)
 {
-    int count = 0, n = system->n;
-    const double zeros[2 * LD_MAX_STATES] = {0};
-    for (int i = 0; i < n && count < capacity; i++) {
-        double size = hypot(wr[i], wi[i]);
-        if (wi[i] < 0 || size < 1)
-            continue;
-        const double *v = vectors + (size_t)(n * i);
-        modes[count++] = (ld_mode){
-            .frequency = wi[i] / 6.283185307179586,
-            .damping = -wr[i] / size,
-            .real = wr[i],
-            .shape = shape_of(self, system->half, rocket, v, wi[i] > 0 ? v + n : zeros),
-        };
+    double damped = 0, norm = 0;
+    for (int j = 0; j < n; j++) {
+        norm += left[j] * right[j];
+        for (int i = 0; i < n; i++)
+            damped += left[i] * C[i + n * j] * right[j];
     }
-    qsort(modes, (size_t)count, sizeof *modes, by_frequency);
-    return count;
+    return damped / norm;
 }
 
-static int eigenmodes(const ld_simulation *self, const launching_input *input,
-                      const launching_phase *phase, const double *y, ld_mode *modes, int capacity)
+// Undamped modes K T v = omega^2 v with the damping of each shape; those that the constraints leave
+// at zero are dropped.
+static ld_status eigenmodes(const ld_simulation *self, const linear_system *system, bool rocket,
+                            ld_mode *modes, int capacity, int *count, ld_error *error)
 {
-    linear_system system = {.half = 6 + self->launching.layout.nq + (phase->rocket ? 6 : 0)};
-    system.n = 2 * system.half;
-    size_t n = (size_t)system.n;
-    double *memory = malloc((2 * n * n + 2 * n) * sizeof *memory);
+    int n = system->half;
+    size_t square = (size_t)n * (size_t)n;
+    double *memory = calloc(3 * square + 2 * (size_t)n, sizeof *memory);
     if (!memory)
-        return -1;
-    system.A = memory;
-    double *vectors = memory + n * n, *wr = memory + 2 * n * n, *wi = wr + n;
-    int count = -1;
-    if (!linearise(self, input, phase, y, &system) &&
-        !LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', system.n, system.A, system.n, wr, wi, NULL, 1,
-                       vectors, system.n))
-        count = collect(self, &system, phase->rocket, wr, wi, vectors, modes, capacity);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    double *KT = memory, *left = memory + square, *right = left + square, *wr = right + square,
+           *wi = wr + n;
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < n; k++)
+            for (int i = 0; i < n; i++)
+                KT[i + n * j] += system->K[i + n * k] * system->T[k + n * j];
+    int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'V', 'V', n, KT, n, wr, wi, left, n, right, n);
+    *count = 0;
+    for (int i = 0; i < n && !bad && *count < capacity; i++) {
+        if (wr[i] < 1)
+            continue;
+        double omega = sqrt(wr[i]);
+        double rate = 0.5 * modal_damping(n, system->C, left + n * i, right + n * i);
+        modes[(*count)++] = (ld_mode){.frequency = omega / TWO_PI,
+                                      .damping = rate / omega,
+                                      .real = -rate,
+                                      .shape = shape_of(self, rocket, right + n * i)};
+    }
     free(memory);
-    return count;
+    qsort(modes, (size_t)*count, sizeof *modes, by_frequency);
+    return bad ? ld_fail(error, LD_ERR_NUMERIC,
+                         "the eigenvalues of the linearised equations failed")
+               : LD_OK;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const ld_pole *p = a, *q = b;
+    double x = hypot(p->real, p->imaginary), y = hypot(q->real, q->imaginary);
+    return (x > y) - (x < y);
+}
+
+// Eigenvalues of [0 T; -K -C] with imaginary part >= 0, but for those that the constraints leave at
+// zero.
+static ld_status eigenvalues(const linear_system *system, ld_pole *poles, int capacity, int *count,
+                             ld_error *error)
+{
+    int half = system->half, n = 2 * half;
+    double *A = calloc(((size_t)n + 2) * (size_t)n, sizeof *A), *wr = A + n * n, *wi = wr + n;
+    if (!A)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
+    for (int j = 0; j < half; j++)
+        for (int i = 0; i < half; i++) {
+            A[i + n * (half + j)] = system->T[i + half * j];
+            A[half + i + n * j] = -system->K[i + half * j];
+            A[half + i + n * (half + j)] = -system->C[i + half * j];
+        }
+    int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', n, A, n, wr, wi, NULL, 1, NULL, 1);
+    *count = 0;
+    for (int i = 0; i < n && !bad && *count < capacity; i++)
+        if (wi[i] >= 0 && hypot(wr[i], wi[i]) >= 1)
+            poles[(*count)++] = (ld_pole){wr[i], wi[i]};
+    free(A);
+    qsort(poles, (size_t)*count, sizeof *poles, by_size);
+    return bad ? ld_fail(error, LD_ERR_NUMERIC,
+                         "the eigenvalues of the linearised equations failed")
+               : LD_OK;
 }
 
 int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity)
 {
     double y[LD_MAX_STATES];
+    int count = 0;
     launching_input input;
+    linear_system system = {0};
     launching_phase phase = {.rocket = false};
     simulation_input(self, self->t_ignition, &input);
     input.base.v = input.base.w = v3_zero();
     simulation_undeformed(self, self->t_ignition, y);
-    int count = eigenmodes(self, &input, &phase, y, modes, capacity);
-    return count > 0 ? count : 0;
+    if (!linearise(self, &input, &phase, y, &system, NULL))
+        eigenmodes(self, &system, false, modes, capacity, &count, NULL);
+    free(system.T);
+    return count;
 }
 
 ld_status ld_simulation_system_modes(ld_simulation *self, ld_mode *modes, int capacity, int *count,
+                                     ld_pole *poles, int pole_capacity, int *pole_count,
                                      ld_error *error)
 {
     double y[LD_MAX_STATES];
     launching_input input;
     ld_equilibrium_summary unused;
+    linear_system system = {0};
     launching_phase phase = simulation_start_phase(self);
     double t = -self->model->run.lead_in;
     phase.frictionless = true;
     self->piece = -1;
-    *count = 0;
+    *count = *pole_count = 0;
     ld_status status = simulation_equilibrium(self, t, y, &unused, error);
     if (status)
         return status;
     simulation_input(self, t, &input);
     input.base.v = input.base.w = v3_zero();
-    *count = eigenmodes(self, &input, &phase, y, modes, capacity);
-    if (*count < 0) {
-        *count = 0;
-        return ld_fail(error, LD_ERR_NUMERIC, "the eigenvalues of the linearised system failed");
-    }
-    return LD_OK;
+    status = linearise(self, &input, &phase, y, &system, error);
+    if (!status)
+        status = eigenmodes(self, &system, true, modes, capacity, count, error);
+    if (!status)
+        status = eigenvalues(&system, poles, pole_capacity, pole_count, error);
+    free(system.T);
+    return status;
 }

@@ -67,8 +67,9 @@ launching_phase simulation_start_phase(const ld_simulation *self);
 void history_build(ld_simulation *self);
 void history_row(const ld_simulation *self, double t, const double *y, double energy_start,
                  double *row);
-// Energies and balance at (t, y).
-void simulation_energy(const ld_simulation *self, double t, const double *y, double energy_start,
+// Energies and balance at state y, with what the equations gave there.
+void simulation_energy(const ld_simulation *self, const launching_input *input,
+                       const launching_output *out, const double *y, double energy_start,
                        ld_energy *energy);
 
 // Direction angles: pitch and yaw of d (any length) and their rates under d_dot (model.md, section

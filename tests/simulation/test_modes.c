@@ -1,0 +1,138 @@
+// Frequencies of the linearised equations: against the finite elements, and against the equations'
+// own motion in time.
+#include <stdlib.h>
+
+#include "simulation/simulation.h"
+#include "support/check.h"
+#include "support/reference_model.h"
+
+static const double TWO_PI = 6.283185307179586476925286766559;
+
+static ld_simulation *make(ld_model *model)
+{
+    ld_simulation *simulation = NULL;
+    ld_error error;
+    reference_model(model);
+    if (ld_simulation_create(model, &simulation, &error))
+        fail_msg("%s", error.text);
+    return simulation;
+}
+
+static double nearest(const ld_mode *modes, int count, double frequency)
+{
+    double best = INFINITY;
+    for (int i = 0; i < count; i++)
+        best = fmin(best, fabs(modes[i].frequency / frequency - 1));
+    return best;
+}
+
+// With the span `supported` the tube's equations have the frequencies of its finite elements, which
+// know no gravity (it is good for 6e-6 of a frequency).
+static void tube_has_the_frequencies_of_its_elements(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_mode modes[LD_MAX_MODES];
+    ld_simulation *simulation = make(&model);
+    simulation->launching.gravity = 0;
+    int count = ld_simulation_tube_modes(simulation, modes, LD_MAX_MODES);
+    const flexible_tube *tube = &simulation->launching.tube;
+    assert_int_equal(count, 6 + simulation->launching.layout.nq);
+    double worst = 0;
+    for (int j = 0; j < tube->nb; j++)
+        worst = fmax(worst, nearest(modes, count, tube->supported_bending[j] / TWO_PI));
+    CHECK_BELOW("bending frequencies on the supports, relative", worst, 1e-12);
+    ld_simulation_free(simulation);
+    reference_model_free(&model);
+}
+
+// Eigenvalues come in the right number and are stable: two of the rocket's twelve states a degree
+// of freedom that lock and slot leave, none growing.
+static void the_held_rocket_is_stable(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_mode modes[2 * LD_MAX_MODES];
+    ld_pole poles[4 * LD_MAX_MODES];
+    int count, pole_count;
+    ld_error error;
+    ld_simulation *simulation = make(&model);
+    assert_int_equal(ld_simulation_system_modes(simulation, modes, 2 * LD_MAX_MODES, &count, poles,
+                                                4 * LD_MAX_MODES, &pole_count, &error),
+                     LD_OK);
+    assert_int_equal(count, 10 + simulation->launching.layout.nq);
+    double largest = -INFINITY;
+    for (int i = 0; i < pole_count; i++)
+        largest = fmax(largest, poles[i].real);
+    CHECK_WITHIN("largest real part of an eigenvalue [1/s]", largest, -1, 0);
+    ld_simulation_free(simulation);
+    reference_model_free(&model);
+}
+
+// The lowest eigenvalue against the motion itself: the rocket pushed off its equilibrium by a
+// nanometre swings at that frequency.
+static void the_lowest_mode_is_seen_in_time(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_mode modes[2 * LD_MAX_MODES];
+    ld_pole poles[4 * LD_MAX_MODES];
+    int count, pole_count;
+    ld_error error;
+    ld_equilibrium_summary equilibrium;
+    double y[LD_MAX_STATES], y_dot[LD_MAX_STATES], sum[LD_MAX_STATES], k[LD_MAX_STATES];
+    ld_simulation *simulation = make(&model);
+    ld_simulation_system_modes(simulation, modes, 2 * LD_MAX_MODES, &count, poles, 4 * LD_MAX_MODES,
+                               &pole_count, &error);
+    assert_int_equal(simulation_equilibrium(simulation, 0, y, &equilibrium, &error), LD_OK);
+    const launching_layout *at = &simulation->launching.layout;
+    launching_phase phase = simulation_start_phase(simulation);
+    phase.frictionless = true;
+    launching_input input;
+    simulation_input(simulation, 0, &input);
+    double rest = y[at->x + 2];
+    y[at->x + 2] += 1e-9;
+    // plain fourth-order Runge-Kutta; upward crossings of the rest position are counted
+    double h = 5e-5, before = 1, first = 0, last = 0, t = 0;
+    int crossings = 0;
+    const double weight[4] = {1, 2, 2, 1}, share[4] = {0, 0.5, 0.5, 1};
+    for (int step = 0; step < 20000; step++, t += h) {
+        for (int i = 0; i < at->count; i++)
+            sum[i] = y_dot[i] = 0;
+        for (int stage = 0; stage < 4; stage++) {
+            launching_output out;
+            for (int i = 0; i < at->count; i++)
+                k[i] = y[i] + h * share[stage] * y_dot[i];
+            assert_int_equal(launching_evaluate(&simulation->launching, &input, &phase, k, &out),
+                             LAUNCHING_OK);
+            launching_rates(&simulation->launching, k, &out, true, y_dot);
+            for (int i = 0; i < at->count; i++)
+                sum[i] += weight[stage] * y_dot[i];
+        }
+        for (int i = 0; i < at->count; i++)
+            y[i] += h / 6 * sum[i];
+        double now = y[at->x + 2] - rest;
+        if (t > 0.3 && before < 0 && now >= 0) {
+            last = t + h - h * now / (now - before);
+            first = crossings++ ? first : last;
+        }
+        before = now;
+    }
+    double measured = (crossings - 1) / (last - first);
+    printf("    lowest: %.5f Hz by eigenvalue, %.5f Hz by %d swings\n", poles[0].imaginary / TWO_PI,
+           measured, crossings - 1);
+    CHECK_BELOW("lowest frequency, swings against eigenvalue, relative",
+                measured / (poles[0].imaginary / TWO_PI) - 1, 2e-3);
+    ld_simulation_free(simulation);
+    reference_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tube_has_the_frequencies_of_its_elements),
+        cmocka_unit_test(the_held_rocket_is_stable),
+        cmocka_unit_test(the_lowest_mode_is_seen_in_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
