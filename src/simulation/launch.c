@@ -187,8 +187,7 @@ static ld_status write_row(launch_run *run, double t, const double *y)
     run->last_row = t;
     double start = cpu_now();
     history_row(run->self, t, y, run->energy_start, run->row);
-    ld_status status =
-        sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
+    ld_status status = sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
     run->cpu_output += cpu_now() - start;
     return status;
 }
