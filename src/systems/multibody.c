@@ -265,9 +265,9 @@ void ld_mstmm_free(ld_mstmm *s)
         beam_free(&s->beams[i]);
     void *blocks[] = {s->name,     s->element,  s->element_node, s->element_q, s->element_u,
                       s->q_length, s->u_length, s->body_axes,    s->node,      s->inertia,
-                      s->beam_of,  s->beams,    s->angle_q,      s->angle,     s->sine,
-                      s->cosine,   s->motion,   s->axis,         s->branch,    s->branch_x,
-                      s->tau,      s->wrench,   s->place};
+                      s->beam_of,  s->beams,    s->element_beam, s->angle_q,   s->angle,
+                      s->sine,     s->cosine,   s->motion,       s->axis,      s->branch,
+                      s->branch_x, s->tau,      s->wrench,       s->place};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         free(blocks[i]);
     free(s);
