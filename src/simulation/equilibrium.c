@@ -161,24 +161,30 @@ static double newton(const ld_simulation *self, const launching_input *input,
     return now;
 }
 
-// Guess: adaptors i and j lie on the wall on the side that gravity pulls to.
+// How far adaptor i moves from the axis under `load` [N], positive along it.
+static double offset_under(const ld_rocket *rocket, int i, double load)
+{
+    const ld_contact *contact = &rocket->contact;
+    double d_0 = contact->reference_penetration;
+    if (contact->law == LD_CONTACT_BILATERAL)
+        return load / contact->stiffness;
+    double depth = d_0 * pow(fabs(load) / (contact->stiffness * d_0), 1 / contact->exponent);
+    return copysign(rocket->adaptor[i].clearance + depth, load);
+}
+
+// Guess: adaptors i and j carry the rocket, each on the side that its share of the weight presses
+// it to (one of them on the upper side where the mass centre is not between them).
 static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, double *y)
 {
     const ld_rocket *rocket = &self->model->rocket;
     double *x = y + self->launching.layout.x;
-    double load = 0.5 * rocket->full.mass * self->model->gravity;
-    double depth =
-        self->model->rocket.contact.law == LD_CONTACT_BILATERAL
-            ? 0
-            : rocket->contact.reference_penetration *
-                  pow(load / (rocket->contact.stiffness * rocket->contact.reference_penetration),
-                      1 / rocket->contact.exponent);
-    double lean = hypot(pull.y, pull.z);
-    double e_i = rocket->adaptor[i].clearance + depth, e_j = rocket->adaptor[j].clearance + depth;
-    if (rocket->contact.law == LD_CONTACT_BILATERAL)
-        e_i = e_j = 0;
-    double slope = (e_j - e_i) / (rocket->adaptor[j].at - rocket->adaptor[i].at);
-    double e_0 = e_i - slope * rocket->adaptor[i].at;
+    double lean = hypot(pull.y, pull.z), weight = self->motor.full.m * lean;
+    double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from;
+    double share = (self->motor.full.c.x - from) / span;
+    double e_i = offset_under(rocket, i, (1 - share) * weight);
+    double e_j = offset_under(rocket, j, share * weight);
+    double slope = (e_j - e_i) / span;
+    double e_0 = e_i - slope * from;
     x[1] = e_0 * pull.y / lean;
     x[2] = e_0 * pull.z / lean;
     x[3] = slope * pull.y / lean;
@@ -201,6 +207,31 @@ static void report(const ld_simulation *self, const launching_input *input,
         summary->residual = fmax(summary->residual, fabs(r[i]));
 }
 
+// Newton's method from one pair of carrying adaptors after the other, the outermost first, until
+// one succeeds. Returns the smallest residual; its state is in y.
+static double try_pairs(const ld_simulation *self, double t, const launching_input *input,
+                        const launching_phase *phase, double accepted, double *y)
+{
+    double best = INFINITY, trial[LD_MAX_STATES];
+    v3 pull = m3_apply_transposed(input->base.A, v3_make(0, -self->model->gravity, 0));
+    for (int j = self->launching.adaptor_count - 1; j > 0; j--)
+        for (int i = 0; i < j; i++) {
+            if (phase->passed[i] || phase->passed[j])
+                continue;
+            simulation_undeformed(self, t, trial);
+            if (hypot(pull.y, pull.z) > 0)
+                guess_contacts(self, i, j, pull, trial);
+            double reached = newton(self, input, phase, trial);
+            if (reached < best) {
+                best = reached;
+                memcpy(y, trial, (size_t)self->state_count * sizeof(double));
+            }
+            if (best <= accepted)
+                return best;
+        }
+    return best;
+}
+
 ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
                                  ld_equilibrium_summary *summary, ld_error *error)
 {
@@ -210,21 +241,15 @@ ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
     simulation_input(self, t, &input);
     input.base.v = input.base.w = v3_zero();
     input.thrust = 0;
-    v3 pull = m3_apply_transposed(input.base.A, v3_make(0, -self->model->gravity, 0));
-    // the adaptors that carry are not known: the outermost pair first, then the others
-    int last = self->launching.adaptor_count - 1;
-    double best = INFINITY, accepted = 1e-6 * (1 + self->model->gravity);
-    while (last > 0 && phase.passed[last])
-        last--;
-    for (int j = last; j > 0 && best > accepted; j--)
-        for (int i = 0; i < j && best > accepted; i++) {
-            if (phase.passed[j] || phase.passed[i])
-                continue;
-            simulation_undeformed(self, t, y);
-            if (hypot(pull.y, pull.z) > 0)
-                guess_contacts(self, i, j, pull, y);
-            best = newton(self, &input, &phase, y);
-        }
+    int inside = 0;
+    for (int i = 0; i < self->launching.adaptor_count; i++)
+        inside += !phase.passed[i];
+    if (inside < 2)
+        return ld_fail(error, LD_ERR_LAUNCH,
+                       "no static equilibrium at the start: only the rear adaptor is in the tube; "
+                       "\"run.start: undeformed\" starts without it");
+    double accepted = 1e-6 * (1 + self->model->gravity);
+    double best = try_pairs(self, t, &input, &phase, accepted, y);
     if (!(best <= accepted))
         return ld_fail(
             error, LD_ERR_NUMERIC,

@@ -251,7 +251,7 @@ void history_row(const ld_simulation *self, double t, const double *y, double en
 {
     const launching_layout *at = &self->launching.layout;
     launching_input input;
-    launching_output out;
+    launching_output out = {0};
     simulation_input(self, t, &input);
     simulation_evaluate(self, &input, &self->phase, y, &out);
     double *to = row, angles[3];

@@ -164,6 +164,8 @@ typedef struct launch_run {
     double output_from;   // where that was
     double last_row;      // time of the last row written
     double next_progress;
+    int64_t steps_since_progress;
+    bool sink_failed;
     double greatest_lock_force;
     double cpu_output; // [s] spent on rows and their sink
 } launch_run;
@@ -189,6 +191,7 @@ static ld_status write_row(launch_run *run, double t, const double *y)
     history_row(run->self, t, y, run->energy_start, run->row);
     ld_status status = sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
     run->cpu_output += cpu_now() - start;
+    run->sink_failed = status != LD_OK;
     return status;
 }
 
@@ -334,14 +337,17 @@ static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 {
     ld_simulation *self = run->self;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
-    int count = self->launching.adaptor_count;
+    int count = self->launching.adaptor_count, ahead = 0;
     double since = t - self->t_ignition;
+    const ld_adaptor *adaptor = self->model->rocket.adaptor;
+    for (int j = 0; j < count; j++)
+        ahead += adaptor[j].at > adaptor[i].at;
     self->phase.passed[i] = true;
     rocket->t_exit[i] = since;
     if (i == 0) {
         rocket->t_rear = since;
         record_exit(run, t, y);
-    } else if (i == count - 1) {
+    } else if (ahead == 0) {
         rocket->t_front = since;
     } else if (count == 3) {
         rocket->t_middle = since;
@@ -413,16 +419,19 @@ static void watch_forces(launch_run *run, double t, const double *y)
 
 static ld_status check_tube(launch_run *run, double t, const double *y)
 {
-    launching_section tip;
+    const int parts = 4;
     double length = run->self->launching.tube.length;
-    launching_section_at(&run->self->launching, y, length, &tip);
-    double sag = hypot(tip.P.y, tip.P.z);
-    if (sag > 0.2 * length || tip.A.a[0][0] < 0.8)
-        return ld_fail(
-            run->error, LD_ERR_NUMERIC,
-            "the tube bends beyond what small deflections allow at t = %.6g s: its tip is "
-            "%.3g m off the axis of its %.3g m",
-            t, sag, length);
+    for (int k = parts; k > 0; k--) {
+        launching_section at;
+        double x = length * k / parts;
+        launching_section_at(&run->self->launching, y, x, &at);
+        double sag = hypot(at.P.y, at.P.z);
+        if (sag > 0.2 * length || at.A.a[0][0] < 0.8)
+            return ld_fail(run->error, LD_ERR_NUMERIC,
+                           "the tube bends beyond what small deflections allow at t = %.6g s: "
+                           "%.3g m from its rear end it is %.3g m off its axis",
+                           t, x, sag);
+    }
     return LD_OK;
 }
 
@@ -451,12 +460,29 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
         s, self->launching.tube.length, since);
 }
 
+// A table of the base's motion must go on beyond t.
 static ld_status check_base(launch_run *run, double t)
 {
-    if (base_motion_covers(&run->self->base, t))
+    double first, last;
+    base_motion_span(&run->self->base, &first, &last);
+    if (t >= first && t < last)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_INPUT,
-                   "the table of the base's motion does not cover t = %.6g s", t);
+                   "the table of the base's motion goes from %.6g s to %.6g s, which does not "
+                   "cover the launch (now at t = %.6g s)",
+                   first, last, t);
+}
+
+// Steps of less than 50 ns on the average over a millisecond: the run would hardly go on.
+static ld_status check_steps(launch_run *run, double t)
+{
+    const int64_t most = 20000;
+    if (++run->steps_since_progress <= most)
+        return LD_OK;
+    return ld_fail(run->error, LD_ERR_NUMERIC,
+                   "the steps became too short to go on: more than %lld within a millisecond, up "
+                   "to t = %.9g s",
+                   (long long)most, t);
 }
 
 // Every millisecond of physics: the caller hears of it, and the tube is looked at.
@@ -466,6 +492,7 @@ static ld_status report_progress(launch_run *run, double t)
     if (t < run->next_progress)
         return LD_OK;
     run->next_progress = t + 1e-3;
+    run->steps_since_progress = 0;
     ld_status status = check_tube(run, t, integrator_state(run->integrator));
     if (status || !options || !options->progress)
         return status;
@@ -489,7 +516,9 @@ static ld_status report_progress(launch_run *run, double t)
 static double next_stop(const launch_run *run, double t)
 {
     const ld_simulation *self = run->self;
-    double stop = run->t_end;
+    double first, stop;
+    base_motion_span(&self->base, &first, &stop);
+    stop = fmin(stop, run->t_end);
     if (t < self->t_ignition)
         return fmin(stop, self->t_ignition);
     int next = self->piece + 1;
@@ -566,7 +595,7 @@ static ld_status after_step(launch_run *run, integrator_outcome outcome)
     if (!status)
         status = check_progress(run, t, y);
     if (!status)
-        status = check_base(run, t);
+        status = check_steps(run, t);
     if (!status)
         status = report_progress(run, t);
     if (!status && (changed || outcome == INTEGRATOR_EVENT)) {
@@ -580,12 +609,15 @@ static ld_status loop(launch_run *run)
 {
     double t = integrator_time(run->integrator);
     while (!finished(run, t)) {
+        ld_status status = check_base(run, t);
+        if (status)
+            return status;
         integrator_outcome outcome =
             integrator_step(run->integrator, next_stop(run, t), run->error);
         if (outcome == INTEGRATOR_FAILED)
             return step_failed(run);
         t = integrator_time(run->integrator);
-        ld_status status = after_step(run, outcome);
+        status = after_step(run, outcome);
         if (status)
             return status;
     }
@@ -606,11 +638,11 @@ static ld_status begin(launch_run *run)
 {
     ld_simulation *self = run->self;
     double y[LD_MAX_STATES];
-    run->t_start =
-        self->t_ignition < -self->model->run.lead_in ? self->t_ignition : -self->model->run.lead_in;
+    run->t_start = fmin(self->t_ignition, 0 - self->model->run.lead_in);
     run->t_end = self->model->run.end == LD_END_TIME ? self->t_ignition + self->model->run.end_time
                                                      : INFINITY;
     run->last_row = NAN;
+    run->summary->t_end = run->t_start;
     set_up_phase(run);
     ld_status status = check_base(run, run->t_start);
     if (!status)
@@ -661,11 +693,23 @@ static void note_formulation(const ld_simulation *self, ld_summary *summary)
                  (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
 }
 
+// A run that ends early has its last state as its last row.
+static void write_last_row(launch_run *run)
+{
+    ld_error unused, *error = run->error;
+    run->error = &unused;
+    if (!run->sink_failed)
+        write_row(run, integrator_time(run->integrator), integrator_state(run->integrator));
+    run->error = error;
+}
+
 static void summarise(launch_run *run, ld_status status, double cpu_seconds)
 {
     ld_simulation *self = run->self;
     ld_summary *summary = run->summary;
     summary->complete = status == LD_OK;
+    if (status && !run->error->text[0])
+        ld_fail(run->error, status, "the receiver of the rows stopped the run");
     if (status)
         memcpy(summary->stopped, run->error->text, sizeof summary->stopped);
     summary->statistics.cpu_seconds = cpu_seconds;
@@ -695,9 +739,13 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
                       .error = error ? error : &own,
                       .row = row,
                       .between = between};
+    *run.error = (ld_error){0};
     ld_status status = begin(&run);
-    if (!status)
+    if (!status) {
         status = loop(&run);
+        if (status)
+            write_last_row(&run);
+    }
     summarise(&run, status, cpu_now() - start - run.cpu_output);
     integrator_free(run.integrator);
     return status;

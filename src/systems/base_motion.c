@@ -1,5 +1,7 @@
 #include "systems/base_motion.h"
 
+#include <math.h>
+
 #include <stdlib.h>
 
 static const double TWO_PI = 6.283185307179586476925286766559;
@@ -103,8 +105,9 @@ void base_motion_angles(const base_motion *self, double t, double angles[3])
         angles[i] = self->model->kind == LD_BASE_FIXED ? 0 : coordinate(self, 3 + i, t, &rate);
 }
 
-bool base_motion_covers(const base_motion *self, double t)
+void base_motion_span(const base_motion *self, double *first, double *last)
 {
     const spline *path = &self->path[0];
-    return path->count == 0 || (t >= path->x[0] && t <= path->x[path->count - 1]);
+    *first = path->count ? path->x[0] : -INFINITY;
+    *last = path->count ? path->x[path->count - 1] : INFINITY;
 }

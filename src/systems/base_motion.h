@@ -33,7 +33,7 @@ void base_motion_at(const base_motion *self, double t, base_frame *frame);
 // output.
 void base_motion_angles(const base_motion *self, double t, double angles[3]);
 
-// False where a table does not cover t.
-bool base_motion_covers(const base_motion *self, double t);
+// First and last time [s] that a table covers; without a table, all.
+void base_motion_span(const base_motion *self, double *first, double *last);
 
 #endif

@@ -505,7 +505,13 @@ launching_outcome launching_evaluate_general(const launching_system *self,
     load_uncoupled(self, input, phase, state, &u, out);
     out->fell_back = false;
     out->condition = 0;
-    if (formulation == LD_FORMULATION_OVERALL && phase->rocket)
+    if (formulation == LD_FORMULATION_OVERALL && phase->rocket) {
+        // where both signs of N are consistent the knob jams too, which one solve does not show
+        launching_output reduced;
+        if (u.c.sliding &&
+            launching_evaluate(self, input, phase, state, &reduced) == LAUNCHING_JAMMED)
+            return LAUNCHING_JAMMED;
         return evaluate_overall(self, phase, state, &u, out);
+    }
     return solve_reduced(self, phase, &u, out);
 }
