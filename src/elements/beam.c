@@ -62,7 +62,7 @@ ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, 
         return ld_fail(error, status, "element '%s': %s", name, reason.text);
     self->modes = tube_mode_count(&self->tube);
     self->n = 6 + self->modes;
-    self->M = calloc((size_t)(self->n * self->n), sizeof *self->M);
+    self->M = calloc((size_t)self->n * (size_t)self->n, sizeof *self->M);
     self->h = calloc((size_t)self->n, sizeof *self->h);
     self->eta_dot = calloc((size_t)self->n, sizeof *self->eta_dot);
     if (!self->M || !self->h || !self->eta_dot)

@@ -478,7 +478,7 @@ static ld_status copy_elements(ld_mstmm *s, const tree *t, const ld_mstmm_elemen
         const ld_mstmm_element *given = &elements[e];
         s->element[e] = *given;
         s->element[e].name = s->element[e].parent = NULL;
-        strcpy(s->name[e], given->name);
+        memcpy(s->name[e], given->name, strlen(given->name) + 1);
         s->element_q[e] = s->q_count;
         s->element_u[e] = s->u_count;
         s->q_length[e] = hinge_table[given->hinge].coordinates;

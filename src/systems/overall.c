@@ -274,8 +274,9 @@ static ld_status leave(overall *o, int i, ld_error *error)
 // Solves the equations left and puts the eliminated unknowns back; x [n].
 static ld_status solve(overall *o, double *x, ld_error *error)
 {
-    int left = 0, *index = malloc((size_t)o->n * 2 * sizeof *index);
-    double *A = malloc((size_t)o->equation_count * (size_t)(o->equation_count + 1) * sizeof *A);
+    int left = 0, *index = malloc(((size_t)o->n * 2 + 1) * sizeof *index);
+    size_t count = (size_t)o->equation_count;
+    double *A = malloc((count * (count + 1) + 1) * sizeof *A);
     if (!index || !A) {
         free(index);
         free(A);

@@ -1,3 +1,3 @@
-// The sweep once more, compiled with four v4d to a register; chosen where the processor has them.
+// The sweep for processors with four lanes to a register.
 #define SWEEP_NAME sweep_avx2
-#include "systems/sweep.c"
+#include "systems/sweep_code.h"

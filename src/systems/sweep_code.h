@@ -2,16 +2,13 @@
 // sweep outwards gives the motion; from the tips inwards every cut gets F = Z [a; alpha] + zf; a
 // last sweep outwards gives the accelerations. Gravity is the ground's acceleration -g.
 //
-// This file is compiled twice where the machine may have wider registers: see sweep_avx2.c.
+// This is the text of sweep_default.c and, where the machine may have wider registers, of
+// sweep_avx2.c compiled for these; each defines SWEEP_NAME.
 #include <float.h>
 
 #include "math/quaternion.h"
 #include "math/sine_cosine.h"
 #include "systems/multibody.h"
-
-#ifndef SWEEP_NAME
-#define SWEEP_NAME sweep_default
-#endif
 
 // ---- motion
 
