@@ -10,21 +10,21 @@ typedef double v4d __attribute__((vector_size(32), may_alias));
 /// An array of doubles that is also read as lanes: `count` a multiple of 4.
 #define LANE_ARRAY(name, count) _Alignas(32) double name[count]
 
-LD_INLINE v4d *v4d_lanes(double *array)
+LD_ALWAYS_INLINE v4d *v4d_lanes(double *array)
 {
     return (v4d *)array;
 }
-LD_INLINE const v4d *v4d_lanes_of(const double *array)
+LD_ALWAYS_INLINE const v4d *v4d_lanes_of(const double *array)
 {
     return (const v4d *)array;
 }
 
-LD_INLINE v4d v4d_all(double a)
+LD_ALWAYS_INLINE v4d v4d_all(double a)
 {
     return (v4d){a, a, a, a};
 }
 /// Sum of the four, (0 + 2) + (1 + 3).
-LD_INLINE double v4d_sum(v4d a)
+LD_ALWAYS_INLINE double v4d_sum(v4d a)
 {
     return (a[0] + a[2]) + (a[1] + a[3]);
 }

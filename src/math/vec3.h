@@ -8,7 +8,14 @@ typedef struct v3 {
     double x, y, z;
 } v3;
 
-#define LD_INLINE static inline __attribute__((always_inline, unused))
+// Small functions are always inlined, so that a long computation is one piece of code; not in builds
+// with sanitizers, which would take minutes to compile it.
+#define LD_ALWAYS_INLINE static inline __attribute__((always_inline, unused))
+#if defined(LD_SANITIZED)
+#define LD_INLINE static inline __attribute__((unused))
+#else
+#define LD_INLINE LD_ALWAYS_INLINE
+#endif
 
 LD_INLINE v3 v3_make(double x, double y, double z)
 {
