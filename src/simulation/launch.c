@@ -628,7 +628,7 @@ static void energy_at(const ld_simulation *self, double t, const double *y, doub
                       ld_energy *energy)
 {
     launching_input input;
-    launching_output out;
+    launching_output out = {0};
     simulation_input(self, t, &input);
     simulation_evaluate(self, &input, &self->phase, y, &out);
     simulation_energy(self, &input, &out, y, energy_start, energy);

@@ -1,0 +1,324 @@
+// Launches that cannot happen: each ends with the right status, one clear sentence, and the history
+// up to there.
+#include "support/check.h"
+
+#include <stdlib.h>
+
+#include "launchdyn/simulation.h"
+#include "support/reference_model.h"
+
+static const double degree = 3.14159265358979323846 / 180;
+
+// A sink that counts rows and can be made to fail.
+typedef struct listener {
+    int begun, rows, fail_at;
+    ld_status failure;
+    bool silent;
+    double last, first;
+    bool ascending;
+    double stop_at; // share at which the progress callback says no
+} listener;
+
+static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
+{
+    (void)columns, (void)count, (void)error;
+    ((listener *)self)->begun++;
+    return LD_OK;
+}
+
+static ld_status row(void *self, const double *values, size_t count, ld_error *error)
+{
+    listener *ear = self;
+    (void)count;
+    if (ear->rows == 0)
+        ear->first = values[0];
+    else
+        ear->ascending = ear->ascending && values[0] > ear->last;
+    ear->last = values[0];
+    if (++ear->rows == ear->fail_at)
+        return ear->silent ? ear->failure : ld_fail(error, ear->failure, "the disk is full");
+    return LD_OK;
+}
+
+static bool go_on(void *self, double share)
+{
+    return share < ((listener *)self)->stop_at;
+}
+
+typedef struct outcome {
+    ld_status status;
+    ld_summary summary;
+    ld_error error;
+} outcome;
+
+// Runs the model (which is freed) without the checks that the reader makes.
+static void run(ld_model *model, listener *ear, outcome *out)
+{
+    ld_sink sink = {ear, begin, row};
+    ld_run_options options = {.sink = &sink, .self = ear};
+    ld_simulation *simulation;
+    if (ear->stop_at > 0)
+        options.progress = go_on;
+    ear->ascending = true;
+    if (ld_simulation_create(model, &simulation, &out->error))
+        fail_msg("%s", out->error.text);
+    out->status = ld_simulation_run(simulation, &options, &out->summary, &out->error);
+    ld_simulation_free(simulation);
+    reference_model_free(model);
+}
+
+// Whether `text` is `pattern`, in which each # stands for a number.
+static bool matches(const char *text, const char *pattern)
+{
+    for (; *pattern; pattern++) {
+        if (*pattern != '#') {
+            if (*text++ != *pattern)
+                return false;
+            continue;
+        }
+        char *end;
+        strtod(text, &end);
+        if (end == text)
+            return false;
+        text = end;
+    }
+    return *text == '\0';
+}
+
+// The run stopped with this status and sentence after rows up to t_end [s], in order.
+static void check_stopped(ld_model *model, listener *ear, ld_status status, const char *sentence,
+                          double t_end)
+{
+    outcome out;
+    run(model, ear, &out);
+    printf("    %s\n", out.error.text);
+    assert_int_equal(out.status, status);
+    assert_int_equal(out.error.status, status);
+    assert_true(matches(out.error.text, sentence));
+    assert_string_equal(out.summary.stopped, out.error.text);
+    assert_false(out.summary.complete);
+    CHECK_BELOW("ended [s]", out.summary.t_end - t_end, 6e-4);
+    assert_int_equal(ear->begun, 1);
+    assert_true(ear->ascending);
+    assert_true(ear->first == -model->run.lead_in);
+    if (ear->fail_at)
+        assert_int_equal(ear->rows, ear->fail_at);
+    else
+        assert_true(ear->last == out.summary.t_end);
+    assert_true(isnan(out.summary.rocket[0].t_rear));
+    assert_true(isfinite(out.summary.energy.kinetic));
+}
+
+#define STOPS(name, t_end, status, sentence, ...)                                                  \
+    static void name(void **state)                                                                 \
+    {                                                                                              \
+        (void)state;                                                                               \
+        ld_model model;                                                                            \
+        listener ear = {0};                                                                        \
+        reference_model(&model);                                                                   \
+        __VA_ARGS__;                                                                               \
+        check_stopped(&model, &ear, status, sentence, t_end);                                      \
+    }
+
+STOPS(thrust_below_the_release_force, 0.5, LD_ERR_LAUNCH,
+      "the lock never let go: it carried at most # N of the release force 20000 N by # s after "
+      "ignition",
+      model.rocket.lock.release_force = 2e4;
+      model.run.stuck_time = 0.5)
+
+STOPS(too_little_thrust, 0.3, LD_ERR_LAUNCH,
+      "the rocket is stuck in the tube: its rear adaptor is at # m of 3 m, # s after ignition",
+      model.rocket.motor.thrust_scale = 0.015;
+      model.rocket.lock.release_force = 1; model.run.stuck_time = 0.3)
+
+STOPS(no_thrust_and_no_lock, 0.300612, LD_ERR_LAUNCH,
+      "the rocket slid out of the tube's rear end at t = # s",
+      model.rocket.motor.thrust_scale = 1e-9;
+      model.rocket.lock.present = false)
+
+STOPS(steep_rough_slot, 0.0038138, LD_ERR_LAUNCH,
+      "the knob jams in the slot at t = # s: with this angle and friction no slot force fulfils "
+      "the constraint",
+      model.tubes.slot.angle.data[1] = 60 * degree;
+      model.tubes.slot.friction = 1)
+
+STOPS(steep_rough_slot_in_the_overall_form, 0.0038138, LD_ERR_LAUNCH,
+      "the knob jams in the slot at t = # s: with this angle and friction no slot force fulfils "
+      "the constraint",
+      model.tubes.slot.angle.data[1] = 60 * degree;
+      model.tubes.slot.friction = 1; model.run.formulation = LD_FORMULATION_OVERALL)
+
+STOPS(tube_like_rubber, 0.0655223, LD_ERR_NUMERIC,
+      "the tube bends beyond what small deflections allow at t = # s: 3 m from its rear end it is "
+      "# m off its axis",
+      model.tubes.section[0].bending_stiffness *= 1e-4)
+
+STOPS(tube_like_rope, 0.0838698, LD_ERR_NUMERIC,
+      "the tube bends beyond what small deflections allow at t = # s: # m from its rear end it is "
+      "# m off its axis",
+      model.tubes.section[0].bending_stiffness *= 1e-6;
+      model.run.start = LD_START_UNDEFORMED)
+
+STOPS(violent_base, 0.001, LD_ERR_NUMERIC,
+      "the tube bends beyond what small deflections allow at t = # s: 3 m from its rear end it is "
+      "# m off its axis",
+      model.base.kind = LD_BASE_PRESCRIBED;
+      model.base.pitch = (ld_sines){1, {{3, 50, 0}}})
+
+STOPS(thrust_not_a_number, 0.01, LD_ERR_NUMERIC,
+      "the equations of motion gave no finite result at t = # s",
+      model.rocket.motor.thrust.data[5] = NAN)
+
+STOPS(base_table_too_short, 0.1, LD_ERR_INPUT,
+      "the table of the base's motion goes from 0 s to # s, which does not cover the launch (now "
+      "at t = # s)",
+      model.base.kind = LD_BASE_PRESCRIBED;
+      model.base.motion = reference_table(3, 7, (double[]){0, 0, 0, 0,   0, 0, 0, 0.05, 0, 0, 0,
+                                                           0, 0, 0, 0.1, 0, 0, 0, 0,    0, 0}))
+
+STOPS(caller_says_no, 0.0525, LD_ERR_INTERRUPTED, "interrupted at t = # s", ear.stop_at = 0.3)
+
+STOPS(receiver_of_rows_fails, 0.0097, LD_ERR_FILE, "the disk is full",
+      (ear.fail_at = 100, ear.failure = LD_ERR_FILE))
+
+STOPS(receiver_of_rows_fails_silently, 0, LD_ERR_FILE, "the receiver of the rows stopped the run",
+      (ear.fail_at = 1, ear.failure = LD_ERR_FILE, ear.silent = true))
+
+// The launch does not begin: no rows, nothing but the sentence.
+static void check_no_start(ld_model *model, ld_status status, const char *sentence)
+{
+    outcome out;
+    listener ear = {0};
+    run(model, &ear, &out);
+    printf("    %s\n", out.error.text);
+    assert_int_equal(out.status, status);
+    assert_string_equal(out.error.text, sentence);
+    assert_string_equal(out.summary.stopped, sentence);
+    assert_false(out.summary.complete);
+    assert_int_equal(ear.rows, 0);
+    assert_true(isnan(out.summary.rocket[0].t_release));
+}
+
+static void base_table_begins_too_late(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.base.kind = LD_BASE_PRESCRIBED;
+    model.base.motion =
+        reference_table(2, 7, (double[]){0.01, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0});
+    check_no_start(&model, LD_ERR_INPUT,
+                   "the table of the base's motion goes from 0.01 s to 1 s, which does not cover "
+                   "the launch (now at t = 0 s)");
+}
+
+static void one_adaptor_holds_no_rocket(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.rocket.start_at = 2.9;
+    check_no_start(&model, LD_ERR_LAUNCH,
+                   "no static equilibrium at the start: only the rear adaptor is in the tube; "
+                   "\"run.start: undeformed\" starts without it");
+}
+
+static void no_equilibrium_of_a_rope(void **state)
+{
+    (void)state;
+    ld_model model;
+    listener ear = {0};
+    outcome out;
+    reference_model(&model);
+    model.tubes.section[0].bending_stiffness *= 1e-6;
+    run(&model, &ear, &out);
+    printf("    %s\n", out.error.text);
+    assert_int_equal(out.status, LD_ERR_NUMERIC);
+    assert_non_null(strstr(out.summary.stopped, "no static equilibrium was found for the start"));
+    assert_int_equal(ear.rows, 0);
+}
+
+// Not failures: launches that look odd but happen.
+static void check_happens(const char *name, ld_model *model)
+{
+    listener ear = {0};
+    outcome out;
+    run(model, &ear, &out);
+    printf("    %s: muzzle speed %.4f m/s%s\n", name, out.summary.rocket[0].muzzle_speed,
+           out.status ? out.error.text : "");
+    assert_int_equal(out.status, LD_OK);
+    assert_true(out.summary.complete);
+    assert_string_equal(out.summary.stopped, "");
+    assert_true(ear.last == out.summary.t_end);
+    CHECK_WITHIN("muzzle speed [m/s]", out.summary.rocket[0].muzzle_speed, 37, 40);
+    CHECK_BELOW("acceleration at the start [m/s2, rad/s2]", out.summary.equilibrium.residual, 1e-5);
+}
+
+#define HAPPENS(name, ...)                                                                         \
+    static void name(void **state)                                                                 \
+    {                                                                                              \
+        (void)state;                                                                               \
+        ld_model model;                                                                            \
+        reference_model(&model);                                                                   \
+        __VA_ARGS__;                                                                               \
+        check_happens(#name, &model);                                                              \
+    }
+
+HAPPENS(without_gravity, model.gravity = 0)
+HAPPENS(straight_up, model.base.elevation = 90 * degree)
+HAPPENS(downwards, model.base.elevation = -30 * degree)
+HAPPENS(mass_centre_before_the_front_adaptor,
+        model.rocket.full.center[0] = model.rocket.empty.center[0] = 2.2)
+HAPPENS(mass_centre_behind_the_rear_adaptor,
+        model.rocket.full.center[0] = model.rocket.empty.center[0] = -0.3)
+
+static void adaptors_in_any_order(void **state)
+{
+    (void)state;
+    ld_model model;
+    outcome out[2];
+    for (int i = 0; i < 2; i++) {
+        listener ear = {0};
+        reference_model(&model);
+        if (i) {
+            ld_adaptor swap = model.rocket.adaptor[1];
+            model.rocket.adaptor[1] = model.rocket.adaptor[2];
+            model.rocket.adaptor[2] = swap;
+        }
+        run(&model, &ear, &out[i]);
+        assert_int_equal(out[i].status, LD_OK);
+    }
+    const ld_rocket_summary *a = &out[0].summary.rocket[0], *b = &out[1].summary.rocket[0];
+    CHECK_BELOW("t_front [s]", a->t_front - b->t_front, 1e-10);
+    CHECK_BELOW("t_middle [s]", a->t_middle - b->t_middle, 1e-10);
+    CHECK_BELOW("t_rear [s]", a->t_rear - b->t_rear, 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thrust_below_the_release_force),
+        cmocka_unit_test(too_little_thrust),
+        cmocka_unit_test(no_thrust_and_no_lock),
+        cmocka_unit_test(steep_rough_slot),
+        cmocka_unit_test(steep_rough_slot_in_the_overall_form),
+        cmocka_unit_test(tube_like_rubber),
+        cmocka_unit_test(tube_like_rope),
+        cmocka_unit_test(violent_base),
+        cmocka_unit_test(thrust_not_a_number),
+        cmocka_unit_test(base_table_too_short),
+        cmocka_unit_test(caller_says_no),
+        cmocka_unit_test(receiver_of_rows_fails),
+        cmocka_unit_test(receiver_of_rows_fails_silently),
+        cmocka_unit_test(base_table_begins_too_late),
+        cmocka_unit_test(one_adaptor_holds_no_rocket),
+        cmocka_unit_test(no_equilibrium_of_a_rope),
+        cmocka_unit_test(without_gravity),
+        cmocka_unit_test(straight_up),
+        cmocka_unit_test(downwards),
+        cmocka_unit_test(mass_centre_before_the_front_adaptor),
+        cmocka_unit_test(mass_centre_behind_the_rear_adaptor),
+        cmocka_unit_test(adaptors_in_any_order),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,114 @@
+// link: -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc -Wl,--wrap=aligned_alloc
+// Nothing is allocated between the first and the last step of a run: the linker leads each call of
+// the allocator, from our code and from the integrator's library, through a counter.
+#include "support/check.h"
+
+#include <stdlib.h>
+
+#include "launchdyn/simulation.h"
+#include "support/reference_model.h"
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+
+static long allocations;
+
+void *__wrap_malloc(size_t size)
+{
+    allocations++;
+    return __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    allocations++;
+    return __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    allocations++;
+    return __real_realloc(old, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    allocations++;
+    return __real_aligned_alloc(alignment, size);
+}
+
+// Allocations seen at rows of the history: the first after a step was made, and the latest.
+typedef struct counter {
+    long rows, at_first_step, at_last_step;
+} counter;
+
+static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
+{
+    (void)self, (void)columns, (void)count, (void)error;
+    return LD_OK;
+}
+
+static ld_status row(void *self, const double *values, size_t count, ld_error *error)
+{
+    (void)values, (void)count, (void)error;
+    counter *seen = self;
+    if (++seen->rows == 2)
+        seen->at_first_step = allocations;
+    seen->at_last_step = allocations;
+    return LD_OK;
+}
+
+static void check_model(const char *name, const ld_model *model)
+{
+    ld_error error;
+    ld_simulation *simulation;
+    ld_summary summary;
+    counter seen = {0};
+    ld_sink sink = {&seen, begin, row};
+    long before = allocations;
+    if (ld_simulation_create(model, &simulation, &error) ||
+        ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, &error))
+        fail_msg("%s", error.text);
+    printf("  %s: %lld steps, %ld rows, %ld allocations in all\n", name,
+           (long long)summary.statistics.steps, seen.rows, allocations - before);
+    assert_true(seen.rows > 1000);
+    assert_true(allocations > before); // the counter is at work
+    CHECK_BELOW("allocations between first and last step",
+                (double)(seen.at_last_step - seen.at_first_step), 0);
+    ld_simulation_free(simulation);
+}
+
+static void a_run_allocates_nothing(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    check_model("reduced form, fixed base", &model);
+    model.run.formulation = LD_FORMULATION_OVERALL;
+    check_model("overall form, fixed base", &model);
+    model.base.kind = LD_BASE_PRESCRIBED;
+    model.base.pitch = (ld_sines){1, {{0.03, 1, 0}}};
+    model.run.lead_in = 0.01;
+    check_model("overall form, moving base", &model);
+    model.run.formulation = LD_FORMULATION_REDUCED;
+    model.rocket.contact.law = LD_CONTACT_LANKARANI_NIKRAVESH;
+    check_model("reduced form, moving base, lankarani-nikravesh", &model);
+    model.base.motion = reference_table(
+        3, 7, (double[]){-1, 0, 0, 0, 0, 0, 0, 0.1, 1, 0, 0, 0, 0, 0, 1, 3, 0.1, 0, 0, 0, 0});
+    check_model("reduced form, base by a table", &model);
+    reference_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_run_allocates_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
