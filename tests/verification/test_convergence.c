@@ -10,7 +10,7 @@
 static ld_summary launch(const ld_model *model)
 {
     ld_simulation *simulation;
-    ld_summary summary;
+    ld_summary summary = {0};
     ld_error error;
     if (ld_simulation_create(model, &simulation, &error) ||
         ld_simulation_run(simulation, NULL, &summary, &error))
