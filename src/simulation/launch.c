@@ -389,7 +389,7 @@ static bool switch_phase(launch_run *run, double t, const double *y)
             changed = true;
         }
     }
-    if (self->phase.rocket && self->phase.passed[0]) {
+    if (self->phase.passed[0] && self->phase.rocket && self->model->run.end != LD_END_TIP) {
         let_rocket_go(run, t, y);
         changed = true;
     }
@@ -561,7 +561,7 @@ static bool finished(const launch_run *run, double t)
 {
     const ld_simulation *self = run->self;
     if (self->model->run.end == LD_END_TIP)
-        return !self->phase.rocket;
+        return self->phase.passed[0];
     return t >= run->t_end;
 }
 
