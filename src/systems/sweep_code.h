@@ -10,6 +10,14 @@
 #include "math/sine_cosine.h"
 #include "systems/multibody.h"
 
+// Hinge frame of a node in inertial axes, before its own turns.
+LD_INLINE void hinge_axes(const ld_mstmm *system, const node *n, v4d H[3])
+{
+    const v4d *A = system->motion[n->parent].A;
+    for (int j = 0; j < 3; j++)
+        H[j] = v4d_combine(A, n->G.a[0][j], n->G.a[1][j], n->G.a[2][j]);
+}
+
 // ---- motion
 
 // A section node follows its beam's deformed section, known in the beam's floating frame.
@@ -71,8 +79,7 @@ static void move(ld_mstmm *system, const double *q, const double *u)
             continue;
         }
         v4d w = parent->w, H[3];
-        for (int j = 0; j < 3; j++)
-            H[j] = v4d_combine(parent->A, n->G.a[0][j], n->G.a[1][j], n->G.a[2][j]);
+        hinge_axes(system, n, H);
         m->r = v4d_combine(parent->A, n->at.x, n->at.y, n->at.z);
         switch (n->hinge) {
         case NODE_TURN: {
@@ -171,14 +178,17 @@ LD_INLINE spatial_lanes along_slide(const share *s, v4d e)
 }
 
 // A single axis e of a hinge is eliminated: with U = Z e, D = e . U, its row e . F = tau gives
-// u_dot = rate - V . (acceleration without it); what is left passes on.
-LD_INLINE void eliminate(share *s, axis_record *record, spatial_lanes U, double inverse,
-                         double rate)
+// u_dot = rate - V . (acceleration without it).
+LD_INLINE void record_axis(axis_record *record, spatial_lanes U, double inverse, double rate)
 {
-    v4d V_a = U.a * v4d_all(inverse), V_alpha = U.alpha * v4d_all(inverse);
-    record->V_a = V_a;
-    record->V_alpha = V_alpha;
+    record->V_a = U.a * v4d_all(inverse);
+    record->V_alpha = U.alpha * v4d_all(inverse);
     record->rate = rate;
+}
+
+// What the eliminated axis leaves: Z - U U^T/D, zf + U rate. Both triangles get the same bits.
+LD_INLINE void release_axis(share *s, spatial_lanes U, double inverse, double rate)
+{
     v4d scale = v4d_all(inverse);
     for (int j = 0; j < 3; j++) {
         v4d a = v4d_all(U.a[j]), alpha = v4d_all(U.alpha[j]);
@@ -207,17 +217,20 @@ LD_INLINE int is_singular(double D, double all)
 static int eliminate_several(ld_mstmm *system, int i, share *s, const double *tau)
 {
     const node *n = &system->node[i];
-    m3 H = node_hinge_axes(system, i);
+    v4d H[3];
     int slides = n->hinge == NODE_FREE ? 3 : 0, singular = 0;
+    if (slides)
+        hinge_axes(system, n, H);
     double all_turns = trace(s->C), all_slides = trace(s->A);
     for (int k = slides + 2; k >= 0; k--) {
         bool turn = k >= slides;
-        v4d e = turn ? system->motion[i].A[k - slides] : v4d_from_v3(m3_column(H, k));
+        v4d e = turn ? system->motion[i].A[k - slides] : H[k];
         spatial_lanes U = turn ? along_turn(s, e) : along_slide(s, e);
         double D = v4d_dot3(e, turn ? U.alpha : U.a);
         singular |= is_singular(D, turn ? all_turns : all_slides);
         double force = tau[n->u + k] - v4d_dot3(e, turn ? s->m : s->f);
-        eliminate(s, system->axis + n->axis + k, U, 1 / D, force / D);
+        record_axis(system->axis + n->axis + k, U, 1 / D, force / D);
+        release_axis(s, U, 1 / D, force / D);
     }
     for (int j = 0; slides && j < 3; j++)
         s->A[j] = s->T[j] = s->B[j] = s->C[j] = v4d_all(0);
@@ -258,33 +271,41 @@ LD_INLINE void add_bias(share *s, v4d a, v4d alpha)
 }
 
 // A hinge with one axis: the share goes to the parent's origin first and the axis is eliminated
-// there, so that the division waits for nothing. V then belongs to the parent's acceleration.
-LD_INLINE int pass_turn(share *s, axis_record *record, const node_motion *motion, double tau)
+// there, so that the division waits for nothing; V then belongs to the parent's acceleration. The
+// ground needs no share. U = Z e; D, all: Z's resistance along e and along all axes of its kind;
+// force: along e, without that of the bias.
+LD_INLINE int pass_axis(share *s, axis_record *record, const node_motion *motion, spatial_lanes U,
+                        double D, double all, double force, bool onward)
 {
-    v4d e = motion->A[2], r = motion->r;
-    spatial_lanes U = along_turn(s, e);
-    double D = v4d_dot3(e, U.alpha);
-    double force = tau - v4d_sum3(e * s->m + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
-    int singular = is_singular(D, trace(s->C));
-    add_bias(s, motion->bias_a, motion->bias_alpha);
-    shift(s, r);
-    U.alpha += v4d_cross(r, U.a);
-    eliminate(s, record, U, 1 / D, force / D);
-    return singular;
+    double inverse = 1 / D;
+    force -= v4d_sum3(U.a * motion->bias_a + U.alpha * motion->bias_alpha);
+    if (onward) {
+        add_bias(s, motion->bias_a, motion->bias_alpha);
+        shift(s, motion->r);
+    }
+    U.alpha += v4d_cross(motion->r, U.a);
+    record_axis(record, U, inverse, force * inverse);
+    if (onward)
+        release_axis(s, U, inverse, force * inverse);
+    return is_singular(D, all);
 }
 
-LD_INLINE int pass_slide(share *s, axis_record *record, const node_motion *motion, double tau)
+LD_INLINE int pass_turn(share *s, axis_record *record, const node_motion *motion, double tau,
+                        bool onward)
 {
-    v4d e = motion->A[2], r = motion->r;
+    v4d e = motion->A[2];
+    spatial_lanes U = along_turn(s, e);
+    return pass_axis(s, record, motion, U, v4d_dot3(e, U.alpha), trace(s->C),
+                     tau - v4d_dot3(e, s->m), onward);
+}
+
+LD_INLINE int pass_slide(share *s, axis_record *record, const node_motion *motion, double tau,
+                         bool onward)
+{
+    v4d e = motion->A[2];
     spatial_lanes U = along_slide(s, e);
-    double D = v4d_dot3(e, U.a);
-    double force = tau - v4d_sum3(e * s->f + (U.a * motion->bias_a + U.alpha * motion->bias_alpha));
-    int singular = is_singular(D, trace(s->A));
-    add_bias(s, motion->bias_a, motion->bias_alpha);
-    shift(s, r);
-    U.alpha += v4d_cross(r, U.a);
-    eliminate(s, record, U, 1 / D, force / D);
-    return singular;
+    return pass_axis(s, record, motion, U, v4d_dot3(e, U.a), trace(s->A), tau - v4d_dot3(e, s->f),
+                     onward);
 }
 
 static spatial_matrix share_matrix(const share *s)
@@ -352,9 +373,9 @@ static int inwards(ld_mstmm *system, const double *tau, const double *wrench)
 
         // its hinge, and on to the parent
         if (n->hinge == NODE_TURN) {
-            singular |= pass_turn(&s, &system->axis[n->axis], motion, tau[n->u]);
+            singular |= pass_turn(&s, &system->axis[n->axis], motion, tau[n->u], n->parent > 0);
         } else if (n->hinge == NODE_SLIDE) {
-            singular |= pass_slide(&s, &system->axis[n->axis], motion, tau[n->u]);
+            singular |= pass_slide(&s, &system->axis[n->axis], motion, tau[n->u], n->parent > 0);
         } else {
             add_bias(&s, motion->bias_a, motion->bias_alpha);
             if (n->hinge != NODE_WELD)
@@ -387,10 +408,11 @@ static spatial_lanes accelerate_several(const ld_mstmm *system, int i, spatial_l
     const axis_record *record = system->axis + n->axis;
     int slides = n->hinge == NODE_FREE ? 3 : 0;
     if (slides) {
-        m3 H = node_hinge_axes(system, i);
+        v4d H[3];
+        hinge_axes(system, n, H);
         for (int k = 0; k < 3; k++) {
             u_dot[n->u + k] = solve_axis(record + k, x);
-            x.a += v4d_from_v3(m3_column(H, k)) * v4d_all(u_dot[n->u + k]);
+            x.a += H[k] * v4d_all(u_dot[n->u + k]);
         }
     }
     for (int k = 0; k < 3; k++) {
