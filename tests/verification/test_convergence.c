@@ -140,8 +140,16 @@ static void defaults_are_converged(void **state)
     ld_model model;
     eccentric_model(&model);
     print_head("default against fine");
-    for (int i = 0; i < 2; i++) {
-        model.rocket.eccentricity[0] = i * 0.5e-3;
+    static const char *const names[] = {"reference", "eccentric 0.5 mm", "moving base"};
+    for (int i = 0; i < 3; i++) {
+        model.rocket.eccentricity[0] = i == 1 ? 0.5e-3 : 0;
+        if (i == 2) {
+            model.base.kind = LD_BASE_PRESCRIBED;
+            model.base.velocity[0] = 8.33;
+            model.base.pitch = (ld_sines){1, {{0.035, 1, 0}}};
+            model.base.yaw = (ld_sines){1, {{0.017, 0.7, 0}}};
+            model.base.heave = (ld_sines){1, {{0.02, 2, 0}}};
+        }
         ld_summary usual = launch(&model);
         ld_model fine = model;
         fine.tubes.modes.bending = 24;
@@ -150,12 +158,17 @@ static void defaults_are_converged(void **state)
         fine.run.tolerance = 1e-8;
         ld_summary truth = launch(&fine);
         muzzle d = difference(&usual, &truth);
-        print_row(i ? "eccentric 0.5 mm" : "reference", (int)usual.statistics.steps, &d);
+        print_row(names[i], (int)usual.statistics.steps, &d);
         CHECK_BELOW("instants [s]", d.instant, 8e-8);
         CHECK_BELOW("muzzle speed [m/s]", d.speed, 1e-5);
         CHECK_BELOW("pitch rate [rad/s]", d.rates[0], 3e-4);
         CHECK_BELOW("yaw rate [rad/s]", d.rates[1], 3e-4);
         CHECK_BELOW("spin [rad/s]", d.rates[2], 4e-3);
+        ld_model twisting = model;
+        twisting.tubes.modes.torsion = 4;
+        ld_summary better = launch(&twisting);
+        d = difference(&better, &truth);
+        CHECK_BELOW("spin with 4 torsion modes [rad/s]", d.rates[2], 3e-4);
     }
     reference_model_free(&model);
 }
