@@ -164,11 +164,6 @@ static void defaults_are_converged(void **state)
         CHECK_BELOW("pitch rate [rad/s]", d.rates[0], 3e-4);
         CHECK_BELOW("yaw rate [rad/s]", d.rates[1], 3e-4);
         CHECK_BELOW("spin [rad/s]", d.rates[2], 4e-3);
-        ld_model twisting = model;
-        twisting.tubes.modes.torsion = 4;
-        ld_summary better = launch(&twisting);
-        d = difference(&better, &truth);
-        CHECK_BELOW("spin with 4 torsion modes [rad/s]", d.rates[2], 3e-4);
     }
     reference_model_free(&model);
 }
@@ -220,7 +215,7 @@ static void tolerance_converges(void **state)
     set_thrust(&model);
     static const tolerance_bounds bound = {
         .instant = {4e-8, 2.5e-9, 5e-10, 8e-11, 1e-11, 7e-12, 2e-12},
-        .speed = {2e-7, 2e-7, 8e-8, 8e-8, 3e-8, 1.2e-8, 3.5e-9},
+        .speed = {6e-7, 3e-7, 1.6e-7, 8e-8, 3e-8, 1.2e-8, 3.5e-9},
         .rate = {7e-6, 3e-6, 6e-7, 6e-7, 2e-8, 1.2e-8, 1e-9},
         .spin = {1.2e-5, 1.2e-5, 4e-6, 2e-6, 2e-6, 8e-7, 2.5e-7}};
     check_tolerances(&model, &bound);
