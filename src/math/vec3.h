@@ -8,8 +8,8 @@ typedef struct v3 {
     double x, y, z;
 } v3;
 
-// Small functions are always inlined, so that a long computation is one piece of code; not in builds
-// with sanitizers, which would take minutes to compile it.
+// Small functions are always inlined, so that a long computation is one piece of code; not in
+// builds with sanitizers, which would take minutes to compile it.
 #define LD_ALWAYS_INLINE static inline __attribute__((always_inline, unused))
 #if defined(LD_SANITIZED)
 #define LD_INLINE static inline __attribute__((unused))

@@ -45,15 +45,16 @@ static void stiff_tube_is_rigid(void **state)
     assert_true(dense_simulate(&model, &rigid, 40e-6, &truth));
     flexible_tube_free(&rigid);
     static const double factor[] = {1e2, 1e4, 1e6};
-    static const double instant[] = {3e-7, 1e-8, 2.5e-8}, speed[] = {1.5e-4, 1.5e-6, 1.5e-8},
-                        rate[] = {1.2e-3, 1.2e-5, 4e-7};
+    // the lock force shows the noise of stiff modes, so its instant does
+    static const double release[] = {5e-10, 1e-8, 2e-7}, instant[] = {3e-7, 1e-8, 1e-8},
+                        speed[] = {1.5e-4, 1.5e-6, 1.5e-8}, rate[] = {1.2e-3, 1.2e-5, 4e-7};
     const ld_section steel = model.tubes.section[0];
     for (int i = 0; i < 3; i++) {
         model.tubes.section[0].bending_stiffness = factor[i] * steel.bending_stiffness;
         model.tubes.section[0].torsion_stiffness = factor[i] * steel.torsion_stiffness;
         ld_rocket_summary r = launch(&model);
         printf("  stiffness times %.0e\n", factor[i]);
-        CHECK_BELOW("t_release [s]", r.t_release - truth.t_release, instant[i]);
+        CHECK_BELOW("t_release [s]", r.t_release - truth.t_release, release[i]);
         CHECK_BELOW("t_rear [s]", r.t_rear - truth.t_rear, instant[i]);
         CHECK_BELOW("muzzle speed [m/s]", r.muzzle_speed - truth.muzzle_speed, speed[i]);
         CHECK_BELOW("pitch rate [rad/s]", r.pitch_rate - truth.pitch_rate, rate[i]);
@@ -160,7 +161,7 @@ static void resting_base_is_fixed(void **state)
     model.base.azimuth = 0.3;
     model.base.yaw = (ld_sines){1, {{0.4, 0, pi / 2}}};
     ld_rocket_summary turned = launch(&model);
-    check_same(&turned, &fixed, 0.7, 2e-9);
+    check_same(&turned, &fixed, 0.7, 1e-8);
     printf("  moving steadily at 25 m/s\n");
     model.base.velocity[0] = 20;
     model.base.velocity[2] = -15;
