@@ -161,28 +161,29 @@ static double newton(const ld_simulation *self, const launching_input *input,
     return now;
 }
 
-// How far adaptor i moves from the axis under `load` [N], positive along it.
-static double offset_under(const ld_rocket *rocket, int i, double load)
+// How far adaptor i moves from the axis under `load` [N], positive along it, pressed in by `extra`.
+static double offset_under(const ld_rocket *rocket, int i, double load, double extra)
 {
     const ld_contact *contact = &rocket->contact;
     double d_0 = contact->reference_penetration;
     if (contact->law == LD_CONTACT_BILATERAL)
         return load / contact->stiffness;
     double depth = d_0 * pow(fabs(load) / (contact->stiffness * d_0), 1 / contact->exponent);
-    return copysign(rocket->adaptor[i].clearance + depth, load);
+    return copysign(rocket->adaptor[i].clearance + depth + extra, load);
 }
 
 // Guess: adaptors i and j carry the rocket, each on the side that its share of the weight presses
 // it to (one of them on the upper side where the mass centre is not between them).
-static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, double *y)
+static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, double extra,
+                           double *y)
 {
     const ld_rocket *rocket = &self->model->rocket;
     double *x = y + self->launching.layout.x;
     double lean = hypot(pull.y, pull.z), weight = self->motor.full.m * lean;
     double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from;
     double share = (self->motor.full.c.x - from) / span;
-    double e_i = offset_under(rocket, i, (1 - share) * weight);
-    double e_j = offset_under(rocket, j, share * weight);
+    double e_i = offset_under(rocket, i, (1 - share) * weight, extra);
+    double e_j = offset_under(rocket, j, share * weight, extra);
     double slope = (e_j - e_i) / span;
     double e_0 = e_i - slope * from;
     x[1] = e_0 * pull.y / lean;
@@ -210,7 +211,7 @@ static void report(const ld_simulation *self, const launching_input *input,
 // Newton's method from one pair of carrying adaptors after the other, the outermost first, until
 // one succeeds. Returns the smallest residual; its state is in y.
 static double try_pairs(const ld_simulation *self, double t, const launching_input *input,
-                        const launching_phase *phase, double accepted, double *y)
+                        const launching_phase *phase, double extra, double accepted, double *y)
 {
     double best = INFINITY, trial[LD_MAX_STATES];
     v3 pull = m3_apply_transposed(input->base.A, v3_make(0, -self->model->gravity, 0));
@@ -220,7 +221,7 @@ static double try_pairs(const ld_simulation *self, double t, const launching_inp
                 continue;
             simulation_undeformed(self, t, trial);
             if (hypot(pull.y, pull.z) > 0)
-                guess_contacts(self, i, j, pull, trial);
+                guess_contacts(self, i, j, pull, extra, trial);
             double reached = newton(self, input, phase, trial);
             if (reached < best) {
                 best = reached;
@@ -249,7 +250,10 @@ ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
                        "no static equilibrium at the start: only the rear adaptor is in the tube; "
                        "\"run.start: undeformed\" starts without it");
     double accepted = 1e-6 * (1 + self->model->gravity);
-    double best = try_pairs(self, t, &input, &phase, accepted, y);
+    double best = INFINITY;
+    // an adaptor that hardly carries is found from where it is pressed in [m]
+    for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
+        best = fmin(best, try_pairs(self, t, &input, &phase, extra, accepted, y));
     if (!(best <= accepted))
         return ld_fail(
             error, LD_ERR_NUMERIC,
