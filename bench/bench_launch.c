@@ -8,7 +8,7 @@
 #include "launchdyn/scenario.h"
 #include "simulation/simulation.h"
 
-enum { REPEATS = 41, EVALUATIONS = 2000 };
+enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
 
 static double now(void)
 {
@@ -71,7 +71,7 @@ static void bench_form(ld_simulation *simulation, ld_formulation form, const cha
     simulation_input(simulation, 0.1, &input);
     for (int r = 0; r < REPEATS; r++) {
         double start = now();
-        for (int i = 0; i < EVALUATIONS / 20; i++)
+        for (int i = 0; i < FEW_EVALUATIONS; i++)
             launching_evaluate_general(&simulation->launching, form, &input, &phase, y, &out);
         sample[r] = (now() - start) / (EVALUATIONS / 20.0);
     }
