@@ -73,7 +73,7 @@ static void bench_form(ld_simulation *simulation, ld_formulation form, const cha
         double start = now();
         for (int i = 0; i < FEW_EVALUATIONS; i++)
             launching_evaluate_general(&simulation->launching, form, &input, &phase, y, &out);
-        sample[r] = (now() - start) / (EVALUATIONS / 20.0);
+        sample[r] = (now() - start) / FEW_EVALUATIONS;
     }
     print(what, sample, REPEATS, 1e-9, "ns");
 }
