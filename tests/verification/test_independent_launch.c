@@ -223,7 +223,7 @@ static void run_scenario(void **state)
     const scenario *s = *state;
     ld_model model;
     ld_error error;
-    ld_simulation *simulation;
+    ld_simulation *simulation = NULL;
     ld_summary summary;
     dense_summary dense;
     reference_model(&model);
@@ -275,7 +275,7 @@ int main(void)
     static const bounds usual = {3e-9, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
     static const bounds ringing = {3e-9, 2e-5, 4e-7, 1e-4, 1e-6, 8e-3, 2e-2};
     static const bounds uneven = {9e-8, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
-    static scenario scenarios[] = {
+    scenario scenarios[] = {
         {"reference", reference, 100e-6, usual},
         {"no slot", no_slot, 100e-6, ringing},
         {"straight slot", straight_slot, 100e-6, ringing},
