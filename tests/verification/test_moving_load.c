@@ -1,7 +1,8 @@
 // Moving force and moving mass through the whole launching subsystem (formulation.md, section 7,
 // item 8): the rocket is a point mass on its rear adaptor, held on the axis of a simply supported
 // tube; a thrust across the tube is the load, so that the tube has no weight of its own. Values:
-// Fryba's series for the force; for the mass converged values of sine modes. ctest: slow
+// Fryba's series for the force; for the mass converged values of sine modes.
+// ctest: slow
 #include <stdlib.h>
 
 #include "support/check.h"
