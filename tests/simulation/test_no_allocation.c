@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "launchdyn/simulation.h"
+#include "support/multibody_case.h"
 #include "support/reference_model.h"
 
 void *__real_malloc(size_t size);
@@ -105,10 +106,33 @@ static void a_run_allocates_nothing(void **state)
     reference_model_free(&model);
 }
 
+// The sweep of a multibody system allocates nothing either.
+static void accelerations_of_a_chain_allocate_nothing(void **state)
+{
+    (void)state;
+    static multibody_case c;
+    double u_dot[CASE_VALUES], tau[CASE_VALUES];
+    ld_mstmm *system;
+    ld_error error;
+    assert_int_equal(read_multibody_case("chain100", &c), 0);
+    if (ld_mstmm_create(c.element, c.count, c.gravity, &system, &error))
+        fail_msg("%s", error.text);
+    long before = allocations;
+    for (int k = 0; k < 100; k++) {
+        ld_mstmm_accelerations(system, c.q, c.u, c.tau, NULL, u_dot, &error);
+        ld_mstmm_forces(system, c.q, c.u, u_dot, NULL, tau);
+    }
+    CHECK_BELOW("100 times forward and inverse dynamics: allocations",
+                (double)(allocations - before), 0);
+    ld_mstmm_free(system);
+    assert_true(allocations > 0); // the counter counts
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_allocates_nothing),
+        cmocka_unit_test(accelerations_of_a_chain_allocate_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

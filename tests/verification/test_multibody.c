@@ -4,6 +4,7 @@
 
 #include "support/check.h"
 #include "support/multibody_case.h"
+#include "systems/multibody.h"
 
 // Largest error of the accelerations over the largest acceleration; the forces that
 // the rounded reference accelerations need (the mass matrix's condition times their rounding).
@@ -32,6 +33,29 @@ static void check_case(const char *name, double bound, double force_bound)
     ld_mstmm_free(system);
 }
 
+#ifdef LD_HAVE_AVX2
+// The sweep for wider registers gives the same bits.
+static void test_same_bits_with_wider_registers(void **state)
+{
+    (void)state;
+    static multibody_case c;
+    static const char *const names[] = {"chain3", "chain10", "chain100", "vehicle"};
+    for (int k = 0; k < 4; k++) {
+        ld_mstmm *system;
+        double plain[CASE_VALUES] = {0}, wide[CASE_VALUES] = {0};
+        ld_error error;
+        assert_int_equal(read_multibody_case(names[k], &c), 0);
+        if (ld_mstmm_create(c.element, c.count, c.gravity, &system, &error))
+            fail_msg("%s", error.text);
+        ld_mstmm_accelerations(system, c.q, c.u, c.tau, NULL, wide, &error);
+        system->sweep = &sweep_default;
+        ld_mstmm_accelerations(system, c.q, c.u, c.tau, NULL, plain, &error);
+        assert_memory_equal(plain, wide, sizeof plain);
+        ld_mstmm_free(system);
+    }
+}
+#endif
+
 static void test_reference_cases(void **state)
 {
     (void)state;
@@ -43,6 +67,11 @@ static void test_reference_cases(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reference_cases)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reference_cases),
+#ifdef LD_HAVE_AVX2
+        cmocka_unit_test(test_same_bits_with_wider_registers),
+#endif
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
