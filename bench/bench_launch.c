@@ -25,6 +25,8 @@ static int ascending(const void *a, const void *b)
 
 static void print(const char *what, double *sample, int count, double unit, const char *name)
 {
+    if (!what)
+        return;
     qsort(sample, (size_t)count, sizeof *sample, ascending);
     printf("%-58s median %8.3f  least %8.3f %s\n", what, sample[count / 2] / unit, sample[0] / unit,
            name);
@@ -108,6 +110,7 @@ int main(void)
     if (ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL))
         return 1;
+    bench_evaluation(simulation, 2, NULL); // the processor warms up
     bench_evaluation(simulation, 2, "evaluation, reduced, fast layout, 2 of 3 in contact");
     bench_evaluation(simulation, 3, "evaluation, reduced, fast layout, 3 of 3 in contact");
     bench_form(simulation, LD_FORMULATION_REDUCED, "evaluation, reduced, general matrix");
