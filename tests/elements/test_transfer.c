@@ -4,9 +4,11 @@
 
 #include <string.h>
 
+#include "elements/tube_dynamics.h"
 #include "math/dense.h"
 #include "support/check.h"
 #include "support/draw.h"
+#include "support/reference_model.h"
 
 enum { CASES = 200 };
 
@@ -304,12 +306,55 @@ static void test_singular_end_to_end_mobility_is_refused(void **state)
     assert_non_null(strstr(error.text, "not positive definite"));
 }
 
+// The finite-element tube of the reference launcher, bent by centimetres and moving.
+static void test_tube_is_symplectic(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    flexible_tube tube;
+    uint64_t seed = 9;
+    double worst = 0, det = 0;
+    reference_model(&model);
+    assert_int_equal(flexible_tube_build(&tube, &model.tubes, &error), LD_OK);
+    int modes = tube_mode_count(&tube);
+    static double M[LD_TUBE_SPEEDS * LD_TUBE_SPEEDS], h[LD_TUBE_SPEEDS];
+    for (int k = 0; k < CASES; k++) {
+        double q[LD_TUBE_MODES], q_dot[LD_TUBE_MODES], condition;
+        tube_section_state rear, tip;
+        transfer_matrix U;
+        v3 w = draw_v3(&seed, 3);
+        for (int i = 0; i < modes; i++) {
+            q[i] = 0.05 * draw(&seed) / (1 + i * i);
+            q_dot[i] = draw(&seed);
+        }
+        tube_dynamics_assemble(&tube, w, q, q_dot, draw_v3(&seed, 10), M, h);
+        tube_section(&tube, 0, w, q, q_dot, &rear);
+        tube_section(&tube, tube.length, w, q, q_dot, &tip);
+        flexible_body body = {.n = 6 + modes,
+                              .M = M,
+                              .h = h,
+                              .L_I = rear.L,
+                              .L_O = tip.L,
+                              .gamma_I = rear.gamma,
+                              .gamma_O = tip.gamma};
+        assert_int_equal(flexible_body_transfer(&U, &body, &condition, &error), LD_OK);
+        worst = fmax(worst, symplectic_error(&U));
+        det = fmax(det, fabs(determinant(&U) - 1));
+    }
+    CHECK_BELOW("reference tube: U' S U - S", worst, 2e-15);
+    CHECK_BELOW("reference tube: det U - 1", det, 3e-10);
+    flexible_tube_free(&tube);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rigid_body_is_symplectic),
         cmocka_unit_test(test_rigid_body_obeys_newton_and_euler),
         cmocka_unit_test(test_flexible_body_is_symplectic),
+        cmocka_unit_test(test_tube_is_symplectic),
         cmocka_unit_test(test_flexible_body_obeys_its_equation),
         cmocka_unit_test(test_six_speeds_are_the_rigid_body),
         cmocka_unit_test(test_product_is_the_chain),
