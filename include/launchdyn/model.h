@@ -24,6 +24,9 @@ enum {
     LD_MAX_SUPPORTS = 8,
     LD_MAX_ADAPTORS = 8,
     LD_MAX_SINES = 16,
+    LD_MAX_WHEELS = 32,
+    LD_MAX_BUMPS = 16,
+    LD_MAX_TUBES = 512,
     LD_MAX_FIRINGS = 1,
     LD_MAX_BENDING_MODES = 24,
     LD_MAX_TORSION_MODES = 8,
@@ -50,7 +53,132 @@ typedef struct ld_sines {
     ld_sine term[LD_MAX_SINES];
 } ld_sines;
 
-typedef enum ld_base_kind { LD_BASE_FIXED, LD_BASE_PRESCRIBED } ld_base_kind;
+typedef enum ld_base_kind { LD_BASE_FIXED, LD_BASE_PRESCRIBED, LD_BASE_VEHICLE } ld_base_kind;
+
+/// One sinusoid of a road, `amplitude sin(2 pi x/wavelength + phase)`, on both tracks.
+typedef struct ld_road_sine {
+    double amplitude;  ///< [m]
+    double wavelength; ///< [m]
+    double phase;      ///< [rad]
+} ld_road_sine;
+
+typedef enum ld_track { LD_TRACK_BOTH, LD_TRACK_LEFT, LD_TRACK_RIGHT } ld_track;
+
+/// `height/2 (1 - cos(2 pi (x - at)/length))` for at < x < at + length.
+typedef struct ld_bump {
+    double at;     ///< [m] x of I
+    double length; ///< [m]
+    double height; ///< [m], negative: a hole
+    ld_track tracks;
+} ld_bump;
+
+typedef enum ld_tracks { LD_TRACKS_SAME, LD_TRACKS_INDEPENDENT, LD_TRACKS_COHERENT } ld_tracks;
+
+enum { LD_ROAD_SMOOTH = -1 };
+
+/// Height of the road over x of I, of the left track (wheels with mount z < 0) and the right one:
+/// the sum of what is given (model.md, section 7).
+typedef struct ld_road {
+    int iso_class; ///< ISO 8608: 0 (A) to 7 (H); LD_ROAD_SMOOTH: no random part
+    ld_tracks tracks;
+    ld_table coherence; ///< n [1/m], g [-] with coherence g^2 (coherent); linear, constant outside
+    int seed;
+    int harmonics;         ///< N
+    double wavelengths[2]; ///< [m] shortest, longest
+    int sine_count;
+    ld_road_sine sine[LD_MAX_SINES];
+    int bump_count;
+    ld_bump bump[LD_MAX_BUMPS];
+    ld_table profile; ///< x [m], h [m] of both tracks, or x, left, right; cubic spline (not a
+                      ///< knot), constant outside
+} ld_road;
+
+typedef struct ld_wheel {
+    char name[LD_MAX_NAME];
+    double mount[3]; ///< [m] wheel centre with unloaded suspension, chassis axes from its mass
+                     ///< centre
+    double mass;     ///< [kg]
+    bool driven;
+} ld_wheel;
+
+/// Spring-damper between chassis and wheel, chassis axes; bump stops add `stiffness` times what
+/// the travel along y exceeds `compression` (wheel up) or `extension` (wheel down).
+typedef struct ld_suspension {
+    double stiffness[3]; ///< [N/m]
+    double damping[3];   ///< [N s/m]
+    struct {
+        double compression, extension; ///< [m] from the unloaded position, > 0; NaN: no stop
+        double stiffness;              ///< [N/m]
+    } bump_stop;
+} ld_suspension;
+
+typedef struct ld_tyre {
+    double radius;            ///< [m] R
+    double stiffness[3];      ///< [N/m] along, vertical, across
+    double damping[3];        ///< [N s/m]
+    double relaxation_length; ///< [m] sigma
+    double friction;          ///< [-] mu
+} ld_tyre;
+
+/// Holds the marching speed: F = kp (speed - v) + ki z_d, shared among the driven wheels.
+typedef struct ld_drive {
+    double kp; ///< [N s/m]
+    double ki; ///< [N/m]
+} ld_drive;
+
+/// Wheels, suspension, tyres and road of a vehicle: model.md, section 7.
+typedef struct ld_vehicle {
+    double speed; ///< [m/s] marching speed, >= 0; 0: parked
+    ld_road road;
+    ld_drive drive;
+    int wheel_count;
+    ld_wheel wheel[LD_MAX_WHEELS];
+    ld_suspension suspension;
+    ld_tyre tyre;
+} ld_vehicle;
+
+/// Moves a platform to its commanded angle: model.md, section 6.
+typedef struct ld_stabiliser {
+    ld_table command;    ///< t [s], pitch or yaw [rad]; one row: constant; linear between rows,
+                         ///< constant outside
+    double kp;           ///< [N m/rad]
+    double ki;           ///< [N m/(rad s)]
+    double kd;           ///< [N m s/rad]
+    double torque_limit; ///< [N m]
+} ld_stabiliser;
+
+typedef struct ld_hinge_friction {
+    double viscous; ///< [N m s/rad]
+    double coulomb; ///< [N m]
+    double rate;    ///< [rad/s] w_eps, at which Coulomb friction is at 71 %
+} ld_hinge_friction;
+
+/// Spring-damper in place of a stabiliser, at rest in the equilibrium.
+typedef struct ld_hinge_lock {
+    bool present;
+    double stiffness; ///< [N m/rad]
+    double damping;   ///< [N m s/rad]
+} ld_hinge_lock;
+
+/// A platform and the hinge that carries it: azimuth about y, elevation about z.
+typedef struct ld_turret {
+    double hinge_at[3]; ///< [m] in the axes of the body that carries it, from that one's origin
+                        ///< (the chassis' is its mass centre)
+    double mass;        ///< [kg] of the frame, without any tube
+    double center[3];   ///< [m] mass centre from its hinge, own axes
+    double inertia[3];  ///< [kg m2] about its own mass centre
+    ld_stabiliser stabiliser;
+    ld_hinge_friction friction;
+    ld_hinge_lock lock;
+} ld_turret;
+
+/// Chassis, azimuth and elevation platform: model.md, section 6.
+typedef struct ld_platform {
+    double chassis_mass;       ///< [kg]
+    double chassis_inertia[3]; ///< [kg m2]
+    ld_turret azimuth;
+    ld_turret elevation;
+} ld_platform;
 
 /// The base that carries the tube: model.md, section 2.
 typedef struct ld_base {
@@ -61,6 +189,7 @@ typedef struct ld_base {
     ld_sines surge, heave, sway; ///< [m] along I's x, y, z (prescribed)
     ld_sines yaw, pitch, roll;   ///< [rad] base pose Ry(yaw) Rz(pitch) Rx(roll) (prescribed)
     ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
+    ld_vehicle vehicle;
 } ld_base;
 
 /// What a section is given by; ld_model_complete() computes the rest from it and the material.
@@ -142,7 +271,9 @@ typedef struct ld_layout {
 
 typedef struct ld_tubes {
     ld_layout layout;
-    double length; ///< [m]
+    int empty_count;
+    int empty[LD_MAX_TUBES]; ///< numbers of the tubes without a rocket from the start
+    double length;           ///< [m]
     ld_material material;
     int section_count;
     ld_section section[LD_MAX_SECTIONS];
@@ -235,14 +366,16 @@ typedef struct ld_run_settings {
     double tolerance;           ///< [-] relative tolerance of the integrator
     double output_step_lead_in; ///< [s]
     double output_step_tube;    ///< [s]
-    double stuck_time; ///< [s] after ignition at which a rocket still in the tube is given up;
-                       ///< NaN: see ld_model_complete()
+    double stuck_time;    ///< [s] after ignition at which a rocket still in the tube is given up;
+                          ///< NaN: see ld_model_complete()
+    double coupling_step; ///< [s] at which the subsystems, integrated apart, exchange; 0: together
 } ld_run_settings;
 
 typedef struct ld_model {
     char *title;
     double gravity; ///< [m/s2]
     ld_base base;
+    ld_platform platform; ///< of a vehicle
     ld_tubes tubes;
     ld_rocket rocket;
     int firing_count;

@@ -1,0 +1,70 @@
+// The marching subsystem: wheels as lumped masses on tyres and suspension, on a road (model.md,
+// section 7). It takes the chassis' motion and gives the wrench on it.
+//
+// State: for each wheel r_j [3] position and v_j [3] velocity in I, eta [m] lateral and xi [m]
+// longitudinal deflection of the tyre (xi stays zero while rolling); then z_d [m], the drive's
+// integral.
+#ifndef LD_SYSTEMS_MARCHING_H
+#define LD_SYSTEMS_MARCHING_H
+
+#include "environment/road.h"
+#include "launchdyn/model.h"
+#include "systems/base_motion.h"
+
+enum { WHEEL_STATES = 8, WHEEL_R = 0, WHEEL_V = 3, WHEEL_ETA = 6, WHEEL_XI = 7 };
+
+// Powers [W] by kind of force, on wheels and chassis together.
+enum marching_power {
+    MARCHING_GRAVITY,    // on the wheels
+    MARCHING_SUSPENSION, // dampers
+    MARCHING_TYRE,       // normal force, by the road
+    MARCHING_SIDE,       // lateral force, and along while parked
+    MARCHING_DRIVE,      // longitudinal force while rolling
+    MARCHING_POWERS
+};
+
+typedef struct marching_system {
+    const ld_vehicle *model;
+    double gravity; // [m/s2] along -y of I
+    road *road;
+    int wheel_count, driven_count;
+    road_track track[LD_MAX_WHEELS];
+    bool parked; // speed 0
+    int state_count;
+} marching_system;
+
+typedef struct wheel_report {
+    double height, slope;   // of the road under it
+    double deflection;      // [m] p
+    double normal;          // [N] F_n
+    double along, side;     // [N] f_f, f_s on the wheel
+    v3 travel, travel_rate; // [m], [m/s] d and its rate, chassis axes
+    v3 suspension;          // [N] on the wheel, chassis axes
+} wheel_report;
+
+typedef struct marching_output {
+    v3 force, moment;   // [N], [N m] on the chassis, in I, about its mass centre
+    double speed;       // [m/s] v, of the chassis along its heading
+    double drive_force; // [N] F, of all driven wheels (before the friction limit)
+    double elastic;     // [J] of suspensions and bump stops
+    double power[MARCHING_POWERS];
+    wheel_report wheel[LD_MAX_WHEELS];
+} marching_output;
+
+// The road's table covers x0 to x1 [m].
+ld_status marching_build(marching_system *self, const ld_vehicle *model, double gravity, double x0,
+                         double x1, ld_error *error);
+void marching_free(marching_system *self);
+
+// Rates of the state, and the wrench on the chassis, whose frame (r: mass centre) is given.
+void marching_evaluate(const marching_system *self, const base_frame *chassis, const double *state,
+                       double *state_dot, marching_output *output);
+
+// [J] of the wheels.
+double marching_kinetic_energy(const marching_system *self, const double *state);
+
+// Puts every wheel where it is at its mount (suspension unloaded) under the chassis frame, at rest,
+// tyre and drive states zero.
+void marching_place(const marching_system *self, const base_frame *chassis, double *state);
+
+#endif

@@ -1,0 +1,96 @@
+// The orientating subsystem: chassis, azimuth and elevation platform with a stabiliser on each
+// hinge (model.md, section 6), a chain of the transfer matrix method (launchdyn/mstmm.h). It takes
+// the wrenches of wheels and tube supports and gives the frames of chassis and tube.
+//
+// State: q [9]: r_C [3] mass centre of the chassis in I, q_IC [4] its quaternion, azimuth and
+// elevation angle; u [8]: velocity of r_C in I, angular velocity of the chassis in its own axes,
+// rates of the two angles; z [2]: integrals of the stabilisers (azimuth, elevation) [N m].
+#ifndef LD_SYSTEMS_ORIENTATING_H
+#define LD_SYSTEMS_ORIENTATING_H
+
+#include "launchdyn/model.h"
+#include "launchdyn/mstmm.h"
+#include "systems/base_motion.h"
+
+enum { HINGE_AZIMUTH, HINGE_ELEVATION, HINGES };
+
+enum {
+    ORIENTATING_R = 0,          // r_C
+    ORIENTATING_QUATERNION = 3, // q_IC
+    ORIENTATING_ANGLE = 7,      // azimuth, elevation
+    ORIENTATING_V = 9,
+    ORIENTATING_W = 12,
+    ORIENTATING_RATE = 15, // of the two angles
+    ORIENTATING_Z = 17,
+    ORIENTATING_STATES = 19
+};
+
+enum orientating_power {
+    ORIENTATING_STABILISER, // both drives (or locks)
+    ORIENTATING_FRICTION,   // both hinges
+    ORIENTATING_GRAVITY,
+    ORIENTATING_POWERS
+};
+
+// Hinge angle and torque of the equilibrium, about which a locked hinge has its spring.
+typedef struct hinge_rest {
+    double angle;  // [rad]
+    double torque; // [N m]
+} hinge_rest;
+
+typedef struct orientating_system {
+    const ld_model *model;
+    ld_formulation formulation;
+    ld_mstmm *chain;
+    v3 tube_at;  // [m] undeformed tube's rear end, elevation platform axes
+    double mass; // [kg] of the three bodies, carried tubes included
+} orientating_system;
+
+typedef struct hinge_report {
+    double angle, rate;             // [rad], [rad/s] of the hinge
+    double measured, measured_rate; // pitch (yaw) of the elevation platform's x axis against I
+    double command, command_rate;
+    double error;    // wrapped
+    double torque;   // [N m] of stabiliser or lock on the outboard body
+    double friction; // [N m]
+    bool limited;    // torque at its limit
+} hinge_report;
+
+typedef struct orientating_motion {
+    base_frame chassis;         // r: mass centre
+    base_frame tube;            // frame T of the undeformed tube
+    hinge_report hinge[HINGES]; // angles, rates and commands; torques by orientating_evaluate
+} orientating_motion;
+
+typedef struct orientating_input {
+    v3 chassis_force, chassis_moment; // in I, about the chassis' mass centre
+    v3 tube_force, tube_moment;       // in T, about T's origin
+    hinge_rest rest[HINGES];          // of locked hinges
+    bool frictionless;                // Coulomb friction off (equilibrium, linearisation)
+} orientating_input;
+
+typedef struct orientating_output {
+    double power[ORIENTATING_POWERS];
+    double loss; // overall form: largest difference from the reduced sweep, relative
+} orientating_output;
+
+// Tube number `launching` is left out of the elevation platform's inertia; tubes listed in
+// `fired` [count] have no rocket any more.
+ld_status orientating_build(orientating_system *self, const ld_model *model, int launching,
+                            const int *fired, int fired_count, ld_error *error);
+void orientating_free(orientating_system *self);
+
+// Frames and angles at time t [s], from the state alone.
+void orientating_motion_at(const orientating_system *self, double t, const double *state,
+                           orientating_motion *motion);
+
+// Rates of the state; completes the hinge reports in `motion`. Other than 0: singular or not
+// finite.
+int orientating_evaluate(const orientating_system *self, const orientating_input *input,
+                         const double *state, orientating_motion *motion, double *state_dot,
+                         orientating_output *output);
+
+// [J] kinetic energy of chassis and platforms.
+double orientating_kinetic_energy(const orientating_system *self, const double *state);
+
+#endif
