@@ -49,7 +49,8 @@ static double loss(int n, int alternating, ld_mstmm_form form)
         u[i] = 0.5 * uniform();
         tau[i] = uniform();
     }
-    if (!system || ld_mstmm_accelerations_overall(system, form, q, u, tau, u_dot, &report, NULL))
+    if (!system ||
+        ld_mstmm_accelerations_overall(system, form, q, u, tau, NULL, u_dot, &report, NULL))
         report.loss = fmin(fmax(report.loss, 0.1), 1);
     ld_mstmm_free(system);
     return report.loss;

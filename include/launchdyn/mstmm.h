@@ -125,11 +125,12 @@ typedef struct ld_mstmm_overall {
 } ld_mstmm_overall;
 
 /// Forward dynamics by the overall transfer equation: the product of the elements' 13 x 13 matrices
-/// closed by the conditions at both ends. For comparison and study: it loses digits with the length
-/// of the chain (`report`, may be NULL). Fails with LD_ERR_NUMERIC where it has none left.
+/// closed by the conditions at both ends; arguments as of ld_mstmm_accelerations. For comparison
+/// and study: it loses digits with the length of the chain (`report`, may be NULL). Fails with
+/// LD_ERR_NUMERIC where it has none left.
 ld_status ld_mstmm_accelerations_overall(ld_mstmm *system, ld_mstmm_form form, const double *q,
-                                         const double *u, const double *tau, double *u_dot,
-                                         ld_mstmm_overall *report, ld_error *error);
+                                         const double *u, const double *tau, const double *wrench,
+                                         double *u_dot, ld_mstmm_overall *report, ld_error *error);
 
 typedef struct ld_mstmm_energies {
     double kinetic;   ///< [J]

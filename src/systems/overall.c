@@ -19,7 +19,7 @@ enum { ROWS = TRANSFER_ROWS };
 // Columns 0 .. n - 1 belong to the unknowns, column n is what is known.
 typedef struct overall {
     ld_mstmm *system;
-    const double *q, *u, *tau;
+    const double *q, *u, *tau, *wrench;
     bool paper;
     int n, width;
     int unknowns;      // given out so far
@@ -118,7 +118,8 @@ static void open_axis(overall *o, int i, int first_row, v3 e, int speed)
         row_of(o, i, first_row + r)[p] += along[r];
 }
 
-// Through the hinge of node i: its equations first, then its accelerations and bias.
+// Through the hinge of node i: its equations first, then its accelerations and bias, and what is
+// applied to its body.
 static void cross_hinge(overall *o, int i)
 {
     const ld_mstmm *s = o->system;
@@ -143,6 +144,11 @@ static void cross_hinge(overall *o, int i)
     double bias[6] = {a.x, a.y, a.z, alpha.x, alpha.y, alpha.z};
     for (int k = 0; k < 6 && n->body != NODE_SECTION; k++)
         row_of(o, i, TRANSFER_A + k)[o->n] += bias[k];
+    const double *applied = o->wrench && n->element >= 0 ? o->wrench + 6 * n->element : NULL;
+    for (int k = 0; applied && k < 3; k++) {
+        row_of(o, i, TRANSFER_F + k)[o->n] += applied[k];
+        row_of(o, i, TRANSFER_M + k)[o->n] += applied[3 + k];
+    }
 }
 
 // A new unknown wrench on node i; on the parent's body it acts the other way round, at r.
@@ -386,10 +392,10 @@ static ld_status transfer_all(overall *o, double *x, double *u_dot, ld_error *er
 
 // Largest difference of u_dot from the reduced sweep over its largest acceleration.
 static double loss_of(ld_mstmm *s, const double *q, const double *u, const double *tau,
-                      const double *u_dot, double *reduced)
+                      const double *wrench, const double *u_dot, double *reduced)
 {
     double off = 0, size = 0;
-    if (ld_mstmm_accelerations(s, q, u, tau, NULL, reduced, NULL))
+    if (ld_mstmm_accelerations(s, q, u, tau, wrench, reduced, NULL))
         return INFINITY;
     for (int k = 0; k < s->u_count; k++) {
         double miss = fabs(u_dot[k] - reduced[k]);
@@ -417,10 +423,10 @@ static ld_status check_size(const ld_mstmm *s, int unknowns, ld_error *error)
 }
 
 ld_status ld_mstmm_accelerations_overall(ld_mstmm *s, ld_mstmm_form form, const double *q,
-                                         const double *u, const double *tau, double *u_dot,
-                                         ld_mstmm_overall *report, ld_error *error)
+                                         const double *u, const double *tau, const double *wrench,
+                                         double *u_dot, ld_mstmm_overall *report, ld_error *error)
 {
-    overall o = {.system = s, .q = q, .u = u, .paper = form == LD_MSTMM_PAPER};
+    overall o = {.system = s, .q = q, .u = u, .wrench = wrench, .paper = form == LD_MSTMM_PAPER};
     int *children = calloc((size_t)s->node_count + 1, sizeof *children);
     o.rate_unknown = malloc(((size_t)s->u_count + 1) * sizeof *o.rate_unknown);
     if (!children || !o.rate_unknown) {
@@ -457,7 +463,7 @@ ld_status ld_mstmm_accelerations_overall(ld_mstmm *s, ld_mstmm_form form, const 
         status = transfer_all(&o, x, u_dot, error);
     }
     if (!status) {
-        double loss = loss_of(s, q, u, tau, u_dot, x + n);
+        double loss = loss_of(s, q, u, tau, wrench, u_dot, x + n);
         if (report) {
             *report = (ld_mstmm_overall){.order = o.equation_count, .loss = loss};
             if (!(loss < 1e-9))

@@ -1,5 +1,5 @@
-// The overall transfer equations in both forms against the reduced sweep, and how the paper's form
-// loses digits with the length of a chain.
+// The overall transfer equations in both forms, with applied wrenches, against the reduced sweep,
+// and how the paper's form loses digits with the length of a chain.
 #include "launchdyn/mstmm.h"
 
 #include <string.h>
@@ -12,7 +12,15 @@ enum { MOST = 128 };
 
 static ld_mstmm_element element[MOST];
 static char name[MOST][8];
-static double q[7 * MOST], u[6 * MOST], tau[6 * MOST];
+static double q[7 * MOST], u[6 * MOST], tau[6 * MOST], wrench[6 * MOST];
+
+// Wrenches of their own sequence on n bodies.
+static void draw_wrench(int n)
+{
+    static uint64_t seed = 8;
+    for (int i = 0; i < 6 * n; i++)
+        wrench[i] = draw(&seed);
+}
 
 // A system of n bodies; parent of body i by `next`: a chain or a random tree.
 static ld_mstmm *draw_system(int n, int tree, int all_hinges, uint64_t *seed)
@@ -44,6 +52,7 @@ static ld_mstmm *draw_system(int n, int tree, int all_hinges, uint64_t *seed)
         u[i] = draw(seed);
         tau[i] = draw(seed);
     }
+    draw_wrench(n);
     return system;
 }
 
@@ -52,9 +61,9 @@ static double difference(ld_mstmm *system, ld_mstmm_form form, ld_mstmm_overall 
 {
     double reduced[6 * MOST], overall[6 * MOST], off = 0, size = 1e-3;
     ld_error error = {0};
-    assert_int_equal(ld_mstmm_accelerations(system, q, u, tau, NULL, reduced, &error), LD_OK);
+    assert_int_equal(ld_mstmm_accelerations(system, q, u, tau, wrench, reduced, &error), LD_OK);
     ld_status status =
-        ld_mstmm_accelerations_overall(system, form, q, u, tau, overall, report, &error);
+        ld_mstmm_accelerations_overall(system, form, q, u, tau, wrench, overall, report, &error);
     if (status == LD_ERR_NUMERIC)
         return 1;
     if (status)
@@ -132,8 +141,8 @@ static void test_reference_cases(void **state)
         ld_error error = {0};
         assert_int_equal(read_multibody_case(names[i], &c), 0);
         assert_int_equal(ld_mstmm_create(c.element, c.count, c.gravity, &system, &error), LD_OK);
-        if (ld_mstmm_accelerations_overall(system, LD_MSTMM_HINGES, c.q, c.u, c.tau, u_dot, NULL,
-                                           &error))
+        if (ld_mstmm_accelerations_overall(system, LD_MSTMM_HINGES, c.q, c.u, c.tau, NULL, u_dot,
+                                           NULL, &error))
             fail_msg("%s", error.text);
         for (int k = 0; k < ld_mstmm_speed_count(system); k++) {
             off = fmax(off, fabs(u_dot[k] - c.u_dot[k]));
@@ -193,6 +202,7 @@ static void test_beams_agree(void **state)
             u[i] = draw(&seed);
             tau[i] = draw(&seed);
         }
+        draw_wrench(3);
         worst = fmax(worst, difference(system, LD_MSTMM_HINGES, &report));
         paper = fmax(paper, difference(system, LD_MSTMM_PAPER, &report));
         assert_int_equal(ld_mstmm_accelerations(system, q, u, tau, NULL, u_dot, &error), LD_OK);
