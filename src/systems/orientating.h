@@ -42,8 +42,11 @@ typedef struct orientating_system {
     const ld_model *model;
     ld_formulation formulation;
     ld_mstmm *chain;
-    v3 tube_at;  // [m] undeformed tube's rear end, elevation platform axes
     double mass; // [kg] of the three bodies, carried tubes included
+    // elevation platform with the tubes that it carries: mass [kg]; mass centre and undeformed
+    // launching tube's rear end [m] from its hinge, its axes
+    double elevation_mass;
+    v3 elevation_center, tube_at;
 } orientating_system;
 
 typedef struct hinge_report {
@@ -59,14 +62,16 @@ typedef struct hinge_report {
 typedef struct orientating_motion {
     base_frame chassis;         // r: mass centre
     base_frame tube;            // frame T of the undeformed tube
+    v3 momentum;                // [kg m/s] of the three bodies, in I
     hinge_report hinge[HINGES]; // angles, rates and commands; torques by orientating_evaluate
 } orientating_motion;
 
 typedef struct orientating_input {
     v3 chassis_force, chassis_moment; // in I, about the chassis' mass centre
     v3 tube_force, tube_moment;       // in T, about T's origin
-    hinge_rest rest[HINGES];          // of locked hinges
+    hinge_rest rest[HINGES];          // of locked or held hinges
     bool frictionless;                // Coulomb friction off (equilibrium, linearisation)
+    bool held; // hinges carry rest[].torque, whatever stabilisers and friction say (equilibrium)
 } orientating_input;
 
 typedef struct orientating_output {
