@@ -113,8 +113,65 @@ void reference_model(ld_model *model)
                                    .stuck_time = 2};
 }
 
+static void fill_wheels(ld_vehicle *vehicle)
+{
+    static const char *const name[] = {"front-left",   "front-right", "middle-left",
+                                       "middle-right", "rear-left",   "rear-right"};
+    static const double x[] = {2.7, -1.1, -2.5};
+    vehicle->wheel_count = 6;
+    for (int i = 0; i < 6; i++) {
+        ld_wheel *wheel = &vehicle->wheel[i];
+        snprintf(wheel->name, LD_MAX_NAME, "%s", name[i]);
+        set3(wheel->mount, x[i / 2], -0.7, i % 2 ? 1.05 : -1.05);
+        wheel->mass = 220;
+        wheel->driven = true;
+    }
+    vehicle->drive = (ld_drive){.kp = 4e4, .ki = 1e4};
+    vehicle->suspension =
+        (ld_suspension){{2e6, 4e5, 2e6}, {2e4, 2.5e4, 2e4}, {.compression = NAN, .extension = NAN}};
+    vehicle->tyre = (ld_tyre){.radius = 0.55,
+                              .stiffness = {4e5, 1.1e6, 5e5},
+                              .damping = {4e3, 4e3, 4e3},
+                              .relaxation_length = 0.3,
+                              .friction = 0.8};
+}
+
+static void fill_platform(ld_platform *platform)
+{
+    platform->chassis_mass = 11000;
+    set3(platform->chassis_inertia, 9e3, 4.5e4, 4.2e4);
+    platform->azimuth = (ld_turret){
+        .hinge_at = {-1.2, 0.6, 0},
+        .mass = 700,
+        .center = {0, 0.3, 0},
+        .inertia = {250, 400, 250},
+        .stabiliser = {reference_table(1, 2, (double[]){0, 0}), 4e6, 4e6, 3e5, 5e4},
+        .friction = {.viscous = 500, .coulomb = 200, .rate = 1e-3},
+    };
+    platform->elevation = (ld_turret){
+        .hinge_at = {-0.6, 0.7, 0},
+        .mass = 900,
+        .center = {0.7, 0.3, 0},
+        .inertia = {230, 470, 360},
+        .stabiliser = {reference_table(1, 2, (double[]){0, 19.8 * degree}), 6e6, 6e6, 4e5, 8e4},
+        .friction = {.viscous = 800, .coulomb = 300, .rate = 1e-3},
+    };
+}
+
+void reference_vehicle(ld_model *model, double speed)
+{
+    reference_model(model);
+    model->base.kind = LD_BASE_VEHICLE;
+    model->base.vehicle.speed = speed;
+    model->base.vehicle.road.iso_class = LD_ROAD_SMOOTH;
+    fill_wheels(&model->base.vehicle);
+    fill_platform(&model->platform);
+}
+
 void reference_model_free(ld_model *model)
 {
+    free(model->platform.azimuth.stabiliser.command.data);
+    free(model->platform.elevation.stabiliser.command.data);
     free(model->title);
     free(model->tubes.slot.angle.data);
     free(model->rocket.motor.thrust.data);

@@ -5,8 +5,11 @@
 
 #include "launchdyn/model.h"
 
-// Fills `model`; free with reference_model_free() or ld_model_free().
+// Fills `model` on a fixed base; free with reference_model_free() or ld_model_free().
 void reference_model(ld_model *model);
+
+// The same on its vehicle at `speed` [m/s], on a flat road.
+void reference_vehicle(ld_model *model, double speed);
 
 // Frees what reference_model() and reference_table() allocated in `model`.
 void reference_model_free(ld_model *model);
