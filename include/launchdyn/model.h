@@ -76,9 +76,12 @@ typedef enum ld_tracks { LD_TRACKS_SAME, LD_TRACKS_INDEPENDENT, LD_TRACKS_COHERE
 
 enum { LD_ROAD_SMOOTH = -1 };
 
+typedef enum ld_road_form { LD_ROAD_SUM, LD_ROAD_FLAT } ld_road_form;
+
 /// Height of the road over x of I, of the left track (wheels with mount z < 0) and the right one:
-/// the sum of what is given (model.md, section 7).
+/// the sum of what is given (model.md, section 7); a flat road has nothing of it.
 typedef struct ld_road {
+    ld_road_form form;
     int iso_class; ///< ISO 8608: 0 (A) to 7 (H); LD_ROAD_SMOOTH: no random part
     ld_tracks tracks;
     ld_table coherence; ///< n [1/m], g [-] with coherence g^2 (coherent); linear, constant outside
@@ -144,7 +147,7 @@ typedef struct ld_stabiliser {
     double kp;           ///< [N m/rad]
     double ki;           ///< [N m/(rad s)]
     double kd;           ///< [N m s/rad]
-    double torque_limit; ///< [N m]
+    double torque_limit; ///< [N m]; a locked hinge needs none of these four
 } ld_stabiliser;
 
 typedef struct ld_hinge_friction {

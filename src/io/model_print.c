@@ -43,6 +43,33 @@ static void print_choice(FILE *stream, const field_row *f, const void *base)
         print_number(stream, (const double *)((const char *)base + f->other), 1, f->unit);
 }
 
+static void print_integers(FILE *stream, const int *values, int count)
+{
+    fputc('[', stream);
+    for (int i = 0; i < count; i++)
+        fprintf(stream, "%s%d", i ? ", " : "", values[i]);
+    fputc(']', stream);
+}
+
+// The names of the marked entries; `all` where that is what they are.
+static void print_selection(FILE *stream, const field_row *f, const void *base)
+{
+    int count = field_switch(base, f), marked = 0;
+    for (int i = 0; i < count; i++)
+        marked += field_marked(base, f, i);
+    if (marked == count) {
+        fprintf(stream, "all");
+        return;
+    }
+    const char *between = "[";
+    for (int i = 0; i < count; i++)
+        if (field_marked(base, f, i)) {
+            fprintf(stream, "%s%s", between, (const char *)field_entry_const(base, f, i));
+            between = ", ";
+        }
+    fprintf(stream, marked ? "]" : "[]");
+}
+
 // A value that fits on one line.
 static void print_scalar(FILE *stream, const field_row *f, const void *base)
 {
@@ -62,6 +89,12 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
         return;
     case FIELD_WORD:
         fprintf(stream, "%s", (const char *)field_at_const(base, f));
+        return;
+    case FIELD_INTEGERS:
+        print_integers(stream, field_at_const(base, f), field_switch(base, f));
+        return;
+    case FIELD_SELECTION:
+        print_selection(stream, f, base);
         return;
     default: // FIELD_TEXT; the others have no place on a line
         print_text(stream, *(char *const *)field_at_const(base, f));
@@ -104,20 +137,20 @@ static void print_list(FILE *stream, const field_row *f, const void *base, int d
     fputc('\n', stream);
     for (int i = 0; i < count; i++) {
         fprintf(stream, "%*s- {", depth * 2, "");
-        print_entry(stream, f->block,
-                    (const char *)field_at_const(base, f) + (size_t)i * f->stride);
+        print_entry(stream, f->block, field_entry_const(base, f, i));
         fprintf(stream, "}\n");
     }
 }
 
 static void print_table(FILE *stream, const field_row *f, const ld_table *table, int depth)
 {
+    const table_format *format = field_table_format(f->table, table->columns);
     fputc('\n', stream);
     for (size_t i = 0; i < table->rows; i++) {
         fprintf(stream, "%*s- [", depth * 2, "");
         for (size_t k = 0; k < table->columns; k++) {
             fprintf(stream, "%s", k ? ", " : "");
-            print_number(stream, &table->data[i * table->columns + k], 1, f->table->column[k].unit);
+            print_number(stream, &table->data[i * table->columns + k], 1, format->column[k].unit);
         }
         fprintf(stream, "]\n");
     }

@@ -105,8 +105,9 @@ static void read_number(scenario_reader *reader, const field_row *f, const tree_
         values[i] = NAN;
 }
 
-static void read_integer(scenario_reader *reader, const field_row *f, const tree_node *value,
-                         void *base, const char *path)
+// A whole number in the range of `f`, into `result` (unless NULL).
+static void read_whole(scenario_reader *reader, const field_row *f, const tree_node *value,
+                       const char *path, int *result)
 {
     char quoted[64], expected[128];
     if (!is_scalar(reader, f, value, path))
@@ -118,8 +119,8 @@ static void read_integer(scenario_reader *reader, const field_row *f, const tree
         field_expectation(f, expected, sizeof expected);
         reader_refuse(reader, value->at, path, "found %s; expected %s",
                       reader_quote(value->text, quoted), expected);
-    } else if (f->offset != FIELD_NOWHERE) {
-        *(int *)field_at(base, f) = (int)number;
+    } else if (result) {
+        *result = (int)number;
     }
 }
 
@@ -205,10 +206,9 @@ static void read_text(scenario_reader *reader, const field_row *f, const tree_no
 
 // ---- tables
 
-static bool read_row(scenario_reader *reader, const field_row *f, const tree_node *row,
-                     const char *path, double *values)
+static bool read_row(scenario_reader *reader, const field_row *f, const table_format *format,
+                     const tree_node *row, const char *path, double *values)
 {
-    const table_format *format = f->table;
     char expected[256], cell_path[PATH];
     field_expectation(f, expected, sizeof expected);
     if (row->kind != NODE_LIST || row->count != format->columns) {
@@ -233,11 +233,14 @@ static bool read_rows(scenario_reader *reader, const field_row *f, const tree_no
                       const char *path, ld_table *table)
 {
     bool good = true;
-    size_t i = 0, columns = (size_t)f->table->columns;
     if (rows->count == 0) {
         reader_refuse(reader, rows->at, path, "the table is empty");
         return false;
     }
+    // the first row says which form of the table it is
+    const table_format *format = field_table_format(f->table, (size_t)rows->first->count);
+    format = format ? format : f->table;
+    size_t i = 0, columns = (size_t)format->columns;
     *table = (ld_table){(size_t)rows->count, columns,
                         calloc((size_t)rows->count * columns, sizeof(double))};
     if (!table->data) {
@@ -248,7 +251,7 @@ static bool read_rows(scenario_reader *reader, const field_row *f, const tree_no
         char number[16], row_path[PATH];
         snprintf(number, sizeof number, "%zu", i + 1);
         join(row_path, path, number);
-        good &= read_row(reader, f, row, row_path, &table->data[i * columns]);
+        good &= read_row(reader, f, format, row, row_path, &table->data[i * columns]);
     }
     return good;
 }
@@ -267,17 +270,20 @@ static bool read_constant(scenario_reader *reader, const field_row *f, const tre
                          &table->data[columns - 1], 1);
 }
 
+static bool ends_with(const char *text, const char *ending)
+{
+    size_t length = strlen(text), tail = strlen(ending);
+    return length > tail && strcmp(text + length - tail, ending) == 0;
+}
+
 static bool read_table_file(scenario_reader *reader, const field_row *f, const tree_node *value,
                             const char *path, ld_table *table)
 {
-    bool motor = f->table->source == TABLE_THRUST;
-    const char *ending = motor ? ".eng" : ".csv", *name = value->text;
-    size_t length = strlen(name);
-    if (length <= 4 || strcmp(name + length - 4, ending) != 0) {
+    bool known = (f->table->sources & TABLE_CSV && ends_with(value->text, ".csv")) ||
+                 (f->table->sources & TABLE_ENGINE && ends_with(value->text, ".eng"));
+    if (!known)
         refuse_value(reader, f, value, path);
-        return false;
-    }
-    return table_file_read(reader, f, value->at, path, name, table);
+    return known && table_file_read(reader, f, value->at, path, value->text, table);
 }
 
 static void read_table(scenario_reader *reader, const field_row *f, const tree_node *value,
@@ -289,7 +295,7 @@ static void read_table(scenario_reader *reader, const field_row *f, const tree_n
         good = read_rows(reader, f, value, path, table);
     else if (!is_scalar(reader, f, value, path))
         good = false;
-    else if (f->table->source == TABLE_CONSTANT)
+    else if (f->table->sources & TABLE_CONSTANT && !ends_with(value->text, ".csv"))
         good = read_constant(reader, f, value, path, table);
     else
         good = read_table_file(reader, f, value, path, table);
@@ -364,7 +370,7 @@ static void read_list(scenario_reader *reader, const field_row *f, const tree_no
         reader_refuse(reader, list->at, path, "found a list of %d; expected %s", list->count,
                       expected);
     for (const tree_node *entry = list->first; entry && number < f->count; entry = entry->next) {
-        char *inner = (char *)field_at(base, f) + (size_t)number * f->stride;
+        void *inner = field_entry(base, f, number);
         entry_path(inner_path, path, entry, ++number);
         memset(inner, 0, f->stride);
         field_initialise(f->block, inner);
@@ -376,6 +382,73 @@ static void read_list(scenario_reader *reader, const field_row *f, const tree_no
     field_set_switch(base, f, number);
 }
 
+// ---- lists of plain values
+
+static void read_integers(scenario_reader *reader, const field_row *f, const tree_node *list,
+                          void *base, const char *path)
+{
+    int *values = field_at(base, f), number = 0;
+    if (list->kind != NODE_LIST || list->count > f->count) {
+        refuse_value(reader, f, list, path);
+        return;
+    }
+    for (const tree_node *entry = list->first; entry; entry = entry->next, number++) {
+        char inner_path[PATH];
+        entry_path(inner_path, path, entry, number + 1);
+        read_whole(reader, f, entry, inner_path, &values[number]);
+    }
+    field_set_switch(base, f, number);
+}
+
+// The number of the entry of that name, or -1.
+static int entry_named(const field_row *f, const void *base, const char *name)
+{
+    for (int i = 0; i < field_switch(base, f); i++)
+        if (strcmp(field_entry_const(base, f, i), name) == 0)
+            return i;
+    return -1;
+}
+
+static void select_entry(scenario_reader *reader, const field_row *f, const tree_node *name,
+                         void *base, const char *path)
+{
+    char quoted[64];
+    if (!is_scalar(reader, f, name, path))
+        return;
+    int i = entry_named(f, base, name->text);
+    if (i >= 0) {
+        field_set_mark(base, f, i, true);
+        return;
+    }
+    name_suggestion best = suggestion_begin(name->text);
+    for (int k = 0; k < field_switch(base, f); k++)
+        suggestion_offer(&best, field_entry_const(base, f, k));
+    reader_refuse(reader, name->at, path, "found %s, which is none of them%s%s%s",
+                  reader_quote(name->text, quoted), best.name ? "; did you mean \"" : "",
+                  best.name ? best.name : "", best.name ? "\"?" : "");
+}
+
+// Marks the entries named; without a value, or for `all`, every one.
+static void read_selection(scenario_reader *reader, const field_row *f, const tree_node *value,
+                           void *base, const char *path)
+{
+    bool all = !value || (value->kind == NODE_SCALAR && strcmp(value->text, "all") == 0);
+    int number = 0;
+    for (int i = 0; i < field_switch(base, f); i++)
+        field_set_mark(base, f, i, all);
+    if (all)
+        return;
+    if (value->kind != NODE_LIST) {
+        refuse_value(reader, f, value, path);
+        return;
+    }
+    for (const tree_node *entry = value->first; entry; entry = entry->next) {
+        char inner_path[PATH];
+        entry_path(inner_path, path, entry, ++number);
+        select_entry(reader, f, entry, base, inner_path);
+    }
+}
+
 static void read_field(scenario_reader *reader, const field_row *f, const tree_node *value,
                        void *base, const char *path)
 {
@@ -384,7 +457,13 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
         read_number(reader, f, value, base, path);
         break;
     case FIELD_INTEGER:
-        read_integer(reader, f, value, base, path);
+        read_whole(reader, f, value, path, f->offset == FIELD_NOWHERE ? NULL : field_at(base, f));
+        break;
+    case FIELD_INTEGERS:
+        read_integers(reader, f, value, base, path);
+        break;
+    case FIELD_SELECTION:
+        read_selection(reader, f, value, base, path);
         break;
     case FIELD_CHOICE:
         read_choice(reader, f, value, base, path);
@@ -497,9 +576,11 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
     if (value && fits) {
         read_field(reader, f, value, base, key_path);
     } else if (value) {
-        reader_refuse(
-            reader, value->key_at, key_path, "does not go with %s%s",
-            block->form_from_keys ? "" : "kind: ", field_word_of(block->form, form)->name);
+        reader_refuse(reader, value->key_at, key_path, "does not go with %s%s%s",
+                      block->form_from_keys ? "" : block->form_key,
+                      block->form_from_keys ? "" : ": ", field_word_of(block->form, form)->name);
+    } else if (f->kind == FIELD_SELECTION && fits) {
+        read_selection(reader, f, NULL, base, key_path);
     } else if (f->required && fits && (form >= 0 || !f->forms) &&
                !is_misspelt(block, map, f->name)) {
         field_expectation(f, expected, sizeof expected);

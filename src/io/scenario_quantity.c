@@ -70,6 +70,8 @@ static quantity split(const char *text, int most)
     for (;;) {
         double value;
         text += strspn(text, " \t\r\n");
+        if (q.count > 0 && strncmp(text, "1/", 2) == 0) // the unit 1/m
+            break;
         const char *end = number_parse(text, &value, &q.reason);
         if (!end)
             break;

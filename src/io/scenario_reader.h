@@ -106,8 +106,8 @@ struct field_row;
 bool quantity_read(scenario_reader *reader, const struct field_row *f, text_place place,
                    const char *path, const char *text, double *values, int count);
 
-// Reads the table `f` from the file `name` (beside the file that names it): thrust from a RASP .eng
-// file, motion from a CSV file. Messages about what it holds point into it. False after a message.
+// Reads the table `f` from the file `name` (beside the file that names it), a RASP .eng file or a
+// CSV file by the ending of its name. Messages about what it holds point into it. False after a message.
 bool table_file_read(scenario_reader *reader, const struct field_row *f, text_place place,
                      const char *path, const char *name, ld_table *table);
 // The name of a file beside the one that names it, in the pool.

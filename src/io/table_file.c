@@ -187,7 +187,7 @@ static void read_rasp(line_reader *lines, ld_table *table)
         refuse_line(lines, 0, "the curve ends at thrust 0; more lines (a second engine?) follow");
 }
 
-// ---- motion as CSV: a header "t [s], x [m], .., roll [deg]", then rows of numbers
+// ---- CSV: a header such as "t [s], x [m], .., roll [deg]", then rows of numbers
 
 // Factor from the unit in brackets behind a column's name; NaN after a message.
 static double header_factor(line_reader *lines, const field_row *column, int i)
@@ -207,35 +207,59 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
     return NAN;
 }
 
-static void read_motion(line_reader *lines, const table_format *format, ld_table *table)
+// One number of a row, in SI; checks its range.
+static void read_cell(line_reader *lines, const field_row *column, int i, double factor,
+                      double *value)
 {
-    double factor[FIELD_MAX_COLUMNS], row[FIELD_MAX_COLUMNS];
-    int columns = format->columns;
+    char text[192], expected[128];
+    if (!line_number(lines, i, value))
+        return;
+    *value = units_scale(*value, factor);
+    if (!isfinite(*value)) {
+        refuse_line(lines, i, "too large a number");
+    } else if (!field_in_range(column->range, *value)) {
+        field_range_text(column, expected, sizeof expected);
+        snprintf(text, sizeof text, "found %.40s; expected %s", lines->field[i], expected);
+        refuse_line(lines, i, text);
+    }
+}
+
+static void read_csv_row(line_reader *lines, const table_format *format, const double *factor,
+                         ld_table *table)
+{
+    double row[FIELD_MAX_COLUMNS];
+    char text[128];
+    if (lines->count != format->columns) {
+        snprintf(text, sizeof text, "expected %d numbers, found %d", format->columns, lines->count);
+        refuse_line(lines, 0, text);
+        return;
+    }
+    for (int i = 0; i < format->columns && !lines->failed; i++)
+        read_cell(lines, &format->column[i], i, factor[i], &row[i]);
+    if (!lines->failed && table->rows > 0 &&
+        row[0] <= table->data[(table->rows - 1) * table->columns]) {
+        snprintf(text, sizeof text, "%s does not come after that of the row before",
+                 format->column[0].name);
+        refuse_line(lines, 0, text);
+    }
+    if (!lines->failed)
+        append_row(lines, table, (size_t)format->columns, row);
+}
+
+static void read_csv(line_reader *lines, const table_format *format, ld_table *table)
+{
+    double factor[FIELD_MAX_COLUMNS];
     if (!next_line(lines, '#', true) && !lines->failed)
         refuse_line(lines, 0, "the file is empty");
-    for (int i = 0; i < columns && !lines->failed; i++)
+    // the header says which form of the table it is
+    const table_format *given = field_table_format(format, (size_t)lines->count);
+    format = given ? given : format;
+    for (int i = 0; i < format->columns && !lines->failed; i++)
         factor[i] = header_factor(lines, &format->column[i], i);
-    while (next_line(lines, '#', true)) {
-        if (lines->count != columns) {
-            char text[64];
-            snprintf(text, sizeof text, "expected %d numbers, found %d", columns, lines->count);
-            refuse_line(lines, 0, text);
-            return;
-        }
-        for (int i = 0; i < columns && !lines->failed; i++)
-            if (line_number(lines, i, &row[i])) {
-                row[i] = units_scale(row[i], factor[i]);
-                if (!isfinite(row[i]))
-                    refuse_line(lines, i, "too large a number");
-            }
-        if (!lines->failed && table->rows > 0 &&
-            row[0] <= table->data[(table->rows - 1) * table->columns])
-            refuse_line(lines, 0, "a time that does not come after that of the row before");
-        if (lines->failed || !append_row(lines, table, (size_t)columns, row))
-            return;
-    }
-    if (!lines->failed && table->rows < 2)
-        refuse_line(lines, 0, "a motion needs at least two rows");
+    while (next_line(lines, '#', true) && !lines->failed)
+        read_csv_row(lines, format, factor, table);
+    if (!lines->failed && table->rows == 0)
+        refuse_line(lines, 0, "no row of numbers");
 }
 
 bool table_file_read(scenario_reader *reader, const field_row *f, text_place place,
@@ -247,9 +271,10 @@ bool table_file_read(scenario_reader *reader, const field_row *f, text_place pla
     if (!opened)
         return false;
     lines.next = opened->text;
-    if (f->table->source == TABLE_THRUST)
+    size_t length = strlen(name);
+    if (strcmp(name + length - 4, ".eng") == 0)
         read_rasp(&lines, table);
     else
-        read_motion(&lines, f->table, table);
+        read_csv(&lines, f->table, table);
     return !lines.failed;
 }

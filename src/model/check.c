@@ -40,7 +40,7 @@ static void check_choice(model_checker *checker, const char *path, const field_r
     if (f->offset == FIELD_NOWHERE)
         return;
     memcpy(&value, field_at_const(base, f), sizeof value);
-    const field_word *word = value < 0 ? NULL : field_word_of(f->words, value);
+    const field_word *word = value == FIELD_WORD_LATER ? NULL : field_word_of(f->words, value);
     if (!word)
         refuse(checker, path, "no value of this choice");
     else if (!word->name[0])
@@ -60,18 +60,39 @@ static void check_integer(model_checker *checker, const char *path, const field_
         refuse(checker, path, text);
 }
 
+static void check_integers(model_checker *checker, const char *path, const field_row *f,
+                           const void *base)
+{
+    int count = field_switch(base, f);
+    char text[96];
+    if (count < 0 || count > f->count) {
+        snprintf(text, sizeof text, "%d numbers, not 0 to %d", count, f->count);
+        refuse(checker, path, text);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        int value = ((const int *)field_at_const(base, f))[i];
+        snprintf(text, sizeof text, "%d is not from %g to %g", value, f->range.low, f->range.high);
+        if (!field_in_range(f->range, value))
+            refuse(checker, path, text);
+    }
+}
+
 static void check_table(model_checker *checker, const char *path, const field_row *f,
                         const ld_table *table)
 {
     if (f->required && table->rows == 0)
         refuse(checker, path, "missing");
-    if (table->rows > 0 && table->columns != (size_t)f->table->columns) {
+    if (table->rows == 0)
+        return;
+    const table_format *format = field_table_format(f->table, table->columns);
+    if (!format) {
         refuse(checker, path, "has not the columns that it must have");
         return;
     }
     for (size_t i = 0; i < table->rows; i++)
         for (size_t k = 0; k < table->columns; k++)
-            check_number(checker, path, &f->table->column[k], table->data[i * table->columns + k]);
+            check_number(checker, path, &format->column[k], table->data[i * table->columns + k]);
 }
 
 static void check_block(model_checker *checker, const char *path, const field_block *block,
@@ -89,8 +110,7 @@ static void check_list(model_checker *checker, const char *path, const field_row
     }
     for (int i = 0; i < count; i++) {
         snprintf(entry, sizeof entry, "%.140s.%d", path, i + 1);
-        check_block(checker, entry, f->block,
-                    (const char *)field_at_const(base, f) + (size_t)i * f->stride);
+        check_block(checker, entry, f->block, field_entry_const(base, f, i));
     }
 }
 
@@ -104,6 +124,9 @@ static void check_field(model_checker *checker, const char *path, const field_ro
         break;
     case FIELD_INTEGER:
         check_integer(checker, path, f, base);
+        break;
+    case FIELD_INTEGERS:
+        check_integers(checker, path, f, base);
         break;
     case FIELD_CHOICE:
         check_choice(checker, path, f, base);
@@ -125,6 +148,7 @@ static void check_field(model_checker *checker, const char *path, const field_ro
             refuse(checker, path, "not ended by a zero");
         break;
     case FIELD_TEXT:
+    case FIELD_SELECTION:
     case FIELD_LATER:
         break;
     }

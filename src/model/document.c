@@ -44,9 +44,10 @@ static void write_default(FILE *stream, const field_row *f)
         cell(stream, field_word_of(f->words, (int)f->initial)->name);
         return;
     }
-    field_number_text(f->initial, number);
-    for (int i = 0; i < (f->kind == FIELD_NUMBER ? f->count : 1); i++)
+    for (int i = 0; i < (f->kind == FIELD_NUMBER ? f->count : 1); i++) {
+        field_number_text(f->initials ? f->initials[i] : f->initial, number);
         fprintf(stream, "%s%s", i ? " " : "", number);
+    }
     if (f->unit && f->unit[0])
         fprintf(stream, " %s", f->unit);
 }
@@ -88,8 +89,10 @@ static void write_block(FILE *stream, const field_block *block, const char *path
         for (const field_word *w = block->form; f->forms && w->name; w++) {
             if (w->value < 0 || !field_has_form(f, w->value))
                 continue;
-            fprintf(stream, "%s%s%s", between, block->form_from_keys ? "" : "`kind: ", w->name);
-            fprintf(stream, block->form_from_keys ? "" : "`");
+            if (block->form_from_keys)
+                fprintf(stream, "%s%s", between, w->name);
+            else
+                fprintf(stream, "%s`%s: %s`", between, block->form_key, w->name);
             between = " or ";
         }
         fprintf(stream, " |\n");

@@ -65,6 +65,33 @@ bool field_has_form(const field_row *field, int form)
     return field->forms == 0 || (form >= 0 && form < 32 && (field->forms >> form & 1u));
 }
 
+void *field_entry(void *base, const field_row *field, int i)
+{
+    return (char *)field_at(base, field) + (size_t)i * field->stride;
+}
+
+const void *field_entry_const(const void *base, const field_row *field, int i)
+{
+    return (const char *)field_at_const(base, field) + (size_t)i * field->stride;
+}
+
+bool field_marked(const void *base, const field_row *field, int i)
+{
+    return *((const bool *)field_entry_const(base, field, i) + field->mark);
+}
+
+void field_set_mark(void *base, const field_row *field, int i, bool mark)
+{
+    *((bool *)field_entry(base, field, i) + field->mark) = mark;
+}
+
+const table_format *field_table_format(const table_format *format, size_t columns)
+{
+    while (format && (size_t)format->columns != columns)
+        format = format->other;
+    return format;
+}
+
 static void initialise(const field_row *f, void *base)
 {
     if (f->kind == FIELD_BLOCK) {
@@ -75,7 +102,7 @@ static void initialise(const field_row *f, void *base)
         return;
     } else if (f->kind == FIELD_NUMBER) {
         for (int i = 0; i < f->count; i++)
-            ((double *)field_at(base, f))[i] = f->initial;
+            ((double *)field_at(base, f))[i] = f->initials ? f->initials[i] : f->initial;
     } else if (f->kind == FIELD_INTEGER || f->kind == FIELD_CHOICE) {
         int whole = isnan(f->initial) ? 0 : (int)f->initial;
         memcpy(field_at(base, f), &whole, sizeof whole);
@@ -86,6 +113,19 @@ void field_initialise(const field_block *block, void *base)
 {
     for (const field_row *f = block->fields; f->name; f++)
         initialise(f, base);
+}
+
+void field_release(const field_block *block, void *base)
+{
+    for (const field_row *f = block->fields; f->name; f++) {
+        if (f->kind == FIELD_BLOCK) {
+            field_release(f->block, field_at(base, f));
+        } else if (f->kind == FIELD_TEXT) {
+            free(*(char **)field_at(base, f));
+        } else if (f->kind == FIELD_TABLE) {
+            free(((ld_table *)field_at(base, f))->data);
+        }
+    }
 }
 
 bool field_in_range(field_range range, double value)
@@ -169,19 +209,27 @@ static void number_expectation(const field_row *field, char *text, size_t size)
 
 static void table_expectation(const table_format *table, char *text, size_t size)
 {
-    snprintf(text, size, "rows [");
-    for (int i = 0; i < table->columns; i++) {
-        append(text, size, i ? ", " : "");
-        append(text, size, table->column[i].name);
-        append(text, size, " in ");
-        append(text, size, unit_name(table->column[i].unit));
-    }
-    static const char *const others[] = {
-        [TABLE_CONSTANT] = "] or one value of the last",
-        [TABLE_MOTION] = "] or the name of a .csv file",
-        [TABLE_THRUST] = "] or the name of an .eng file",
+    static const struct {
+        unsigned source;
+        const char *text;
+    } others[] = {
+        {TABLE_CONSTANT, " or one value of the last"},
+        {TABLE_CSV, " or the name of a .csv file"},
+        {TABLE_ENGINE, " or the name of an .eng file"},
     };
-    append(text, size, others[table->source]);
+    snprintf(text, size, "rows [");
+    for (const table_format *form = table; form; form = form->other) {
+        for (int i = 0; i < form->columns; i++) {
+            const char *unit = form->column[i].unit;
+            append(text, size, i ? ", " : "");
+            append(text, size, form->column[i].name);
+            append(text, size, unit[0] ? " in " : "");
+            append(text, size, unit_name(unit));
+        }
+        append(text, size, form->other ? "] or [" : "]");
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        append(text, size, table->sources & others[i].source ? others[i].text : "");
 }
 
 void field_expectation(const field_row *field, char *text, size_t size)
@@ -192,6 +240,13 @@ void field_expectation(const field_row *field, char *text, size_t size)
         return;
     case FIELD_INTEGER:
         snprintf(text, size, "a whole number from %g to %g", field->range.low, field->range.high);
+        return;
+    case FIELD_INTEGERS:
+        snprintf(text, size, "a list of at most %d whole numbers from %g to %g", field->count,
+                 field->range.low, field->range.high);
+        return;
+    case FIELD_SELECTION:
+        snprintf(text, size, "all or a list of names");
         return;
     case FIELD_WORD:
         snprintf(text, size, "a name of letters, digits, - and _ that begins with a letter");

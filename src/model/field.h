@@ -12,15 +12,18 @@
 #include "launchdyn/model.h"
 
 typedef enum field_kind {
-    FIELD_NUMBER,  // `count` doubles with one unit
-    FIELD_INTEGER, // int
-    FIELD_WORD,    // char[LD_MAX_NAME], a name
-    FIELD_TEXT,    // char *, owned by the model
-    FIELD_CHOICE,  // enum: one of `words`
-    FIELD_BLOCK,   // keys of `block`
-    FIELD_LIST,    // array of structs described by `block`, their number at `other`
-    FIELD_TABLE,   // ld_table
-    FIELD_LATER,   // a key of the language that is not simulated yet
+    FIELD_NUMBER,    // `count` doubles with one unit
+    FIELD_INTEGER,   // int
+    FIELD_INTEGERS,  // array of int, their number at `other`
+    FIELD_WORD,      // char[LD_MAX_NAME], a name
+    FIELD_TEXT,      // char *, owned by the model
+    FIELD_CHOICE,    // enum: one of `words`
+    FIELD_BLOCK,     // keys of `block`
+    FIELD_LIST,      // array of structs described by `block`, their number at `other`
+    FIELD_SELECTION, // some entries of a list read before, by their names or `all`: the bool at
+                     // `mark` of each entry, whose name stands first in it
+    FIELD_TABLE,     // ld_table
+    FIELD_LATER,     // a key of the language that is not simulated yet
 } field_kind;
 
 // Numbers between `low` and `high`, the ends belonging to it unless open.
@@ -36,21 +39,22 @@ typedef struct field_word {
     int value; // FIELD_WORD_LATER: not simulated yet
 } field_word;
 
-enum { FIELD_WORD_LATER = -1 };
+enum { FIELD_WORD_LATER = -2 };
 
 // What may stand in place of a table's rows.
-typedef enum table_source {
-    TABLE_CONSTANT, // one value, of the last column
-    TABLE_MOTION,   // a CSV file whose header names columns and units
-    TABLE_THRUST,   // a RASP .eng file
-} table_source;
+enum table_source {
+    TABLE_CONSTANT = 1, // one value, of the last column
+    TABLE_CSV = 2,      // a CSV file whose header names columns and units
+    TABLE_ENGINE = 4,   // a RASP .eng file
+};
 
 enum { FIELD_MAX_COLUMNS = 8 };
 
 typedef struct table_format {
-    table_source source;
+    unsigned sources; // any of table_source
     int columns;
-    const struct field_row *column; // name, unit and range of each
+    const struct field_row *column;   // name, unit and range of each
+    const struct table_format *other; // another form, of more columns, or NULL
 } table_format;
 
 typedef struct field_row {
@@ -60,12 +64,14 @@ typedef struct field_row {
     size_t offset;           // in the block's struct; FIELD_NOWHERE: nothing is stored
     size_t other;            // list: its count; choice: its number; block with words: its switch
     bool other_is_bool;      // the switch is a bool, not an enum
-    size_t stride;           // list: size of one entry
-    int count;               // number: how many; list: most entries
+    size_t stride;           // list, selection: size of one entry
+    size_t mark;             // selection: place of the mark in an entry
+    int count;               // number: how many; list, integers: most entries
     int least;               // list: fewest entries
     bool more_later;         // list: more entries are not simulated yet
     const char *unit;        // SI, "" without
     double initial;          // default in SI; NaN: none
+    const double *initials;  // number: default of each, where they differ
     const char *initial_doc; // default in words, where `initial` is not it
     field_range range;
     const field_word *words;
@@ -81,7 +87,8 @@ typedef struct field_block {
     const field_row *fields; // ends with a row without name
     const field_word *form;  // the block's forms; NULL: it has but one
     size_t form_offset;      // where the form is stored
-    bool form_from_keys;     // the form follows from the keys given; else it is a key of its own
+    bool form_from_keys;     // the form follows from the keys given
+    const char *form_key;    // else it is a key of its own: its path
     bool shared_value;       // one number in place of the block gives all its numbers
 } field_block;
 
@@ -107,6 +114,17 @@ bool field_has_form(const field_row *field, int form);
 
 // Sets every value of the block to its default (recursively; tables and lists empty).
 void field_initialise(const field_block *block, void *base);
+// Frees the texts and tables of the block.
+void field_release(const field_block *block, void *base);
+
+// Entry `i` of a list or selection.
+void *field_entry(void *base, const field_row *field, int i);
+const void *field_entry_const(const void *base, const field_row *field, int i);
+// Whether entry `i` belongs to a selection, and its setter.
+bool field_marked(const void *base, const field_row *field, int i);
+void field_set_mark(void *base, const field_row *field, int i, bool mark);
+// The form of a table that has so many columns, or NULL.
+const table_format *field_table_format(const table_format *format, size_t columns);
 
 bool field_in_range(field_range range, double value);
 // "> 0 kg", "0 to 1"; "" where all is allowed. Angles in degrees.
@@ -118,7 +136,7 @@ void field_number_text(double value, char text[32]);
 
 // Rules that tie several keys together; `report` is called for each one broken, with the path of
 // the key that it is about (list members by number). A value that was refused already is marked by
-// NaN, a choice by -1.
+// NaN, a choice by FIELD_WORD_LATER.
 typedef void rule_report(void *self, const char *path, const char *text);
 void model_check_rules(const ld_model *model, rule_report *report, void *self);
 

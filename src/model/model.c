@@ -1,6 +1,5 @@
 #include "model/field.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 void ld_model_init(ld_model *model)
@@ -13,10 +12,7 @@ void ld_model_init(ld_model *model)
 
 void ld_model_free(ld_model *model)
 {
-    free(model->title);
-    free(model->base.motion.data);
-    free(model->tubes.slot.angle.data);
-    free(model->rocket.motor.thrust.data);
+    field_release(&scenario_block, model);
     ld_model_init(model);
 }
 

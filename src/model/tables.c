@@ -17,6 +17,12 @@
     .kind = FIELD_LIST, .offset = offsetof(type, entries), .other = offsetof(type, counter),       \
     .stride = sizeof(((type *)0)->entries[0]), .block = &(block_), .least = (least_),              \
     .count = (most_)
+#define INTEGERS(type, entries, counter, least_, most_, count_)                                    \
+    .kind = FIELD_INTEGERS, .offset = offsetof(type, entries), .other = offsetof(type, counter),   \
+    .range = {least_, most_, 0, 0}, .count = (count_)
+#define SELECTION(type, entries, counter, entry, mark_)                                            \
+    .kind = FIELD_SELECTION, .offset = offsetof(type, entries), .other = offsetof(type, counter),  \
+    .stride = sizeof(entry), .mark = offsetof(entry, mark_)
 #define TABLE(type, member, format_)                                                               \
     .kind = FIELD_TABLE, .offset = offsetof(type, member), .table = &(format_)
 #define LATER .kind = FIELD_LATER, .offset = FIELD_NOWHERE
@@ -56,7 +62,7 @@ static const field_row environment_fields[] = {
     {0}};
 static const field_block environment_block = {.fields = environment_fields};
 
-// ---- base
+// ---- prescribed motion
 
 static const field_row length_sine_fields[] = {
     {"amplitude", NUMBER(ld_sine, amplitude, "m"), ANY, REQUIRED, .doc = "amplitude"},
@@ -78,7 +84,7 @@ static const field_row motion_columns[] = {
     {"z", .unit = "m", ANY},      {"yaw", .unit = "rad", ANY}, {"pitch", .unit = "rad", ANY},
     {"roll", .unit = "rad", ANY},
 };
-static const table_format motion_table = {TABLE_MOTION, 7, motion_columns};
+static const table_format motion_table = {TABLE_CSV, 7, motion_columns, NULL};
 
 #define SINES(member, block_)                                                                      \
     LIST(ld_base, member.term, member.count, block_, 0, LD_MAX_SINES), .initial_doc = "none"
@@ -94,29 +100,259 @@ static const field_row motion_fields[] = {
     {0}};
 static const field_block motion_block = {.fields = motion_fields};
 
+// ---- vehicle
+
+static const field_word class_words[] = {{"none", LD_ROAD_SMOOTH},
+                                         {"A", 0},
+                                         {"B", 1},
+                                         {"C", 2},
+                                         {"D", 3},
+                                         {"E", 4},
+                                         {"F", 5},
+                                         {"G", 6},
+                                         {"H", 7},
+                                         {NULL, 0}};
+static const field_word tracks_words[] = {{"same", LD_TRACKS_SAME},
+                                          {"independent", LD_TRACKS_INDEPENDENT},
+                                          {"coherent", LD_TRACKS_COHERENT},
+                                          {NULL, 0}};
+static const field_word track_words[] = {
+    {"both", LD_TRACK_BOTH}, {"left", LD_TRACK_LEFT}, {"right", LD_TRACK_RIGHT}, {NULL, 0}};
+static const field_word true_words[] = {{"true", 1}, {NULL, 0}};
+static const field_word road_forms[] = {
+    {"a flat road", LD_ROAD_FLAT}, {"a road that is not flat", LD_ROAD_SUM}, {NULL, 0}};
+
+static const field_row coherence_columns[] = {
+    {"n", .unit = "1/m", NOT_NEGATIVE},
+    {"g", .unit = "", FROM_TO(0, 1)},
+};
+static const table_format coherence_table = {0, 2, coherence_columns, NULL};
+
+static const field_row road_sine_fields[] = {
+    {"amplitude", NUMBER(ld_road_sine, amplitude, "m"), FROM_TO(-10, 10), REQUIRED,
+     .doc = "amplitude"},
+    {"wavelength", NUMBER(ld_road_sine, wavelength, "m"), POSITIVE, REQUIRED, .doc = "wavelength"},
+    {"phase", NUMBER(ld_road_sine, phase, "rad"), ANY, DEFAULT(0), .doc = "phase at x = 0"},
+    {0}};
+static const field_block road_sine_block = {.fields = road_sine_fields};
+
+static const field_row bump_fields[] = {
+    {"at", NUMBER(ld_bump, at, "m"), ANY, REQUIRED, .doc = "x of I where it begins"},
+    {"length", NUMBER(ld_bump, length, "m"), POSITIVE, REQUIRED, .doc = "length"},
+    {"height", NUMBER(ld_bump, height, "m"), FROM_TO(-10, 10), REQUIRED,
+     .doc = "height of the half-cosine up and down; negative: a hole"},
+    {"tracks", CHOICE(ld_bump, tracks, track_words), DEFAULT(LD_TRACK_BOTH),
+     .doc = "under which wheels"},
+    {0}};
+static const field_block bump_block = {.fields = bump_fields};
+
+static const field_row profile_columns[] = {{"x", .unit = "m", ANY},
+                                            {"h", .unit = "m", FROM_TO(-100, 100)}};
+static const field_row tracks_columns[] = {{"x", .unit = "m", ANY},
+                                           {"left", .unit = "m", FROM_TO(-100, 100)},
+                                           {"right", .unit = "m", FROM_TO(-100, 100)}};
+static const table_format tracks_table = {TABLE_CSV, 3, tracks_columns, NULL};
+static const table_format profile_table = {TABLE_CSV, 2, profile_columns, &tracks_table};
+
+#define SUM .forms = FORM(LD_ROAD_SUM)
+static const double road_wavelengths[] = {0.3, 100};
+static const field_row road_fields[] = {
+    {"flat", .kind = FIELD_CHOICE, .offset = FIELD_NOWHERE, .words = true_words, .required = true,
+     .forms = FORM(LD_ROAD_FLAT), .doc = "height 0 everywhere"},
+    {"class", CHOICE(ld_road, iso_class, class_words), DEFAULT(LD_ROAD_SMOOTH), SUM,
+     .doc = "random part: class of ISO 8608"},
+    {"tracks", CHOICE(ld_road, tracks, tracks_words), DEFAULT(LD_TRACKS_SAME), SUM,
+     .doc = "random part of left and right track (wheels with mount z < 0, others): the same, "
+            "independent, or coherent as the table says"},
+    {"coherence", TABLE(ld_road, coherence, coherence_table), .initial_doc = "none", SUM,
+     .doc = "over the spatial frequency, with `tracks: coherent`: the tracks' coherence is g^2 "
+            "(linear between rows, constant outside)"},
+    {"seed", INTEGER(ld_road, seed, 0, 999999999), DEFAULT(1), SUM,
+     .doc = "of the random part; the same seed is the same road"},
+    {"harmonics", INTEGER(ld_road, harmonics, 1, 100000), DEFAULT(400), SUM,
+     .doc = "cosines of the random part, in bands of equal ratio"},
+    {"wavelengths", VECTOR(ld_road, wavelengths, "m", 2), POSITIVE, DEFAULT(0.3),
+     .initials = road_wavelengths, SUM, .doc = "shortest and longest of the random part"},
+    {"sines", LIST(ld_road, sine, sine_count, road_sine_block, 0, LD_MAX_SINES),
+     .initial_doc = "none", SUM, .doc = "sum of sines over x of I, on both tracks"},
+    {"bumps", LIST(ld_road, bump, bump_count, bump_block, 0, LD_MAX_BUMPS), .initial_doc = "none",
+     SUM, .doc = "bumps and holes"},
+    {"table", TABLE(ld_road, profile, profile_table), .initial_doc = "none", SUM,
+     .doc = "measured profile of both tracks or of each (cubic spline, constant outside)"},
+    {0}};
+static const field_block road_block = {.fields = road_fields,
+                                       .form = road_forms,
+                                       .form_offset = offsetof(ld_road, form),
+                                       .form_from_keys = true};
+
+static const field_row wheel_fields[] = {
+    {"name", WORD(ld_wheel, name), .required = true, .doc = "its name in results and paths"},
+    {"mount", VECTOR(ld_wheel, mount, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
+     .doc = "its centre with unloaded suspension, in chassis axes from the chassis' mass centre"},
+    {"mass", NUMBER(ld_wheel, mass, "kg"), POSITIVE, REQUIRED, .doc = "mass"},
+    {0}};
+static const field_block wheel_block = {.fields = wheel_fields};
+
+static const field_row drive_fields[] = {
+    {"kp", NUMBER(ld_base, vehicle.drive.kp, "N.s/m"), NOT_NEGATIVE, REQUIRED,
+     .doc = "gain on the error of the speed"},
+    {"ki", NUMBER(ld_base, vehicle.drive.ki, "N/m"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "gain on its integral"},
+    {"wheels", SELECTION(ld_base, vehicle.wheel, vehicle.wheel_count, ld_wheel, driven),
+     .initial_doc = "all", .doc = "the driven wheels"},
+    {0}};
+static const field_block drive_block = {.fields = drive_fields};
+
+static const field_row bump_stop_fields[] = {
+    {"compression", NUMBER(ld_suspension, bump_stop.compression, "m"), POSITIVE, NO_DEFAULT("none"),
+     .doc = "travel up from the unloaded position at which the stop begins"},
+    {"extension", NUMBER(ld_suspension, bump_stop.extension, "m"), POSITIVE, NO_DEFAULT("none"),
+     .doc = "travel down at which the stop begins"},
+    {"stiffness", NUMBER(ld_suspension, bump_stop.stiffness, "N/m"), POSITIVE,
+     NO_DEFAULT("needed by a stop"), .doc = "added beyond"},
+    {0}};
+static const field_block bump_stop_block = {.fields = bump_stop_fields};
+
+static const field_row suspension_fields[] = {
+    {"stiffness", VECTOR(ld_suspension, stiffness, "N/m", 3), POSITIVE, REQUIRED,
+     .doc = "along x, y, z of the chassis"},
+    {"damping", VECTOR(ld_suspension, damping, "N.s/m", 3), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "along x, y, z"},
+    {"bump_stop", SAME_STRUCT(bump_stop_block), .initial_doc = "none",
+     .doc = "spring beyond a travel along y"},
+    {0}};
+static const field_block suspension_block = {.fields = suspension_fields};
+
+static const field_row tyre_fields[] = {
+    {"radius", NUMBER(ld_tyre, radius, "m"), ABOVE_TO(0, 100), REQUIRED, .doc = "unloaded"},
+    {"stiffness", VECTOR(ld_tyre, stiffness, "N/m", 3), POSITIVE, REQUIRED,
+     .doc = "along, vertical, across"},
+    {"damping", VECTOR(ld_tyre, damping, "N.s/m", 3), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "along, vertical, across"},
+    {"relaxation_length", NUMBER(ld_tyre, relaxation_length, "m"), POSITIVE, REQUIRED,
+     .doc = "distance over which the lateral force builds up"},
+    {"friction", NUMBER(ld_tyre, friction, ""), ABOVE_TO(0, 10), REQUIRED,
+     .doc = "Coulomb coefficient between tyre and road"},
+    {0}};
+static const field_block tyre_block = {.fields = tyre_fields};
+
+// ---- base
+
 static const field_word base_words[] = {{"fixed", LD_BASE_FIXED},
                                         {"prescribed", LD_BASE_PRESCRIBED},
-                                        {"vehicle", FIELD_WORD_LATER},
+                                        {"vehicle", LD_BASE_VEHICLE},
                                         {NULL, 0}};
+#define FIXED_OR_PRESCRIBED (FORM(LD_BASE_FIXED) | FORM(LD_BASE_PRESCRIBED))
+#define VEHICLE FORM(LD_BASE_VEHICLE)
 static const field_row base_fields[] = {
     {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "what carries the tube"},
     {"azimuth", NUMBER(ld_base, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .forms = FIXED_OR_PRESCRIBED,
      .doc = "of the tube against the base, about +y: positive to the left"},
     {"elevation", NUMBER(ld_base, elevation, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
+     .forms = FIXED_OR_PRESCRIBED,
      .doc = "of the tube against the base, positive up, on top of the base's own motion"},
     {"velocity", VECTOR(ld_base, velocity, "m/s", 3), ANY, DEFAULT(0),
      .forms = FORM(LD_BASE_PRESCRIBED), .doc = "constant velocity along I, added to the sines"},
     {"motion", SAME_STRUCT(motion_block), .forms = FORM(LD_BASE_PRESCRIBED), .initial_doc = "none",
      .doc = "position and orientation Ry(yaw) Rz(pitch) Rx(roll) over time"},
-    {"speed", LATER, .doc = "marching speed of a vehicle"},
-    {"road", LATER, .doc = "road under a vehicle"},
-    {"drive", LATER, .doc = "drive of a vehicle"},
-    {"wheels", LATER, .doc = "wheels of a vehicle"},
-    {"suspension", LATER, .doc = "suspension of a vehicle"},
-    {"tyre", LATER, .doc = "tyres of a vehicle"},
+    {"speed", NUMBER(ld_base, vehicle.speed, "m/s"), FROM_TO(0, 1000), REQUIRED, .forms = VEHICLE,
+     .doc = "marching speed, held by the drive; 0: parked"},
+    {"road", BLOCK(ld_base, vehicle.road, road_block), .required = true, .forms = VEHICLE,
+     .doc = "height under the wheels over x of I: a flat road, or the sum of what is given"},
+    {"wheels", LIST(ld_base, vehicle.wheel, vehicle.wheel_count, wheel_block, 3, LD_MAX_WHEELS),
+     .required = true, .forms = VEHICLE,
+     .doc = "lumped masses on suspensions and tyres, all alike"},
+    {"drive", SAME_STRUCT(drive_block), .required = true, .forms = VEHICLE,
+     .doc = "force that holds the speed, shared equally among the driven wheels"},
+    {"suspension", BLOCK(ld_base, vehicle.suspension, suspension_block), .required = true,
+     .forms = VEHICLE, .doc = "spring-damper between chassis and each wheel"},
+    {"tyre", BLOCK(ld_base, vehicle.tyre, tyre_block), .required = true, .forms = VEHICLE,
+     .doc = "between each wheel and the road"},
     {0}};
-static const field_block base_block = {
-    .fields = base_fields, .form = base_words, .form_offset = offsetof(ld_base, kind)};
+static const field_block base_block = {.fields = base_fields,
+                                       .form = base_words,
+                                       .form_offset = offsetof(ld_base, kind),
+                                       .form_key = "kind"};
+
+// ---- platform
+
+static const field_row chassis_fields[] = {
+    {"mass", NUMBER(ld_platform, chassis_mass, "kg"), POSITIVE, REQUIRED,
+     .doc = "without wheels and platforms"},
+    {"inertia", VECTOR(ld_platform, chassis_inertia, "kg.m2", 3), POSITIVE, REQUIRED,
+     .doc = "about its mass centre, the origin of its axes"},
+    {0}};
+static const field_block chassis_block = {.fields = chassis_fields};
+
+static const field_row command_columns[] = {
+    {"t", .unit = "s", ANY},
+    {"angle", .unit = "rad", FROM_TO(-100 * PI, 100 * PI)},
+};
+static const table_format command_table = {TABLE_CONSTANT | TABLE_CSV, 2, command_columns, NULL};
+#define UNLESS_LOCKED NO_DEFAULT("needed unless the hinge has a lock")
+static const field_row stabiliser_fields[] = {
+    {"command", TABLE(ld_stabiliser, command, command_table), .required = true,
+     .doc = "yaw (azimuth) or pitch (elevation) of the elevation platform's x axis against I, "
+            "constant or over time (linear between rows, constant outside)"},
+    {"kp", NUMBER(ld_stabiliser, kp, "N.m/rad"), NOT_NEGATIVE, UNLESS_LOCKED,
+     .doc = "gain on the error"},
+    {"ki", NUMBER(ld_stabiliser, ki, "N.m/rad/s"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "gain on its integral, which stays within the torque limit"},
+    {"kd", NUMBER(ld_stabiliser, kd, "N.m.s/rad"), NOT_NEGATIVE, UNLESS_LOCKED,
+     .doc = "gain on its rate"},
+    {"torque_limit", NUMBER(ld_stabiliser, torque_limit, "N.m"), POSITIVE, UNLESS_LOCKED,
+     .doc = "greatest torque"},
+    {0}};
+static const field_block stabiliser_block = {.fields = stabiliser_fields};
+
+static const field_row friction_fields[] = {
+    {"viscous", NUMBER(ld_hinge_friction, viscous, "N.m.s/rad"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "viscous friction"},
+    {"coulomb", NUMBER(ld_hinge_friction, coulomb, "N.m"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "Coulomb friction"},
+    {"rate", NUMBER(ld_hinge_friction, rate, "rad/s"), POSITIVE, DEFAULT(1e-3),
+     .doc = "at which Coulomb friction is at 71 %"},
+    {0}};
+static const field_block friction_block = {.fields = friction_fields};
+
+static const field_row hinge_lock_fields[] = {
+    {"stiffness", NUMBER(ld_hinge_lock, stiffness, "N.m/rad"), POSITIVE, REQUIRED,
+     .doc = "about the hinge, at rest in the equilibrium"},
+    {"damping", NUMBER(ld_hinge_lock, damping, "N.m.s/rad"), NOT_NEGATIVE, REQUIRED,
+     .doc = "about the hinge"},
+    {0}};
+static const field_block hinge_lock_block = {.fields = hinge_lock_fields};
+static const field_word hinge_lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
+static const field_row turret_fields[] = {
+    {"hinge_at", VECTOR(ld_turret, hinge_at, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
+     .doc = "hinge, in axes of the body that carries it: from the chassis' mass centre (azimuth), "
+            "from the azimuth hinge (elevation)"},
+    {"mass", NUMBER(ld_turret, mass, "kg"), POSITIVE, REQUIRED,
+     .doc = "of the frame; on the elevation platform tubes, tails and rockets add themselves"},
+    {"center", VECTOR(ld_turret, center, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
+     .doc = "mass centre of the frame from its hinge, own axes"},
+    {"inertia", VECTOR(ld_turret, inertia, "kg.m2", 3), POSITIVE, REQUIRED,
+     .doc = "of the frame about its own mass centre"},
+    {"stabiliser", BLOCK(ld_turret, stabiliser, stabiliser_block), .required = true,
+     .doc = "holds the commanded angle: torque kp error + kd its rate + ki its integral, limited"},
+    {"friction", BLOCK(ld_turret, friction, friction_block), .initial_doc = "none",
+     .doc = "in the hinge"},
+    {"lock", BLOCK(ld_turret, lock, hinge_lock_block), .initial_doc = "none",
+     SWITCH(ld_turret, lock.present, hinge_lock_words), .other_is_bool = true,
+     .doc = "spring-damper in place of the stabiliser, whose gains then do not matter"},
+    {0}};
+static const field_block turret_block = {.fields = turret_fields};
+
+static const field_row platform_fields[] = {
+    {"chassis", SAME_STRUCT(chassis_block), .required = true, .doc = "free rigid body"},
+    {"azimuth", BLOCK(ld_platform, azimuth, turret_block), .required = true,
+     .doc = "platform that turns about the chassis' y axis"},
+    {"elevation", BLOCK(ld_platform, elevation, turret_block), .required = true,
+     .doc = "platform that turns about the azimuth platform's z axis and carries the tubes"},
+    {0}};
+static const field_block platform_block = {.fields = platform_fields};
 
 // ---- tubes
 
@@ -233,7 +469,7 @@ static const field_row slot_columns[] = {
     {"station", .unit = "m", FROM_TO(-100, 100)},
     {"angle", .unit = "rad", INSIDE(-80 * PI / 180, 80 * PI / 180)},
 };
-static const table_format slot_table = {TABLE_CONSTANT, 2, slot_columns};
+static const table_format slot_table = {TABLE_CONSTANT, 2, slot_columns, NULL};
 static const field_row slot_fields[] = {
     {"angle", TABLE(ld_slot, angle, slot_table), .required = true,
      .doc = "to the tube's axis in the unrolled tube, constant or over the station (linear between "
@@ -249,7 +485,8 @@ static const field_word slot_words[] = {{"none", LD_SLOT_NONE}, {"", LD_SLOT_HEL
 static const field_row tubes_fields[] = {
     {"layout", BLOCK(ld_tubes, layout, layout_block), .initial_doc = "one tube",
      .doc = "where the tubes are"},
-    {"empty", LATER, .doc = "tubes without a rocket from the start"},
+    {"empty", INTEGERS(ld_tubes, empty, empty_count, 1, 10000, LD_MAX_TUBES), .initial_doc = "none",
+     .doc = "numbers of the tubes without a rocket from the start"},
     {"length", NUMBER(ld_tubes, length, "m"), ABOVE_TO(0, 100), REQUIRED,
      .doc = "from the rear end to the tip"},
     {"sections", LIST(ld_tubes, section, section_count, section_block, 1, LD_MAX_SECTIONS),
@@ -336,7 +573,7 @@ static const field_row thrust_columns[] = {
     {"time", .unit = "s", FROM_TO(0, 10000)},
     {"thrust", .unit = "N", NOT_NEGATIVE},
 };
-static const table_format thrust_table = {TABLE_THRUST, 2, thrust_columns};
+static const table_format thrust_table = {TABLE_ENGINE, 2, thrust_columns, NULL};
 static const field_row motor_fields[] = {
     {"thrust", TABLE(ld_motor, thrust, thrust_table), .required = true,
      .doc = "over time from ignition, linear between rows, 0 after the last; a time given twice is "
@@ -401,6 +638,12 @@ static const field_row output_step_fields[] = {
     {0}};
 static const field_block output_step_block = {.fields = output_step_fields, .shared_value = true};
 
+static const field_row coupling_fields[] = {
+    {"step", NUMBER(ld_run_settings, coupling_step, "s"), FROM_TO(0, 0.01), .required = true,
+     .doc = "between the instants at which they exchange; 0 s: integrated together"},
+    {0}};
+static const field_block coupling_block = {.fields = coupling_fields};
+
 static const field_word start_words[] = {
     {"equilibrium", LD_START_EQUILIBRIUM}, {"undeformed", LD_START_UNDEFORMED}, {NULL, 0}};
 static const field_word formulation_words[] = {
@@ -425,7 +668,8 @@ static const field_row run_fields[] = {
     {"stuck_time", NUMBER(ld_run_settings, stuck_time, "s"), ABOVE_TO(0, 10000),
      NO_DEFAULT("end of the thrust table + 1 s"),
      .doc = "after ignition, when a rocket still in the tube is given up"},
-    {"coupling", LATER, .doc = "subsystems integrated apart"},
+    {"coupling", SAME_STRUCT(coupling_block), .initial_doc = "none",
+     .doc = "the subsystems of a vehicle integrated apart"},
     {"flight_limit", LATER, .doc = "longest free flight"},
     {"flight_tolerance", LATER, .doc = "tolerance in free flight"},
     {0}};
@@ -441,7 +685,8 @@ static const field_row scenario_fields[] = {
     {"environment", SAME_STRUCT(environment_block), .initial_doc = "as below",
      .doc = "gravity and the like"},
     {"base", BLOCK(ld_model, base, base_block), .required = true, .doc = "what carries the tube"},
-    {"platform", LATER, .doc = "chassis and platforms of a vehicle"},
+    {"platform", BLOCK(ld_model, platform, platform_block), .required = true, .forms = VEHICLE,
+     .doc = "chassis and platforms of a vehicle"},
     {"tubes", BLOCK(ld_model, tubes, tubes_block), .required = true,
      .doc = "launch tubes, all alike"},
     {"rocket", BLOCK(ld_model, rocket, rocket_block), .required = true, .doc = "the rocket"},
@@ -453,4 +698,7 @@ static const field_row scenario_fields[] = {
     {"scatter", LATER, .doc = "scatter for studies"},
     {"sweep", LATER, .doc = "sweeps for studies"},
     {0}};
-const field_block scenario_block = {.fields = scenario_fields};
+const field_block scenario_block = {.fields = scenario_fields,
+                                    .form = base_words,
+                                    .form_offset = offsetof(ld_model, base.kind),
+                                    .form_key = "base.kind"};

@@ -15,7 +15,8 @@
 
 static const double pi = 3.14159265358979323846;
 static const char *const examples[] = {"fixed.yaml",    "prescribed.yaml", "smooth.yaml",
-                                       "straight.yaml", "unbalanced.yaml", "engine.yaml"};
+                                       "straight.yaml", "unbalanced.yaml", "engine.yaml",
+                                       "reference.yaml"};
 enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 
 // Reads a file below the source folder; messages fail the test.
@@ -359,10 +360,12 @@ static double random_number(unsigned long long *seed)
     return (double)(*seed >> 11) / 4503599627370496.0 - 1;
 }
 
-// Changes every number of the block by up to a thousandth of itself.
+// Changes every number of the block that goes with its form by up to a thousandth of itself.
 static void shake(const field_block *block, void *base, unsigned long long *seed)
 {
     for (const field_row *f = block->fields; f->name; f++) {
+        if (!field_has_form(f, field_form(block, base)))
+            continue;
         if (f->kind == FIELD_BLOCK)
             shake(f->block, field_at(base, f), seed);
         else if (f->kind == FIELD_LIST)

@@ -4,12 +4,28 @@
 
 #include <string.h>
 
-#include "launchdyn/model.h"
+#include "model/field.h"
 
 static inline bool same_table(const ld_table *a, const ld_table *b)
 {
     return a->rows == b->rows && a->columns == b->columns &&
            (a->rows == 0 || memcmp(a->data, b->data, a->rows * a->columns * sizeof(double)) == 0);
+}
+
+// Whether the tables of the block are the same; forgets them.
+static inline bool same_tables(const field_block *block, void *a, void *b)
+{
+    bool same = true;
+    for (const field_row *f = block->fields; f->name; f++) {
+        if (f->kind == FIELD_BLOCK) {
+            same &= same_tables(f->block, field_at(a, f), field_at(b, f));
+        } else if (f->kind == FIELD_TABLE) {
+            ld_table *x = field_at(a, f), *y = field_at(b, f);
+            same &= same_table(x, y);
+            x->data = y->data = NULL;
+        }
+    }
+    return same;
 }
 
 static inline bool same_model(const ld_model *left, const ld_model *right)
@@ -18,13 +34,8 @@ static inline bool same_model(const ld_model *left, const ld_model *right)
     memcpy(&a, left, sizeof a);
     memcpy(&b, right, sizeof b);
     bool titles = (!a.title && !b.title) || (a.title && b.title && strcmp(a.title, b.title) == 0);
-    bool tables = same_table(&a.base.motion, &b.base.motion) &&
-                  same_table(&a.tubes.slot.angle, &b.tubes.slot.angle) &&
-                  same_table(&a.rocket.motor.thrust, &b.rocket.motor.thrust);
     a.title = b.title = NULL;
-    a.base.motion.data = b.base.motion.data = NULL;
-    a.tubes.slot.angle.data = b.tubes.slot.angle.data = NULL;
-    a.rocket.motor.thrust.data = b.rocket.motor.thrust.data = NULL;
+    bool tables = same_tables(&scenario_block, &a, &b);
     return titles && tables && memcmp(&a, &b, sizeof a) == 0;
 }
 
