@@ -3,18 +3,27 @@
 #ifndef LD_ENVIRONMENT_ROAD_H
 #define LD_ENVIRONMENT_ROAD_H
 
+#include <stddef.h>
+
 #include "launchdyn/model.h"
 
 typedef enum road_track { ROAD_LEFT, ROAD_RIGHT, ROAD_TRACKS } road_track;
 
 typedef struct road road;
 
-// Builds the road; between x0 and x1 [m] its random part is tabulated (to rounding), outside it is
-// summed harmonic by harmonic.
+// Builds the road from the model (kept by reference); between x0 and x1 [m] its random part is
+// tabulated (to rounding), outside it is summed harmonic by harmonic.
 ld_status road_build(const ld_road *model, double x0, double x1, road **out, ld_error *error);
 void road_free(road *self);
 
-// Height h(x) [m] and slope h'(x) of a track at x [m] of I.
+// Height h(x) [m] and slope h'(x) of a track at x [m] of I; slope may be NULL.
 double road_height(const road *self, road_track track, double x, double *slope);
+
+// Heights [m] at the places from + i step [m], i < count.
+ld_status road_profile(const road *self, road_track track, double from, double step, size_t count,
+                       double *height, ld_error *error);
+
+// Power spectral density G_d(n) [m3] of a class (0: A) at n [1/m] (ISO 8608, class means).
+double road_class_density(int iso_class, double n);
 
 #endif
