@@ -38,13 +38,13 @@ static void bench_evaluation(ld_simulation *simulation, int contacts, const char
     double y[LD_MAX_STATES], sample[REPEATS];
     ld_equilibrium_summary unused;
     launching_phase phase = simulation_start_phase(simulation);
-    launching_input input;
+    launcher_input input;
     launching_output out;
-    const launching_layout *at = &simulation->launching.layout;
+    const launching_layout *at = &simulation->launcher.launching.layout;
     if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
         return;
     simulation->piece = 1;
-    simulation_input(simulation, 0.1, &input);
+    simulation_input(simulation, 0.1, y, &input);
     phase.locked = false;
     y[at->x] = 0.7;
     y[at->V] = 10;
@@ -54,7 +54,7 @@ static void bench_evaluation(ld_simulation *simulation, int contacts, const char
         double start = now();
         for (int i = 0; i < EVALUATIONS; i++) {
             y[at->x + 1] += 1e-12; // a new state each time
-            launching_evaluate(&simulation->launching, &input, &phase, y, &out);
+            launching_evaluate(&simulation->launcher.launching, &input.launching, &phase, y, &out);
         }
         sample[r] = (now() - start) / EVALUATIONS;
     }
@@ -66,15 +66,15 @@ static void bench_form(ld_simulation *simulation, ld_formulation form, const cha
     double y[LD_MAX_STATES], sample[REPEATS];
     ld_equilibrium_summary unused;
     launching_phase phase = simulation_start_phase(simulation);
-    launching_input input;
+    launcher_input input;
     launching_output out;
     if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
         return;
-    simulation_input(simulation, 0.1, &input);
+    simulation_input(simulation, 0.1, y, &input);
     for (int r = 0; r < REPEATS; r++) {
         double start = now();
         for (int i = 0; i < FEW_EVALUATIONS; i++)
-            launching_evaluate_general(&simulation->launching, form, &input, &phase, y, &out);
+            launching_evaluate_general(&simulation->launcher.launching, form, &input.launching, &phase, y, &out);
         sample[r] = (now() - start) / FEW_EVALUATIONS;
     }
     print(what, sample, REPEATS, 1e-9, "ns");

@@ -61,6 +61,15 @@ typedef struct ld_work {
     double modal_damping;
     double base;        ///< by the moving base through the supports
     double mass_change; ///< kinetic energy carried off by the burnt propellant: model.md section 5
+    /// Of a vehicle alone; `base` is then the share of the platform, which the sum leaves out.
+    double stabilisers; ///< of both stabilisers or locks
+    double hinge_friction;
+    double gravity_platform; ///< on chassis and platforms
+    double gravity_wheels;
+    double suspension_damping;
+    double tyre;      ///< normal forces of the road
+    double tyre_side; ///< side forces, and those that hold a parked vehicle
+    double drive;     ///< along the way, of the road on driven wheels
 } ld_work;
 
 /// Energy of tube, tail, supports and rocket at the end [J]; `residual` is what the balance misses.
@@ -74,18 +83,22 @@ typedef struct ld_energy {
     double residual_relative; ///< the same over the largest single work
 } ld_energy;
 
-/// One natural frequency, of the linearised system without its dampers, and what the dampers do to
-/// that shape.
+enum { LD_SHAPE_TEXT = 64 };
+
+/// One natural frequency and what moves most in it. Of tube and rocket on a base that is held: of
+/// the system without its dampers, and what the dampers do to that shape. Of a vehicle, whose
+/// dampers are strong: modulus and damping of a pair of eigenvalues.
 typedef struct ld_mode {
-    double frequency;  ///< [Hz] undamped
-    double damping;    ///< [-] ratio
-    double real;       ///< [1/s] -damping 2 pi frequency
-    const char *shape; ///< what moves most
+    double frequency; ///< [Hz]
+    double damping;   ///< [-] ratio
+    double real;      ///< [1/s] -damping 2 pi frequency
+    char shape[LD_SHAPE_TEXT];
 } ld_mode;
 
 /// An eigenvalue of the linearised system with its dampers [1/s]; one of each conjugate pair.
 typedef struct ld_pole {
-    double real, imaginary; ///< [1/s], [rad/s] >= 0
+    double real, imaginary;    ///< [1/s], [rad/s] >= 0
+    char shape[LD_SHAPE_TEXT]; ///< what moves most
 } ld_pole;
 
 typedef struct ld_statistics {
@@ -102,6 +115,20 @@ typedef struct ld_equilibrium_summary {
     double contact_force[LD_MAX_ADAPTORS]; ///< [N] normal
     double tip_sag[2];                     ///< [m] y, z of the tip, undeformed tube axes
     double residual;                       ///< [m/s2, rad/s2] largest acceleration while locked
+    int wheel_count;                       ///< 0: the base is no vehicle
+    struct {
+        double tyre_force;      ///< [N] vertical
+        double tyre_deflection; ///< [m]
+        double suspension[3];   ///< [m] travel from the unloaded position, chassis axes
+    } wheel[LD_MAX_WHEELS];     ///< in the model's order
+    struct {
+        double y;           ///< [m] mass centre in I
+        double pitch, roll; ///< [rad] of Rz(pitch) Rx(roll)
+    } chassis;
+    struct {
+        double angle;  ///< [rad]
+        double torque; ///< [N m] on the outboard body
+    } hinge[2];        ///< azimuth, elevation
 } ld_equilibrium_summary;
 
 typedef struct ld_summary {
@@ -145,9 +172,10 @@ ld_status ld_simulation_run(ld_simulation *simulation, const ld_run_options *opt
 /// @return the number written to `modes` (at most `capacity`)
 int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity);
 
-/// The launching subsystem (tube, tail, rocket on its adaptors, lock closed) linearised at its
-/// static equilibrium, without Coulomb friction: undamped modes by ascending frequency, and the
-/// eigenvalues with damping by ascending modulus. Those that lock and slot leave at zero are left
+/// The whole (tube, tail, rocket on its adaptors, lock closed; with a vehicle also platforms and
+/// wheels, on a flat road at the marching speed) linearised at its static equilibrium, without
+/// Coulomb friction: modes by ascending frequency, and the eigenvalues with damping by ascending
+/// modulus. Those that lock and slot leave at zero, and a vehicle's neutral directions, are left
 /// out.
 /// @return LD_OK, LD_ERR_NUMERIC or LD_ERR_MEMORY
 ld_status ld_simulation_system_modes(ld_simulation *simulation, ld_mode *modes, int capacity,

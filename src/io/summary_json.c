@@ -214,7 +214,7 @@ static void write_modes(json_writer *json, const ld_summary *summary)
         json_number(json, "frequency", mode->frequency);
         json_number(json, "damping", mode->damping);
         json_number(json, "real", mode->real);
-        json_text(json, "shape", mode->shape ? mode->shape : "");
+        json_text(json, "shape", mode->shape);
         json_close(json, '}');
     }
     json_close(json, ']');

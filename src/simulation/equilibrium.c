@@ -6,16 +6,45 @@
 #include "math/rotation_vector.h"
 #include "simulation/simulation.h"
 
-enum { MAX_FREEDOMS = 10 + LD_MAX_MODAL };
+enum { MAX_FREEDOMS = 10 + LD_MAX_MODAL + 3 + 2 * HINGES + 3 * LD_MAX_WHEELS };
+
+// Unknowns of the launching subsystem: R's place and attitude (6), q, then y_S, z_S, psi, theta.
+static int launching_freedoms(const ld_simulation *self)
+{
+    return 10 + self->launcher.launching.layout.nq;
+}
 
 int simulation_freedoms(const ld_simulation *self)
 {
-    return 10 + self->launching.layout.nq;
+    int base = 3 + 2 * HINGES + 3 * self->launcher.marching.wheel_count;
+    return launching_freedoms(self) + (self->launcher.vehicle ? base : 0);
+}
+
+// Unknowns of a vehicle: chassis y, pitch, roll; hinge angles, hinge torques; wheel positions.
+static void displace_vehicle(const ld_simulation *self, int freedom, double change, double *y)
+{
+    double *base = y + self->launcher.orientating_at;
+    if (freedom == 0) {
+        base[ORIENTATING_R + 1] += change;
+    } else if (freedom < 3) {
+        double c = cos(0.5 * change), s = sin(0.5 * change);
+        quat q = q_from(base + ORIENTATING_QUATERNION);
+        // Rz(pitch) Rx(roll): pitch turns from the left, roll from the right
+        q = freedom == 1 ? q_multiply((quat){c, 0, 0, s}, q) : q_multiply(q, (quat){c, s, 0, 0});
+        memcpy(base + ORIENTATING_QUATERNION, &q, sizeof q);
+    } else if (freedom < 3 + HINGES) {
+        base[ORIENTATING_ANGLE + freedom - 3] += change;
+    } else if (freedom < 3 + 2 * HINGES) {
+        base[ORIENTATING_Z + freedom - 3 - HINGES] += 1e6 * change; // held torque
+    } else {
+        int k = freedom - 3 - 2 * HINGES;
+        y[self->launcher.marching_at + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
+    }
 }
 
 void simulation_displace(const ld_simulation *self, int freedom, double change, double *y)
 {
-    const launching_layout *at = &self->launching.layout;
+    const launching_layout *at = &self->launcher.launching.layout;
     if (freedom < 3) {
         y[at->r + freedom] += change;
     } else if (freedom < 6) {
@@ -26,8 +55,10 @@ void simulation_displace(const ld_simulation *self, int freedom, double change, 
         memcpy(y + at->quaternion, &q, sizeof q);
     } else if (freedom < 6 + at->nq) {
         y[at->q + freedom - 6] += change;
-    } else {
+    } else if (freedom < launching_freedoms(self)) {
         y[at->x + 1 + freedom - 6 - at->nq] += change;
+    } else {
+        displace_vehicle(self, freedom - launching_freedoms(self), change, y);
     }
 }
 
@@ -42,55 +73,161 @@ launching_phase simulation_start_phase(const ld_simulation *self)
     return phase;
 }
 
-void simulation_undeformed(const ld_simulation *self, double t, double *y)
+// A vehicle upright over its place at the start, each wheel with its share of the weight.
+static void place_vehicle(const ld_simulation *self, double *y)
 {
-    const launching_layout *at = &self->launching.layout;
-    base_frame base;
-    base_motion_at(&self->base, t, &base);
-    memset(y, 0, (size_t)self->state_count * sizeof(double));
-    v3_store(y + at->r, base.r);
-    memcpy(y + at->quaternion, &base.q, sizeof base.q);
+    const launcher_system *launcher = &self->launcher;
+    const ld_vehicle *vehicle = &self->model->base.vehicle;
+    double weight = launcher->orientating.mass + launcher->launching.m + self->motor.full.m;
+    weight *= self->model->gravity / vehicle->wheel_count;
+    double tyre = weight / vehicle->tyre.stiffness[1];
+    double spring = weight / vehicle->suspension.stiffness[1];
+    double *base = y + launcher->orientating_at, *wheel = y + launcher->marching_at;
+    double mount = 0, ground = 0, slope;
+    base[ORIENTATING_R] = -vehicle->speed * self->model->run.lead_in;
+    for (int j = 0; j < vehicle->wheel_count; j++) {
+        double x = base[ORIENTATING_R] + vehicle->wheel[j].mount[0];
+        ground += road_height(launcher->marching.road, launcher->marching.track[j], x, &slope);
+        mount += vehicle->wheel[j].mount[1];
+    }
+    base[ORIENTATING_R + 1] =
+        (ground - mount) / vehicle->wheel_count + vehicle->tyre.radius - tyre - spring;
+    base[ORIENTATING_QUATERNION] = 1;
+    launcher_input input;
+    launcher_place(launcher, -self->model->run.lead_in, y, &input);
+    base[ORIENTATING_ANGLE + HINGE_AZIMUTH] = input.motion.hinge[HINGE_AZIMUTH].command;
+    base[ORIENTATING_ANGLE + HINGE_ELEVATION] = input.motion.hinge[HINGE_ELEVATION].command;
+    launcher_place(launcher, -self->model->run.lead_in, y, &input);
+    marching_place(&launcher->marching, &input.motion.chassis, wheel);
+    for (int j = 0; j < vehicle->wheel_count; j++) {
+        double *r = wheel + WHEEL_STATES * j;
+        r[1] = road_height(launcher->marching.road, launcher->marching.track[j], r[0], &slope) +
+               vehicle->tyre.radius - tyre;
+    }
+}
+
+// Puts tube and rocket on the base as it stands, straight and at rest.
+static void straighten(const ld_simulation *self, const base_frame *base, double *y)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    memset(y, 0, (size_t)at->count * sizeof(double));
+    v3_store(y + at->r, base->r);
+    memcpy(y + at->quaternion, &base->q, sizeof base->q);
     y[at->x] = self->model->rocket.start_at;
 }
 
 void simulation_move_with_base(const ld_simulation *self, double t, double *y)
 {
-    const launching_layout *at = &self->launching.layout;
-    base_frame base;
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    if (launcher->vehicle) {
+        double speed = self->model->base.vehicle.speed;
+        y[launcher->orientating_at + ORIENTATING_V] = speed;
+        for (int j = 0; j < launcher->marching.wheel_count; j++)
+            y[launcher->marching_at + WHEEL_STATES * j + WHEEL_V] = speed;
+    }
+    launcher_input input;
     launching_output unused;
     launching_pose pose;
-    base_motion_at(&self->base, t, &base);
+    simulation_input(self, t, y, &input);
+    const base_frame *base = &input.launching.base;
     m3 A = q_matrix(q_from(y + at->quaternion));
-    v3 r = v3_sub(v3_from(y + at->r), base.r);
-    v3 w = m3_apply_transposed(A, base.w);
-    v3 v = m3_apply_transposed(A, v3_add(base.v, v3_cross(base.w, r)));
-    launching_rocket_pose(&self->launching, y, &pose, &unused);
+    v3 r = v3_sub(v3_from(y + at->r), base->r);
+    v3 w = m3_apply_transposed(A, base->w);
+    v3 v = m3_apply_transposed(A, v3_add(base->v, v3_cross(base->w, r)));
+    launching_rocket_pose(&launcher->launching, y, &pose, &unused);
     v3_store(y + at->v, v);
     v3_store(y + at->w, w);
     v3_store(y + at->V, v3_add(v, v3_cross(w, pose.p1)));
     v3_store(y + at->V + 3, w);
 }
 
-// What must vanish in equilibrium: all accelerations that the lock and the slot leave free.
-static int residual(const ld_simulation *self, const launching_input *input,
-                    const launching_phase *phase, const double *y, double *r)
+// What Newton's method solves: the unknowns from `first` on. With `dead` the tube and its rocket
+// are a dead load on a vehicle.
+typedef struct problem {
+    const ld_simulation *self;
+    double t;
+    const launching_phase *phase;
+    int first, count;
+    bool dead;
+} problem;
+
+// Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
+static void dead_load(const problem *the, const launcher_input *input, launching_output *out)
 {
-    launching_output out;
+    const ld_simulation *self = the->self;
+    const launching_system *launching = &self->launcher.launching;
+    const rocket_mass *rocket = &self->motor.full;
+    v3 down = m3_apply_transposed(input->launching.base.A, v3_make(0, -launching->gravity, 0));
+    v3 centre = v3_add(v3_make(self->model->rocket.start_at, 0, 0), rocket->c);
+    v3 moment = v3_add(v3_make(launching->Sx, 0, 0), v3_scale(rocket->m, centre));
+    out->base_force = v3_scale(launching->m + rocket->m, down);
+    out->base_moment = v3_cross(moment, down);
+}
+
+// Accelerations of tube and rocket that the lock and the slot leave free.
+static void launching_residual(const ld_simulation *self, const double *y,
+                               const launching_output *given, double *r)
+{
     launching_pose pose;
-    const launching_layout *at = &self->launching.layout;
-    if (launching_evaluate(&self->launching, input, phase, y, &out))
-        return -1;
-    launching_rocket_pose(&self->launching, y, &pose, &out);
+    launching_output out = *given;
+    int nq = self->launcher.launching.layout.nq;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &out);
     v3_store(r, out.a);
     v3_store(r + 3, out.w_dot);
-    memcpy(r + 6, out.q_ddot, (size_t)at->nq * sizeof(double));
+    memcpy(r + 6, out.q_ddot, (size_t)nq * sizeof(double));
     v3 a = m3_apply_transposed(pose.A_RS, out.a_O1);
     v3 alpha = m3_apply_transposed(pose.A_RS, out.alpha_B);
-    double *rocket = r + 6 + at->nq;
+    double *rocket = r + 6 + nq;
     rocket[0] = a.y;
     rocket[1] = a.z;
     rocket[2] = alpha.z;
     rocket[3] = alpha.y;
+}
+
+// Accelerations of a vehicle but those that are neutral, and the errors of yaw and pitch.
+static void vehicle_residual(const ld_simulation *self, const launcher_output *out, double *r)
+{
+    const double *base = out->base_dot, *wheel = base + ORIENTATING_STATES;
+    *r++ = base[ORIENTATING_V + 1];
+    *r++ = base[ORIENTATING_W + 2];
+    *r++ = base[ORIENTATING_W];
+    for (int i = 0; i < HINGES; i++)
+        *r++ = base[ORIENTATING_RATE + i];
+    for (int i = 0; i < HINGES; i++)
+        *r++ = out->hinge[i].error;
+    for (int j = 0; j < self->launcher.marching.wheel_count; j++, wheel += WHEEL_STATES)
+        for (int i = 0; i < 3; i++)
+            *r++ = wheel[WHEEL_V + i];
+}
+
+// What must vanish in equilibrium.
+static int residual(const problem *the, const double *y, double *r)
+{
+    const ld_simulation *self = the->self;
+    const launcher_system *launcher = &self->launcher;
+    launcher_input input;
+    launcher_output out;
+    double all[MAX_FREEDOMS];
+    simulation_input(self, the->t, y, &input);
+    input.held = true;
+    input.formulation = LD_FORMULATION_REDUCED;
+    for (int i = 0; i < HINGES && launcher->vehicle; i++)
+        input.rest[i].torque = y[launcher->orientating_at + ORIENTATING_Z + i];
+    input.launching.base.v = input.launching.base.w = v3_zero();
+    input.launching.thrust = 0;
+    if (the->dead) {
+        dead_load(the, &input, &out.launching);
+        if (launcher_evaluate_vehicle(launcher, &input, the->phase, y, &out))
+            return -1;
+    } else {
+        if (launcher_evaluate(launcher, &input, the->phase, y, &out))
+            return -1;
+        launching_residual(self, y, &out.launching, all);
+    }
+    if (launcher->vehicle)
+        vehicle_residual(self, &out, all + launching_freedoms(self));
+    memcpy(r, all + the->first, (size_t)the->count * sizeof *r);
     return 0;
 }
 
@@ -103,22 +240,21 @@ static double norm(int n, const double *r)
 }
 
 // One Newton step by central differences: `step` := -J^-1 r.
-static int newton_step(const ld_simulation *self, const launching_input *input,
-                       const launching_phase *phase, const double *y, const double *r, double *step)
+static int newton_step(const problem *the, const double *y, const double *r, double *step)
 {
-    int n = simulation_freedoms(self);
+    int n = the->count;
+    static const double h = 1e-8;
     double J[MAX_FREEDOMS * MAX_FREEDOMS], plus[MAX_FREEDOMS], minus[MAX_FREEDOMS];
     double trial[LD_MAX_STATES];
     lapack_int pivot[MAX_FREEDOMS];
-    size_t size = (size_t)self->state_count * sizeof(double);
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
     for (int j = 0; j < n; j++) {
-        double h = 1e-8;
         memcpy(trial, y, size);
-        simulation_displace(self, j, h, trial);
-        int bad = residual(self, input, phase, trial, plus);
+        simulation_displace(the->self, the->first + j, h, trial);
+        int bad = residual(the, trial, plus);
         memcpy(trial, y, size);
-        simulation_displace(self, j, -h, trial);
-        if (bad || residual(self, input, phase, trial, minus))
+        simulation_displace(the->self, the->first + j, -h, trial);
+        if (bad || residual(the, trial, minus))
             return -1;
         for (int i = 0; i < n; i++)
             J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
@@ -128,25 +264,23 @@ static int newton_step(const ld_simulation *self, const launching_input *input,
 }
 
 // Newton with halved steps from the guess in y. Ends where no step makes the residual smaller.
-static double newton(const ld_simulation *self, const launching_input *input,
-                     const launching_phase *phase, double *y)
+static double newton(const problem *the, double *y)
 {
-    int n = simulation_freedoms(self);
-    size_t size = (size_t)self->state_count * sizeof(double);
+    int n = the->count;
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
     double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], r_trial[MAX_FREEDOMS];
-    if (residual(self, input, phase, y, r))
+    if (residual(the, y, r))
         return INFINITY;
     double now = norm(n, r);
     for (int iteration = 0; iteration < 60; iteration++) {
-        if (newton_step(self, input, phase, y, r, step))
+        if (newton_step(the, y, r, step))
             break;
         double share = 1, next = INFINITY;
         for (int halving = 0; halving < 25; halving++, share *= 0.5) {
             memcpy(trial, y, size);
             for (int j = 0; j < n; j++)
-                simulation_displace(self, j, share * step[j], trial);
-            if (residual(self, input, phase, trial, r_trial) == 0 &&
-                (next = norm(n, r_trial)) < now)
+                simulation_displace(the->self, the->first + j, share * step[j], trial);
+            if (residual(the, trial, r_trial) == 0 && (next = norm(n, r_trial)) < now)
                 break;
         }
         if (!(next < now))
@@ -178,7 +312,7 @@ static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, dou
                            double *y)
 {
     const ld_rocket *rocket = &self->model->rocket;
-    double *x = y + self->launching.layout.x;
+    double *x = y + self->launcher.launching.layout.x;
     double lean = hypot(pull.y, pull.z), weight = self->motor.full.m * lean;
     double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from;
     double share = (self->motor.full.c.x - from) / span;
@@ -192,40 +326,76 @@ static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, dou
     x[4] = -slope * pull.z / lean;
 }
 
-static void report(const ld_simulation *self, const launching_input *input,
-                   const launching_phase *phase, const double *y, ld_equilibrium_summary *summary)
+static void report_vehicle(const ld_simulation *self, const launcher_output *out, const double *y,
+                           ld_equilibrium_summary *summary)
 {
-    launching_output out;
+    const double *base = y + self->launcher.orientating_at;
+    m3 A = q_matrix(q_from(base + ORIENTATING_QUATERNION));
+    summary->wheel_count = self->launcher.marching.wheel_count;
+    for (int j = 0; j < summary->wheel_count; j++) {
+        const wheel_report *wheel = &out->marching.wheel[j];
+        summary->wheel[j].tyre_force = wheel->normal;
+        summary->wheel[j].tyre_deflection = wheel->deflection;
+        v3_store(summary->wheel[j].suspension, wheel->travel);
+    }
+    summary->chassis.y = base[ORIENTATING_R + 1];
+    summary->chassis.pitch = asin(A.a[1][0]);
+    summary->chassis.roll = atan2(-A.a[1][2], A.a[1][1]);
+    for (int i = 0; i < HINGES; i++) {
+        summary->hinge[i].angle = base[ORIENTATING_ANGLE + i];
+        summary->hinge[i].torque = base[ORIENTATING_Z + i];
+    }
+}
+
+static void report(const problem *the, const double *y, ld_equilibrium_summary *summary)
+{
+    const ld_simulation *self = the->self;
+    launcher_input input;
+    launcher_output out;
     double r[MAX_FREEDOMS];
-    launching_evaluate(&self->launching, input, phase, y, &out);
-    residual(self, input, phase, y, r);
-    tip_state tip = tip_state_of(self, &input->base, y);
-    *summary = (ld_equilibrium_summary){
-        .lock_force = out.lock_force, .slot_force = out.N, .tip_sag = {tip.offset.y, tip.offset.z}};
-    for (int i = 0; i < self->launching.adaptor_count; i++)
-        summary->contact_force[i] = phase->passed[i] ? 0 : out.adaptor[i].normal;
-    for (int i = 0; i < simulation_freedoms(self); i++)
+    simulation_input(self, the->t, y, &input);
+    input.launching.base.v = input.launching.base.w = v3_zero();
+    input.launching.thrust = 0;
+    input.formulation = LD_FORMULATION_REDUCED;
+    launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
+    tip_state tip = tip_state_of(self, &input.launching.base, y);
+    *summary = (ld_equilibrium_summary){.lock_force = out.launching.lock_force,
+                                        .slot_force = out.launching.N,
+                                        .tip_sag = {tip.offset.y, tip.offset.z}};
+    for (int i = 0; i < self->launcher.launching.adaptor_count; i++)
+        summary->contact_force[i] = the->phase->passed[i] ? 0 : out.launching.adaptor[i].normal;
+    residual(the, y, r);
+    for (int i = 0; i < the->count; i++)
         summary->residual = fmax(summary->residual, fabs(r[i]));
+    if (self->launcher.vehicle)
+        report_vehicle(self, &out, y, summary);
 }
 
 // Newton's method from one pair of carrying adaptors after the other, the outermost first, until
-// one succeeds. Returns the smallest residual; its state is in y.
-static double try_pairs(const ld_simulation *self, double t, const launching_input *input,
-                        const launching_phase *phase, double extra, double accepted, double *y)
+// one succeeds. `start` has the base in its place. Returns the smallest residual; its state is in
+// y.
+static double try_pairs(const problem *the, const double *start, double extra, double accepted,
+                        double *y)
 {
+    const ld_simulation *self = the->self;
     double best = INFINITY, trial[LD_MAX_STATES];
-    v3 pull = m3_apply_transposed(input->base.A, v3_make(0, -self->model->gravity, 0));
-    for (int j = self->launching.adaptor_count - 1; j > 0; j--)
+    launcher_input input;
+    simulation_input(self, the->t, start, &input);
+    const base_frame *base = &input.launching.base;
+    v3 pull = m3_apply_transposed(base->A, v3_make(0, -self->model->gravity, 0));
+    size_t size = (size_t)self->launcher.state_count * sizeof(double);
+    for (int j = self->launcher.launching.adaptor_count - 1; j > 0; j--)
         for (int i = 0; i < j; i++) {
-            if (phase->passed[i] || phase->passed[j])
+            if (the->phase->passed[i] || the->phase->passed[j])
                 continue;
-            simulation_undeformed(self, t, trial);
+            memcpy(trial, start, size);
+            straighten(self, base, trial);
             if (hypot(pull.y, pull.z) > 0)
                 guess_contacts(self, i, j, pull, extra, trial);
-            double reached = newton(self, input, phase, trial);
+            double reached = newton(the, trial);
             if (reached < best) {
                 best = reached;
-                memcpy(y, trial, (size_t)self->state_count * sizeof(double));
+                memcpy(y, trial, size);
             }
             if (best <= accepted)
                 return best;
@@ -233,27 +403,119 @@ static double try_pairs(const ld_simulation *self, double t, const launching_inp
     return best;
 }
 
-ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
+// The vehicle in equilibrium under a tube that is a dead load; other bases need nothing.
+static ld_status settle_base(const ld_simulation *self, double t, const launching_phase *phase,
+                             double accepted, double *y, ld_error *error)
+{
+    memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
+    if (!self->launcher.vehicle)
+        return LD_OK;
+    place_vehicle(self, y);
+    int first = launching_freedoms(self);
+    problem dead = {.self = self, .t = t, .phase = phase, .first = first, .dead = true};
+    dead.count = simulation_freedoms(self) - first;
+    double reached = newton(&dead, y);
+    if (reached <= accepted)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_NUMERIC,
+                   "the vehicle finds no static equilibrium on its wheels (smallest residual %.3g "
+                   "m/s2): do all wheels reach the road, and is the mass centre between them?",
+                   reached);
+}
+
+void simulation_straight(const ld_simulation *self, double t, double *y)
+{
+    launcher_input input;
+    memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
+    if (self->launcher.vehicle)
+        place_vehicle(self, y);
+    simulation_input(self, t, y, &input);
+    straighten(self, &input.launching.base, y);
+}
+
+// What the equilibrium found must fulfil for the run to begin in it.
+static ld_status check_vehicle(const ld_simulation *self, double t, const double *y,
+                               ld_error *error)
+{
+    launcher_input input;
+    marching_output marching;
+    double unused[WHEEL_STATES * LD_MAX_WHEELS + 1];
+    const ld_platform *platform = &self->model->platform;
+    const ld_turret *turret[HINGES] = {&platform->azimuth, &platform->elevation};
+    static const char *const names[HINGES] = {"azimuth", "elevation"};
+    if (!self->launcher.vehicle)
+        return LD_OK;
+    simulation_input(self, t, y, &input);
+    marching_evaluate(&self->launcher.marching, &input.motion.chassis,
+                      y + self->launcher.marching_at, unused, &marching);
+    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
+        if (!(marching.wheel[j].normal > 0))
+            return ld_fail(error, LD_ERR_INPUT,
+                           "wheel \"%s\" does not reach the ground at the start: in equilibrium it "
+                           "hangs %.3g m above the road",
+                           self->model->base.vehicle.wheel[j].name, -marching.wheel[j].deflection);
+    for (int i = 0; i < HINGES; i++) {
+        double torque = y[self->launcher.orientating_at + ORIENTATING_Z + i];
+        double limit = turret[i]->stabiliser.torque_limit;
+        if (!turret[i]->lock.present && fabs(torque) > limit)
+            return ld_fail(error, LD_ERR_INPUT,
+                           "platform.%s.stabiliser.torque_limit: holding the platform at the start "
+                           "takes %.6g N m, more than the limit of %.6g N m",
+                           names[i], torque, limit);
+    }
+    return LD_OK;
+}
+
+// Locked hinges keep their equilibrium; the others begin with the integral that holds it.
+static void keep_rest(ld_simulation *self, const double *y)
+{
+    const double *base = y + self->launcher.orientating_at;
+    for (int i = 0; i < HINGES && self->launcher.vehicle; i++)
+        self->rest[i] =
+            (hinge_rest){.angle = base[ORIENTATING_ANGLE + i], .torque = base[ORIENTATING_Z + i]};
+}
+
+static double accepted_residual(const ld_simulation *self)
+{
+    return 1e-6 * (1 + self->model->gravity);
+}
+
+ld_status simulation_undeformed(ld_simulation *self, double t, double *y, ld_error *error)
+{
+    launching_phase phase = simulation_start_phase(self);
+    phase.frictionless = true;
+    ld_status status = settle_base(self, t, &phase, accepted_residual(self), y, error);
+    if (!status)
+        status = check_vehicle(self, t, y, error);
+    if (status)
+        return status;
+    keep_rest(self, y);
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    straighten(self, &input.launching.base, y);
+    return LD_OK;
+}
+
+ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
                                  ld_equilibrium_summary *summary, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self);
-    launching_input input;
     phase.frictionless = true;
-    simulation_input(self, t, &input);
-    input.base.v = input.base.w = v3_zero();
-    input.thrust = 0;
     int inside = 0;
-    for (int i = 0; i < self->launching.adaptor_count; i++)
+    for (int i = 0; i < self->launcher.launching.adaptor_count; i++)
         inside += !phase.passed[i];
     if (inside < 2)
         return ld_fail(error, LD_ERR_LAUNCH,
                        "no static equilibrium at the start: only the rear adaptor is in the tube; "
                        "\"run.start: undeformed\" starts without it");
-    double accepted = 1e-6 * (1 + self->model->gravity);
-    double best = INFINITY;
+    double accepted = accepted_residual(self), best = INFINITY, start[LD_MAX_STATES];
+    ld_status status = settle_base(self, t, &phase, accepted, start, error);
+    if (status)
+        return status;
+    problem whole = {.self = self, .t = t, .phase = &phase, .count = simulation_freedoms(self)};
     // an adaptor that hardly carries is found from where it is pressed in [m]
     for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
-        best = fmin(best, try_pairs(self, t, &input, &phase, extra, accepted, y));
+        best = fmin(best, try_pairs(&whole, start, extra, accepted, y));
     if (!(best <= accepted))
         return ld_fail(
             error, LD_ERR_NUMERIC,
@@ -261,6 +523,10 @@ ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
             "is the rocket held by gravity on two adaptors? \"run.start: undeformed\" "
             "starts without it",
             best);
-    report(self, &input, &phase, y, summary);
+    status = check_vehicle(self, t, y, error);
+    if (status)
+        return status;
+    keep_rest(self, y);
+    report(&whole, y, summary);
     return LD_OK;
 }

@@ -20,7 +20,7 @@ direction_angles direction_angles_of(v3 d, v3 d_dot)
 
 tip_state tip_state_of(const ld_simulation *self, const base_frame *base, const double *y)
 {
-    const launching_system *launching = &self->launching;
+    const launching_system *launching = &self->launcher.launching;
     const launching_layout *at = &launching->layout;
     launching_section tip;
     double length = launching->tube.length;
@@ -40,30 +40,52 @@ tip_state tip_state_of(const ld_simulation *self, const base_frame *base, const 
     };
 }
 
-void simulation_energy(const ld_simulation *self, const launching_input *input,
-                       const launching_output *out, const double *y, double energy_start,
+// The works in the order of the state; those of a vehicle may be missing.
+static ld_work works(const double *work, bool vehicle)
+{
+    ld_work all = {.thrust = work[POWER_THRUST],
+                   .gravity_rocket = work[POWER_GRAVITY_ROCKET],
+                   .contact_normal = work[POWER_CONTACT_NORMAL],
+                   .contact_friction = work[POWER_CONTACT_FRICTION],
+                   .slot = work[POWER_SLOT],
+                   .slot_friction = work[POWER_SLOT_FRICTION],
+                   .lock = work[POWER_LOCK],
+                   .support_damping = work[POWER_SUPPORT_DAMPING],
+                   .modal_damping = work[POWER_MODAL_DAMPING],
+                   .base = work[POWER_BASE],
+                   .mass_change = work[POWER_MASS_CHANGE]};
+    if (!vehicle)
+        return all;
+    const double *orientating = work + POWER_COUNT, *marching = orientating + ORIENTATING_POWERS;
+    all.stabilisers = orientating[ORIENTATING_STABILISER];
+    all.hinge_friction = orientating[ORIENTATING_FRICTION];
+    all.gravity_platform = orientating[ORIENTATING_GRAVITY];
+    all.gravity_wheels = marching[MARCHING_GRAVITY];
+    all.suspension_damping = marching[MARCHING_SUSPENSION];
+    all.tyre = marching[MARCHING_TYRE];
+    all.tyre_side = marching[MARCHING_SIDE];
+    all.drive = marching[MARCHING_DRIVE];
+    return all;
+}
+
+void simulation_energy(const ld_simulation *self, const launcher_input *input,
+                       const launcher_output *out, const double *y, double energy_start,
                        ld_energy *energy)
 {
-    const double *work = y + self->work;
+    const launcher_system *launcher = &self->launcher;
+    const double *work = y + launcher->work_at;
     double sum = 0, largest = 0;
-    for (int i = 0; i < POWER_COUNT; i++) {
+    for (int i = 0; i < launcher->work_count; i++) {
+        // between platform and tube nothing is lost
+        if (launcher->vehicle && i == POWER_BASE)
+            continue;
         sum += work[i];
         largest = fmax(largest, fabs(work[i]));
     }
-    energy->kinetic = launching_kinetic_energy(&self->launching, input, &self->phase, y);
-    energy->potential = launching_potential_energy(&self->launching, y);
-    energy->elastic = out->elastic;
-    energy->work = (ld_work){.thrust = work[POWER_THRUST],
-                             .gravity_rocket = work[POWER_GRAVITY_ROCKET],
-                             .contact_normal = work[POWER_CONTACT_NORMAL],
-                             .contact_friction = work[POWER_CONTACT_FRICTION],
-                             .slot = work[POWER_SLOT],
-                             .slot_friction = work[POWER_SLOT_FRICTION],
-                             .lock = work[POWER_LOCK],
-                             .support_damping = work[POWER_SUPPORT_DAMPING],
-                             .modal_damping = work[POWER_MODAL_DAMPING],
-                             .base = work[POWER_BASE],
-                             .mass_change = work[POWER_MASS_CHANGE]};
+    energy->kinetic = launcher_kinetic_energy(launcher, input, &self->phase, y);
+    energy->potential = launching_potential_energy(&launcher->launching, y);
+    energy->elastic = out->launching.elastic + (launcher->vehicle ? out->marching.elastic : 0);
+    energy->work = works(work, launcher->vehicle);
     energy->residual = energy->kinetic + energy->potential + energy->elastic - energy_start - sum;
     energy->residual_relative = largest > 0 ? energy->residual / largest : 0;
 }
@@ -110,12 +132,12 @@ static void add_frames(ld_simulation *self)
     add(self, "rad/s", "tube.wy", "angular velocity of R against I, in R");
     add(self, "rad/s", "tube.wz", "angular velocity of R against I, in R");
     char number[16];
-    for (int i = 1; i <= self->launching.layout.nq; i++) {
+    for (int i = 1; i <= self->launcher.launching.layout.nq; i++) {
         snprintf(number, sizeof number, "%d", i);
         add_named(self, "kg0.5.m", "q%s", "modal coordinate %s (bending y, z, torsion, axial)",
                   number);
     }
-    for (int i = 1; i <= self->launching.layout.nq; i++) {
+    for (int i = 1; i <= self->launcher.launching.layout.nq; i++) {
         snprintf(number, sizeof number, "%d", i);
         add_named(self, "kg0.5.m/s", "q%s_dot", "rate of modal coordinate %s", number);
     }
@@ -127,6 +149,53 @@ static void add_frames(ld_simulation *self)
     add(self, "m/s", "tip.vz", "rate of tip.z");
     add(self, "rad/s", "tip.pitch_rate", "rate of tip.pitch");
     add(self, "rad/s", "tip.yaw_rate", "rate of tip.yaw");
+}
+
+static void add_hinge(ld_simulation *self, const char *part)
+{
+    add_named(self, "rad", "%s.angle", "%s hinge: angle", part);
+    add_named(self, "rad/s", "%s.rate", "%s hinge: rate of the angle", part);
+    add_named(self, "rad", "%s.measured", "%s: yaw or pitch of the elevation platform in I", part);
+    add_named(self, "rad", "%s.command", "%s: commanded yaw or pitch", part);
+    add_named(self, "rad", "%s.error", "%s: command less measured", part);
+    add_named(self, "N.m", "%s.torque", "%s: torque of stabiliser or lock", part);
+    add_named(self, "N.m", "%s.friction", "%s: friction in the hinge", part);
+}
+
+static void add_wheel(ld_simulation *self, const char *name)
+{
+    add_named(self, "m", "wheel.%s.x", "wheel %s: centre in I", name);
+    add_named(self, "m", "wheel.%s.y", "wheel %s: centre in I", name);
+    add_named(self, "m", "wheel.%s.z", "wheel %s: centre in I", name);
+    add_named(self, "m", "wheel.%s.road", "wheel %s: height of the road under it", name);
+    add_named(self, "m", "wheel.%s.travel",
+              "wheel %s: suspension travel along the chassis' y, from unloaded", name);
+    add_named(self, "m", "wheel.%s.deflection", "wheel %s: tyre deflection", name);
+    add_named(self, "N", "wheel.%s.tyre_force", "wheel %s: vertical tyre force", name);
+    add_named(self, "N", "wheel.%s.along", "wheel %s: tyre force along the way", name);
+    add_named(self, "N", "wheel.%s.side", "wheel %s: tyre force across the way", name);
+}
+
+static void add_vehicle(ld_simulation *self)
+{
+    add(self, "m", "chassis.x", "chassis: mass centre in I");
+    add(self, "m", "chassis.y", "chassis: mass centre in I");
+    add(self, "m", "chassis.z", "chassis: mass centre in I");
+    add(self, "rad", "chassis.yaw", "chassis: yaw of Ry(yaw) Rz(pitch) Rx(roll)");
+    add(self, "rad", "chassis.pitch", "chassis: pitch");
+    add(self, "rad", "chassis.roll", "chassis: roll");
+    add(self, "m/s", "chassis.vx", "chassis: velocity of its mass centre in I");
+    add(self, "m/s", "chassis.vy", "chassis: velocity of its mass centre in I");
+    add(self, "m/s", "chassis.vz", "chassis: velocity of its mass centre in I");
+    add(self, "rad/s", "chassis.wx", "chassis: angular velocity in its own axes");
+    add(self, "rad/s", "chassis.wy", "chassis: angular velocity in its own axes");
+    add(self, "rad/s", "chassis.wz", "chassis: angular velocity in its own axes");
+    add_hinge(self, "azimuth");
+    add_hinge(self, "elevation");
+    add(self, "m/s", "drive.speed", "speed of the chassis along its heading");
+    add(self, "N", "drive.force", "drive force of all driven wheels");
+    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
+        add_wheel(self, self->model->base.vehicle.wheel[j].name);
 }
 
 static void add_rocket(ld_simulation *self)
@@ -153,7 +222,7 @@ static void add_rocket(ld_simulation *self)
     add(self, "rad/s", "rocket.spin", "rate of the rocket against I about its axis");
     add(self, "kg", "rocket.mass", "instantaneous mass");
     add(self, "N", "thrust", "thrust");
-    for (int i = 0; i < self->launching.adaptor_count; i++) {
+    for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
         const char *name = self->model->rocket.adaptor[i].name;
         add_named(self, "N", "contact.%s.force", "adaptor %s: norm of contact force", name);
         add_named(self, "N", "contact.%s.normal", "adaptor %s: normal force", name);
@@ -171,9 +240,11 @@ void history_build(ld_simulation *self)
 {
     add_frames(self);
     add_rocket(self);
-    add(self, "J", "energy.kinetic", "kinetic energy of tube, tail and rocket");
+    if (self->launcher.vehicle)
+        add_vehicle(self);
+    add(self, "J", "energy.kinetic", "kinetic energy of tube, tail and rocket, and of the vehicle");
     add(self, "J", "energy.potential", "potential energy of tube and tail in gravity");
-    add(self, "J", "energy.elastic", "elastic energy of the tube's modes and the supports");
+    add(self, "J", "energy.elastic", "elastic energy of modes, supports and suspensions");
     add(self, "J", "work.thrust", "work of the thrust");
     add(self, "J", "work.gravity_rocket", "work of gravity on the rocket");
     add(self, "J", "work.contact_normal", "work of the normal contact forces");
@@ -185,6 +256,16 @@ void history_build(ld_simulation *self)
     add(self, "J", "work.modal_damping", "work of the modal damping");
     add(self, "J", "work.base", "work of the moving base through the supports");
     add(self, "J", "work.mass_change", "kinetic energy carried off by burnt propellant");
+    if (self->launcher.vehicle) {
+        add(self, "J", "work.stabilisers", "work of the stabilisers or locks");
+        add(self, "J", "work.hinge_friction", "work of the friction in the hinges");
+        add(self, "J", "work.gravity_platform", "work of gravity on chassis and platforms");
+        add(self, "J", "work.gravity_wheels", "work of gravity on the wheels");
+        add(self, "J", "work.suspension_damping", "work of the suspension dampers");
+        add(self, "J", "work.tyre", "work of the road's normal forces on the wheels");
+        add(self, "J", "work.tyre_side", "work of side forces, and of those that hold it parked");
+        add(self, "J", "work.drive", "work of the road on driven wheels");
+    }
     add(self, "J", "energy.residual", "what the energy balance misses");
 }
 
@@ -217,13 +298,48 @@ static double phase_number(const ld_simulation *self, double t)
     return t < self->t_ignition ? 0 : 1;
 }
 
+// Yaw, pitch, roll of A = Ry(yaw) Rz(pitch) Rx(roll).
+static double *put_pose_angles(double *to, const m3 *A)
+{
+    *to++ = atan2(-A->a[2][0], A->a[0][0]);
+    *to++ = asin(fmax(-1, fmin(1, A->a[1][0])));
+    *to++ = atan2(-A->a[1][2], A->a[1][1]);
+    return to;
+}
+
+static double *put_vehicle(const ld_simulation *self, const launcher_input *input, const double *y,
+                           const launcher_output *out, double *to)
+{
+    const double *base = y + self->launcher.orientating_at, *wheel = y + self->launcher.marching_at;
+    to = put(to, base + ORIENTATING_R, 3);
+    to = put_pose_angles(to, &input->motion.chassis.A);
+    to = put(to, base + ORIENTATING_V, 6);
+    for (int i = 0; i < HINGES; i++) {
+        const hinge_report *hinge = &out->hinge[i];
+        to = put(to,
+                 (double[]){hinge->angle, hinge->rate, hinge->measured, hinge->command,
+                            hinge->error, hinge->torque, hinge->friction},
+                 7);
+    }
+    to = put(to, (double[]){out->marching.speed, out->marching.drive_force}, 2);
+    for (int j = 0; j < self->launcher.marching.wheel_count; j++, wheel += WHEEL_STATES) {
+        const wheel_report *report = &out->marching.wheel[j];
+        to = put(to, wheel + WHEEL_R, 3);
+        to = put(to,
+                 (double[]){report->height, report->travel.y, report->deflection, report->normal,
+                            report->along, report->side},
+                 6);
+    }
+    return to;
+}
+
 static double *put_rocket(const ld_simulation *self, const launching_input *input, const double *y,
                           const launching_output *out, double *to)
 {
-    const launching_layout *at = &self->launching.layout;
+    const launching_layout *at = &self->launcher.launching.layout;
     launching_output unused;
     launching_pose pose;
-    launching_rocket_pose(&self->launching, y, &pose, &unused);
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
     m3 A_IR = q_matrix(q_from(y + at->quaternion));
     v3 axis = m3_column(pose.A_RB, 0);
     direction_angles angles =
@@ -233,7 +349,7 @@ static double *put_rocket(const ld_simulation *self, const launching_input *inpu
     to = put_v3(to, m3_apply(A_IR, pose.v_O1));
     to = put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
     to = put(to, (double[]){v3_dot(axis, pose.w_B), input->mass.m, input->thrust}, 3);
-    for (int i = 0; i < self->launching.adaptor_count; i++) {
+    for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
         const adaptor_report *adaptor = &out->adaptor[i];
         double values[5] = {adaptor->force, adaptor->normal, adaptor->penetration, adaptor->y,
                             adaptor->z};
@@ -249,32 +365,39 @@ static double *put_rocket(const ld_simulation *self, const launching_input *inpu
 void history_row(const ld_simulation *self, double t, const double *y, double energy_start,
                  double *row)
 {
-    const launching_layout *at = &self->launching.layout;
-    launching_input input;
-    launching_output out = {0};
-    simulation_input(self, t, &input);
-    simulation_evaluate(self, &input, &self->phase, y, &out);
-    double *to = row, angles[3];
-    base_motion_angles(&self->base, t, angles);
+    const launching_layout *at = &self->launcher.launching.layout;
+    launcher_input input;
+    launcher_output out = {0};
+    simulation_input(self, t, y, &input);
+    launcher_evaluate(&self->launcher, &input, &self->phase, y, &out);
+    const base_frame *base = &input.launching.base;
+    double *to = row;
     to = put(to, (double[]){t, phase_number(self, t)}, 2);
-    to = put_v3(to, input.base.r);
-    to = put(to, angles, 3);
+    to = put_v3(to, base->r);
+    if (self->launcher.vehicle) {
+        to = put_pose_angles(to, &base->A);
+    } else {
+        base_motion_angles(&self->launcher.motion, t, to);
+        to += 3;
+    }
     to = put(to, y + at->r, 13);
     to = put(to, y + at->q, 2 * at->nq);
-    tip_state tip = tip_state_of(self, &input.base, y);
+    tip_state tip = tip_state_of(self, base, y);
     to = put(to,
              (double[]){tip.offset.y, tip.offset.z, tip.angles.pitch, tip.angles.yaw,
                         tip.offset_dot.y, tip.offset_dot.z, tip.angles.pitch_rate,
                         tip.angles.yaw_rate},
              8);
     if (self->phase.rocket)
-        to = put_rocket(self, &input, y, &out, to);
+        to = put_rocket(self, &input.launching, y, &out.launching, to);
     else
-        for (int i = 0; i < 25 + 5 * self->launching.adaptor_count; i++)
+        for (int i = 0; i < 25 + 5 * self->launcher.launching.adaptor_count; i++)
             *to++ = NAN;
+    if (self->launcher.vehicle)
+        to = put_vehicle(self, &input, y, &out, to);
     ld_energy energy;
     simulation_energy(self, &input, &out, y, energy_start, &energy);
     to = put(to, (double[]){energy.kinetic, energy.potential, energy.elastic}, 3);
-    to = put(to, y + self->work, POWER_COUNT);
+    to = put(to, y + self->launcher.work_at, self->launcher.work_count);
     *to = energy.residual;
 }

@@ -10,22 +10,15 @@
 
 // ---- the equations for the integrator ----
 
-void simulation_input(const ld_simulation *self, double t, launching_input *input)
+void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input)
 {
     double tau = t - self->t_ignition;
-    base_motion_at(&self->base, t, &input->base);
-    input->thrust = motor_thrust(&self->motor, self->piece, tau);
-    motor_mass(&self->motor, self->piece, tau, &input->mass);
-}
-
-launching_outcome simulation_evaluate(const ld_simulation *self, const launching_input *input,
-                                      const launching_phase *phase, const double *y,
-                                      launching_output *output)
-{
-    if (self->model->run.formulation == LD_FORMULATION_OVERALL)
-        return launching_evaluate_general(&self->launching, LD_FORMULATION_OVERALL, input, phase, y,
-                                          output);
-    return launching_evaluate(&self->launching, input, phase, y, output);
+    launcher_place(&self->launcher, t, y, input);
+    input->launching.thrust = motor_thrust(&self->motor, self->piece, tau);
+    motor_mass(&self->motor, self->piece, tau, &input->launching.mass);
+    memcpy(input->rest, self->rest, sizeof input->rest);
+    input->held = false;
+    input->formulation = self->model->run.formulation;
 }
 
 // NaN or infinity anywhere makes the sum of 0 y not zero.
@@ -40,64 +33,68 @@ static bool all_finite(int n, const double *y)
 static int rhs(double t, const double *y, double *y_dot, void *user)
 {
     ld_simulation *self = user;
-    launching_input input;
-    launching_output *out = &self->latest.out;
-    simulation_input(self, t, &input);
-    launching_outcome outcome = simulation_evaluate(self, &input, &self->phase, y, out);
+    launcher_input input;
+    launcher_output *out = &self->latest.out;
+    simulation_input(self, t, y, &input);
+    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
     self->latest.t = t;
-    self->latest.s = y[self->launching.layout.x];
+    self->latest.s = y[self->launcher.launching.layout.x];
     self->jammed = outcome == LAUNCHING_JAMMED;
     if (outcome)
         return -1;
     if (self->model->run.formulation == LD_FORMULATION_OVERALL) {
-        self->fallbacks += out->fell_back;
-        self->worst_condition = fmax(self->worst_condition, out->condition);
+        self->fallbacks += out->launching.fell_back;
+        self->worst_condition = fmax(self->worst_condition, out->launching.condition);
     }
-    launching_rates(&self->launching, y, out, self->phase.rocket, y_dot);
-    memcpy(y_dot + self->work, out->power, sizeof out->power);
-    return all_finite(self->state_count, y_dot) ? 0 : -1;
+    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
+    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
 }
 
 // What the equations gave at (t, y): the latest evaluation where it is that one, else a new one.
 // NULL where they have no solution.
-static const launching_output *output_at(ld_simulation *self, double t, const double *y)
+static const launcher_output *output_at(ld_simulation *self, double t, const double *y)
 {
-    if (self->latest.t != t || self->latest.s != y[self->launching.layout.x]) {
-        launching_input input;
-        simulation_input(self, t, &input);
+    if (self->latest.t != t || self->latest.s != y[self->launcher.launching.layout.x]) {
+        launcher_input input;
+        simulation_input(self, t, y, &input);
         self->latest.t = NAN;
-        if (simulation_evaluate(self, &input, &self->phase, y, &self->latest.out))
+        if (launcher_evaluate(&self->launcher, &input, &self->phase, y, &self->latest.out))
             return NULL;
         self->latest.t = t;
-        self->latest.s = y[self->launching.layout.x];
+        self->latest.s = y[self->launcher.launching.layout.x];
     }
     return &self->latest.out;
 }
 
 // Events: lock release, then each adaptor at the tip, then (lankarani-nikravesh alone) its
-// touching.
+// touching, then each wheel's touching the road.
 static int events(double t, const double *y, double *g, void *user)
 {
     ld_simulation *self = user;
-    int count = self->launching.adaptor_count;
+    int count = self->launcher.launching.adaptor_count,
+        wheels = self->launcher.marching.wheel_count;
     const launching_phase *phase = &self->phase;
-    for (int i = 0; i < 1 + 2 * count; i++)
+    for (int i = 0; i < 1 + 2 * count + wheels; i++)
         g[i] = 1;
-    if (!phase->rocket)
+    if (!phase->rocket && !wheels)
         return 0;
-    const launching_output *out = output_at(self, t, y);
+    const launcher_output *out = output_at(self, t, y);
     if (!out)
         return -1;
+    for (int j = 0; j < wheels; j++)
+        g[1 + 2 * count + j] = out->marching.wheel[j].deflection / 1e-3;
+    if (!phase->rocket)
+        return 0;
     if (phase->locked)
-        g[0] = 1 - out->lock_force / self->model->rocket.lock.release_force;
-    bool touching = self->launching.contact.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
-    double length = self->launching.tube.length;
+        g[0] = 1 - out->launching.lock_force / self->model->rocket.lock.release_force;
+    bool touching = self->launcher.launching.contact.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
+    double length = self->launcher.launching.tube.length;
     for (int i = 0; i < count; i++) {
         if (phase->passed[i])
             continue;
-        g[1 + i] = (length - out->adaptor[i].s) / length;
+        g[1 + i] = (length - out->launching.adaptor[i].s) / length;
         if (touching)
-            g[1 + count + i] = out->adaptor[i].penetration / 1e-3;
+            g[1 + count + i] = out->launching.adaptor[i].penetration / 1e-3;
     }
     return 0;
 }
@@ -106,7 +103,21 @@ static int events(double t, const double *y, double *g, void *user)
 
 static int event_count(const ld_simulation *self)
 {
-    return 1 + 2 * self->launching.adaptor_count;
+    return 1 + 2 * self->launcher.launching.adaptor_count + self->launcher.marching.wheel_count;
+}
+
+// The stretch of road [m] that the wheels will see in a launch.
+static void road_under(const ld_model *model, double x[2])
+{
+    const ld_vehicle *vehicle = &model->base.vehicle;
+    double speed = vehicle->speed, rear = 0, front = 0;
+    for (int j = 0; j < vehicle->wheel_count; j++) {
+        rear = fmin(rear, vehicle->wheel[j].mount[0]);
+        front = fmax(front, vehicle->wheel[j].mount[0]);
+    }
+    double end = model->run.end == LD_END_TIME ? model->run.end_time : 1;
+    x[0] = rear - speed * model->run.lead_in - 1;
+    x[1] = front + speed * (model->firing[0].at + end) + 1;
 }
 
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
@@ -120,17 +131,16 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
     memset(self, 0, sizeof *self);
     self->model = model;
-    ld_status status = launching_build(&self->launching, model, error);
-    if (!status)
-        status = base_motion_build(&self->base, &model->base, error);
+    double stretch[2];
+    road_under(model, stretch);
+    ld_status status = launcher_build(&self->launcher, model, model->firing[0].tube, stretch[0],
+                                      stretch[1], error);
     if (!status)
         status = motor_build(&self->motor, &model->rocket, error);
     if (status) {
         ld_simulation_free(self);
         return status;
     }
-    self->work = self->launching.layout.count;
-    self->state_count = self->work + POWER_COUNT;
     self->t_ignition = model->firing[0].at;
     history_build(self);
     self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
@@ -143,8 +153,7 @@ void ld_simulation_free(ld_simulation *self)
 {
     if (!self)
         return;
-    launching_free(&self->launching);
-    base_motion_free(&self->base);
+    launcher_free(&self->launcher);
     motor_free(&self->motor);
     free(self);
 }
@@ -221,15 +230,35 @@ static void restart_output(launch_run *run, double t)
     run->next_output = t + output_step(run, t);
 }
 
+// Absolute tolerances of a vehicle's states.
+static void vehicle_tolerances(const launcher_system *self, double tolerance, double *atol,
+                               bool *absolute)
+{
+    double *base = atol + self->orientating_at, *wheel = atol + self->marching_at;
+    for (int i = 0; i < ORIENTATING_STATES; i++)
+        base[i] = i < ORIENTATING_V ? 1e-2 * tolerance : tolerance;
+    for (int i = 0; i < HINGES; i++)
+        base[ORIENTATING_Z + i] = 1e2 * tolerance;
+    for (int i = 0; i < 3; i++)
+        absolute[self->orientating_at + ORIENTATING_R + i] = true;
+    for (int j = 0; j < self->marching.wheel_count; j++, wheel += WHEEL_STATES)
+        for (int i = 0; i < WHEEL_STATES; i++) {
+            bool speed = i >= WHEEL_V && i < WHEEL_V + 3;
+            wheel[i] = speed ? tolerance : 1e-2 * tolerance;
+            absolute[wheel + i - atol] = i < WHEEL_V;
+        }
+    *wheel = tolerance;
+}
+
 // Integrator's tolerances: the model's relative tolerance, and per kind of state what it is of.
 // Positions in I have no relative part: a vehicle may be far from the origin.
 static ld_status make_integrator(launch_run *run)
 {
     ld_simulation *self = run->self;
-    const launching_layout *at = &self->launching.layout;
+    const launching_layout *at = &self->launcher.launching.layout;
     double tolerance = self->model->run.tolerance, atol[LD_MAX_STATES];
     bool absolute[LD_MAX_STATES] = {false};
-    for (int i = 0; i < self->state_count; i++)
+    for (int i = 0; i < self->launcher.state_count; i++)
         atol[i] = 1e300; // works are quadratures: they do not steer the step
     for (int i = 0; i < 3; i++) {
         atol[at->r + i] = 1e-2 * tolerance;
@@ -245,8 +274,10 @@ static ld_status make_integrator(launch_run *run)
         atol[at->q + i] = 1e-2 * tolerance;
         atol[at->q_dot + i] = tolerance;
     }
+    if (self->launcher.vehicle)
+        vehicle_tolerances(&self->launcher, tolerance, atol, absolute);
     integrator_settings settings = {
-        .n = (size_t)self->state_count,
+        .n = (size_t)self->launcher.state_count,
         .method = INTEGRATOR_CASH_KARP,
         .rtol = tolerance,
         .atol = atol,
@@ -290,7 +321,9 @@ static ld_status find_start(launch_run *run, double *y)
         status =
             simulation_equilibrium(self, run->t_start, y, &run->summary->equilibrium, run->error);
     else
-        simulation_undeformed(self, run->t_start, y);
+        status = simulation_undeformed(self, run->t_start, y, run->error);
+    if (status)
+        return status;
     simulation_move_with_base(self, run->t_start, y);
     return status;
 }
@@ -300,17 +333,17 @@ static ld_status find_start(launch_run *run, double *y)
 static void record_exit(launch_run *run, double t, const double *landed)
 {
     ld_simulation *self = run->self;
-    const launching_layout *at = &self->launching.layout;
+    const launching_layout *at = &self->launcher.launching.layout;
     // the curvature jumps at the tip: its inner value counts, on whichever side the step landed
     double y[LD_MAX_STATES];
-    memcpy(y, landed, (size_t)self->state_count * sizeof(double));
-    y[at->x] = fmin(y[at->x], self->launching.tube.length);
+    memcpy(y, landed, (size_t)self->launcher.state_count * sizeof(double));
+    y[at->x] = fmin(y[at->x], self->launcher.launching.tube.length);
     ld_rocket_summary *rocket = &run->summary->rocket[0];
     launching_output out;
     launching_pose pose;
-    base_frame base;
-    launching_rocket_pose(&self->launching, y, &pose, &out);
-    base_motion_at(&self->base, t, &base);
+    launcher_input input;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &out);
+    simulation_input(self, t, y, &input);
     m3 A_IR = q_matrix(q_from(y + at->quaternion));
     v3 axis = m3_column(pose.A_RB, 0);
     direction_angles angles =
@@ -324,7 +357,7 @@ static void record_exit(launch_run *run, double t, const double *landed)
     rocket->yaw_rate = angles.yaw_rate;
     memcpy(&rocket->relative.y, y + at->x + 1, 5 * sizeof(double));
     memcpy(&rocket->relative.w_x, out.y + 3, 3 * sizeof(double));
-    tip_state tip = tip_state_of(self, &base, y);
+    tip_state tip = tip_state_of(self, &input.launching.base, y);
     rocket->tip.y = tip.offset.y;
     rocket->tip.z = tip.offset.z;
     rocket->tip.pitch = tip.angles.pitch;
@@ -339,7 +372,7 @@ static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 {
     ld_simulation *self = run->self;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
-    int count = self->launching.adaptor_count, ahead = 0;
+    int count = self->launcher.launching.adaptor_count, ahead = 0;
     double since = t - self->t_ignition;
     const ld_adaptor *adaptor = self->model->rocket.adaptor;
     for (int j = 0; j < count; j++)
@@ -360,11 +393,11 @@ static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 static void let_rocket_go(launch_run *run, double t, const double *y)
 {
     ld_simulation *self = run->self;
-    launching_input input;
-    simulation_input(self, t, &input);
-    double with = launching_kinetic_energy(&self->launching, &input, &self->phase, y);
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    double with = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
     self->phase.rocket = false;
-    double without = launching_kinetic_energy(&self->launching, &input, &self->phase, y);
+    double without = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
     run->energy_start -= with - without;
 }
 
@@ -372,7 +405,7 @@ static void let_rocket_go(launch_run *run, double t, const double *y)
 static bool switch_phase(launch_run *run, double t, const double *y)
 {
     ld_simulation *self = run->self;
-    int count = self->launching.adaptor_count;
+    int count = self->launcher.launching.adaptor_count;
     bool changed = false;
     if (self->phase.locked && integrator_event(run->integrator, 0) < 0) {
         self->phase.locked = false;
@@ -386,11 +419,14 @@ static bool switch_phase(launch_run *run, double t, const double *y)
         }
         if (!self->phase.passed[i] && integrator_event(run->integrator, 1 + count + i) > 0) {
             // first touch: its speed is kept for the whole contact
-            self->phase.touch_speed[i] = fmax(launching_offset_rate(&self->launching, y, i),
-                                              1e-3 * self->launching.contact.v_0);
+            self->phase.touch_speed[i] =
+                fmax(launching_offset_rate(&self->launcher.launching, y, i),
+                     1e-3 * self->launcher.launching.contact.v_0);
             changed = true;
         }
     }
+    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
+        changed |= integrator_event(run->integrator, 1 + 2 * count + j) > 0;
     if (self->phase.passed[0] && self->phase.rocket && self->model->run.end != LD_END_TIP) {
         let_rocket_go(run, t, y);
         changed = true;
@@ -405,10 +441,11 @@ static void watch_forces(launch_run *run, double t, const double *y)
     if (!self->phase.rocket)
         return;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
-    const launching_output *out = output_at(self, t, y);
-    if (!out)
+    const launcher_output *at = output_at(self, t, y);
+    if (!at)
         return;
-    for (int i = 0; i < self->launching.adaptor_count; i++)
+    const launching_output *out = &at->launching;
+    for (int i = 0; i < self->launcher.launching.adaptor_count; i++)
         if (!self->phase.passed[i])
             rocket->max_contact_force[i] =
                 fmax(rocket->max_contact_force[i], out->adaptor[i].force);
@@ -422,11 +459,11 @@ static void watch_forces(launch_run *run, double t, const double *y)
 static ld_status check_tube(launch_run *run, double t, const double *y)
 {
     const int parts = 4;
-    double length = run->self->launching.tube.length;
+    double length = run->self->launcher.launching.tube.length;
     for (int k = parts; k > 0; k--) {
         launching_section at;
         double x = length * k / parts;
-        launching_section_at(&run->self->launching, y, x, &at);
+        launching_section_at(&run->self->launcher.launching, y, x, &at);
         double sag = hypot(at.P.y, at.P.z);
         if (sag > 0.2 * length || at.A.a[0][0] < 0.8)
             return ld_fail(run->error, LD_ERR_NUMERIC,
@@ -441,7 +478,7 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
 {
     ld_simulation *self = run->self;
     const ld_rocket *rocket = &self->model->rocket;
-    double since = t - self->t_ignition, s = y[self->launching.layout.x];
+    double since = t - self->t_ignition, s = y[self->launcher.launching.layout.x];
     if (!self->phase.rocket)
         return LD_OK;
     if (s < 0)
@@ -459,14 +496,14 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
         run->error, LD_ERR_LAUNCH,
         "the rocket is stuck in the tube: its rear adaptor is at %.4g m of %.4g m, %.4g s "
         "after ignition",
-        s, self->launching.tube.length, since);
+        s, self->launcher.launching.tube.length, since);
 }
 
 // A table of the base's motion must go on beyond t.
 static ld_status check_base(launch_run *run, double t)
 {
     double first, last;
-    base_motion_span(&run->self->base, &first, &last);
+    base_motion_span(&run->self->launcher.motion, &first, &last);
     if (t >= first && t < last)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_INPUT,
@@ -500,8 +537,8 @@ static ld_status report_progress(launch_run *run, double t)
         return status;
     // a launch's end is not known: the travel's share is the estimate
     const ld_simulation *self = run->self;
-    double length = self->launching.tube.length, s0 = self->model->rocket.start_at;
-    double s = integrator_state(run->integrator)[self->launching.layout.x];
+    double length = self->launcher.launching.tube.length, s0 = self->model->rocket.start_at;
+    double s = integrator_state(run->integrator)[self->launcher.launching.layout.x];
     double in_tube = fmin(1, sqrt(fmax(0, (s - s0) / (length - s0))));
     double lead_in = self->t_ignition - run->t_start;
     double expected = lead_in + 0.2;
@@ -514,13 +551,26 @@ static ld_status report_progress(launch_run *run, double t)
 
 // ---- the loop ----
 
+// The first instant after t at which a commanded angle has a corner.
+static double next_corner(const ld_table *command, double t)
+{
+    for (size_t i = 0; i < command->rows && command->rows > 1; i++)
+        if (command->data[i * command->columns] > t)
+            return command->data[i * command->columns];
+    return INFINITY;
+}
+
 // The next instant at which the step must end: ignition, a corner of the thrust, the end.
 static double next_stop(const launch_run *run, double t)
 {
     const ld_simulation *self = run->self;
     double first, stop;
-    base_motion_span(&self->base, &first, &stop);
+    base_motion_span(&self->launcher.motion, &first, &stop);
     stop = fmin(stop, run->t_end);
+    if (self->launcher.vehicle)
+        stop =
+            fmin(stop, fmin(next_corner(&self->model->platform.azimuth.stabiliser.command, t),
+                            next_corner(&self->model->platform.elevation.stabiliser.command, t)));
     if (t < self->t_ignition)
         return fmin(stop, self->t_ignition);
     int next = self->piece + 1;
@@ -529,11 +579,12 @@ static double next_stop(const launch_run *run, double t)
     return stop;
 }
 
-// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve.
+// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve, or of a
+// commanded angle.
 static bool pass_stop(launch_run *run, double t)
 {
     ld_simulation *self = run->self;
-    bool changed = false;
+    bool changed = self->launcher.vehicle;
     while (t >= self->t_ignition && self->piece + 1 < (int)self->motor.corner_count &&
            t >= self->t_ignition + self->motor.t[self->piece + 1]) {
         self->piece++;
@@ -550,7 +601,8 @@ static void let_go_at_once(launch_run *run, double t, const double *y)
     self->latest.t = NAN;
     if (!self->phase.locked)
         return;
-    const launching_output *out = output_at(self, t, y);
+    const launcher_output *at = output_at(self, t, y);
+    const launching_output *out = at ? &at->launching : NULL;
     if (!out || !(out->lock_force > self->model->rocket.lock.release_force))
         return;
     run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
@@ -629,10 +681,10 @@ static ld_status loop(launch_run *run)
 static void energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
                       ld_energy *energy)
 {
-    launching_input input;
-    launching_output out = {0};
-    simulation_input(self, t, &input);
-    simulation_evaluate(self, &input, &self->phase, y, &out);
+    launcher_input input;
+    launcher_output out = {0};
+    simulation_input(self, t, y, &input);
+    launcher_evaluate(&self->launcher, &input, &self->phase, y, &out);
     simulation_energy(self, &input, &out, y, energy_start, energy);
 }
 

@@ -1,6 +1,7 @@
 // Natural frequencies and damping: eigenvalues of the equations linearised at rest.
 #include <lapacke.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,41 +9,97 @@
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 
-// Unknowns: place and attitude of R (6), q, then of the rocket s, y_S, z_S, psi, theta, gamma;
-// their speeds v, w, q_dot, V. At rest x_dot = T v, v_dot = -K x - C v. Without the rocket its six
-// are left out.
+// Displacements: place and attitude of R (6), q, then of the rocket s, y_S, z_S, psi, theta, gamma
+// (without the rocket they are left out); with a vehicle place and attitude of the chassis (6), the
+// hinge angles, the wheels' places. Speeds in the same order: v, w, q_dot, V, ... Then what has a
+// rate alone: the stabilisers' integrals, eta and xi of each wheel, the drive's integral.
+// d/dt of all: the Jacobian J.
 typedef struct linear_system {
-    int half;          // displacements, and speeds
-    double *T, *K, *C; // half x half, by columns
+    int tube, rocket, vehicle; // displacements of each
+    int half, count;           // displacements in all; unknowns in all
+    double *J;                 // count x count, by columns
 } linear_system;
 
-static void displace(const ld_simulation *self, int half, int unknown, double change, double *y)
+static void displace_vehicle(const launcher_system *launcher, int unknown, double change, double *y)
 {
-    const launching_layout *at = &self->launching.layout;
-    int tube = 6 + at->nq;
+    double *base = y + launcher->orientating_at;
+    if (unknown < 3) {
+        base[ORIENTATING_R + unknown] += change;
+    } else if (unknown < 6) {
+        double axis[3] = {0};
+        axis[unknown - 3] = sin(0.5 * change);
+        quat turn = {cos(0.5 * change), axis[0], axis[1], axis[2]};
+        quat q = q_multiply(q_from(base + ORIENTATING_QUATERNION), turn);
+        memcpy(base + ORIENTATING_QUATERNION, &q, sizeof q);
+    } else if (unknown < 8) {
+        base[ORIENTATING_ANGLE + unknown - 6] += change;
+    } else {
+        int k = unknown - 8;
+        y[launcher->marching_at + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
+    }
+}
+
+// Where a vehicle's speed, and what has a rate alone, stand in the state.
+static int vehicle_speed_at(const launcher_system *launcher, int unknown)
+{
+    if (unknown < 8)
+        return launcher->orientating_at + ORIENTATING_V + unknown;
+    int k = unknown - 8;
+    return launcher->marching_at + WHEEL_STATES * (k / 3) + WHEEL_V + k % 3;
+}
+
+static int extra_at(const launcher_system *launcher, int unknown)
+{
+    if (unknown < HINGES)
+        return launcher->orientating_at + ORIENTATING_Z + unknown;
+    int k = unknown - HINGES, wheels = launcher->marching.wheel_count;
+    if (k < 2 * wheels)
+        return launcher->marching_at + WHEEL_STATES * (k / 2) + WHEEL_ETA + k % 2;
+    return launcher->marching_at + WHEEL_STATES * wheels;
+}
+
+static void displace(const ld_simulation *self, const linear_system *system, int unknown,
+                     double change, double *y)
+{
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    int tube = system->tube, both = tube + system->rocket, half = system->half;
     if (unknown < tube)
         simulation_displace(self, unknown, change, y);
-    else if (unknown < half)
+    else if (unknown < both)
         y[at->x + unknown - tube] += change;
+    else if (unknown < half)
+        displace_vehicle(launcher, unknown - both, change, y);
     else if (unknown < half + 6)
         y[at->v + unknown - half] += change; // v, then w
     else if (unknown < half + tube)
         y[at->q_dot + unknown - half - 6] += change;
-    else
+    else if (unknown < half + both)
         y[at->V + unknown - half - tube] += change;
+    else if (unknown < 2 * half)
+        y[vehicle_speed_at(launcher, unknown - half - both)] += change;
+    else
+        y[extra_at(launcher, unknown - 2 * half)] += change;
 }
 
 // Rates of the unknowns at state y, in the same order.
-static int rates(const ld_simulation *self, const launching_input *input,
-                 const launching_phase *phase, const double *y, int half, double *r)
+static int rates(const ld_simulation *self, const linear_system *system, double t,
+                 const launching_phase *phase, const double *y, double *r)
 {
-    const launching_layout *at = &self->launching.layout;
-    launching_output out;
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    launcher_input input;
+    launcher_output out;
     double y_dot[LD_MAX_STATES];
-    if (launching_evaluate(&self->launching, input, phase, y, &out))
+    simulation_input(self, t, y, &input);
+    input.formulation = LD_FORMULATION_REDUCED;
+    input.launching.thrust = 0;
+    if (!launcher->vehicle)
+        input.launching.base.v = input.launching.base.w = v3_zero();
+    if (launcher_evaluate(launcher, &input, phase, y, &out))
         return -1;
-    launching_rates(&self->launching, y, &out, phase->rocket, y_dot);
-    int tube = 6 + at->nq;
+    launcher_rates(launcher, y, &out, phase->rocket, y_dot);
+    int tube = system->tube, both = tube + system->rocket, half = system->half;
     memcpy(r, y_dot + at->r, 3 * sizeof(double));
     memcpy(r + 3, y + at->w, 3 * sizeof(double)); // small rotations in R
     memcpy(r + 6, y_dot + at->q, (size_t)at->nq * sizeof(double));
@@ -52,85 +109,159 @@ static int rates(const ld_simulation *self, const launching_input *input,
         memcpy(r + tube, y_dot + at->x, 6 * sizeof(double));
         memcpy(r + half + tube, y_dot + at->V, 6 * sizeof(double));
     }
+    for (int i = 0; i < system->vehicle; i++) {
+        int place = vehicle_speed_at(launcher, i);
+        r[both + i] = y[place]; // angular velocity and small rotations in chassis axes
+        r[half + both + i] = y_dot[place];
+    }
+    for (int i = 2 * half; i < system->count; i++)
+        r[i] = y_dot[extra_at(launcher, i - 2 * half)];
     return 0;
 }
 
-static ld_status linearise(const ld_simulation *self, const launching_input *input,
+// Counts the unknowns and finds the Jacobian by central differences; with `alone` the base is held.
+static ld_status linearise(const ld_simulation *self, bool alone, double t,
                            const launching_phase *phase, const double *y, linear_system *system,
                            ld_error *error)
 {
-    int half = 6 + self->launching.layout.nq + (phase->rocket ? 6 : 0);
+    int wheels = self->launcher.marching.wheel_count;
+    bool vehicle = self->launcher.vehicle && !alone;
+    system->tube = 6 + self->launcher.launching.layout.nq;
+    system->rocket = phase->rocket ? 6 : 0;
+    system->vehicle = vehicle ? 8 + 3 * wheels : 0;
+    system->half = system->tube + system->rocket + system->vehicle;
+    system->count = 2 * system->half + (vehicle ? HINGES + 2 * wheels + 1 : 0);
+    int n = system->count, half = system->half;
     double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], trial[LD_MAX_STATES];
-    size_t size = (size_t)self->state_count * sizeof(double), square = (size_t)half * (size_t)half;
-    system->half = half;
-    system->T = calloc(3 * square, sizeof(double));
-    if (!system->T)
+    size_t size = (size_t)self->launcher.state_count * sizeof(double);
+    system->J = calloc((size_t)n * (size_t)n, sizeof(double));
+    if (!system->J)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
-    system->K = system->T + square;
-    system->C = system->T + 2 * square;
-    for (int j = 0; j < 2 * half; j++) {
+    for (int j = 0; j < n; j++) {
         double h = j < half ? 1e-7 : 1e-5;
         memcpy(trial, y, size);
-        displace(self, half, j, h, trial);
-        int bad = rates(self, input, phase, trial, half, plus);
+        displace(self, system, j, h, trial);
+        int bad = rates(self, system, t, phase, trial, plus);
         memcpy(trial, y, size);
-        displace(self, half, j, -h, trial);
-        if (bad || rates(self, input, phase, trial, half, minus))
+        displace(self, system, j, -h, trial);
+        if (bad || rates(self, system, t, phase, trial, minus))
             return ld_fail(error, LD_ERR_NUMERIC, "the equations cannot be linearised");
-        for (int i = 0; i < half; i++) {
-            double of_speed = (plus[half + i] - minus[half + i]) / (2 * h);
-            if (j < half) {
-                system->K[i + half * j] = -of_speed;
-            } else {
-                system->C[i + half * (j - half)] = -of_speed;
-                system->T[i + half * (j - half)] = (plus[i] - minus[i]) / (2 * h);
-            }
-        }
+        for (int i = 0; i < n; i++)
+            system->J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
     }
     return LD_OK;
 }
 
-// Which part moves most in an eigenvector: the group with the largest kinetic energy.
-static const char *shape_of(const ld_simulation *self, bool rocket, const double *speeds)
+enum {
+    VERTICAL,
+    LATERAL,
+    ALONG,
+    TWIST,
+    ROCKET_Y,
+    ROCKET_Z,
+    ROCKET_ROLL,
+    SURGE,
+    HEAVE,
+    SWAY,
+    ROLL,
+    YAW,
+    PITCH,
+    AZIMUTH,
+    ELEVATION,
+    WHEEL_ALONG,
+    WHEEL_HOP,
+    WHEEL_ACROSS,
+    GROUPS
+};
+static const char *const group_names[GROUPS] = {
+    [VERTICAL] = "tube, vertical plane",
+    [LATERAL] = "tube, lateral plane",
+    [ALONG] = "tube, along its axis",
+    [TWIST] = "tube, twist",
+    [ROCKET_Y] = "rocket, pitch and heave",
+    [ROCKET_Z] = "rocket, yaw and sway",
+    [ROCKET_ROLL] = "rocket, roll",
+    [SURGE] = "chassis, surge",
+    [HEAVE] = "chassis, heave",
+    [SWAY] = "chassis, sway",
+    [ROLL] = "chassis, roll",
+    [YAW] = "chassis, yaw",
+    [PITCH] = "chassis, pitch",
+    [AZIMUTH] = "azimuth platform",
+    [ELEVATION] = "elevation platform",
+    [WHEEL_ALONG] = "wheels, along",
+    [WHEEL_HOP] = "wheels, hop",
+    [WHEEL_ACROSS] = "wheels, across",
+};
+
+// Kinetic energy of tube and rocket in an eigenvector's speed number i, by group.
+static void add_launching_energy(const ld_simulation *self, int i, double amount, double *energy)
 {
-    enum { VERTICAL, LATERAL, ALONG, TWIST, ROCKET_Y, ROCKET_Z, ROCKET_ROLL, GROUPS };
-    static const char *const names[GROUPS] = {
-        [VERTICAL] = "tube, vertical plane",    [LATERAL] = "tube, lateral plane",
-        [ALONG] = "tube, along its axis",       [TWIST] = "tube, twist",
-        [ROCKET_Y] = "rocket, pitch and heave", [ROCKET_Z] = "rocket, yaw and sway",
-        [ROCKET_ROLL] = "rocket, roll",
-    };
-    const launching_system *launching = &self->launching;
+    const launching_system *launching = &self->launcher.launching;
     int nb = launching->tube.nb, nt = launching->tube.nt, nq = launching->layout.nq;
-    double energy[GROUPS] = {0};
     double m = launching->m, j = launching->tube.j0;
     const double mass[6] = {m, m, m, launching->jx, j, j};
-    const int group[6] = {ALONG, VERTICAL, LATERAL, TWIST, LATERAL, VERTICAL};
-    for (int i = 0; i < 6 + nq + (rocket ? 6 : 0); i++) {
-        double amount = speeds[i] * speeds[i];
-        int k = i - 6;
-        if (i < 6)
-            energy[group[i]] += mass[i] * amount;
-        else if (k < nq)
-            energy[k < nb            ? VERTICAL
-                   : k < 2 * nb      ? LATERAL
-                   : k < 2 * nb + nt ? TWIST
-                                     : ALONG] += amount;
-        else {
-            const rocket_mass *full = &self->motor.full;
-            k -= nq;
-            double inertia[6] = {full->m,         full->m,         full->m,
-                                 full->J.a[0][0], full->J.a[1][1], full->J.a[2][2]};
-            const int rocket_group[6] = {ALONG,       ROCKET_Y, ROCKET_Z,
-                                         ROCKET_ROLL, ROCKET_Z, ROCKET_Y};
-            energy[rocket_group[k]] += inertia[k] * amount;
-        }
-    }
-    int best = 0;
+    static const int group[6] = {ALONG, VERTICAL, LATERAL, TWIST, LATERAL, VERTICAL};
+    static const int rocket_group[6] = {ALONG, ROCKET_Y, ROCKET_Z, ROCKET_ROLL, ROCKET_Z, ROCKET_Y};
+    const rocket_mass *full = &self->motor.full;
+    double inertia[6] = {full->m,         full->m,         full->m,
+                         full->J.a[0][0], full->J.a[1][1], full->J.a[2][2]};
+    int k = i - 6;
+    if (i < 6)
+        energy[group[i]] += mass[i] * amount;
+    else if (k < nq)
+        energy[k < nb            ? VERTICAL
+               : k < 2 * nb      ? LATERAL
+               : k < 2 * nb + nt ? TWIST
+                                 : ALONG] += amount;
+    else
+        energy[rocket_group[k - nq]] += inertia[k - nq] * amount;
+}
+
+static void add_vehicle_energy(const ld_simulation *self, int i, double amount, double *energy)
+{
+    const ld_platform *platform = &self->model->platform;
+    static const int group[8] = {SURGE, HEAVE, SWAY, ROLL, YAW, PITCH, AZIMUTH, ELEVATION};
+    double m = self->launcher.orientating.mass;
+    const double *chassis = platform->chassis_inertia;
+    double inertia[8] = {m,
+                         m,
+                         m,
+                         chassis[0],
+                         chassis[1],
+                         chassis[2],
+                         platform->azimuth.inertia[1] + platform->elevation.inertia[1],
+                         platform->elevation.inertia[2]};
+    if (i < 8)
+        energy[group[i]] += inertia[i] * amount;
+    else
+        energy[WHEEL_ALONG + (i - 8) % 3] +=
+            self->model->base.vehicle.wheel[(i - 8) / 3].mass * amount;
+}
+
+// Names what moves most in an eigenvector: the group with the largest kinetic energy, and a second
+// one that has at least a third of it.
+static void name_shape(const ld_simulation *self, const linear_system *system,
+                       const double *squared_speeds, char shape[LD_SHAPE_TEXT])
+{
+    double energy[GROUPS] = {0};
+    int both = system->tube + system->rocket, best = 0, second = -1;
+    for (int i = 0; i < system->half; i++)
+        if (i < both)
+            add_launching_energy(self, i, squared_speeds[i], energy);
+        else
+            add_vehicle_energy(self, i - both, squared_speeds[i], energy);
     for (int g = 1; g < GROUPS; g++)
         if (energy[g] > energy[best])
             best = g;
-    return names[best];
+    for (int g = 0; g < GROUPS; g++)
+        if (g != best && energy[g] >= energy[best] / 3 &&
+            (second < 0 || energy[g] > energy[second]))
+            second = g;
+    if (second < 0)
+        snprintf(shape, LD_SHAPE_TEXT, "%s", group_names[best]);
+    else
+        snprintf(shape, LD_SHAPE_TEXT, "%s; %s", group_names[best], group_names[second]);
 }
 
 static int by_frequency(const void *a, const void *b)
@@ -139,51 +270,58 @@ static int by_frequency(const void *a, const void *b)
     return (p->frequency > q->frequency) - (p->frequency < q->frequency);
 }
 
-// left^T C right/(left^T right): what the dampers do to a mode, 2 zeta omega.
-static double modal_damping(int n, const double *C, const double *left, const double *right)
+// left^T C right/(left^T right), C = -J's block of speeds on speeds: what the dampers do to a mode,
+// 2 zeta omega.
+static double modal_damping(const linear_system *system, const double *left, const double *right)
 {
     double damped = 0, norm = 0;
+    int n = system->half;
     for (int j = 0; j < n; j++) {
         norm += left[j] * right[j];
         for (int i = 0; i < n; i++)
-            damped += left[i] * C[i + n * j] * right[j];
+            damped -= left[i] * system->J[n + i + system->count * (n + j)] * right[j];
     }
     return damped / norm;
 }
 
-// Undamped modes K T v = omega^2 v with the damping of each shape; those that the constraints leave
-// at zero are dropped.
-static ld_status eigenmodes(const ld_simulation *self, const linear_system *system, bool rocket,
-                            ld_mode *modes, int capacity, int *count, ld_error *error)
+static ld_status eigenvalues_failed(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_NUMERIC, "the eigenvalues of the linearised equations failed");
+}
+
+// Undamped modes K T v = omega^2 v, from x_dot = T v, v_dot = -K x - C v, with the damping of each
+// shape; those that the constraints leave at zero are dropped.
+static ld_status undamped_modes(const ld_simulation *self, const linear_system *system,
+                                ld_mode *modes, int capacity, int *count, ld_error *error)
 {
     int n = system->half;
     size_t square = (size_t)n * (size_t)n;
-    double *memory = calloc(3 * square + 2 * (size_t)n, sizeof *memory);
+    double *memory = calloc(3 * square + 3 * (size_t)n, sizeof *memory);
     if (!memory)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
     double *KT = memory, *left = memory + square, *right = left + square, *wr = right + square,
-           *wi = wr + n;
+           *wi = wr + n, *squares = wi + n;
     for (int j = 0; j < n; j++)
         for (int k = 0; k < n; k++)
             for (int i = 0; i < n; i++)
-                KT[i + n * j] += system->K[i + n * k] * system->T[k + n * j];
+                KT[i + n * j] -=
+                    system->J[n + i + system->count * k] * system->J[k + system->count * (n + j)];
     int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'V', 'V', n, KT, n, wr, wi, left, n, right, n);
     *count = 0;
     for (int i = 0; i < n && !bad && *count < capacity; i++) {
         if (wr[i] < 1)
             continue;
         double omega = sqrt(wr[i]);
-        double rate = 0.5 * modal_damping(n, system->C, left + n * i, right + n * i);
-        modes[(*count)++] = (ld_mode){.frequency = omega / TWO_PI,
-                                      .damping = rate / omega,
-                                      .real = -rate,
-                                      .shape = shape_of(self, rocket, right + n * i)};
+        double rate = 0.5 * modal_damping(system, left + n * i, right + n * i);
+        ld_mode *mode = &modes[(*count)++];
+        *mode = (ld_mode){.frequency = omega / TWO_PI, .damping = rate / omega, .real = -rate};
+        for (int k = 0; k < n; k++)
+            squares[k] = right[n * i + k] * right[n * i + k];
+        name_shape(self, system, squares, mode->shape);
     }
     free(memory);
     qsort(modes, (size_t)*count, sizeof *modes, by_frequency);
-    return bad ? ld_fail(error, LD_ERR_NUMERIC,
-                         "the eigenvalues of the linearised equations failed")
-               : LD_OK;
+    return bad ? eigenvalues_failed(error) : LD_OK;
 }
 
 static int by_size(const void *a, const void *b)
@@ -193,72 +331,102 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Eigenvalues of [0 T; -K -C] with imaginary part >= 0, but for those that the constraints leave at
-// zero.
-static ld_status eigenvalues(const linear_system *system, ld_pole *poles, int capacity, int *count,
-                             ld_error *error)
+// Eigenvalues of J with imaginary part >= 0, by ascending modulus, each with what moves in it;
+// those below `least` [1/s], which constraints and neutral directions leave at zero, are dropped.
+static ld_status eigenvalues(const ld_simulation *self, const linear_system *system, double least,
+                             ld_pole *poles, int capacity, int *count, ld_error *error)
 {
-    int half = system->half, n = 2 * half;
-    double *A = calloc(((size_t)n + 2) * (size_t)n, sizeof *A), *wr = A + n * n, *wi = wr + n;
-    if (!A)
+    int n = system->count, half = system->half;
+    size_t square = (size_t)n * (size_t)n;
+    double *memory = malloc((2 * square + 3 * (size_t)n) * sizeof *memory);
+    if (!memory)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
-    for (int j = 0; j < half; j++)
-        for (int i = 0; i < half; i++) {
-            A[i + n * (half + j)] = system->T[i + half * j];
-            A[half + i + n * j] = -system->K[i + half * j];
-            A[half + i + n * (half + j)] = -system->C[i + half * j];
-        }
-    int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', n, A, n, wr, wi, NULL, 1, NULL, 1);
+    double *J = memory, *right = J + square, *wr = right + square, *wi = wr + n, *squares = wi + n;
+    memcpy(J, system->J, square * sizeof *J);
+    int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', n, J, n, wr, wi, NULL, 1, right, n);
     *count = 0;
-    for (int i = 0; i < n && !bad && *count < capacity; i++)
-        if (wi[i] >= 0 && hypot(wr[i], wi[i]) >= 1)
-            poles[(*count)++] = (ld_pole){wr[i], wi[i]};
-    free(A);
+    for (int i = 0; i < n && !bad && *count < capacity; i++) {
+        if (wi[i] < 0 || hypot(wr[i], wi[i]) < least)
+            continue;
+        ld_pole *pole = &poles[(*count)++];
+        *pole = (ld_pole){.real = wr[i], .imaginary = wi[i]};
+        const double *real = right + n * i + half, *imaginary = real + (wi[i] > 0 ? n : 0);
+        for (int k = 0; k < half; k++)
+            squares[k] = real[k] * real[k] + (wi[i] > 0 ? imaginary[k] * imaginary[k] : 0);
+        name_shape(self, system, squares, pole->shape);
+    }
+    free(memory);
     qsort(poles, (size_t)*count, sizeof *poles, by_size);
-    return bad ? ld_fail(error, LD_ERR_NUMERIC,
-                         "the eigenvalues of the linearised equations failed")
-               : LD_OK;
+    return bad ? eigenvalues_failed(error) : LD_OK;
+}
+
+// Modes of a vehicle: its pairs of complex eigenvalues.
+static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes, int capacity,
+                           int *count)
+{
+    *count = 0;
+    for (int i = 0; i < pole_count && *count < capacity; i++) {
+        if (poles[i].imaginary == 0)
+            continue;
+        double modulus = hypot(poles[i].real, poles[i].imaginary);
+        ld_mode *mode = &modes[(*count)++];
+        *mode = (ld_mode){.frequency = modulus / TWO_PI,
+                          .damping = -poles[i].real / modulus,
+                          .real = poles[i].real};
+        memcpy(mode->shape, poles[i].shape, sizeof mode->shape);
+    }
 }
 
 int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity)
 {
     double y[LD_MAX_STATES];
     int count = 0;
-    launching_input input;
     linear_system system = {0};
     launching_phase phase = {.rocket = false};
-    simulation_input(self, self->t_ignition, &input);
-    input.base.v = input.base.w = v3_zero();
-    simulation_undeformed(self, self->t_ignition, y);
-    if (!linearise(self, &input, &phase, y, &system, NULL))
-        eigenmodes(self, &system, false, modes, capacity, &count, NULL);
-    free(system.T);
+    simulation_straight(self, self->t_ignition, y);
+    if (!linearise(self, true, self->t_ignition, &phase, y, &system, NULL))
+        undamped_modes(self, &system, modes, capacity, &count, NULL);
+    free(system.J);
     return count;
+}
+
+// The equilibrium, on a flat road in place of the model's, and the equations linearised about it.
+static ld_status linearise_at_rest(ld_simulation *self, linear_system *system, ld_error *error)
+{
+    double y[LD_MAX_STATES], t = -self->model->run.lead_in;
+    ld_equilibrium_summary unused;
+    launching_phase phase = simulation_start_phase(self);
+    phase.frictionless = true;
+    self->piece = -1;
+    ld_status status = simulation_equilibrium(self, t, y, &unused, error);
+    if (!status && self->launcher.vehicle)
+        simulation_move_with_base(self, t, y);
+    return status ? status : linearise(self, false, t, &phase, y, system, error);
 }
 
 ld_status ld_simulation_system_modes(ld_simulation *self, ld_mode *modes, int capacity, int *count,
                                      ld_pole *poles, int pole_capacity, int *pole_count,
                                      ld_error *error)
 {
-    double y[LD_MAX_STATES];
-    launching_input input;
-    ld_equilibrium_summary unused;
     linear_system system = {0};
-    launching_phase phase = simulation_start_phase(self);
-    double t = -self->model->run.lead_in;
-    phase.frictionless = true;
-    self->piece = -1;
+    bool vehicle = self->launcher.vehicle;
+    static const ld_road level = {.iso_class = LD_ROAD_SMOOTH};
+    road *of_model = self->launcher.marching.road, *flat = NULL;
+    ld_status status = vehicle ? road_build(&level, 0, 0, &flat, error) : LD_OK;
     *count = *pole_count = 0;
-    ld_status status = simulation_equilibrium(self, t, y, &unused, error);
     if (status)
         return status;
-    simulation_input(self, t, &input);
-    input.base.v = input.base.w = v3_zero();
-    status = linearise(self, &input, &phase, y, &system, error);
+    self->launcher.marching.road = flat;
+    status = linearise_at_rest(self, &system, error);
+    self->launcher.marching.road = of_model;
     if (!status)
-        status = eigenmodes(self, &system, true, modes, capacity, count, error);
-    if (!status)
-        status = eigenvalues(&system, poles, pole_capacity, pole_count, error);
-    free(system.T);
+        status =
+            eigenvalues(self, &system, vehicle ? 1e-2 : 1, poles, pole_capacity, pole_count, error);
+    if (!status && vehicle)
+        modes_of_poles(poles, *pole_count, modes, capacity, count);
+    else if (!status)
+        status = undamped_modes(self, &system, modes, capacity, count, error);
+    road_free(flat);
+    free(system.J);
     return status;
 }

@@ -5,26 +5,24 @@
 #include "elements/motor.h"
 #include "launchdyn/simulation.h"
 #include "simulation/integrator.h"
-#include "systems/launching.h"
+#include "systems/launcher.h"
 
-enum { LD_MAX_STATES = 32 + 2 * LD_MAX_MODAL + POWER_COUNT, LD_MAX_COLUMNS = 512 };
+enum { LD_MAX_COLUMNS = 1024 };
 
 struct ld_simulation {
     const ld_model *model;
-    base_motion base;
     motor motor;
-    launching_system launching;
-    int work; // offset of the works in the state
-    int state_count;
+    launcher_system launcher;
 
     // of a run
     launching_phase phase;
+    hinge_rest rest[HINGES]; // of the equilibrium
     double t_ignition;
     int piece; // of the thrust curve
     bool jammed;
     struct {         // the latest evaluation, which at a step's end is that of the step's end
         double t, s; // [s], and the rocket's travel [m]: what it belongs to
-        launching_output out;
+        launcher_output out;
     } latest;
     int64_t fallbacks; // evaluations in which the overall form did not hold
     double worst_condition;
@@ -37,26 +35,27 @@ struct ld_simulation {
     ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
 };
 
-// Thrust, mass and base at time t.
-void simulation_input(const ld_simulation *self, double t, launching_input *input);
+// Thrust and mass at time t, and the base there at state y.
+void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input);
 
-// Accelerations at (t, y), by the formulation that the model asks for.
-launching_outcome simulation_evaluate(const ld_simulation *self, const launching_input *input,
-                                      const launching_phase *phase, const double *y,
-                                      launching_output *output);
+// Puts tube and rocket straight and at rest on the base at time t; a vehicle stands on flat ground.
+void simulation_straight(const ld_simulation *self, double t, double *y);
 
-// Puts tube and rocket at rest on the base at time t, straight (model.md, section 5).
-void simulation_undeformed(const ld_simulation *self, double t, double *y);
+// Puts tube and rocket straight and at rest on the base at time t (model.md, section 5), a vehicle
+// in its equilibrium under them as a dead load.
+ld_status simulation_undeformed(ld_simulation *self, double t, double *y, ld_error *error);
 
-// Static equilibrium on the base held still in its pose at t; fills the summary.
-ld_status simulation_equilibrium(const ld_simulation *self, double t, double *y,
+// Static equilibrium at t of the whole on its wheels, or on a base held still in its pose; fills
+// the summary, and what locked hinges rest at.
+ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
                                  ld_equilibrium_summary *summary, ld_error *error);
 
-// Gives tube and rocket the base's velocity at t, as one rigid body with it.
+// Gives tube and rocket the base's velocity at t, as one rigid body with it; a vehicle its speed.
 void simulation_move_with_base(const ld_simulation *self, double t, double *y);
 
-// Degrees of freedom besides the rocket's travel and roll, and their small changes:
-// R's place and attitude (6), q, then y_S, z_S, psi, theta.
+// Degrees of freedom besides the rocket's travel and roll, and their small changes: R's place and
+// attitude (6), q, then y_S, z_S, psi, theta; of a vehicle also chassis y, pitch, roll, the two
+// hinge angles, the two hinge torques [MN m], then the wheels' positions.
 int simulation_freedoms(const ld_simulation *self);
 void simulation_displace(const ld_simulation *self, int freedom, double change, double *y);
 
@@ -68,8 +67,8 @@ void history_build(ld_simulation *self);
 void history_row(const ld_simulation *self, double t, const double *y, double energy_start,
                  double *row);
 // Energies and balance at state y, with what the equations gave there.
-void simulation_energy(const ld_simulation *self, const launching_input *input,
-                       const launching_output *out, const double *y, double energy_start,
+void simulation_energy(const ld_simulation *self, const launcher_input *input,
+                       const launcher_output *out, const double *y, double energy_start,
                        ld_energy *energy);
 
 // Direction angles: pitch and yaw of d (any length) and their rates under d_dot (model.md, section

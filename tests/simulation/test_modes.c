@@ -34,10 +34,10 @@ static void tube_has_the_frequencies_of_its_elements(void **state)
     ld_model model;
     ld_mode modes[LD_MAX_MODES];
     ld_simulation *simulation = make(&model);
-    simulation->launching.gravity = 0;
+    simulation->launcher.launching.gravity = 0;
     int count = ld_simulation_tube_modes(simulation, modes, LD_MAX_MODES);
-    const flexible_tube *tube = &simulation->launching.tube;
-    assert_int_equal(count, 6 + simulation->launching.layout.nq);
+    const flexible_tube *tube = &simulation->launcher.launching.tube;
+    assert_int_equal(count, 6 + simulation->launcher.launching.layout.nq);
     double worst = 0;
     for (int j = 0; j < tube->nb; j++)
         worst = fmax(worst, nearest(modes, count, tube->supported_bending[j] / TWO_PI));
@@ -60,7 +60,7 @@ static void the_held_rocket_is_stable(void **state)
     assert_int_equal(ld_simulation_system_modes(simulation, modes, 2 * LD_MAX_MODES, &count, poles,
                                                 4 * LD_MAX_MODES, &pole_count, &error),
                      LD_OK);
-    assert_int_equal(count, 10 + simulation->launching.layout.nq);
+    assert_int_equal(count, 10 + simulation->launcher.launching.layout.nq);
     double largest = -INFINITY;
     for (int i = 0; i < pole_count; i++)
         largest = fmax(largest, poles[i].real);
@@ -85,11 +85,11 @@ static void the_lowest_mode_is_seen_in_time(void **state)
     ld_simulation_system_modes(simulation, modes, 2 * LD_MAX_MODES, &count, poles, 4 * LD_MAX_MODES,
                                &pole_count, &error);
     assert_int_equal(simulation_equilibrium(simulation, 0, y, &equilibrium, &error), LD_OK);
-    const launching_layout *at = &simulation->launching.layout;
+    const launching_layout *at = &simulation->launcher.launching.layout;
     launching_phase phase = simulation_start_phase(simulation);
     phase.frictionless = true;
-    launching_input input;
-    simulation_input(simulation, 0, &input);
+    launcher_input input;
+    simulation_input(simulation, 0, y, &input);
     double rest = y[at->x + 2];
     y[at->x + 2] += 1e-9;
     // plain fourth-order Runge-Kutta; upward crossings of the rest position are counted
@@ -103,9 +103,9 @@ static void the_lowest_mode_is_seen_in_time(void **state)
             launching_output out;
             for (int i = 0; i < at->count; i++)
                 k[i] = y[i] + h * share[stage] * y_dot[i];
-            assert_int_equal(launching_evaluate(&simulation->launching, &input, &phase, k, &out),
+            assert_int_equal(launching_evaluate(&simulation->launcher.launching, &input.launching, &phase, k, &out),
                              LAUNCHING_OK);
-            launching_rates(&simulation->launching, k, &out, true, y_dot);
+            launching_rates(&simulation->launcher.launching, k, &out, true, y_dot);
             for (int i = 0; i < at->count; i++)
                 sum[i] += weight[stage] * y_dot[i];
         }

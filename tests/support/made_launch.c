@@ -205,10 +205,15 @@ void made_summary(ld_summary *summary, int middle)
                             .tip = {-1.1e-3, 2e-4, -5e-4, 1e-4, 0.3, -0.02, 0.2, 0.01},
                             .max_contact_force = {1500, 500, 900},
                             .max_slot_force = 700};
-    summary->equilibrium =
-        (ld_equilibrium_summary){-199.25, 0.125, {250, 0, 303.5}, {-1.25e-3, 0}, 1e-10};
+    summary->equilibrium = (ld_equilibrium_summary){.lock_force = -199.25,
+                                                    .slot_force = 0.125,
+                                                    .contact_force = {250, 0, 303.5},
+                                                    .tip_sag = {-1.25e-3, 0},
+                                                    .residual = 1e-10};
     summary->energy = (ld_energy){
-        43000, 300, 12, {44000, -600, -9, -150, 1e-9, -120, 1e-9, -4, -2, 3, -70}, 1.5e-4, 3.4e-9};
+        43000,  300,
+        12,     {44000, -600, -9, -150, 1e-9, -120, 1e-9, -4, -2, 3, -70, 0, 0, 0, 0, 0, 0, 0, 0},
+        1.5e-4, 3.4e-9};
     summary->mode_count = 5;
     memcpy(summary->mode, modes, sizeof modes);
     summary->statistics = (ld_statistics){1234, 9876, 0.0105, 0.0125};

@@ -18,7 +18,7 @@ static ld_simulation *simulation_of(const ld_model *model)
     return simulation;
 }
 
-static ld_equilibrium_summary find_equilibrium(const ld_simulation *simulation, double *y)
+static ld_equilibrium_summary find_equilibrium(ld_simulation *simulation, double *y)
 {
     ld_equilibrium_summary found;
     ld_error error;
@@ -31,13 +31,15 @@ static ld_equilibrium_summary find_equilibrium(const ld_simulation *simulation, 
 // friction on.
 static double dense_acceleration(const ld_simulation *simulation, const double *y)
 {
-    const launching_system *system = &simulation->launching;
+    const launching_system *system = &simulation->launcher.launching;
     dense_launch dense;
     dense_launch_output out;
     launching_case c;
     memset(&c, 0, sizeof c);
     memcpy(c.state, y, (size_t)system->layout.count * sizeof(double));
-    simulation_input(simulation, 0, &c.input);
+    launcher_input input;
+    simulation_input(simulation, 0, y, &input);
+    c.input = input.launching;
     c.input.base.v = c.input.base.w = v3_zero();
     c.phase = simulation_start_phase(simulation);
     copy_to_dense(system, &c);
@@ -245,13 +247,13 @@ static void reactions(void **state)
     reference_model(&model);
     model.base.elevation = 0;
     ld_simulation *simulation = simulation_of(&model);
-    const launching_system *system = &simulation->launching;
+    const launching_system *system = &simulation->launcher.launching;
     find_equilibrium(simulation, y);
     launching_phase phase = simulation_start_phase(simulation);
-    launching_input input;
+    launcher_input input;
     launching_output out;
-    simulation_input(simulation, 0, &input);
-    assert_int_equal(launching_evaluate(system, &input, &phase, y, &out), LAUNCHING_OK);
+    simulation_input(simulation, 0, y, &input);
+    assert_int_equal(launching_evaluate(system, &input.launching, &phase, y, &out), LAUNCHING_OK);
     double tube = system->tube.m, mass = tube + 8 + 60, g = model.gravity;
     double arm = tube * 1.5 + 8 * -0.1 + 60 * 1.2;
     CHECK_BELOW("along the tube [N]", out.base_force.x, 5e-9);
@@ -270,12 +272,14 @@ static void nothing_moves_while_locked(void **state)
     double y[LD_MAX_STATES];
     reference_model(&model);
     ld_simulation *simulation = simulation_of(&model);
-    const launching_system *system = &simulation->launching;
+    const launching_system *system = &simulation->launcher.launching;
     const launching_layout *at = &system->layout;
     find_equilibrium(simulation, y);
     launching_run_begin(&run, system, 0.1);
     run.phase = simulation_start_phase(simulation);
-    simulation_input(simulation, 0, &run.input);
+    launcher_input input;
+    simulation_input(simulation, 0, y, &input);
+    run.input = input.launching;
     memcpy(run.state, y, (size_t)at->count * sizeof(double));
     launching_run_follow(&run, 1e-8, 0.2);
     double moved = 0, speed = 0;
