@@ -446,7 +446,7 @@ static ld_status check_vehicle(const ld_simulation *self, double t, const double
     if (!self->launcher.vehicle)
         return LD_OK;
     simulation_input(self, t, y, &input);
-    marching_evaluate(&self->launcher.marching, &input.motion.chassis,
+    marching_evaluate(&self->launcher.marching, &input.motion.chassis, true,
                       y + self->launcher.marching_at, unused, &marching);
     for (int j = 0; j < self->launcher.marching.wheel_count; j++)
         if (!(marching.wheel[j].normal > 0))

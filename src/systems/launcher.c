@@ -50,7 +50,7 @@ int launcher_evaluate_vehicle(const launcher_system *self, const launcher_input 
                               launcher_output *output)
 {
     orientating_motion motion = input->motion;
-    marching_evaluate(&self->marching, &motion.chassis, state + self->marching_at,
+    marching_evaluate(&self->marching, &motion.chassis, input->held, state + self->marching_at,
                       output->base_dot + ORIENTATING_STATES, &output->marching);
     orientating_input wrenches = {
         .chassis_force = output->marching.force,

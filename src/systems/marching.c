@@ -121,8 +121,8 @@ static v3 tyre_force(const marching_system *self, const carrier *on, int j, cons
     return force;
 }
 
-void marching_evaluate(const marching_system *self, const base_frame *chassis, const double *state,
-                       double *state_dot, marching_output *output)
+void marching_evaluate(const marching_system *self, const base_frame *chassis, bool held,
+                       const double *state, double *state_dot, marching_output *output)
 {
     int drive_at = WHEEL_STATES * self->wheel_count;
     output->force = output->moment = v3_zero();
@@ -137,7 +137,7 @@ void marching_evaluate(const marching_system *self, const base_frame *chassis, c
     on.z = z / length;
     output->speed = on.x * chassis->v.x + on.z * chassis->v.z;
     double lag = self->parked ? 0 : self->model->speed - output->speed;
-    bool drives = !self->parked && self->driven_count > 0;
+    bool drives = !self->parked && !held && self->driven_count > 0;
     output->drive_force =
         drives ? self->model->drive.kp * lag + self->model->drive.ki * state[drive_at] : 0;
     on.drive = drives ? output->drive_force / self->driven_count : 0;

@@ -56,9 +56,10 @@ ld_status marching_build(marching_system *self, const ld_vehicle *model, double 
                          double x1, ld_error *error);
 void marching_free(marching_system *self);
 
-// Rates of the state, and the wrench on the chassis, whose frame (r: mass centre) is given.
-void marching_evaluate(const marching_system *self, const base_frame *chassis, const double *state,
-                       double *state_dot, marching_output *output);
+// Rates of the state, and the wrench on the chassis, whose frame (r: mass centre) is given; `held`:
+// the drive gives nothing (equilibrium, where all stands still).
+void marching_evaluate(const marching_system *self, const base_frame *chassis, bool held,
+                       const double *state, double *state_dot, marching_output *output);
 
 // [J] of the wheels.
 double marching_kinetic_energy(const marching_system *self, const double *state);
