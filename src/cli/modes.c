@@ -4,7 +4,7 @@
 #include "cli/command.h"
 #include "launchdyn/simulation.h"
 
-enum { MOST = 2 * LD_MAX_MODES };
+enum { MOST = 4 * LD_MAX_MODES };
 
 static void print_modes(const char *title, const ld_mode *modes, int count)
 {
@@ -16,9 +16,9 @@ static void print_modes(const char *title, const ld_mode *modes, int count)
 
 static void print_poles(const ld_pole *poles, int count)
 {
-    puts("Its eigenvalues with damping\n           real [1/s]  imaginary [rad/s]");
+    puts("Its eigenvalues with damping\n           real [1/s]  imaginary [rad/s]  shape");
     for (int i = 0; i < count; i++)
-        printf("%4d %16.6g %18.6g\n", i + 1, poles[i].real, poles[i].imaginary);
+        printf("%4d %16.6g %18.6g  %s\n", i + 1, poles[i].real, poles[i].imaginary, poles[i].shape);
 }
 
 static ld_status list_modes(const ld_model *model, ld_error *error)
@@ -35,8 +35,11 @@ static ld_status list_modes(const ld_model *model, ld_error *error)
                                         &pole_count, error);
     if (!status) {
         putchar('\n');
-        print_modes("Tube, tail and locked rocket about their equilibrium, no Coulomb friction, "
-                    "undamped",
+        print_modes(model->base.kind == LD_BASE_VEHICLE
+                        ? "Vehicle with platforms, tube and locked rocket about their equilibrium "
+                          "on a flat road, no Coulomb friction: moduli of the damped eigenvalues"
+                        : "Tube, tail and locked rocket about their equilibrium, no Coulomb "
+                          "friction, undamped",
                     modes, count);
         putchar('\n');
         print_poles(poles, pole_count);

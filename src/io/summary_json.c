@@ -166,6 +166,42 @@ static void write_rocket(json_writer *json, const ld_model *model, const ld_rock
     json_close(json, '}');
 }
 
+// Number by number, as an array.
+static void write_vector(json_writer *json, const char *key, const double *values, int count)
+{
+    json_open(json, key, '[');
+    for (int i = 0; i < count; i++)
+        json_number(json, NULL, values[i]);
+    json_close(json, ']');
+}
+
+static void write_vehicle_at_rest(json_writer *json, const ld_model *model,
+                                  const ld_equilibrium_summary *equilibrium)
+{
+    static const char *const hinges[] = {"azimuth", "elevation"};
+    json_open(json, "wheels", '[');
+    for (int j = 0; j < equilibrium->wheel_count; j++) {
+        json_open(json, NULL, '{');
+        json_text(json, "name", model->base.vehicle.wheel[j].name);
+        json_number(json, "tyre_force", equilibrium->wheel[j].tyre_force);
+        write_vector(json, "suspension", equilibrium->wheel[j].suspension, 3);
+        json_number(json, "tyre_deflection", equilibrium->wheel[j].tyre_deflection);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_open(json, "chassis", '{');
+    json_number(json, "y", equilibrium->chassis.y);
+    json_number(json, "pitch", equilibrium->chassis.pitch);
+    json_number(json, "roll", equilibrium->chassis.roll);
+    json_close(json, '}');
+    for (int i = 0; i < 2; i++) {
+        json_open(json, hinges[i], '{');
+        json_number(json, "angle", equilibrium->hinge[i].angle);
+        json_number(json, "torque", equilibrium->hinge[i].torque);
+        json_close(json, '}');
+    }
+}
+
 static void write_equilibrium(json_writer *json, const ld_model *model,
                               const ld_equilibrium_summary *equilibrium)
 {
@@ -178,10 +214,12 @@ static void write_equilibrium(json_writer *json, const ld_model *model,
     json_number(json, "z", equilibrium->tip_sag[1]);
     json_close(json, '}');
     json_number(json, "residual", equilibrium->residual);
+    if (equilibrium->wheel_count > 0)
+        write_vehicle_at_rest(json, model, equilibrium);
     json_close(json, '}');
 }
 
-static void write_energy(json_writer *json, const ld_energy *energy)
+static void write_energy(json_writer *json, const ld_energy *energy, bool vehicle)
 {
     json_open(json, "energy", '{');
     json_number(json, "kinetic", energy->kinetic);
@@ -199,6 +237,16 @@ static void write_energy(json_writer *json, const ld_energy *energy)
     json_number(json, "modal_damping", energy->work.modal_damping);
     json_number(json, "base", energy->work.base);
     json_number(json, "mass_change", energy->work.mass_change);
+    if (vehicle) {
+        json_number(json, "stabilisers", energy->work.stabilisers);
+        json_number(json, "hinge_friction", energy->work.hinge_friction);
+        json_number(json, "gravity_platform", energy->work.gravity_platform);
+        json_number(json, "gravity_wheels", energy->work.gravity_wheels);
+        json_number(json, "suspension_damping", energy->work.suspension_damping);
+        json_number(json, "tyre", energy->work.tyre);
+        json_number(json, "tyre_side", energy->work.tyre_side);
+        json_number(json, "drive", energy->work.drive);
+    }
     json_close(json, '}');
     json_number(json, "residual", energy->residual);
     json_number(json, "residual_relative", energy->residual_relative);
@@ -257,7 +305,7 @@ static void write_summary(json_writer *json, const ld_model *model, const ld_sum
         write_rocket(json, model, &summary->rocket[i]);
     json_close(json, ']');
     write_equilibrium(json, model, &summary->equilibrium);
-    write_energy(json, &summary->energy);
+    write_energy(json, &summary->energy, model->base.kind == LD_BASE_VEHICLE);
     write_modes(json, summary);
     write_statistics(json, &summary->statistics);
     json_close(json, '}');
