@@ -123,8 +123,6 @@ static void road_under(const ld_model *model, double x[2])
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
 {
     clock_t start = clock();
-    if (model->base.kind == LD_BASE_VEHICLE)
-        return ld_fail(error, LD_ERR_INPUT, "base.kind: vehicle is not simulated yet");
     // its lanes want their alignment
     ld_simulation *self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
     if (!self)
