@@ -130,13 +130,13 @@ void marching_evaluate(const marching_system *self, const base_frame *chassis, b
     for (int k = 0; k < MARCHING_POWERS; k++)
         output->power[k] = 0;
 
-    // heading; drive F = kp (speed - v) + ki z_d, not while parked
+    // heading; drive F = kp (speed - v) + ki z_d, no force while parked
     carrier on = {.frame = chassis};
     double x = chassis->A.a[0][0], z = chassis->A.a[2][0], length = sqrt(x * x + z * z);
     on.x = x / length;
     on.z = z / length;
     output->speed = on.x * chassis->v.x + on.z * chassis->v.z;
-    double lag = self->parked ? 0 : self->model->speed - output->speed;
+    double lag = self->model->speed - output->speed;
     bool drives = !self->parked && !held && self->driven_count > 0;
     output->drive_force =
         drives ? self->model->drive.kp * lag + self->model->drive.ki * state[drive_at] : 0;
