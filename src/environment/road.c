@@ -18,7 +18,7 @@ struct road {
     double *k;       // [harmonics] 2 pi n_i, rad/m
     double *c[2][2]; // [harmonics] real and imaginary part of the amplitude c_i of each track:
                      // h = Re sum c_i e^(i k_i x)
-    double from, spacing;
+    double from, spacing, rate; // rate: 1/spacing
     size_t cells;
     double *cell[2]; // [cells][COEFFICIENTS] of each track over (x - from)/spacing - index
     double *memory;  // of the numbers above
@@ -201,13 +201,13 @@ static inline double table_value(const double *p, double t, double *slope)
 
 static inline double random_height(const road *self, road_track track, double x, double *slope)
 {
-    double place = (x - self->from) / self->spacing;
+    double place = (x - self->from) * self->rate;
     if (!(place >= 0 && place < (double)self->cells))
         return sum_harmonics(self, track, x, slope);
     size_t index = (size_t)place;
     double height =
         table_value(self->cell[track] + COEFFICIENTS * index, place - (double)index, slope);
-    *slope /= self->spacing;
+    *slope *= self->rate;
     return height;
 }
 
@@ -304,6 +304,7 @@ static ld_status build_random(road *self, double x0, double x1, ld_error *error)
     // the table, as far as it may go; equal tracks share it
     self->from = x0;
     self->spacing = table_spacing(self);
+    self->rate = 1 / self->spacing;
     double cells = fmax(ceil((x1 - x0) / self->spacing), 0) + 1;
     self->cells = (size_t)fmin(cells, MOST_CELLS);
     int tables = self->model->tracks == LD_TRACKS_SAME ? 1 : 2;
