@@ -31,6 +31,7 @@ enum {
     LD_MAX_BENDING_MODES = 24,
     LD_MAX_TORSION_MODES = 8,
     LD_MAX_AXIAL_MODES = 8,
+    LD_MAX_GUSTS = 16,
     LD_MAX_NAME = 64,
 };
 
@@ -53,7 +54,100 @@ typedef struct ld_sines {
     ld_sine term[LD_MAX_SINES];
 } ld_sines;
 
-typedef enum ld_base_kind { LD_BASE_FIXED, LD_BASE_PRESCRIBED, LD_BASE_VEHICLE } ld_base_kind;
+typedef enum ld_earth_model {
+    LD_EARTH_FLAT,  ///< I is inertial, gravity is constant
+    LD_EARTH_ROUND, ///< sphere, central gravitation, rotating
+    LD_EARTH_WGS84, ///< ellipsoid, gravitation with J2, rotating
+    LD_EARTH_GIVEN, ///< `model` with the numbers of ld_earth
+} ld_earth_model;
+
+/// Figure and gravitation of the Earth: model.md, section 8. NaN: the value of the model.
+typedef struct ld_earth {
+    ld_earth_model kind;
+    ld_earth_model model; ///< of LD_EARTH_GIVEN: LD_EARTH_ROUND or LD_EARTH_WGS84
+    double gm;            ///< [m3/s2]
+    double j2;            ///< [-]
+    double rotation;      ///< [rad/s]
+    double radius;        ///< [m] of the sphere, or of the equator
+} ld_earth;
+
+/// Where the origin of I is on the Earth, and where its x axis points.
+typedef struct ld_site {
+    double latitude, longitude; ///< [rad] geodetic
+    double altitude;            ///< [m] above the ellipsoid
+    double azimuth;             ///< [rad] of x, clockwise from north
+} ld_site;
+
+typedef enum ld_atmosphere_kind {
+    LD_ATMOSPHERE_US1976,
+    LD_ATMOSPHERE_NONE,
+    LD_ATMOSPHERE_UNIFORM,
+} ld_atmosphere_kind;
+
+typedef struct ld_atmosphere {
+    ld_atmosphere_kind kind;
+    double density;            ///< [kg/m3] (uniform)
+    double speed_of_sound;     ///< [m/s] (uniform)
+    double density_scale;      ///< [-] factor on the density
+    double temperature_offset; ///< [K] added at unchanged pressure (us1976)
+} ld_atmosphere;
+
+/// Half-cosine up, constant, half-cosine down, uniform in space.
+typedef struct ld_gust {
+    double start;   ///< [s] on the run's clock
+    double rise;    ///< [s]
+    double hold;    ///< [s]
+    double fall;    ///< [s], NaN: as rise
+    double speed;   ///< [m/s]
+    double heading; ///< [rad] where it goes to
+} ld_gust;
+
+typedef enum ld_turbulence_model { LD_TURBULENCE_DRYDEN } ld_turbulence_model;
+
+typedef struct ld_turbulence {
+    bool present;
+    ld_turbulence_model model;
+    double wind_at_6m; ///< [m/s] scales it, adds no wind
+    int seed;
+    int harmonics; ///< cells of the spectrum
+} ld_turbulence;
+
+typedef enum ld_wind_axes { LD_WIND_LAUNCHER, LD_WIND_GEOGRAPHIC } ld_wind_axes;
+
+/// Velocity of the air, where it goes to: model.md, section 8. Headings from I's x axis, positive
+/// to the right; geographic: from north, positive to the east.
+typedef struct ld_wind {
+    bool present;
+    ld_wind_axes axes;
+    double speed;     ///< [m/s] without profile: the same at every height
+    double heading;   ///< [rad]
+    ld_table profile; ///< height above ground [m], along x, along z [m/s]; geographic: altitude
+                      ///< [m], north, east; pchip, constant outside
+    double scale;     ///< [-] factor on speed or profile
+    double add[3];    ///< [m/s] added then, along x, y, z; geographic: north, up, east
+    int gust_count;
+    ld_gust gust[LD_MAX_GUSTS];
+    ld_turbulence turbulence;
+} ld_wind;
+
+typedef enum ld_ground_kind { LD_GROUND_PLANE, LD_GROUND_NONE } ld_ground_kind;
+
+/// What free flight goes through.
+typedef struct ld_environment {
+    ld_earth earth;
+    ld_site site;
+    ld_atmosphere atmosphere;
+    ld_ground_kind ground;
+    double ground_height; ///< [m] y of the ground plane
+    ld_wind wind;
+} ld_environment;
+
+typedef enum ld_base_kind {
+    LD_BASE_FIXED,
+    LD_BASE_PRESCRIBED,
+    LD_BASE_VEHICLE,
+    LD_BASE_NONE, ///< no launcher: a flight alone
+} ld_base_kind;
 
 /// One sinusoid of a road, `amplitude sin(2 pi x/wavelength + phase)`, on both tracks.
 typedef struct ld_road_sine {
@@ -328,12 +422,48 @@ typedef struct ld_lock {
 } ld_lock;
 
 typedef struct ld_motor {
+    bool absent;            ///< no motor (flight alone)
     ld_table thrust;        ///< t [s], T [N]; linear between, 0 after the last; a double time jumps
     double at[3];           ///< [m] x_T, e_y, e_z in B
     double misalignment[2]; ///< [-] eps_y, eps_z
     double thrust_scale;    ///< [-]
     double time_scale;      ///< [-]
 } ld_motor;
+
+typedef enum ld_aerodynamic_model {
+    LD_AERODYNAMICS_TABLE,
+    LD_AERODYNAMICS_BODY
+} ld_aerodynamic_model;
+
+typedef enum ld_interpolation { LD_PCHIP, LD_SPLINE, LD_LINEAR } ld_interpolation;
+
+typedef enum ld_beyond_table { LD_BEYOND_ERROR, LD_BEYOND_HOLD } ld_beyond_table;
+
+/// Air forces in free flight: model.md, section 8.
+typedef struct ld_aerodynamics {
+    bool present;
+    ld_aerodynamic_model model;
+    // coefficients over the Mach number
+    double reference_diameter; ///< [m]
+    double fin_cant;           ///< [rad] positive: spins about +x
+    ld_interpolation interpolation;
+    ld_beyond_table beyond_table; ///< past the last Mach number
+    ld_table table;  ///< mach, ca_power_off, ca_power_on, cn_alpha [1/rad], x_cp [m forward of the
+                     ///< rear adaptor], cl_delta [1/rad], cl_p, cm_q
+    double ca_scale; ///< [-] factor on both ca
+    double cn_scale; ///< [-] factor on cn_alpha
+    double x_cp_shift; ///< [m] added to x_cp
+    struct {
+        bool present;
+        double drag; ///< [-] C_c
+        double at;   ///< [m] x of B
+    } crossflow;
+    // plain body: drag and damping at the mass centre
+    double area;       ///< [m2]
+    double drag;       ///< [-] C_D
+    double damping[3]; ///< [-] C_i, about x, y, z of B
+    double lengths[3]; ///< [m] l_i
+} ld_aerodynamics;
 
 typedef struct ld_rocket {
     double start_at; ///< [m] s of the rear adaptor at the start
@@ -349,7 +479,37 @@ typedef struct ld_rocket {
     double knob_angle; ///< [rad] gamma_b
     ld_lock lock;
     ld_motor motor;
+    ld_aerodynamics aerodynamics;
 } ld_rocket;
+
+typedef enum ld_flight_point { LD_POINT_REAR, LD_POINT_CENTER } ld_flight_point;
+typedef enum ld_rate_against { LD_AGAINST_INERTIAL, LD_AGAINST_EARTH } ld_rate_against;
+typedef enum ld_attitude_form {
+    LD_ATTITUDE_YAW,        ///< against I: Ry(yaw) Rz(pitch) Rx(roll)
+    LD_ATTITUDE_HEADING,    ///< against north, up, east there: Ry(-heading) Rz(pitch) Rx(roll)
+    LD_ATTITUDE_QUATERNION, ///< of B against I
+} ld_attitude_form;
+
+/// State at t = 0 of a flight alone (base.kind = LD_BASE_NONE). Velocities are relative
+/// to the Earth; what is NaN is not given.
+typedef struct ld_flight {
+    double ignition;       ///< [s] on the run's clock
+    ld_flight_point point; ///< which position and velocity belong to: O1 or the mass centre
+    double position[3];    ///< [m] in I
+    struct {
+        bool present;               ///< in place of position
+        double latitude, longitude; ///< [rad]
+        double altitude;            ///< [m] above the ellipsoid
+    } geodetic;
+    double velocity[3];     ///< [m/s] in I
+    double speed;           ///< [m/s] along x of B, in place of velocity
+    double velocity_ned[3]; ///< [m/s] north, east, down, in place of velocity
+    ld_attitude_form attitude;
+    double yaw, heading, pitch, roll; ///< [rad]
+    double quaternion[4];             ///< scalar part first; not NaN: in place of the angles
+    double rate[3];                   ///< [rad/s] of B, in B
+    ld_rate_against rate_against;
+} ld_flight;
 
 typedef struct ld_firing {
     int tube;  ///< number from 1
@@ -358,7 +518,7 @@ typedef struct ld_firing {
 
 typedef enum ld_start { LD_START_EQUILIBRIUM, LD_START_UNDEFORMED } ld_start;
 typedef enum ld_formulation { LD_FORMULATION_REDUCED, LD_FORMULATION_OVERALL } ld_formulation;
-typedef enum ld_run_end { LD_END_TIP, LD_END_TIME } ld_run_end;
+typedef enum ld_run_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING } ld_run_end;
 
 typedef struct ld_run_settings {
     ld_start start;
@@ -369,18 +529,23 @@ typedef struct ld_run_settings {
     double tolerance;           ///< [-] relative tolerance of the integrator
     double output_step_lead_in; ///< [s]
     double output_step_tube;    ///< [s]
-    double stuck_time;    ///< [s] after ignition at which a rocket still in the tube is given up;
-                          ///< NaN: see ld_model_complete()
+    double output_step_flight;  ///< [s]
+    double stuck_time;   ///< [s] after ignition at which a rocket still in the tube is given up;
+                         ///< NaN: see ld_model_complete()
+    double flight_limit; ///< [s] longest free flight
+    double flight_tolerance; ///< [-] relative tolerance in free flight
     double coupling_step; ///< [s] at which the subsystems, integrated apart, exchange; 0: together
 } ld_run_settings;
 
 typedef struct ld_model {
     char *title;
     double gravity; ///< [m/s2]
+    ld_environment environment;
     ld_base base;
     ld_platform platform; ///< of a vehicle
     ld_tubes tubes;
     ld_rocket rocket;
+    ld_flight flight; ///< of a flight alone
     int firing_count;
     ld_firing firing[LD_MAX_FIRINGS];
     ld_run_settings run;
@@ -392,7 +557,9 @@ void ld_model_init(ld_model *model);
 
 /// Computes what follows from the rest: the stiffnesses and masses of sections that are given by
 /// radii or areas; where it is NaN, rocket.propellant = full.mass - empty.mass and run.stuck_time =
-/// end of the thrust table + 1 s. The scenario reader has done it already.
+/// end of the thrust table + 1 s; of a flight alone, what its rocket lacks: a motor (absent), empty
+/// values (as the full ones), the mass centre (0), and the end at the tip (landing). The scenario
+/// reader has done it already.
 void ld_model_complete(ld_model *model);
 
 /// Frees the title and the tables of `model` and resets it to the defaults.

@@ -58,13 +58,13 @@ static bool is_scalar(scenario_reader *reader, const field_row *f, const tree_no
 static bool read_components(scenario_reader *reader, const field_row *f, const tree_node *map,
                             const char *path, double *values)
 {
-    static const char *const names[] = {"x", "y", "z"};
-    const char *const *name = f->count == 2 ? names + 1 : names;
-    bool good = true, given[3] = {false};
+    static const char *const names[] = {"w", "x", "y", "z"};
+    const char *const *name = names + 4 - f->count;
+    bool good = true, given[4] = {false};
     if (map->beneath && map->beneath->kind == NODE_SCALAR) {
         good =
             quantity_read(reader, f, map->beneath->at, path, map->beneath->text, values, f->count);
-        given[0] = given[1] = given[2] = true;
+        given[0] = given[1] = given[2] = given[3] = true;
     }
     for (const tree_node *member = map->first; member; member = member->next) {
         char key_path[PATH];
@@ -73,8 +73,9 @@ static bool read_components(scenario_reader *reader, const field_row *f, const t
         while (i < f->count && strcmp(name[i], member->key) != 0)
             i++;
         if (i == f->count) {
-            reader_refuse(reader, member->key_at, key_path, "no component; this vector has %s%s%s",
-                          f->count == 3 ? "x, " : "", "y, ", "z");
+            reader_refuse(reader, member->key_at, key_path,
+                          "no component; this vector has %s%sy, z", f->count == 4 ? "w, " : "",
+                          f->count >= 3 ? "x, " : "");
             good = false;
         } else if (is_scalar(reader, f, member, key_path)) {
             good &= quantity_read(reader, f, member->at, key_path, member->text, &values[i], 1);
@@ -577,11 +578,11 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
         read_field(reader, f, value, base, key_path);
     } else if (value) {
         reader_refuse(reader, value->key_at, key_path, "does not go with %s%s%s",
-                      block->form_from_keys ? "" : block->form_key,
-                      block->form_from_keys ? "" : ": ", field_word_of(block->form, form)->name);
+                      block->form_key ? block->form_key : "", block->form_key ? ": " : "",
+                      field_word_of(block->form, form)->name);
     } else if (f->kind == FIELD_SELECTION && fits) {
         read_selection(reader, f, NULL, base, key_path);
-    } else if (f->required && fits && (form >= 0 || !f->forms) &&
+    } else if (field_is_required(f, form) && fits && (form >= 0 || !f->forms) &&
                !is_misspelt(block, map, f->name)) {
         field_expectation(f, expected, sizeof expected);
         reader_refuse(reader, map->key_at, key_path, "missing; expected %s", expected);
@@ -592,6 +593,12 @@ static void read_block(scenario_reader *reader, const field_block *block, const 
                        void *base, const char *path)
 {
     refuse_unknown_keys(reader, block, map, path);
+    if (block->last_form && tree_member(map, block->last_form)) {
+        const field_word *last = block->form;
+        while (last[1].name)
+            last++;
+        memcpy((char *)base + block->form_offset, &last->value, sizeof last->value);
+    }
     if (block->form_from_keys) {
         int form = form_of_keys(block, map);
         if (form < 0)

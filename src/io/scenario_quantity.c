@@ -59,7 +59,7 @@ const char *number_parse(const char *text, double *value, const char **reason)
 // What stands in the text of a quantity.
 typedef struct quantity {
     int count; // numbers found, of which `most` are kept
-    double number[3];
+    double number[4];
     const char *unit;   // the rest of the text, "" without
     const char *reason; // why the next number is none, or NULL
 } quantity;

@@ -195,14 +195,19 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
     char name[32], unit[32], unknown[32], text[192];
     double factor;
     int end = 0;
-    if (i < lines->count &&
-        sscanf(lines->field[i], "%31[a-z] [%31[^]]]%n", name, unit, &end) == 2 && end > 0 &&
+    if (!column->unit[0] && i < lines->count && strcmp(lines->field[i], column->name) == 0)
+        return 1;
+    if (column->unit[0] && i < lines->count &&
+        sscanf(lines->field[i], "%31[a-z_] [%31[^]]]%n", name, unit, &end) == 2 && end > 0 &&
         lines->field[i][end] == '\0' && strcmp(name, column->name) == 0 &&
         units_factor(lines->reader->units, unit, column->unit, &factor, unknown) == UNITS_OK)
         return factor;
-    snprintf(text, sizeof text,
-             "column %d of the header must be \"%s [unit]\" with a unit of %s in the brackets",
-             i + 1, column->name, column->unit);
+    if (column->unit[0])
+        snprintf(text, sizeof text,
+                 "column %d of the header must be \"%s [unit]\" with a unit of %s in the brackets",
+                 i + 1, column->name, column->unit);
+    else
+        snprintf(text, sizeof text, "column %d of the header must be \"%s\"", i + 1, column->name);
     refuse_line(lines, i, text);
     return NAN;
 }
@@ -254,8 +259,13 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
     // the header says which form of the table it is
     const table_format *given = field_table_format(format, (size_t)lines->count);
     format = given ? given : format;
+    // a table that may do without a header is in SI units then
+    bool bare = format->sources & TABLE_BARE && lines->count > 0 &&
+                strchr("0123456789+-.", lines->field[0][0]);
     for (int i = 0; i < format->columns && !lines->failed; i++)
-        factor[i] = header_factor(lines, &format->column[i], i);
+        factor[i] = bare ? 1 : header_factor(lines, &format->column[i], i);
+    if (bare)
+        read_csv_row(lines, format, factor, table);
     while (next_line(lines, '#', true) && !lines->failed)
         read_csv_row(lines, format, factor, table);
     if (!lines->failed && table->rows == 0)

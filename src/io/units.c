@@ -11,7 +11,7 @@
 
 struct unit_system {
     ut_system *system;
-    ut_unit *base[4];
+    ut_unit *base[5];
 };
 
 // Derived units in terms of those above them; "%" is a hundredth.
@@ -35,7 +35,8 @@ static const struct {
 static const char *const common[] = {"m",   "mm",  "cm",  "um",  "km", "kg",  "g",    "t",
                                      "s",   "ms",  "us",  "min", "h",  "rad", "mrad", "deg",
                                      "rev", "Hz",  "kHz", "N",   "kN", "MN",  "Pa",   "kPa",
-                                     "MPa", "GPa", "bar", "J",   "kJ", "W",   "kW",   "rpm"};
+                                     "MPa", "GPa", "bar", "J",   "kJ", "W",   "kW",   "rpm",
+                                     "K"};
 static const struct {
     const char *wrong, *right;
 } slips[] = {{"kph", "km/h"}, {"kmh", "km/h"},   {"mps", "m/s"},    {"Nm", "N.m"},
@@ -54,11 +55,11 @@ static bool map_symbol(ut_system *system, const char *symbol, const char *defini
 
 static bool build(unit_system *units)
 {
-    static const char *const base[] = {"m", "kg", "s", "rad"};
+    static const char *const base[] = {"m", "kg", "s", "rad", "K"};
     ut_set_error_message_handler(ut_ignore);
     units->system = ut_new_system();
     bool good = units->system != NULL;
-    for (int i = 0; good && i < 4; i++) {
+    for (int i = 0; good && i < 5; i++) {
         ut_unit *unit = units->base[i] = ut_new_base_unit(units->system);
         good = unit && ut_map_symbol_to_unit(base[i], UT_ASCII, unit) == UT_SUCCESS;
     }

@@ -174,7 +174,8 @@ static void check_block(model_checker *checker, const char *path, const field_bl
 static void check_complete(model_checker *checker, const ld_model *model)
 {
     char path[32];
-    for (int i = 0; i < model->tubes.section_count; i++) {
+    bool launch = model->base.kind != LD_BASE_NONE;
+    for (int i = 0; launch && i < model->tubes.section_count; i++) {
         const ld_section *s = &model->tubes.section[i];
         double sum = s->mass_per_length + s->axial_stiffness + s->bending_stiffness +
                      s->torsion_stiffness + s->polar_inertia;
@@ -185,7 +186,7 @@ static void check_complete(model_checker *checker, const ld_model *model)
     }
     if (isnan(model->rocket.propellant))
         refuse(checker, "rocket.propellant", "not computed; call ld_model_complete()");
-    if (isnan(model->run.stuck_time))
+    if (launch && isnan(model->run.stuck_time))
         refuse(checker, "run.stuck_time", "not computed; call ld_model_complete()");
 }
 

@@ -34,6 +34,8 @@ static void write_default(FILE *stream, const field_row *f)
     char number[32];
     if (f->required || f->kind == FIELD_LATER) {
         fprintf(stream, f->required ? "required" : "");
+        if (f->optional)
+            fprintf(stream, "; %s", f->initial_doc);
         return;
     }
     if (f->initial_doc) {
@@ -89,7 +91,7 @@ static void write_block(FILE *stream, const field_block *block, const char *path
         for (const field_word *w = block->form; f->forms && w->name; w++) {
             if (w->value < 0 || !field_has_form(f, w->value))
                 continue;
-            if (block->form_from_keys)
+            if (!block->form_key)
                 fprintf(stream, "%s%s", between, w->name);
             else
                 fprintf(stream, "%s`%s: %s`", between, block->form_key, w->name);

@@ -65,6 +65,11 @@ bool field_has_form(const field_row *field, int form)
     return field->forms == 0 || (form >= 0 && form < 32 && (field->forms >> form & 1u));
 }
 
+bool field_is_required(const field_row *field, int form)
+{
+    return field->required && !(form >= 0 && form < 32 && (field->optional >> form & 1u));
+}
+
 void *field_entry(void *base, const field_row *field, int i)
 {
     return (char *)field_at(base, field) + (size_t)i * field->stride;
@@ -193,10 +198,13 @@ static const char *unit_name(const char *unit)
 
 static void number_expectation(const field_row *field, char *text, size_t size)
 {
-    static const char *const many[] = {"", "a number", "two numbers", "three numbers"};
+    static const char *const many[] = {"", "a number", "two numbers", "three numbers",
+                                       "four numbers"};
     if (field->unit[0])
         snprintf(text, size, "%s %s unit of %s", many[field->count],
                  field->count > 1 ? "and one" : "with a", unit_name(field->unit));
+    else if (field->count > 1)
+        snprintf(text, size, "%s without unit", many[field->count]);
     else
         snprintf(text, size, "a plain number");
     char range[96];

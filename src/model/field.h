@@ -46,6 +46,7 @@ enum table_source {
     TABLE_CONSTANT = 1, // one value, of the last column
     TABLE_CSV = 2,      // a CSV file whose header names columns and units
     TABLE_ENGINE = 4,   // a RASP .eng file
+    TABLE_BARE = 8,     // the CSV file may do without a header: numbers in SI
 };
 
 enum { FIELD_MAX_COLUMNS = 8 };
@@ -61,6 +62,7 @@ typedef struct field_row {
     const char *name;
     field_kind kind;
     bool required;
+    unsigned optional;       // bit f: not required in form f
     size_t offset;           // in the block's struct; FIELD_NOWHERE: nothing is stored
     size_t other;            // list: its count; choice: its number; block with words: its switch
     bool other_is_bool;      // the switch is a bool, not an enum
@@ -72,7 +74,8 @@ typedef struct field_row {
     const char *unit;        // SI, "" without
     double initial;          // default in SI; NaN: none
     const double *initials;  // number: default of each, where they differ
-    const char *initial_doc; // default in words, where `initial` is not it
+    const char *initial_doc; // default in words, where `initial` is not it, or what holds where the
+                             // key is optional
     field_range range;
     const field_word *words;
     const struct field_block *block;
@@ -88,7 +91,8 @@ typedef struct field_block {
     const field_word *form;  // the block's forms; NULL: it has but one
     size_t form_offset;      // where the form is stored
     bool form_from_keys;     // the form follows from the keys given
-    const char *form_key;    // else it is a key of its own: its path
+    const char *form_key;    // else it is a key of its own: its path; NULL: see the form's name
+    const char *last_form;   // this key, where given, makes the last form hold; NULL: none does
     bool shared_value;       // one number in place of the block gives all its numbers
 } field_block;
 
@@ -111,6 +115,8 @@ void field_set_switch(void *base, const field_row *field, int value);
 int field_form(const field_block *block, const void *base);
 // Whether the key goes with form `form` of its block.
 bool field_has_form(const field_row *field, int form);
+// Whether the key must be given in form `form`.
+bool field_is_required(const field_row *field, int form);
 
 // Sets every value of the block to its default (recursively; tables and lists empty).
 void field_initialise(const field_block *block, void *base);

@@ -38,6 +38,25 @@ static void complete_section(ld_section *section, const ld_material *material)
     section->torsion_stiffness = G * section->torsion_constant;
 }
 
+// A flight alone may leave out what its rocket has not.
+static void complete_flight(ld_model *model)
+{
+    ld_rocket *rocket = &model->rocket;
+    for (int i = 0; i < 3; i++) {
+        if (isnan(rocket->full.center[i]))
+            rocket->full.center[i] = 0;
+        if (isnan(rocket->empty.center[i]))
+            rocket->empty.center[i] = rocket->full.center[i];
+        if (isnan(rocket->empty.inertia[i]))
+            rocket->empty.inertia[i] = rocket->full.inertia[i];
+    }
+    if (isnan(rocket->empty.mass))
+        rocket->empty.mass = rocket->full.mass;
+    rocket->motor.absent = rocket->motor.absent || rocket->motor.thrust.rows == 0;
+    if (model->run.end == LD_END_TIP)
+        model->run.end = LD_END_LANDING;
+}
+
 void ld_model_complete(ld_model *model)
 {
     ld_tubes *tubes = &model->tubes;
@@ -45,6 +64,8 @@ void ld_model_complete(ld_model *model)
     const ld_table *thrust = &rocket->motor.thrust;
     for (int i = 0; i < tubes->section_count; i++)
         complete_section(&tubes->section[i], &tubes->material);
+    if (model->base.kind == LD_BASE_NONE)
+        complete_flight(model);
     if (isnan(rocket->propellant))
         rocket->propellant = rocket->full.mass - rocket->empty.mass;
     if (isnan(model->run.stuck_time) && thrust->rows > 0)

@@ -257,7 +257,7 @@ static void base_rules(const rule_set *rules)
 static void mass_rules(const rule_set *rules)
 {
     const ld_rocket *rocket = &rules->model->rocket;
-    if (rocket->empty.mass >= rocket->full.mass)
+    if (rocket->empty.mass >= rocket->full.mass && !rocket->motor.absent)
         broken(rules, "rocket.empty.mass", 0, "%g kg must be less than the full mass, %g kg",
                rocket->empty.mass, rocket->full.mass);
     if (rocket->empty.mass + rocket->mass_error <= 0)
@@ -341,21 +341,95 @@ static void thrust_rules(const rule_set *rules)
                impulse);
 }
 
+static void environment_rules(const rule_set *rules)
+{
+    const ld_environment *environment = &rules->model->environment;
+    const ld_wind *wind = &environment->wind;
+    if (environment->atmosphere.temperature_offset != 0 &&
+        environment->atmosphere.kind != LD_ATMOSPHERE_US1976)
+        broken(rules, "environment.temperature_offset", 0, "goes with the atmosphere us1976");
+    if (!wind->present)
+        return;
+    rising_rule(rules, "environment.wind.profile.#", &wind->profile, "m", false);
+    if (wind->profile.rows > 0 && wind->speed != 0)
+        broken(rules, "environment.wind.speed", 0, "given together with profile; give one of them");
+    if (wind->turbulence.present)
+        broken(rules, "environment.wind.turbulence", 0, "not simulated yet");
+}
+
+static void aerodynamics_rules(const rule_set *rules)
+{
+    const ld_aerodynamics *air = &rules->model->rocket.aerodynamics;
+    if (!air->present || air->model != LD_AERODYNAMICS_TABLE || air->table.rows == 0)
+        return;
+    rising_rule(rules, "rocket.aerodynamics.table.#", &air->table, "Mach", false);
+    if (air->table.data[0] > 0)
+        broken(rules, "rocket.aerodynamics.table.1", 0, "the first Mach number must be 0, not %g",
+               air->table.data[0]);
+    if (air->table.rows == 1)
+        broken(rules, "rocket.aerodynamics.table", 0, "needs at least two rows");
+}
+
+static void end_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    if (model->run.end != LD_END_LANDING)
+        return;
+    if (model->environment.ground == LD_GROUND_NONE)
+        broken(rules, "run.end", 0, "without ground there is no landing; give a time");
+    if (model->base.kind != LD_BASE_NONE)
+        broken(rules, "run.end", 0, "landing is not simulated yet");
+}
+
+static void start_rules(const rule_set *rules)
+{
+    const ld_flight *flight = &rules->model->flight;
+    const ld_earth *earth = &rules->model->environment.earth;
+    int velocities =
+        !isnan(flight->velocity[0]) + !isnan(flight->speed) + !isnan(flight->velocity_ned[0]);
+    const double *q = flight->quaternion;
+    if (isnan(flight->position[0]) == !flight->geodetic.present)
+        broken(rules, "flight", 0, "needs one of position and geodetic");
+    if (flight->geodetic.present && earth->kind == LD_EARTH_FLAT)
+        broken(rules, "flight.geodetic", 0, "goes with a round or wgs84 Earth");
+    if (velocities != 1)
+        broken(rules, "flight", 0, "needs one of velocity, speed and velocity_ned");
+    if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
+        broken(rules, "flight.quaternion", 0, "its norm is 0");
+    if (!isnan(q[0]) && flight->attitude != LD_ATTITUDE_QUATERNION &&
+        (flight->yaw != 0 || flight->heading != 0 || flight->pitch != 0 || flight->roll != 0))
+        broken(rules, "flight.quaternion", 0, "given together with attitude; give one of them");
+}
+
+static void launch_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    base_rules(rules);
+    layout_rules(rules);
+    section_rules(rules);
+    derived_rules(rules);
+    for (int i = 0; i < model->tubes.point_mass_count; i++)
+        station_rule(rules, "tubes.point_masses.#.at", i + 1, model->tubes.point_mass[i].at);
+    modes_rules(rules);
+    tail_rules(rules);
+    support_rules(rules);
+    slot_rules(rules);
+    adaptor_rules(rules);
+    contact_rules(rules);
+    if (model->rocket.motor.absent)
+        broken(rules, "rocket.motor", 0, "a launch needs one");
+}
+
 void model_check_rules(const ld_model *model, rule_report *report, void *self)
 {
     const rule_set all = {model, report, self};
-    base_rules(&all);
-    layout_rules(&all);
-    section_rules(&all);
-    derived_rules(&all);
-    for (int i = 0; i < model->tubes.point_mass_count; i++)
-        station_rule(&all, "tubes.point_masses.#.at", i + 1, model->tubes.point_mass[i].at);
-    modes_rules(&all);
-    tail_rules(&all);
-    support_rules(&all);
-    slot_rules(&all);
+    if (model->base.kind != LD_BASE_NONE)
+        launch_rules(&all);
+    else
+        start_rules(&all);
     mass_rules(&all);
-    adaptor_rules(&all);
-    contact_rules(&all);
     thrust_rules(&all);
+    environment_rules(&all);
+    aerodynamics_rules(&all);
+    end_rules(&all);
 }

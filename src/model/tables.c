@@ -45,20 +45,138 @@
 
 // ---- environment
 
-static const field_word earth_words[] = {
-    {"flat", 0}, {"round", FIELD_WORD_LATER}, {"wgs84", FIELD_WORD_LATER}, {NULL, 0}};
+static const field_word earth_words[] = {{"flat", LD_EARTH_FLAT},
+                                         {"round", LD_EARTH_ROUND},
+                                         {"wgs84", LD_EARTH_WGS84},
+                                         {"", LD_EARTH_GIVEN},
+                                         {NULL, 0}};
+static const field_word earth_models[] = {
+    {"round", LD_EARTH_ROUND}, {"wgs84", LD_EARTH_WGS84}, {NULL, 0}};
+static const field_row earth_fields[] = {
+    {"model", CHOICE(ld_earth, model, earth_models), .required = true,
+     .doc = "figure whose numbers those below replace"},
+    {"gm", NUMBER(ld_earth, gm, "m3/s2"), POSITIVE, NO_DEFAULT("3.986004418e14 m3/s2"),
+     .doc = "gravitational constant times mass"},
+    {"j2", NUMBER(ld_earth, j2, ""), FROM_TO(-0.1, 0.1),
+     NO_DEFAULT("1.08262982e-3 (wgs84), 0 (round)"), .doc = "second zonal harmonic"},
+    {"rotation", NUMBER(ld_earth, rotation, "rad/s"), FROM_TO(-1e-2, 1e-2),
+     NO_DEFAULT("7.292115e-5 rad/s"), .doc = "about the polar axis"},
+    {"radius", NUMBER(ld_earth, radius, "m"), FROM_TO(1e5, 1e9),
+     NO_DEFAULT("6378137 m (wgs84), 6371007.1809 m (round)"),
+     .doc = "of the equator, or of the sphere; flattening of wgs84: 1/298.257223563"},
+    {0}};
+static const field_block earth_block = {.fields = earth_fields};
+
+static const field_row site_fields[] = {
+    {"latitude", NUMBER(ld_site, latitude, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
+     .doc = "geodetic latitude of I's origin"},
+    {"longitude", NUMBER(ld_site, longitude, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .doc = "positive to the east"},
+    {"altitude", NUMBER(ld_site, altitude, "m"), FROM_TO(-5000, 1e7), DEFAULT(0),
+     .doc = "above the ellipsoid; on a flat Earth of y = 0, for the air"},
+    {"azimuth", NUMBER(ld_site, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(PI / 2),
+     .doc = "of I's x axis, clockwise from north"},
+    {0}};
+static const field_block site_block = {.fields = site_fields};
+
+static const field_word atmosphere_words[] = {{"us1976", LD_ATMOSPHERE_US1976},
+                                              {"none", LD_ATMOSPHERE_NONE},
+                                              {"", LD_ATMOSPHERE_UNIFORM},
+                                              {NULL, 0}};
+static const field_row atmosphere_fields[] = {
+    {"density", NUMBER(ld_atmosphere, density, "kg/m3"), FROM_TO(0, 1000), REQUIRED,
+     .doc = "the same everywhere"},
+    {"speed_of_sound", NUMBER(ld_atmosphere, speed_of_sound, "m/s"), ABOVE_TO(0, 1e5), REQUIRED,
+     .doc = "the same everywhere"},
+    {0}};
+static const field_block atmosphere_block = {.fields = atmosphere_fields};
+
+static const field_row gust_fields[] = {
+    {"start", NUMBER(ld_gust, start, "s"), FROM_TO(-10000, 10000), REQUIRED,
+     .doc = "on the run's clock"},
+    {"rise", NUMBER(ld_gust, rise, "s"), ABOVE_TO(0, 10000), REQUIRED,
+     .doc = "half a cosine from nothing to the full speed"},
+    {"hold", NUMBER(ld_gust, hold, "s"), FROM_TO(0, 10000), DEFAULT(0), .doc = "at the full speed"},
+    {"fall", NUMBER(ld_gust, fall, "s"), ABOVE_TO(0, 10000), NO_DEFAULT("as rise"),
+     .doc = "half a cosine back to nothing"},
+    {"speed", NUMBER(ld_gust, speed, "m/s"), FROM_TO(-1000, 1000), REQUIRED, .doc = "full speed"},
+    {"heading", NUMBER(ld_gust, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .doc = "where it goes to, as that of the wind"},
+    {0}};
+static const field_block gust_block = {.fields = gust_fields};
+
+static const field_word turbulence_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word turbulence_models[] = {{"dryden", LD_TURBULENCE_DRYDEN}, {NULL, 0}};
+static const field_row turbulence_fields[] = {
+    {"model", CHOICE(ld_turbulence, model, turbulence_models), DEFAULT(LD_TURBULENCE_DRYDEN),
+     .doc = "Dryden spectra with the scales and intensities of MIL-F-8785C"},
+    {"wind_at_6m", NUMBER(ld_turbulence, wind_at_6m, "m/s"), FROM_TO(0, 100), REQUIRED,
+     .doc = "wind speed at 20 ft that sets the intensity; it adds no wind"},
+    {"seed", INTEGER(ld_turbulence, seed, 0, 999999999), DEFAULT(1),
+     .doc = "of the random phases and wave numbers"},
+    {"harmonics", INTEGER(ld_turbulence, harmonics, 1, 1000), DEFAULT(100),
+     .doc = "cells of each spectrum"},
+    {0}};
+static const field_block turbulence_block = {.fields = turbulence_fields};
+
+static const field_row wind_columns[] = {
+    {"height", .unit = "m", FROM_TO(-1e4, 1e6)},
+    {"x", .unit = "m/s", FROM_TO(-1000, 1000)},
+    {"z", .unit = "m/s", FROM_TO(-1000, 1000)},
+};
+static const table_format wind_table = {TABLE_CSV | TABLE_BARE, 3, wind_columns, NULL};
+static const field_word wind_axes[] = {
+    {"launcher", LD_WIND_LAUNCHER}, {"geographic", LD_WIND_GEOGRAPHIC}, {NULL, 0}};
+static const field_word wind_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row wind_fields[] = {
+    {"axes", CHOICE(ld_wind, axes, wind_axes), DEFAULT(LD_WIND_LAUNCHER),
+     .doc = "headings from x of I and heights above ground, or headings from north and altitudes; "
+            "positive to the right"},
+    {"speed", NUMBER(ld_wind, speed, "m/s"), FROM_TO(-1000, 1000), DEFAULT(0),
+     .doc = "at every height, in place of a profile"},
+    {"heading", NUMBER(ld_wind, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .doc = "where the air goes to; 0: a tail wind along x"},
+    {"profile", TABLE(ld_wind, profile, wind_table), .initial_doc = "none",
+     .doc = "velocity along x and z over the height above ground (geographic: north and east over "
+            "the altitude), pchip between rows, constant outside"},
+    {"scale", NUMBER(ld_wind, scale, ""), FROM_TO(-1000, 1000), DEFAULT(1),
+     .doc = "factor on speed or profile"},
+    {"add", VECTOR(ld_wind, add, "m/s", 3), FROM_TO(-1000, 1000), DEFAULT(0),
+     .doc = "velocity added then, along x, y, z (geographic: north, up, east)"},
+    {"gust", LIST(ld_wind, gust, gust_count, gust_block, 0, LD_MAX_GUSTS), .initial_doc = "none",
+     .doc = "gusts, uniform in space"},
+    {"turbulence", BLOCK(ld_wind, turbulence, turbulence_block), .initial_doc = "none",
+     SWITCH(ld_wind, turbulence.present, turbulence_words), .other_is_bool = true,
+     .doc = "random gusts, frozen in the air"},
+    {0}};
+static const field_block wind_block = {.fields = wind_fields};
+
+static const field_word ground_words[] = {
+    {"", LD_GROUND_PLANE}, {"none", LD_GROUND_NONE}, {NULL, 0}};
 
 static const field_row environment_fields[] = {
-    {"earth", .kind = FIELD_CHOICE, .offset = FIELD_NOWHERE, .words = earth_words,
-     .doc = "figure of the Earth; flat: I is inertial and gravity is constant"},
+    {"earth", BLOCK(ld_model, environment.earth, earth_block), .initial_doc = "flat",
+     SWITCH(ld_model, environment.earth.kind, earth_words),
+     .doc = "figure of the Earth in free flight; flat: I is inertial and gravity is constant"},
     {"gravity", NUMBER(ld_model, gravity, "m/s2"), FROM_TO(0, 100), DEFAULT(9.80665),
-     .doc = "along -y of I"},
-    {"site", LATER, .doc = "place on the Earth"},
-    {"atmosphere", LATER, .doc = "air in free flight"},
-    {"ground", LATER, .doc = "height of the ground plane"},
-    {"wind", LATER, .doc = "wind in free flight"},
-    {"density_scale", LATER, .doc = "factor on the density of the air"},
-    {"temperature_offset", LATER, .doc = "shift of the temperature of the air"},
+     .doc = "along -y of I; in free flight of a flat Earth"},
+    {"site", BLOCK(ld_model, environment.site, site_block), .initial_doc = "as below",
+     .doc = "place of I's origin on the Earth"},
+    {"atmosphere", BLOCK(ld_model, environment.atmosphere, atmosphere_block),
+     .initial_doc = "us1976", SWITCH(ld_model, environment.atmosphere.kind, atmosphere_words),
+     .doc = "air in free flight: US Standard Atmosphere 1976, or uniform"},
+    {"density_scale", NUMBER(ld_model, environment.atmosphere.density_scale, ""), FROM_TO(0, 1000),
+     DEFAULT(1), .doc = "factor on the density of the air"},
+    {"temperature_offset", NUMBER(ld_model, environment.atmosphere.temperature_offset, "K"),
+     FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "added to the temperature of us1976, at unchanged pressure"},
+    {"ground", CHOICE(ld_model, environment.ground, ground_words),
+     .other = offsetof(ld_model, environment.ground_height), .unit = "m",
+     .range = {-1e5, 1e5, 0, 0}, .initial_doc = "0 m", DEFAULT(LD_GROUND_PLANE),
+     .doc = "y of the ground plane, on which free flight ends"},
+    {"wind", BLOCK(ld_model, environment.wind, wind_block), .initial_doc = "none",
+     SWITCH(ld_model, environment.wind.present, wind_words), .other_is_bool = true,
+     .doc = "velocity of the air in free flight, where it goes to"},
     {0}};
 static const field_block environment_block = {.fields = environment_fields};
 
@@ -589,36 +707,192 @@ static const field_row motor_fields[] = {
     {0}};
 static const field_block motor_block = {.fields = motor_fields};
 
+static const field_word aerodynamics_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word aerodynamics_models[] = {
+    {"table", LD_AERODYNAMICS_TABLE}, {"body", LD_AERODYNAMICS_BODY}, {NULL, 0}};
+static const field_word interpolation_words[] = {
+    {"pchip", LD_PCHIP}, {"spline", LD_SPLINE}, {"linear", LD_LINEAR}, {NULL, 0}};
+static const field_word beyond_words[] = {
+    {"error", LD_BEYOND_ERROR}, {"hold", LD_BEYOND_HOLD}, {NULL, 0}};
+static const field_word crossflow_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row coefficient_columns[] = {
+    {"mach", .unit = "", FROM_TO(0, 100)},
+    {"ca_power_off", .unit = "", NOT_NEGATIVE},
+    {"ca_power_on", .unit = "", NOT_NEGATIVE},
+    {"cn_alpha", .unit = "", NOT_NEGATIVE},
+    {"x_cp", .unit = "m", FROM_TO(-1000, 1000)},
+    {"cl_delta", .unit = "", ANY},
+    {"cl_p", .unit = "", .range = {-INFINITY, 0, 1, 0}},
+    {"cm_q", .unit = "", .range = {-INFINITY, 0, 1, 0}},
+};
+static const table_format coefficient_table = {TABLE_CSV | TABLE_BARE, 8, coefficient_columns,
+                                               NULL};
+static const field_row crossflow_fields[] = {
+    {"drag", NUMBER(ld_aerodynamics, crossflow.drag, ""), NOT_NEGATIVE, REQUIRED,
+     .doc = "coefficient of the drag of the lateral speed, on the reference area"},
+    {"at", NUMBER(ld_aerodynamics, crossflow.at, "m"), FROM_TO(-100, 100), REQUIRED,
+     .doc = "x of B where it acts"},
+    {0}};
+static const field_block crossflow_block = {.fields = crossflow_fields};
+#define TABLED .forms = FORM(LD_AERODYNAMICS_TABLE)
+#define PLAIN_BODY .forms = FORM(LD_AERODYNAMICS_BODY)
+static const field_row aerodynamics_fields[] = {
+    {"model", CHOICE(ld_aerodynamics, model, aerodynamics_models), DEFAULT(LD_AERODYNAMICS_TABLE),
+     .doc =
+         "coefficients over the Mach number, or a body with drag and damping at its mass centre"},
+    {"reference_diameter", NUMBER(ld_aerodynamics, reference_diameter, "m"), ABOVE_TO(0, 100),
+     REQUIRED, TABLED, .doc = "d, the only length; the area is pi d^2/4"},
+    {"fin_cant", NUMBER(ld_aerodynamics, fin_cant, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
+     TABLED, .doc = "positive spins about +x"},
+    {"interpolation", CHOICE(ld_aerodynamics, interpolation, interpolation_words),
+     DEFAULT(LD_PCHIP), TABLED, .doc = "between the rows of the table"},
+    {"beyond_table", CHOICE(ld_aerodynamics, beyond_table, beyond_words), DEFAULT(LD_BEYOND_ERROR),
+     TABLED, .doc = "past the last Mach number: stop, or keep its values"},
+    {"table", TABLE(ld_aerodynamics, table, coefficient_table), .required = true, TABLED,
+     .doc =
+         "coefficients; cn_alpha and cl_delta per radian, x_cp in m forward of the rear adaptor, "
+         "cl_p and cm_q for rates times d/(2 V)"},
+    {"crossflow", SAME_STRUCT(crossflow_block), .initial_doc = "none", TABLED,
+     SWITCH(ld_aerodynamics, crossflow.present, crossflow_words), .other_is_bool = true,
+     .doc = "drag of large angles of attack"},
+    {"ca_scale", NUMBER(ld_aerodynamics, ca_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
+     .doc = "factor on ca_power_off and ca_power_on"},
+    {"cn_scale", NUMBER(ld_aerodynamics, cn_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
+     .doc = "factor on cn_alpha"},
+    {"x_cp_shift", NUMBER(ld_aerodynamics, x_cp_shift, "m"), FROM_TO(-100, 100), DEFAULT(0), TABLED,
+     .doc = "added to x_cp"},
+    {"area", NUMBER(ld_aerodynamics, area, "m2"), NOT_NEGATIVE, REQUIRED, PLAIN_BODY,
+     .doc = "reference area"},
+    {"drag", NUMBER(ld_aerodynamics, drag, ""), NOT_NEGATIVE, DEFAULT(0), PLAIN_BODY,
+     .doc = "coefficient, in every direction"},
+    {"damping", VECTOR(ld_aerodynamics, damping, "", 3), ANY, DEFAULT(0), PLAIN_BODY,
+     .doc = "moment coefficients of the rates about x, y, z times l_i/(2 V)"},
+    {"lengths", VECTOR(ld_aerodynamics, lengths, "m", 3), NOT_NEGATIVE, DEFAULT(0), PLAIN_BODY,
+     .doc = "l_i, reference lengths of the damping about x, y, z"},
+    {0}};
+static const field_block aerodynamics_block = {.fields = aerodynamics_fields,
+                                               .form = aerodynamics_models,
+                                               .form_offset = offsetof(ld_aerodynamics, model),
+                                               .form_key = "model"};
+
+// What carries the rocket: the form of the whole scenario and of the rocket.
+static const field_word kind_words[] = {{"base.kind: fixed", LD_BASE_FIXED},
+                                        {"base.kind: prescribed", LD_BASE_PRESCRIBED},
+                                        {"base.kind: vehicle", LD_BASE_VEHICLE},
+                                        {"flight", LD_BASE_NONE},
+                                        {NULL, 0}};
+#define IN_TUBE .forms = FIXED_OR_PRESCRIBED | VEHICLE
+#define IN_FLIGHT FORM(LD_BASE_NONE)
+#define NOT_IN_FLIGHT(text) .optional = IN_FLIGHT, .initial_doc = (text)
+static const field_word motor_words[] = {{"", 0}, {"none", 1}, {NULL, 0}};
+
 static const field_row rocket_fields[] = {
-    {"start_at", NUMBER(ld_rocket, start_at, "m"), FROM_TO(0, 100), DEFAULT(0),
+    {"start_at", NUMBER(ld_model, rocket.start_at, "m"), FROM_TO(0, 100), DEFAULT(0), IN_TUBE,
      .doc = "rear adaptor from the tube's rear end at the start"},
-    {"mass", NUMBER(ld_rocket, full.mass, "kg"), POSITIVE, REQUIRED, .doc = "at ignition"},
-    {"center", VECTOR(ld_rocket, full.center, "m", 3), FROM_TO(-100, 100), REQUIRED,
+    {"mass", NUMBER(ld_model, rocket.full.mass, "kg"), POSITIVE, REQUIRED, .doc = "at ignition"},
+    {"center", VECTOR(ld_model, rocket.full.center, "m", 3), FROM_TO(-100, 100), REQUIRED,
+     NOT_IN_FLIGHT("0 m in a flight alone"),
      .doc = "mass centre from the rear adaptor's centre, in B"},
-    {"inertia", VECTOR(ld_rocket, full.inertia, "kg.m2", 3), POSITIVE, REQUIRED,
+    {"inertia", VECTOR(ld_model, rocket.full.inertia, "kg.m2", 3), POSITIVE, REQUIRED,
      .doc = "about the mass centre"},
-    {"products_of_inertia", VECTOR(ld_rocket, products, "kg.m2", 3), ANY, DEFAULT(0),
+    {"products_of_inertia", VECTOR(ld_model, rocket.products, "kg.m2", 3), ANY, DEFAULT(0),
      .doc = "elements J_xy, J_xz, J_yz of the matrix, full and empty"},
-    {"mass_error", NUMBER(ld_rocket, mass_error, "kg"), ANY, DEFAULT(0),
+    {"mass_error", NUMBER(ld_model, rocket.mass_error, "kg"), ANY, DEFAULT(0),
      .doc = "added to the full and the empty mass, at the mass centre"},
-    {"eccentricity", VECTOR(ld_rocket, eccentricity, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
+    {"eccentricity", VECTOR(ld_model, rocket.eccentricity, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
      .doc = "y, z, added to the full and the empty mass centre"},
-    {"propellant", NUMBER(ld_rocket, propellant, "kg"), NOT_NEGATIVE, NO_DEFAULT("mass less empty"),
-     .doc = "burnt mass"},
-    {"empty", BLOCK(ld_rocket, empty, empty_block), .required = true, .doc = "at burn-out"},
-    {"adaptors", LIST(ld_rocket, adaptor, adaptor_count, adaptor_block, 2, LD_MAX_ADAPTORS),
-     .required = true, .doc = "the first is the rear one, at 0 m"},
-    {"contact", BLOCK(ld_rocket, contact, contact_block), .required = true,
+    {"propellant", NUMBER(ld_model, rocket.propellant, "kg"), NOT_NEGATIVE,
+     NO_DEFAULT("mass less empty"), .doc = "burnt mass"},
+    {"empty", BLOCK(ld_model, rocket.empty, empty_block), .required = true,
+     NOT_IN_FLIGHT("as full in a flight alone without motor"), .doc = "at burn-out"},
+    {"adaptors",
+     LIST(ld_model, rocket.adaptor, rocket.adaptor_count, adaptor_block, 2, LD_MAX_ADAPTORS),
+     .required = true, IN_TUBE, .doc = "the first is the rear one, at 0 m"},
+    {"contact", BLOCK(ld_model, rocket.contact, contact_block), .required = true, IN_TUBE,
      .doc = "between adaptors and tube"},
-    {"knob", SAME_STRUCT(knob_block), .initial_doc = "as below", .doc = "runs in the slot"},
-    {"lock", BLOCK(ld_rocket, lock, lock_block), .required = true,
-     SWITCH(ld_rocket, lock.present, lock_words), .other_is_bool = true,
+    {"knob", BLOCK(ld_model, rocket, knob_block), .initial_doc = "as below", IN_TUBE,
+     .doc = "runs in the slot"},
+    {"lock", BLOCK(ld_model, rocket.lock, lock_block), .required = true, IN_TUBE,
+     SWITCH(ld_model, rocket.lock.present, lock_words), .other_is_bool = true,
      .doc = "holds the rocket until the release force; `none`: free from the start"},
-    {"motor", BLOCK(ld_rocket, motor, motor_block), .required = true, .doc = "thrust"},
-    {"aerodynamics", LATER, .doc = "air forces in free flight"},
+    {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
+     NOT_IN_FLIGHT("none in a flight alone"), SWITCH(ld_model, rocket.motor.absent, motor_words),
+     .other_is_bool = true, .doc = "thrust; `none`: only in a flight alone"},
+    {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
+     .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
+     .other_is_bool = true, .doc = "air forces in free flight"},
     {"pressure", LATER, .doc = "pressure-driven launch in place of a motor"},
     {0}};
-static const field_block rocket_block = {.fields = rocket_fields};
+static const field_block rocket_block = {
+    .fields = rocket_fields, .form = kind_words, .form_offset = offsetof(ld_model, base.kind)};
+
+// ---- flight alone
+
+static const field_word geodetic_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row geodetic_fields[] = {
+    {"latitude", NUMBER(ld_flight, geodetic.latitude, "rad"), FROM_TO(-PI / 2, PI / 2), REQUIRED,
+     .doc = "geodetic"},
+    {"longitude", NUMBER(ld_flight, geodetic.longitude, "rad"), FROM_TO(-2 * PI, 2 * PI), REQUIRED,
+     .doc = "positive to the east"},
+    {"altitude", NUMBER(ld_flight, geodetic.altitude, "m"), FROM_TO(-1e4, 1e8), REQUIRED,
+     .doc = "above the ellipsoid"},
+    {0}};
+static const field_block geodetic_block = {.fields = geodetic_fields};
+
+static const field_word attitude_words[] = {{"an attitude against I", LD_ATTITUDE_YAW},
+                                            {"an attitude against north", LD_ATTITUDE_HEADING},
+                                            {"an attitude by quaternion", LD_ATTITUDE_QUATERNION},
+                                            {NULL, 0}};
+#define ANGLES .forms = FORM(LD_ATTITUDE_YAW) | FORM(LD_ATTITUDE_HEADING)
+static const field_row attitude_fields[] = {
+    {"yaw", NUMBER(ld_flight, yaw, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .forms = FORM(LD_ATTITUDE_YAW), .doc = "against I, about +y: positive to the left"},
+    {"heading", NUMBER(ld_flight, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .forms = FORM(LD_ATTITUDE_HEADING), .doc = "in place of yaw: clockwise from north"},
+    {"pitch", NUMBER(ld_flight, pitch, "rad"), FROM_TO(-PI, PI), DEFAULT(0), ANGLES,
+     .doc = "positive up"},
+    {"roll", NUMBER(ld_flight, roll, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0), ANGLES,
+     .doc = "about x of B"},
+    {"quaternion", VECTOR(ld_flight, quaternion, "", 4), FROM_TO(-1e6, 1e6),
+     NO_DEFAULT("the angles"), .forms = FORM(LD_ATTITUDE_QUATERNION),
+     .doc = "as flight.quaternion"},
+    {0}};
+static const field_block attitude_block = {.fields = attitude_fields,
+                                           .form = attitude_words,
+                                           .form_offset = offsetof(ld_flight, attitude),
+                                           .form_from_keys = true};
+
+static const field_word point_words[] = {
+    {"rear", LD_POINT_REAR}, {"center", LD_POINT_CENTER}, {NULL, 0}};
+static const field_word against_words[] = {
+    {"inertial", LD_AGAINST_INERTIAL}, {"earth", LD_AGAINST_EARTH}, {NULL, 0}};
+static const field_row flight_fields[] = {
+    {"ignition", NUMBER(ld_flight, ignition, "s"), FROM_TO(-10000, 10000), DEFAULT(0),
+     .doc = "on the run's clock, which is 0 at the start: decides thrust and burnt propellant"},
+    {"point", CHOICE(ld_flight, point, point_words), DEFAULT(LD_POINT_REAR),
+     .doc = "what position and velocity belong to: the rear adaptor's or the mass centre"},
+    {"position", VECTOR(ld_flight, position, "m", 3), FROM_TO(-1e8, 1e8),
+     NO_DEFAULT("this or geodetic"), .doc = "in I"},
+    {"geodetic", SAME_STRUCT(geodetic_block), .initial_doc = "none",
+     SWITCH(ld_flight, geodetic.present, geodetic_words), .other_is_bool = true,
+     .doc = "place on the Earth in place of position"},
+    {"velocity", VECTOR(ld_flight, velocity, "m/s", 3), FROM_TO(-1e5, 1e5),
+     NO_DEFAULT("this, speed or velocity_ned"), .doc = "relative to the Earth, in I"},
+    {"speed", NUMBER(ld_flight, speed, "m/s"), FROM_TO(-1e5, 1e5), NO_DEFAULT("see velocity"),
+     .doc = "velocity along x of B"},
+    {"velocity_ned", VECTOR(ld_flight, velocity_ned, "m/s", 3), FROM_TO(-1e5, 1e5),
+     NO_DEFAULT("see velocity"), .doc = "towards north, east and down"},
+    {"attitude", SAME_STRUCT(attitude_block), .initial_doc = "along I",
+     .doc = "Ry(yaw) Rz(pitch) Rx(roll) against I, or Ry(-heading) Rz(pitch) Rx(roll) against "
+            "north, up and east"},
+    {"quaternion", VECTOR(ld_flight, quaternion, "", 4), FROM_TO(-1e6, 1e6),
+     NO_DEFAULT("the attitude"), .doc = "of B against I, scalar part first, in place of attitude"},
+    {"rate", VECTOR(ld_flight, rate, "rad/s", 3), FROM_TO(-1e4, 1e4), DEFAULT(0),
+     .doc = "angular velocity, in B"},
+    {"rate_against", CHOICE(ld_flight, rate_against, against_words), DEFAULT(LD_AGAINST_INERTIAL),
+     .doc = "what it is relative to"},
+    {0}};
+static const field_block flight_block = {.fields = flight_fields};
 
 // ---- firing, run
 
@@ -634,7 +908,7 @@ static const field_block firing_block = {.fields = firing_fields};
 static const field_row output_step_fields[] = {
     {"lead_in", OUTPUT_STEP(output_step_lead_in), DEFAULT(5e-3), .doc = "before ignition"},
     {"tube", OUTPUT_STEP(output_step_tube), DEFAULT(1e-4), .doc = "from ignition on"},
-    {"flight", LATER, .doc = "in free flight"},
+    {"flight", OUTPUT_STEP(output_step_flight), DEFAULT(2e-2), .doc = "in free flight"},
     {0}};
 static const field_block output_step_block = {.fields = output_step_fields, .shared_value = true};
 
@@ -649,7 +923,7 @@ static const field_word start_words[] = {
 static const field_word formulation_words[] = {
     {"reduced", LD_FORMULATION_REDUCED}, {"overall", LD_FORMULATION_OVERALL}, {NULL, 0}};
 static const field_word end_words[] = {
-    {"tip", LD_END_TIP}, {"", LD_END_TIME}, {"landing", FIELD_WORD_LATER}, {NULL, 0}};
+    {"tip", LD_END_TIP}, {"", LD_END_TIME}, {"landing", LD_END_LANDING}, {NULL, 0}};
 static const field_row run_fields[] = {
     {"start", CHOICE(ld_run_settings, start, start_words), DEFAULT(LD_START_EQUILIBRIUM),
      .doc = "static equilibrium under gravity, or straight and at rest"},
@@ -660,7 +934,8 @@ static const field_row run_fields[] = {
      .doc = "time before t = 0"},
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
      .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
-     .doc = "when the last rocket has left the tube, or a time after the last ignition"},
+     .doc = "when the last rocket has left the tube (a flight alone: as landing), when it has "
+            "landed, or a time after the last ignition"},
     {"tolerance", NUMBER(ld_run_settings, tolerance, ""), FROM_TO(1e-12, 1e-2), DEFAULT(1e-5),
      .doc = "relative tolerance of the integrator"},
     {"output_step", SAME_STRUCT(output_step_block), .initial_doc = "as below",
@@ -670,8 +945,10 @@ static const field_row run_fields[] = {
      .doc = "after ignition, when a rocket still in the tube is given up"},
     {"coupling", SAME_STRUCT(coupling_block), .initial_doc = "none",
      .doc = "the subsystems of a vehicle integrated apart"},
-    {"flight_limit", LATER, .doc = "longest free flight"},
-    {"flight_tolerance", LATER, .doc = "tolerance in free flight"},
+    {"flight_limit", NUMBER(ld_run_settings, flight_limit, "s"), ABOVE_TO(0, 1e5), DEFAULT(600),
+     .doc = "longest free flight"},
+    {"flight_tolerance", NUMBER(ld_run_settings, flight_tolerance, ""), FROM_TO(1e-14, 1e-2),
+     DEFAULT(1e-7), .doc = "relative tolerance of the integrator in free flight"},
     {0}};
 static const field_block run_block = {.fields = run_fields};
 
@@ -684,21 +961,24 @@ static const field_row scenario_fields[] = {
      .doc = "one line that names the scenario"},
     {"environment", SAME_STRUCT(environment_block), .initial_doc = "as below",
      .doc = "gravity and the like"},
-    {"base", BLOCK(ld_model, base, base_block), .required = true, .doc = "what carries the tube"},
+    {"base", BLOCK(ld_model, base, base_block), .required = true, IN_TUBE,
+     .doc = "what carries the tube"},
     {"platform", BLOCK(ld_model, platform, platform_block), .required = true, .forms = VEHICLE,
      .doc = "chassis and platforms of a vehicle"},
-    {"tubes", BLOCK(ld_model, tubes, tubes_block), .required = true,
+    {"tubes", BLOCK(ld_model, tubes, tubes_block), .required = true, IN_TUBE,
      .doc = "launch tubes, all alike"},
-    {"rocket", BLOCK(ld_model, rocket, rocket_block), .required = true, .doc = "the rocket"},
+    {"rocket", SAME_STRUCT(rocket_block), .required = true, .doc = "the rocket"},
     {"firing", LIST(ld_model, firing, firing_count, firing_block, 1, LD_MAX_FIRINGS),
-     .more_later = true, .initial_doc = "tube 1 at 0 s", .doc = "which tube fires when"},
+     .more_later = true, IN_TUBE, .initial_doc = "tube 1 at 0 s", .doc = "which tube fires when"},
     {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
      .doc = "how it is simulated"},
-    {"flight", LATER, .doc = "flight alone"},
+    {"flight", BLOCK(ld_model, flight, flight_block), .required = true, .forms = IN_FLIGHT,
+     .doc = "flight alone, in place of base, platform, tubes, firing and what the rocket has for "
+            "the tube"},
     {"scatter", LATER, .doc = "scatter for studies"},
     {"sweep", LATER, .doc = "sweeps for studies"},
     {0}};
 const field_block scenario_block = {.fields = scenario_fields,
-                                    .form = base_words,
+                                    .form = kind_words,
                                     .form_offset = offsetof(ld_model, base.kind),
-                                    .form_key = "base.kind"};
+                                    .last_form = "flight"};

@@ -364,8 +364,10 @@ static double random_number(unsigned long long *seed)
 static void shake(const field_block *block, void *base, unsigned long long *seed)
 {
     for (const field_row *f = block->fields; f->name; f++) {
-        if (!field_has_form(f, field_form(block, base)))
-            continue;
+        if (!field_has_form(f, field_form(block, base)) ||
+            (f->kind == FIELD_BLOCK && f->words &&
+             field_word_of(f->words, field_switch(base, f))->name[0]))
+            continue; // what is not there is not printed
         if (f->kind == FIELD_BLOCK)
             shake(f->block, field_at(base, f), seed);
         else if (f->kind == FIELD_LIST)

@@ -110,6 +110,9 @@ void reference_model(ld_model *model)
                                    .tolerance = 1e-5,
                                    .output_step_lead_in = 5e-3,
                                    .output_step_tube = 1e-4,
+                                   .output_step_flight = 2e-2,
+                                   .flight_limit = 600,
+                                   .flight_tolerance = 1e-7,
                                    .stuck_time = 2};
 }
 
@@ -170,11 +173,6 @@ void reference_vehicle(ld_model *model, double speed)
 
 void reference_model_free(ld_model *model)
 {
-    free(model->platform.azimuth.stabiliser.command.data);
-    free(model->platform.elevation.stabiliser.command.data);
-    free(model->title);
-    free(model->tubes.slot.angle.data);
-    free(model->rocket.motor.thrust.data);
-    free(model->base.motion.data);
+    ld_model_free(model);
     memset(model, 0, sizeof *model);
 }
