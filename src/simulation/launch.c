@@ -6,105 +6,9 @@
 #include <string.h>
 #include <time.h>
 
-#include "simulation/simulation.h"
-
-// ---- the equations for the integrator ----
-
-void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input)
-{
-    double tau = t - self->t_ignition;
-    launcher_place(&self->launcher, t, y, input);
-    input->launching.thrust = motor_thrust(&self->motor, self->piece, tau);
-    motor_mass(&self->motor, self->piece, tau, &input->launching.mass);
-    memcpy(input->rest, self->rest, sizeof input->rest);
-    input->held = false;
-    input->formulation = self->model->run.formulation;
-}
-
-// NaN or infinity anywhere makes the sum of 0 y not zero.
-static bool all_finite(int n, const double *y)
-{
-    double sum[4] = {0};
-    for (int i = 0; i < n; i++)
-        sum[i & 3] += 0 * y[i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0;
-}
-
-static int rhs(double t, const double *y, double *y_dot, void *user)
-{
-    ld_simulation *self = user;
-    launcher_input input;
-    launcher_output *out = &self->latest.out;
-    simulation_input(self, t, y, &input);
-    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
-    self->latest.t = t;
-    self->latest.s = y[self->launcher.launching.layout.x];
-    self->jammed = outcome == LAUNCHING_JAMMED;
-    if (outcome)
-        return -1;
-    if (self->model->run.formulation == LD_FORMULATION_OVERALL) {
-        self->fallbacks += out->launching.fell_back;
-        self->worst_condition = fmax(self->worst_condition, out->launching.condition);
-    }
-    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
-    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
-}
-
-// What the equations gave at (t, y): the latest evaluation where it is that one, else a new one.
-// NULL where they have no solution.
-static const launcher_output *output_at(ld_simulation *self, double t, const double *y)
-{
-    if (self->latest.t != t || self->latest.s != y[self->launcher.launching.layout.x]) {
-        launcher_input input;
-        simulation_input(self, t, y, &input);
-        self->latest.t = NAN;
-        if (launcher_evaluate(&self->launcher, &input, &self->phase, y, &self->latest.out))
-            return NULL;
-        self->latest.t = t;
-        self->latest.s = y[self->launcher.launching.layout.x];
-    }
-    return &self->latest.out;
-}
-
-// Events: lock release, then each adaptor at the tip, then (lankarani-nikravesh alone) its
-// touching, then each wheel's touching the road.
-static int events(double t, const double *y, double *g, void *user)
-{
-    ld_simulation *self = user;
-    int count = self->launcher.launching.adaptor_count,
-        wheels = self->launcher.marching.wheel_count;
-    const launching_phase *phase = &self->phase;
-    for (int i = 0; i < 1 + 2 * count + wheels; i++)
-        g[i] = 1;
-    if (!phase->rocket && !wheels)
-        return 0;
-    const launcher_output *out = output_at(self, t, y);
-    if (!out)
-        return -1;
-    for (int j = 0; j < wheels; j++)
-        g[1 + 2 * count + j] = out->marching.wheel[j].deflection / 1e-3;
-    if (!phase->rocket)
-        return 0;
-    if (phase->locked)
-        g[0] = 1 - out->launching.lock_force / self->model->rocket.lock.release_force;
-    bool touching = self->launcher.launching.contact.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
-    double length = self->launcher.launching.tube.length;
-    for (int i = 0; i < count; i++) {
-        if (phase->passed[i])
-            continue;
-        g[1 + i] = (length - out->launching.adaptor[i].s) / length;
-        if (touching)
-            g[1 + count + i] = out->launching.adaptor[i].penetration / 1e-3;
-    }
-    return 0;
-}
+#include "simulation/propagator.h"
 
 // ---- life ----
-
-static int event_count(const ld_simulation *self)
-{
-    return 1 + 2 * self->launcher.launching.adaptor_count + self->launcher.marching.wheel_count;
-}
 
 // The stretch of road [m] that the wheels will see in a launch.
 static void road_under(const ld_model *model, double x[2])
@@ -163,7 +67,7 @@ typedef struct launch_run {
     const ld_run_options *options;
     ld_summary *summary;
     ld_error *error;
-    integrator *integrator;
+    propagator *propagator;
     double *row;         // one row of the history
     double *between;     // state between steps
     double energy_start; // [J]
@@ -207,10 +111,10 @@ static ld_status write_row(launch_run *run, double t, const double *y)
 // Rows that fell into the last step.
 static ld_status write_rows(launch_run *run)
 {
-    double now = integrator_time(run->integrator);
+    double now = propagator_time(run->propagator);
     while (run->options && run->options->sink && run->next_output <= now) {
         double t = run->next_output;
-        integrator_interpolate(run->integrator, t, run->between);
+        propagator_interpolate(run->propagator, t, run->between);
         ld_status status = write_row(run, t, run->between);
         if (status)
             return status;
@@ -226,67 +130,6 @@ static void restart_output(launch_run *run, double t)
     run->output_from = t;
     run->output_index = 1;
     run->next_output = t + output_step(run, t);
-}
-
-// Absolute tolerances of a vehicle's states.
-static void vehicle_tolerances(const launcher_system *self, double tolerance, double *atol,
-                               bool *absolute)
-{
-    double *base = atol + self->orientating_at, *wheel = atol + self->marching_at;
-    for (int i = 0; i < ORIENTATING_STATES; i++)
-        base[i] = i < ORIENTATING_V ? 1e-2 * tolerance : tolerance;
-    for (int i = 0; i < HINGES; i++)
-        base[ORIENTATING_Z + i] = 1e2 * tolerance;
-    for (int i = 0; i < 3; i++)
-        absolute[self->orientating_at + ORIENTATING_R + i] = true;
-    for (int j = 0; j < self->marching.wheel_count; j++, wheel += WHEEL_STATES)
-        for (int i = 0; i < WHEEL_STATES; i++) {
-            bool speed = i >= WHEEL_V && i < WHEEL_V + 3;
-            wheel[i] = speed ? tolerance : 1e-2 * tolerance;
-            absolute[wheel + i - atol] = i < WHEEL_V;
-        }
-    *wheel = tolerance;
-}
-
-// Integrator's tolerances: the model's relative tolerance, and per kind of state what it is of.
-// Positions in I have no relative part: a vehicle may be far from the origin.
-static ld_status make_integrator(launch_run *run)
-{
-    ld_simulation *self = run->self;
-    const launching_layout *at = &self->launcher.launching.layout;
-    double tolerance = self->model->run.tolerance, atol[LD_MAX_STATES];
-    bool absolute[LD_MAX_STATES] = {false};
-    for (int i = 0; i < self->launcher.state_count; i++)
-        atol[i] = 1e300; // works are quadratures: they do not steer the step
-    for (int i = 0; i < 3; i++) {
-        atol[at->r + i] = 1e-2 * tolerance;
-        absolute[at->r + i] = true;
-        atol[at->v + i] = atol[at->w + i] = tolerance;
-        atol[at->x + i] = i == 0 ? tolerance : 1e-2 * tolerance;
-        atol[at->x + 3 + i] = 1e-2 * tolerance;
-        atol[at->V + i] = atol[at->V + 3 + i] = tolerance;
-    }
-    for (int i = 0; i < 4; i++)
-        atol[at->quaternion + i] = 1e-2 * tolerance;
-    for (int i = 0; i < at->nq; i++) {
-        atol[at->q + i] = 1e-2 * tolerance;
-        atol[at->q_dot + i] = tolerance;
-    }
-    if (self->launcher.vehicle)
-        vehicle_tolerances(&self->launcher, tolerance, atol, absolute);
-    integrator_settings settings = {
-        .n = (size_t)self->launcher.state_count,
-        .method = INTEGRATOR_CASH_KARP,
-        .rtol = tolerance,
-        .atol = atol,
-        .absolute = absolute,
-        .max_step = 2e-4, // longer steps could pass over a first touch
-        .rhs = rhs,
-        .events = events,
-        .event_count = event_count(self),
-        .self = self,
-    };
-    return integrator_create(&settings, &run->integrator, run->error);
 }
 
 static void set_up_phase(launch_run *run)
@@ -405,17 +248,17 @@ static bool switch_phase(launch_run *run, double t, const double *y)
     ld_simulation *self = run->self;
     int count = self->launcher.launching.adaptor_count;
     bool changed = false;
-    if (self->phase.locked && integrator_event(run->integrator, 0) < 0) {
+    if (self->phase.locked && propagator_event(run->propagator, 0) < 0) {
         self->phase.locked = false;
         run->summary->rocket[0].t_release = t - self->t_ignition;
         changed = true;
     }
     for (int i = count - 1; i >= 0; i--) {
-        if (!self->phase.passed[i] && integrator_event(run->integrator, 1 + i) < 0) {
+        if (!self->phase.passed[i] && propagator_event(run->propagator, 1 + i) < 0) {
             pass_adaptor(run, i, t, y);
             changed = true;
         }
-        if (!self->phase.passed[i] && integrator_event(run->integrator, 1 + count + i) > 0) {
+        if (!self->phase.passed[i] && propagator_event(run->propagator, 1 + count + i) > 0) {
             // first touch: its speed is kept for the whole contact
             self->phase.touch_speed[i] =
                 fmax(launching_offset_rate(&self->launcher.launching, y, i),
@@ -424,7 +267,7 @@ static bool switch_phase(launch_run *run, double t, const double *y)
         }
     }
     for (int j = 0; j < self->launcher.marching.wheel_count; j++)
-        changed |= integrator_event(run->integrator, 1 + 2 * count + j) > 0;
+        changed |= propagator_event(run->propagator, 1 + 2 * count + j) > 0;
     if (self->phase.passed[0] && self->phase.rocket && self->model->run.end != LD_END_TIP) {
         let_rocket_go(run, t, y);
         changed = true;
@@ -439,7 +282,7 @@ static void watch_forces(launch_run *run, double t, const double *y)
     if (!self->phase.rocket)
         return;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
-    const launcher_output *at = output_at(self, t, y);
+    const launcher_output *at = simulation_output(self, t, y);
     if (!at)
         return;
     const launching_output *out = &at->launching;
@@ -530,13 +373,13 @@ static ld_status report_progress(launch_run *run, double t)
         return LD_OK;
     run->next_progress = t + 1e-3;
     run->steps_since_progress = 0;
-    ld_status status = check_tube(run, t, integrator_state(run->integrator));
+    ld_status status = check_tube(run, t, propagator_state(run->propagator));
     if (status || !options || !options->progress)
         return status;
     // a launch's end is not known: the travel's share is the estimate
     const ld_simulation *self = run->self;
     double length = self->launcher.launching.tube.length, s0 = self->model->rocket.start_at;
-    double s = integrator_state(run->integrator)[self->launcher.launching.layout.x];
+    double s = propagator_state(run->propagator)[self->launcher.launching.layout.x];
     double in_tube = fmin(1, sqrt(fmax(0, (s - s0) / (length - s0))));
     double lead_in = self->t_ignition - run->t_start;
     double expected = lead_in + 0.2;
@@ -599,7 +442,7 @@ static void let_go_at_once(launch_run *run, double t, const double *y)
     self->latest.t = NAN;
     if (!self->phase.locked)
         return;
-    const launcher_output *at = output_at(self, t, y);
+    const launcher_output *at = simulation_output(self, t, y);
     const launching_output *out = at ? &at->launching : NULL;
     if (!out || !(out->lock_force > self->model->rocket.lock.release_force))
         return;
@@ -619,20 +462,20 @@ static bool finished(const launch_run *run, double t)
 
 static ld_status step_failed(launch_run *run)
 {
-    double t = integrator_time(run->integrator);
-    if (check_tube(run, t, integrator_state(run->integrator)) || !run->self->jammed)
+    double t = propagator_time(run->propagator);
+    if (check_tube(run, t, propagator_state(run->propagator)) || !run->self->jammed)
         return LD_ERR_NUMERIC;
     return ld_fail(run->error, LD_ERR_LAUNCH,
                    "the knob jams in the slot at t = %.6g s: with this angle and friction no slot "
                    "force fulfils the constraint",
-                   integrator_time(run->integrator));
+                   propagator_time(run->propagator));
 }
 
 static ld_status after_step(launch_run *run, integrator_outcome outcome)
 {
     ld_simulation *self = run->self;
-    double t = integrator_time(run->integrator);
-    const double *y = integrator_state(run->integrator);
+    double t = propagator_time(run->propagator);
+    const double *y = propagator_state(run->propagator);
     ld_status status = write_rows(run);
     watch_forces(run, t, y);
     if (!status && outcome != INTEGRATOR_STEPPED)
@@ -652,23 +495,23 @@ static ld_status after_step(launch_run *run, integrator_outcome outcome)
         status = report_progress(run, t);
     if (!status && (changed || outcome == INTEGRATOR_EVENT)) {
         let_go_at_once(run, t, y);
-        status = integrator_start(run->integrator, t, y, run->error);
+        status = propagator_start(run->propagator, t, y, run->error);
     }
     return status;
 }
 
 static ld_status loop(launch_run *run)
 {
-    double t = integrator_time(run->integrator);
+    double t = propagator_time(run->propagator);
     while (!finished(run, t)) {
         ld_status status = check_base(run, t);
         if (status)
             return status;
         integrator_outcome outcome =
-            integrator_step(run->integrator, next_stop(run, t), run->error);
+            propagator_step(run->propagator, next_stop(run, t), run->error);
         if (outcome == INTEGRATOR_FAILED)
             return step_failed(run);
-        t = integrator_time(run->integrator);
+        t = propagator_time(run->propagator);
         status = after_step(run, outcome);
         if (status)
             return status;
@@ -715,9 +558,9 @@ static ld_status begin(launch_run *run)
     let_go_at_once(run, run->t_start, y);
     restart_output(run, run->t_start);
     run->next_progress = run->t_start;
-    status = make_integrator(run);
+    status = propagator_create(self, &run->propagator, run->error);
     if (!status)
-        status = integrator_start(run->integrator, run->t_start, y, run->error);
+        status = propagator_start(run->propagator, run->t_start, y, run->error);
     return status ? status : write_row(run, run->t_start, y);
 }
 
@@ -751,7 +594,7 @@ static void write_last_row(launch_run *run)
     ld_error unused, *error = run->error;
     run->error = &unused;
     if (!run->sink_failed)
-        write_row(run, integrator_time(run->integrator), integrator_state(run->integrator));
+        write_row(run, propagator_time(run->propagator), propagator_state(run->propagator));
     run->error = error;
 }
 
@@ -768,13 +611,13 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
     summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
     summary->mode_count = self->mode_count;
     memcpy(summary->mode, self->mode, sizeof summary->mode);
-    if (!run->integrator)
+    if (!run->propagator)
         return;
-    double t = integrator_time(run->integrator);
+    double t = propagator_time(run->propagator);
     summary->t_end = t;
-    energy_at(self, t, integrator_state(run->integrator), run->energy_start, &summary->energy);
-    summary->statistics.steps = integrator_steps(run->integrator);
-    summary->statistics.rhs_evaluations = integrator_evaluations(run->integrator);
+    energy_at(self, t, propagator_state(run->propagator), run->energy_start, &summary->energy);
+    summary->statistics.steps = propagator_steps(run->propagator);
+    summary->statistics.rhs_evaluations = propagator_evaluations(run->propagator);
     note_formulation(self, summary);
 }
 
@@ -799,6 +642,6 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
             write_last_row(&run);
     }
     summarise(&run, status, cpu_now() - start - run.cpu_output);
-    integrator_free(run.integrator);
+    propagator_free(run.propagator);
     return status;
 }

@@ -1,0 +1,565 @@
+#include "simulation/propagator.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "math/rotation_vector.h"
+
+// ---- the equations ----
+
+void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input)
+{
+    double tau = t - self->t_ignition;
+    launcher_place(&self->launcher, t, y, input);
+    input->launching.thrust = motor_thrust(&self->motor, self->piece, tau);
+    motor_mass(&self->motor, self->piece, tau, &input->launching.mass);
+    memcpy(input->rest, self->rest, sizeof input->rest);
+    input->held = false;
+    input->formulation = self->model->run.formulation;
+}
+
+// NaN or infinity anywhere makes the sum of 0 y not zero.
+static bool all_finite(int n, const double *y)
+{
+    double sum[4] = {0};
+    for (int i = 0; i < n; i++)
+        sum[i & 3] += 0 * y[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0;
+}
+
+// Keeps what an evaluation tells besides the rates.
+static void note_outcome(ld_simulation *self, double t, const double *y, launching_outcome outcome)
+{
+    self->latest.t = t;
+    self->latest.s = y[self->launcher.launching.layout.x];
+    self->jammed = outcome == LAUNCHING_JAMMED;
+    if (outcome || self->model->run.formulation != LD_FORMULATION_OVERALL)
+        return;
+    const launching_output *out = &self->latest.out.launching;
+    self->fallbacks += out->fell_back;
+    self->worst_condition = fmax(self->worst_condition, out->condition);
+}
+
+static int rhs(double t, const double *y, double *y_dot, void *user)
+{
+    ld_simulation *self = user;
+    launcher_input input;
+    launcher_output *out = &self->latest.out;
+    simulation_input(self, t, y, &input);
+    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
+    note_outcome(self, t, y, outcome);
+    if (outcome)
+        return -1;
+    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
+    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
+}
+
+const launcher_output *simulation_output(ld_simulation *self, double t, const double *y)
+{
+    if (self->latest.t != t || self->latest.s != y[self->launcher.launching.layout.x]) {
+        launcher_input input;
+        simulation_input(self, t, y, &input);
+        self->latest.t = NAN;
+        if (launcher_evaluate(&self->launcher, &input, &self->phase, y, &self->latest.out))
+            return NULL;
+        self->latest.t = t;
+        self->latest.s = y[self->launcher.launching.layout.x];
+    }
+    return &self->latest.out;
+}
+
+static int event_count(const ld_simulation *self)
+{
+    const launcher_system *launcher = &self->launcher;
+    return EVENT_ADAPTORS + 2 * launcher->launching.adaptor_count + launcher->marching.wheel_count;
+}
+
+// Events of the launching subsystem; the others stay away from zero.
+static void launching_events(const ld_simulation *self, const launching_output *out, double *g)
+{
+    const launching_phase *phase = &self->phase;
+    int count = self->launcher.launching.adaptor_count;
+    double length = self->launcher.launching.tube.length;
+    bool touching = self->launcher.launching.contact.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
+    for (int i = 0; i < event_count(self); i++)
+        g[i] = 1;
+    if (!phase->rocket)
+        return;
+    if (phase->locked)
+        g[EVENT_RELEASE] = 1 - out->lock_force / self->model->rocket.lock.release_force;
+    for (int i = 0; i < count; i++) {
+        if (phase->passed[i])
+            continue;
+        g[EVENT_ADAPTORS + i] = (length - out->adaptor[i].s) / length;
+        if (touching)
+            g[EVENT_ADAPTORS + count + i] = out->adaptor[i].penetration / 1e-3;
+    }
+}
+
+static int events(double t, const double *y, double *g, void *user)
+{
+    ld_simulation *self = user;
+    const launcher_output *out = simulation_output(self, t, y);
+    if (!out)
+        return -1;
+    launching_events(self, &out->launching, g);
+    int wheels = EVENT_ADAPTORS + 2 * self->launcher.launching.adaptor_count;
+    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
+        g[wheels + j] = out->marching.wheel[j].deflection / 1e-3;
+    return 0;
+}
+
+// ---- tolerances ----
+
+// Absolute tolerance per kind of state; positions in I have no relative one: a vehicle may be far
+// from the origin. Works are quadratures: they do not steer the step.
+typedef struct tolerances {
+    double atol[LD_MAX_STATES];
+    bool absolute[LD_MAX_STATES];
+} tolerances;
+
+static void vehicle_tolerances(const launcher_system *launcher, double tolerance, tolerances *all)
+{
+    double *base = all->atol + launcher->orientating_at, *wheel = all->atol + launcher->marching_at;
+    for (int i = 0; i < ORIENTATING_STATES; i++)
+        base[i] = i < ORIENTATING_V ? 1e-2 * tolerance : tolerance;
+    for (int i = 0; i < HINGES; i++)
+        base[ORIENTATING_Z + i] = 1e2 * tolerance;
+    for (int i = 0; i < 3; i++)
+        all->absolute[launcher->orientating_at + ORIENTATING_R + i] = true;
+    for (int j = 0; j < launcher->marching.wheel_count; j++, wheel += WHEEL_STATES)
+        for (int i = 0; i < WHEEL_STATES; i++) {
+            bool speed = i >= WHEEL_V && i < WHEEL_V + 3;
+            wheel[i] = speed ? tolerance : 1e-2 * tolerance;
+            all->absolute[wheel + i - all->atol] = i < WHEEL_V;
+        }
+    *wheel = tolerance;
+}
+
+static void find_tolerances(const ld_simulation *self, tolerances *all)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    double tolerance = self->model->run.tolerance, *atol = all->atol;
+    memset(all->absolute, 0, sizeof all->absolute);
+    for (int i = 0; i < LD_MAX_STATES; i++)
+        atol[i] = 1e300;
+    for (int i = 0; i < 3; i++) {
+        atol[at->r + i] = 1e-2 * tolerance;
+        all->absolute[at->r + i] = true;
+        atol[at->v + i] = atol[at->w + i] = tolerance;
+        atol[at->x + i] = i == 0 ? tolerance : 1e-2 * tolerance;
+        atol[at->x + 3 + i] = 1e-2 * tolerance;
+        atol[at->V + i] = atol[at->V + 3 + i] = tolerance;
+    }
+    for (int i = 0; i < 4; i++)
+        atol[at->quaternion + i] = 1e-2 * tolerance;
+    for (int i = 0; i < at->nq; i++) {
+        atol[at->q + i] = 1e-2 * tolerance;
+        atol[at->q_dot + i] = tolerance;
+    }
+    if (self->launcher.vehicle)
+        vehicle_tolerances(&self->launcher, tolerance, all);
+}
+
+// ---- subsystems apart ----
+
+// A frame as it was exchanged, and as it goes on until the next exchange: with the acceleration
+// that its last two velocities tell.
+typedef struct held_frame {
+    base_frame last;
+    v3 a, alpha; // [m/s2], [rad/s2] in I
+} held_frame;
+
+// A force and a moment as they were exchanged, going on as the last two tell.
+typedef struct held_wrench {
+    v3 force, moment, force_rate, moment_rate;
+} held_wrench;
+
+enum { ORIENTATING_COUNT = ORIENTATING_STATES + ORIENTATING_POWERS };
+enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
+
+struct propagator {
+    ld_simulation *simulation;
+    integrator *integrator; // of all, or of the launching subsystem
+    double state[LD_MAX_STATES];
+
+    // apart alone
+    bool apart;
+    double t, t_next; // [s] the last exchange and the next
+    int64_t exchanges;
+    double t_first; // [s] the instants count from here
+    held_frame chassis, tube;
+    held_wrench on_chassis, on_tube;
+    integrator *orientating, *marching;
+    int marching_count;
+    double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
+    double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
+};
+
+static void go_on(const held_frame *held, double tau, base_frame *frame)
+{
+    v3 turn = v3_add(v3_scale(tau, held->last.w), v3_scale(0.5 * tau * tau, held->alpha));
+    v3 path = v3_add(v3_scale(tau, held->last.v), v3_scale(0.5 * tau * tau, held->a));
+    frame->r = v3_add(held->last.r, path);
+    frame->v = v3_add(held->last.v, v3_scale(tau, held->a));
+    frame->w = v3_add(held->last.w, v3_scale(tau, held->alpha));
+    frame->A = m3_mul(rv_exp(turn), held->last.A);
+    frame->q = q_from_matrix(frame->A);
+}
+
+static void take_frame(held_frame *held, const base_frame *now, double since)
+{
+    if (since > 0) {
+        held->a = v3_scale(1 / since, v3_sub(now->v, held->last.v));
+        held->alpha = v3_scale(1 / since, v3_sub(now->w, held->last.w));
+    }
+    held->last = *now;
+}
+
+static void take_wrench(held_wrench *held, v3 force, v3 moment, double since)
+{
+    if (since > 0) {
+        held->force_rate = v3_scale(1 / since, v3_sub(force, held->force));
+        held->moment_rate = v3_scale(1 / since, v3_sub(moment, held->moment));
+    }
+    held->force = force;
+    held->moment = moment;
+}
+
+static int launching_rhs(double t, const double *y, double *y_dot, void *user)
+{
+    propagator *self = user;
+    ld_simulation *simulation = self->simulation;
+    const launcher_system *launcher = &simulation->launcher;
+    launching_input input;
+    launching_output *out = &simulation->latest.out.launching;
+    double tau = t - simulation->t_ignition;
+    go_on(&self->tube, t - self->t, &input.base);
+    input.thrust = motor_thrust(&simulation->motor, simulation->piece, tau);
+    motor_mass(&simulation->motor, simulation->piece, tau, &input.mass);
+    launching_outcome outcome =
+        simulation->model->run.formulation == LD_FORMULATION_OVERALL
+            ? launching_evaluate_general(&launcher->launching, LD_FORMULATION_OVERALL, &input,
+                                         &simulation->phase, y, out)
+            : launching_evaluate(&launcher->launching, &input, &simulation->phase, y, out);
+    note_outcome(simulation, t, y, outcome);
+    simulation->latest.t = NAN; // not one of the whole
+    if (outcome)
+        return -1;
+    int count = launcher->launching.layout.count;
+    launching_rates(&launcher->launching, y, out, simulation->phase.rocket, y_dot);
+    memcpy(y_dot + count, out->power, sizeof out->power);
+    return all_finite(count + POWER_COUNT, y_dot) ? 0 : -1;
+}
+
+static int launching_events_apart(double t, const double *y, double *g, void *user)
+{
+    propagator *self = user;
+    double unused[LD_MAX_STATES];
+    if (launching_rhs(t, y, unused, user))
+        return -1;
+    launching_events(self->simulation, &self->simulation->latest.out.launching, g);
+    return 0;
+}
+
+static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
+{
+    propagator *self = user;
+    const ld_simulation *simulation = self->simulation;
+    const held_wrench *chassis = &self->on_chassis, *tube = &self->on_tube;
+    double tau = t - self->t;
+    orientating_motion motion;
+    orientating_output out;
+    orientating_input input = {
+        .chassis_force = v3_add(chassis->force, v3_scale(tau, chassis->force_rate)),
+        .chassis_moment = v3_add(chassis->moment, v3_scale(tau, chassis->moment_rate)),
+        .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
+        .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
+        .rest = {simulation->rest[0], simulation->rest[1]},
+        .frictionless = simulation->phase.frictionless,
+    };
+    orientating_motion_at(&simulation->launcher.orientating, t, y, &motion);
+    if (orientating_evaluate(&simulation->launcher.orientating, &input, y, &motion, y_dot, &out))
+        return -1;
+    memcpy(y_dot + ORIENTATING_STATES, out.power, sizeof out.power);
+    return all_finite(ORIENTATING_COUNT, y_dot) ? 0 : -1;
+}
+
+static int marching_rhs(double t, const double *y, double *y_dot, void *user)
+{
+    propagator *self = user;
+    const marching_system *marching = &self->simulation->launcher.marching;
+    marching_output out;
+    base_frame chassis;
+    go_on(&self->chassis, t - self->t, &chassis);
+    marching_evaluate(marching, &chassis, false, y, y_dot, &out);
+    memcpy(y_dot + marching->state_count, out.power, sizeof out.power);
+    return all_finite(self->marching_count, y_dot) ? 0 : -1;
+}
+
+// Between the whole state and a subsystem's: its states, then its works.
+static void part_of(const double *y, int at, int count, int works_at, int works, double *part)
+{
+    memcpy(part, y + at, (size_t)count * sizeof(double));
+    memcpy(part + count, y + works_at, (size_t)works * sizeof(double));
+}
+
+static void put_part(const double *part, int at, int count, int works_at, int works, double *y)
+{
+    memcpy(y + at, part, (size_t)count * sizeof(double));
+    memcpy(y + works_at, part + count, (size_t)works * sizeof(double));
+}
+
+// The orientating and marching parts of the whole state.
+static void split_base(const propagator *self, const double *y, double *orientating,
+                       double *marching)
+{
+    const launcher_system *launcher = &self->simulation->launcher;
+    int works = launcher->work_at + POWER_COUNT;
+    part_of(y, launcher->orientating_at, ORIENTATING_STATES, works, ORIENTATING_POWERS,
+            orientating);
+    part_of(y, launcher->marching_at, launcher->marching.state_count, works + ORIENTATING_POWERS,
+            MARCHING_POWERS, marching);
+}
+
+static void join_base(const propagator *self, const double *orientating, const double *marching,
+                      double *y)
+{
+    const launcher_system *launcher = &self->simulation->launcher;
+    int works = launcher->work_at + POWER_COUNT;
+    put_part(orientating, launcher->orientating_at, ORIENTATING_STATES, works, ORIENTATING_POWERS,
+             y);
+    put_part(marching, launcher->marching_at, launcher->marching.state_count,
+             works + ORIENTATING_POWERS, MARCHING_POWERS, y);
+}
+
+// The base's states at an instant between the last exchange and the next: cubic Hermite.
+static void base_between(const propagator *self, double t, double *y)
+{
+    const launcher_system *launcher = &self->simulation->launcher;
+    double h = self->t_next - self->t, x = h > 0 ? (t - self->t) / h : 0;
+    double a = (1 + 2 * x) * (1 - x) * (1 - x), b = x * (1 - x) * (1 - x) * h;
+    double c = x * x * (3 - 2 * x), d = -x * x * (1 - x) * h;
+    for (int i = launcher->orientating_at; i < launcher->state_count; i++)
+        if (i < launcher->work_at || i >= launcher->work_at + POWER_COUNT)
+            y[i] =
+                a * self->from[i] + b * self->rate_from[i] + c * self->to[i] + d * self->rate_to[i];
+}
+
+// The whole state at time t within the launching subsystem's last step, whose state is `y`.
+static void join(const propagator *self, double t, const double *y, double *whole)
+{
+    const launcher_system *launcher = &self->simulation->launcher;
+    put_part(y, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT, whole);
+    base_between(self, t, whole);
+}
+
+// Exchange at t: frames and wrenches at the state y; then chassis and wheels go on to the next
+// instant, the corners of commands at `t_stop` before it.
+static ld_status exchange(propagator *self, double t, const double *y, double t_stop,
+                          ld_error *error)
+{
+    ld_simulation *simulation = self->simulation;
+    const launcher_system *launcher = &simulation->launcher;
+    launcher_input input;
+    launcher_output *out = &simulation->latest.out;
+    double since = t - self->t, orientating[ORIENTATING_COUNT], marching[MARCHING_MOST];
+    simulation_input(simulation, t, y, &input);
+    if (launcher_evaluate(launcher, &input, &simulation->phase, y, out))
+        return ld_fail(error, LD_ERR_NUMERIC, "the exchange at t = %.9g s has no solution", t);
+    take_frame(&self->chassis, &input.motion.chassis, since);
+    take_frame(&self->tube, &input.motion.tube, since);
+    take_wrench(&self->on_chassis, out->marching.force, out->marching.moment, since);
+    take_wrench(&self->on_tube, out->launching.base_force, out->launching.base_moment, since);
+    self->t = t;
+    double step = simulation->model->run.coupling_step;
+    while (self->t_first + (double)self->exchanges * step <= t + 1e-9 * step)
+        self->exchanges++;
+    self->t_next = fmin(t_stop, self->t_first + (double)self->exchanges * step);
+
+    memcpy(self->from, y, (size_t)launcher->state_count * sizeof(double));
+    split_base(self, y, orientating, marching);
+    ld_status status = integrator_start(self->orientating, t, orientating, error);
+    if (!status)
+        status = integrator_start(self->marching, t, marching, error);
+    while (!status && integrator_time(self->orientating) < self->t_next)
+        if (integrator_step(self->orientating, self->t_next, error) == INTEGRATOR_FAILED)
+            return LD_ERR_NUMERIC;
+    while (!status && integrator_time(self->marching) < self->t_next)
+        if (integrator_step(self->marching, self->t_next, error) == INTEGRATOR_FAILED)
+            return LD_ERR_NUMERIC;
+    if (status)
+        return status;
+
+    double rate[2][LD_MAX_STATES];
+    orientating_rhs(t, orientating, rate[0], self);
+    marching_rhs(t, marching, rate[1], self);
+    join_base(self, rate[0], rate[1], self->rate_from);
+    const double *chassis = integrator_state(self->orientating);
+    const double *wheels = integrator_state(self->marching);
+    orientating_rhs(self->t_next, chassis, rate[0], self);
+    marching_rhs(self->t_next, wheels, rate[1], self);
+    join_base(self, rate[0], rate[1], self->rate_to);
+    join_base(self, chassis, wheels, self->to);
+    return LD_OK;
+}
+
+static ld_status create_base(propagator *self, const integrator_settings *whole,
+                             const tolerances *all, ld_error *error)
+{
+    const launcher_system *launcher = &self->simulation->launcher;
+    double atol[2][LD_MAX_STATES];
+    bool absolute[2][LD_MAX_STATES] = {{false}};
+    for (int i = 0; i < LD_MAX_STATES; i++)
+        atol[0][i] = atol[1][i] = 1e300;
+    for (int i = 0; i < ORIENTATING_STATES; i++) {
+        atol[0][i] = all->atol[launcher->orientating_at + i];
+        absolute[0][i] = all->absolute[launcher->orientating_at + i];
+    }
+    for (int i = 0; i < launcher->marching.state_count; i++) {
+        atol[1][i] = all->atol[launcher->marching_at + i];
+        absolute[1][i] = all->absolute[launcher->marching_at + i];
+    }
+    self->marching_count = launcher->marching.state_count + MARCHING_POWERS;
+    integrator_settings settings = *whole;
+    settings.events = NULL;
+    settings.event_count = 0;
+    settings.max_step = 0;
+    settings.n = ORIENTATING_COUNT;
+    settings.rhs = orientating_rhs;
+    settings.atol = atol[0];
+    settings.absolute = absolute[0];
+    ld_status status = integrator_create(&settings, &self->orientating, error);
+    settings.n = (size_t)self->marching_count;
+    settings.rhs = marching_rhs;
+    settings.atol = atol[1];
+    settings.absolute = absolute[1];
+    return status ? status : integrator_create(&settings, &self->marching, error);
+}
+
+// ---- both ----
+
+ld_status propagator_create(ld_simulation *simulation, propagator **out, ld_error *error)
+{
+    propagator *self = calloc(1, sizeof *self);
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the integration");
+    *out = self;
+    tolerances all;
+    const launcher_system *launcher = &simulation->launcher;
+    find_tolerances(simulation, &all);
+    self->simulation = simulation;
+    self->apart = launcher->vehicle && simulation->model->run.coupling_step > 0;
+    integrator_settings settings = {
+        .n = (size_t)launcher->state_count,
+        .method = INTEGRATOR_CASH_KARP,
+        .rtol = simulation->model->run.tolerance,
+        .atol = all.atol,
+        .absolute = all.absolute,
+        .max_step = 2e-4, // longer steps could pass over a first touch
+        .rhs = rhs,
+        .events = events,
+        .event_count = event_count(simulation),
+        .self = simulation,
+    };
+    if (!self->apart)
+        return integrator_create(&settings, &self->integrator, error);
+    settings.self = self;
+    ld_status status = create_base(self, &settings, &all, error);
+    int count = launcher->launching.layout.count;
+    for (int i = 0; i < POWER_COUNT; i++) {
+        all.atol[count + i] = 1e300;
+        all.absolute[count + i] = false;
+    }
+    settings.n = (size_t)(count + POWER_COUNT);
+    settings.rhs = launching_rhs;
+    settings.events = launching_events_apart;
+    return status ? status : integrator_create(&settings, &self->integrator, error);
+}
+
+void propagator_free(propagator *self)
+{
+    if (!self)
+        return;
+    integrator_free(self->integrator);
+    integrator_free(self->orientating);
+    integrator_free(self->marching);
+    free(self);
+}
+
+ld_status propagator_start(propagator *self, double t, const double *y, ld_error *error)
+{
+    if (!self->apart)
+        return integrator_start(self->integrator, t, y, error);
+    const launcher_system *launcher = &self->simulation->launcher;
+    double launching[LD_MAX_STATES];
+    if (self->exchanges == 0) {
+        self->t = self->t_next = self->t_first = t;
+        memcpy(self->to, y, (size_t)launcher->state_count * sizeof(double));
+        memcpy(self->from, y, (size_t)launcher->state_count * sizeof(double));
+    }
+    memmove(self->state, y, (size_t)launcher->state_count * sizeof(double));
+    part_of(y, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT, launching);
+    return integrator_start(self->integrator, t, launching, error);
+}
+
+integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error)
+{
+    if (!self->apart)
+        return integrator_step(self->integrator, t_stop, error);
+    double t = integrator_time(self->integrator), launching[LD_MAX_STATES];
+    const launcher_system *launcher = &self->simulation->launcher;
+    if (t >= self->t_next) {
+        if (exchange(self, t, self->state, t_stop, error))
+            return INTEGRATOR_FAILED;
+        part_of(self->state, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT,
+                launching);
+        if (integrator_start(self->integrator, t, launching, error))
+            return INTEGRATOR_FAILED;
+    }
+    integrator_outcome outcome =
+        integrator_step(self->integrator, fmin(t_stop, self->t_next), error);
+    t = integrator_time(self->integrator);
+    join(self, t, integrator_state(self->integrator), self->state);
+    return outcome == INTEGRATOR_STOPPED && t < t_stop ? INTEGRATOR_STEPPED : outcome;
+}
+
+double propagator_time(const propagator *self)
+{
+    return integrator_time(self->integrator);
+}
+
+const double *propagator_state(const propagator *self)
+{
+    return self->apart ? self->state : integrator_state(self->integrator);
+}
+
+void propagator_interpolate(propagator *self, double t, double *y)
+{
+    if (!self->apart) {
+        integrator_interpolate(self->integrator, t, y);
+        return;
+    }
+    double launching[LD_MAX_STATES];
+    integrator_interpolate(self->integrator, t, launching);
+    join(self, t, launching, y);
+}
+
+int propagator_event(const propagator *self, int i)
+{
+    return integrator_event(self->integrator, i);
+}
+
+int64_t propagator_steps(const propagator *self)
+{
+    return integrator_steps(self->integrator);
+}
+
+int64_t propagator_evaluations(const propagator *self)
+{
+    int64_t sum = integrator_evaluations(self->integrator);
+    if (self->apart)
+        sum += integrator_evaluations(self->orientating) + integrator_evaluations(self->marching);
+    return sum;
+}

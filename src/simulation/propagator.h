@@ -1,0 +1,32 @@
+// Takes a launcher forward in time, step by step: all subsystems by one integrator, or each by its
+// own with exchanges at fixed instants (run.coupling; model.md section 2).
+#ifndef LD_SIMULATION_PROPAGATOR_H
+#define LD_SIMULATION_PROPAGATOR_H
+
+#include "simulation/simulation.h"
+
+typedef struct propagator propagator;
+
+ld_status propagator_create(ld_simulation *simulation, propagator **out, ld_error *error);
+void propagator_free(propagator *self);
+
+// As those of integrator.h, for the whole state. Events are numbered by simulation_event.
+ld_status propagator_start(propagator *self, double t, const double *y, ld_error *error);
+integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error);
+double propagator_time(const propagator *self);
+const double *propagator_state(const propagator *self);
+void propagator_interpolate(propagator *self, double t, double *y);
+int propagator_event(const propagator *self, int i);
+int64_t propagator_steps(const propagator *self);
+int64_t propagator_evaluations(const propagator *self);
+
+// Numbers of the events: lock release, then for each adaptor its passing the tip, then (law
+// lankarani-nikravesh alone) its touching, then each wheel's touching the road (integrated together
+// alone).
+enum { EVENT_RELEASE = 0, EVENT_ADAPTORS = 1 };
+
+// What the equations gave at (t, y): the latest evaluation where it is that one, else a new one.
+// NULL where they have no solution.
+const launcher_output *simulation_output(ld_simulation *self, double t, const double *y);
+
+#endif

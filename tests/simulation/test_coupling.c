@@ -1,0 +1,83 @@
+// Subsystems integrated apart, exchanging at fixed instants: the error against the run of all
+// together falls with the square of the step; and what is written is consistent.
+#include <math.h>
+#include <string.h>
+
+#include "launchdyn/simulation.h"
+#include "support/check.h"
+#include "support/reference_model.h"
+
+// A launch at 30 km/h over sines, whose exit figures depend on the coupling.
+static void marching_model(ld_model *model)
+{
+    reference_vehicle(model, 30 / 3.6);
+    ld_road *road = &model->base.vehicle.road;
+    road->sine_count = 1;
+    road->sine[0] = (ld_road_sine){.amplitude = 5e-3, .wavelength = 2.5};
+    model->run.lead_in = 0.1;
+    model->run.tolerance = 1e-9;
+}
+
+static ld_summary launch(const ld_model *model)
+{
+    ld_simulation *simulation;
+    ld_summary summary;
+    ld_error error;
+    if (ld_simulation_create(model, &simulation, &error) ||
+        ld_simulation_run(simulation, NULL, &summary, &error))
+        fail_msg("%s", error.text);
+    ld_simulation_free(simulation);
+    return summary;
+}
+
+static double distance(const ld_summary *a, const ld_summary *b)
+{
+    const ld_rocket_summary *p = &a->rocket[0], *q = &b->rocket[0];
+    double rates = hypot(p->pitch_rate - q->pitch_rate, p->yaw_rate - q->yaw_rate);
+    return hypot(rates, 50 * hypot(p->pitch - q->pitch, p->yaw - q->yaw));
+}
+
+static void second_order(void **state)
+{
+    (void)state;
+    ld_model model;
+    marching_model(&model);
+    ld_summary together = launch(&model);
+    static const double step[] = {0.8e-3, 0.4e-3, 0.2e-3, 0.1e-3};
+    double error[4], balance[4];
+    for (int i = 0; i < 4; i++) {
+        model.run.coupling_step = step[i];
+        ld_summary apart = launch(&model);
+        error[i] = distance(&apart, &together);
+        balance[i] = fabs(apart.energy.residual_relative);
+    }
+    for (int i = 1; i < 4; i++)
+        CHECK_WITHIN("order of the exit attitude and rates", log2(error[i - 1] / error[i]), 1.8,
+                     2.2);
+    CHECK_BELOW("exit attitude and rates at 0.1 ms [rad/s]", error[3], 4e-6);
+    CHECK_BELOW("energy balance at 0.1 ms, of the largest work", balance[3], 1e-6);
+    reference_model_free(&model);
+}
+
+// A step that does not divide the lead-in: ignition is an exchange besides.
+static void any_step(void **state)
+{
+    (void)state;
+    ld_model model;
+    marching_model(&model);
+    ld_summary together = launch(&model);
+    model.run.coupling_step = 0.37e-3;
+    ld_summary apart = launch(&model);
+    CHECK_BELOW("exit rates at 0.37 ms [rad/s]", distance(&apart, &together), 5e-5);
+    CHECK_NEAR("t_rear [s]", apart.rocket[0].t_rear, together.rocket[0].t_rear, 1e-6);
+    reference_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(second_order),
+        cmocka_unit_test(any_step),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
