@@ -445,8 +445,7 @@ static void add_wheels(equations *eq)
     double v = (ahead.x * v_C.x + ahead.z * v_C.z) / hypot(ahead.x, ahead.z);
     double z_d = eq->input->marching[WHEEL_STATES * count];
     double drive = vehicle->drive.kp * (vehicle->speed - v) + vehicle->drive.ki * z_d;
-    if (vehicle->speed != 0) // parked, no drive is on
-        eq->output->marching[WHEEL_STATES * count] = vehicle->speed - v;
+    eq->output->marching[WHEEL_STATES * count] = vehicle->speed - v; // parked as well
     for (int i = 0; i < count; i++) {
         const double *state = eq->input->marching + WHEEL_STATES * i;
         v3 r_j = v3_from(state + WHEEL_R), v_j = v3_from(state + WHEEL_V);
