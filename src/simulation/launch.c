@@ -158,6 +158,11 @@ static ld_status find_start(launch_run *run, double *y)
 {
     ld_simulation *self = run->self;
     ld_status status = LD_OK;
+    if (self->launcher.vehicle && !self->stability_checked)
+        status = simulation_check_stability(self, &self->growing, run->error);
+    if (status)
+        return status;
+    self->stability_checked = true;
     if (self->model->run.start == LD_START_EQUILIBRIUM)
         status =
             simulation_equilibrium(self, run->t_start, y, &run->summary->equilibrium, run->error);
@@ -619,6 +624,9 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
     summary->statistics.steps = propagator_steps(run->propagator);
     summary->statistics.rhs_evaluations = propagator_evaluations(run->propagator);
     note_formulation(self, summary);
+    if (self->growing.real > 0)
+        add_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
+                 self->growing.real, self->growing.shape);
 }
 
 ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,

@@ -8,6 +8,8 @@
 #include "simulation/simulation.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
+// Eigenvalues of a vehicle below this modulus [1/s] belong to its neutral directions.
+static const double LEAST_RATE = 1e-2;
 
 // Displacements: place and attitude of R (6), q, then of the rocket s, y_S, z_S, psi, theta, gamma
 // (without the rocket they are left out); with a vehicle place and attitude of the chassis (6), the
@@ -390,7 +392,7 @@ int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capa
     return count;
 }
 
-// The equilibrium, on a flat road in place of the model's, and the equations linearised about it.
+// The equilibrium, and the equations linearised about it.
 static ld_status linearise_at_rest(ld_simulation *self, linear_system *system, ld_error *error)
 {
     double y[LD_MAX_STATES], t = -self->model->run.lead_in;
@@ -404,29 +406,78 @@ static ld_status linearise_at_rest(ld_simulation *self, linear_system *system, l
     return status ? status : linearise(self, false, t, &phase, y, system, error);
 }
 
+// As linearise_at_rest, a vehicle on a flat road in place of the model's.
+static ld_status linearise_on_flat_road(ld_simulation *self, linear_system *system, ld_error *error)
+{
+    static const ld_road level = {.iso_class = LD_ROAD_SMOOTH};
+    road *of_model = self->launcher.marching.road, *flat = NULL;
+    ld_status status = self->launcher.vehicle ? road_build(&level, 0, 0, &flat, error) : LD_OK;
+    if (status)
+        return status;
+    self->launcher.marching.road = flat;
+    status = linearise_at_rest(self, system, error);
+    self->launcher.marching.road = of_model;
+    road_free(flat);
+    return status;
+}
+
 ld_status ld_simulation_system_modes(ld_simulation *self, ld_mode *modes, int capacity, int *count,
                                      ld_pole *poles, int pole_capacity, int *pole_count,
                                      ld_error *error)
 {
     linear_system system = {0};
     bool vehicle = self->launcher.vehicle;
-    static const ld_road level = {.iso_class = LD_ROAD_SMOOTH};
-    road *of_model = self->launcher.marching.road, *flat = NULL;
-    ld_status status = vehicle ? road_build(&level, 0, 0, &flat, error) : LD_OK;
     *count = *pole_count = 0;
-    if (status)
-        return status;
-    self->launcher.marching.road = flat;
-    status = linearise_at_rest(self, &system, error);
-    self->launcher.marching.road = of_model;
+    ld_status status = linearise_on_flat_road(self, &system, error);
     if (!status)
-        status =
-            eigenvalues(self, &system, vehicle ? 1e-2 : 1, poles, pole_capacity, pole_count, error);
+        status = eigenvalues(self, &system, vehicle ? LEAST_RATE : 1, poles, pole_capacity,
+                             pole_count, error);
     if (!status && vehicle)
         modes_of_poles(poles, *pole_count, modes, capacity, count);
     else if (!status)
         status = undamped_modes(self, &system, modes, capacity, count, error);
-    road_free(flat);
+    free(system.J);
+    return status;
+}
+
+// What moves in the shape of a platform that its stabiliser does not hold; -1: another part.
+static int unstable_hinge(const char *shape)
+{
+    static const int group[HINGES] = {AZIMUTH, ELEVATION};
+    for (int i = 0; i < HINGES; i++)
+        if (strncmp(shape, group_names[group[i]], strlen(group_names[group[i]])) == 0)
+            return i;
+    return -1;
+}
+
+ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_error *error)
+{
+    enum { MOST = 2 * LD_MAX_STATES };
+    static const char *const names[HINGES] = {"azimuth", "elevation"};
+    linear_system system = {0};
+    int count = 0;
+    ld_pole *poles = malloc(MOST * sizeof *poles);
+    *growing = (ld_pole){0};
+    if (!poles)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
+    // without an equilibrium on a flat road there is nothing to say
+    ld_error unused;
+    ld_status status = LD_OK;
+    if (!linearise_on_flat_road(self, &system, &unused))
+        eigenvalues(self, &system, LEAST_RATE, poles, MOST, &count, &unused);
+    for (int i = 0; i < count && !status; i++) {
+        int hinge = unstable_hinge(poles[i].shape);
+        if (poles[i].real < LEAST_RATE)
+            continue;
+        if (poles[i].real > growing->real)
+            *growing = poles[i];
+        if (hinge >= 0)
+            status = ld_fail(error, LD_ERR_INPUT,
+                             "platform.%s.stabiliser is unstable: about its equilibrium a motion "
+                             "of %.3g Hz grows by %.3g 1/s (launchdyn modes lists all)",
+                             names[hinge], poles[i].imaginary / TWO_PI, poles[i].real);
+    }
+    free(poles);
     free(system.J);
     return status;
 }

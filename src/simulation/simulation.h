@@ -17,6 +17,8 @@ struct ld_simulation {
     // of a run
     launching_phase phase;
     hinge_rest rest[HINGES]; // of the equilibrium
+    bool stability_checked;
+    ld_pole growing; // what grows about the equilibrium, if anything
     double t_ignition;
     int piece; // of the thrust curve
     bool jammed;
@@ -58,6 +60,11 @@ void simulation_move_with_base(const ld_simulation *self, double t, double *y);
 // hinge angles, the two hinge torques [MN m], then the wheels' positions.
 int simulation_freedoms(const ld_simulation *self);
 void simulation_displace(const ld_simulation *self, int freedom, double change, double *y);
+
+// Before a vehicle's run: refuses a stabiliser that cannot hold its platform, by the equations
+// linearised about the equilibrium on a flat road. `growing`: the fastest growing eigenvalue of any
+// part, zero where there is none.
+ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_error *error);
 
 // Phase before ignition: rocket in the tube, lock closed, no adaptor beyond the tip.
 launching_phase simulation_start_phase(const ld_simulation *self);

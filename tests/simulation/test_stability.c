@@ -1,0 +1,67 @@
+// Stabilisers that cannot hold their platforms are refused before the run, and no others.
+#include "launchdyn/simulation.h"
+#include "support/check.h"
+#include "support/reference_model.h"
+
+static ld_status start(ld_model *model, ld_error *error)
+{
+    ld_simulation *simulation;
+    ld_summary summary;
+    model->run.end = LD_END_TIME;
+    model->run.end_time = 1e-3;
+    if (ld_simulation_create(model, &simulation, error))
+        fail_msg("%s", error->text);
+    ld_status status = ld_simulation_run(simulation, NULL, &summary, error);
+    ld_simulation_free(simulation);
+    return status;
+}
+
+static void unstable_stabiliser(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    reference_vehicle(&model, 30 / 3.6);
+    model.platform.elevation.stabiliser.ki = 1e9;
+    assert_int_equal(start(&model, &error), LD_ERR_INPUT);
+    printf("    %s\n", error.text);
+    assert_non_null(strstr(error.text, "platform.elevation.stabiliser is unstable"));
+    model.platform.elevation.stabiliser.ki = 6e6;
+    model.platform.azimuth.stabiliser.ki = 1e9;
+    assert_int_equal(start(&model, &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "platform.azimuth.stabiliser is unstable"));
+    reference_model_free(&model);
+}
+
+// Routh's bound for one platform on a base that stands still: J s^3 + kd s^2 + kp s + ki is stable
+// for kp kd > J ki. A gain a little on either side of what the vehicle's chassis makes of it.
+static void bound_of_the_integral_gain(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    reference_vehicle(&model, 0);
+    double stable = 6e6, unstable = 1e9;
+    while (unstable / stable > 1.01) {
+        double middle = sqrt(stable * unstable);
+        model.platform.elevation.stabiliser.ki = middle;
+        if (start(&model, &error))
+            unstable = middle;
+        else
+            stable = middle;
+    }
+    // about the hinge, loaded, rigid tubes: J = kp kd/ki
+    const ld_stabiliser *stabiliser = &model.platform.elevation.stabiliser;
+    double inertia = stabiliser->kp * (stabiliser->kd + 800) / stable;
+    CHECK_WITHIN("inertia that the bound of ki tells [kg m2]", inertia, 2900, 3300);
+    reference_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unstable_stabiliser),
+        cmocka_unit_test(bound_of_the_integral_gain),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
