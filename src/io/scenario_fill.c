@@ -240,6 +240,13 @@ static bool read_rows(scenario_reader *reader, const field_row *f, const tree_no
     }
     // the first row says which form of the table it is
     const table_format *format = field_table_format(f->table, (size_t)rows->first->count);
+    if (!format && f->table->other) {
+        char expected[256];
+        field_expectation(f, expected, sizeof expected);
+        reader_refuse(reader, rows->first->at, path, "found a first row of %d values; expected %s",
+                      rows->first->count, expected);
+        return false;
+    }
     format = format ? format : f->table;
     size_t i = 0, columns = (size_t)format->columns;
     *table = (ld_table){(size_t)rows->count, columns,
@@ -287,6 +294,14 @@ static bool read_table_file(scenario_reader *reader, const field_row *f, const t
     return known && table_file_read(reader, f, value->at, path, value->text, table);
 }
 
+// Whether a text in place of a table is its one value; else it is the name of a file.
+static bool is_constant(const table_format *format, const char *text)
+{
+    bool has_files = format->sources & (TABLE_CSV | TABLE_ENGINE);
+    return format->sources & TABLE_CONSTANT &&
+           (!has_files || (strchr("0123456789+-.", text[0]) && !ends_with(text, ".csv")));
+}
+
 static void read_table(scenario_reader *reader, const field_row *f, const tree_node *value,
                        void *base, const char *path)
 {
@@ -296,7 +311,7 @@ static void read_table(scenario_reader *reader, const field_row *f, const tree_n
         good = read_rows(reader, f, value, path, table);
     else if (!is_scalar(reader, f, value, path))
         good = false;
-    else if (f->table->sources & TABLE_CONSTANT && !ends_with(value->text, ".csv"))
+    else if (is_constant(f->table, value->text))
         good = read_constant(reader, f, value, path, table);
     else
         good = read_table_file(reader, f, value, path, table);
@@ -389,6 +404,8 @@ static void read_integers(scenario_reader *reader, const field_row *f, const tre
                           void *base, const char *path)
 {
     int *values = field_at(base, f), number = 0;
+    field_row one = *f;
+    one.kind = FIELD_INTEGER;
     if (list->kind != NODE_LIST || list->count > f->count) {
         refuse_value(reader, f, list, path);
         return;
@@ -396,7 +413,7 @@ static void read_integers(scenario_reader *reader, const field_row *f, const tre
     for (const tree_node *entry = list->first; entry; entry = entry->next, number++) {
         char inner_path[PATH];
         entry_path(inner_path, path, entry, number + 1);
-        read_whole(reader, f, entry, inner_path, &values[number]);
+        read_whole(reader, &one, entry, inner_path, &values[number]);
     }
     field_set_switch(base, f, number);
 }
@@ -424,7 +441,7 @@ static void select_entry(scenario_reader *reader, const field_row *f, const tree
     name_suggestion best = suggestion_begin(name->text);
     for (int k = 0; k < field_switch(base, f); k++)
         suggestion_offer(&best, field_entry_const(base, f, k));
-    reader_refuse(reader, name->at, path, "found %s, which is none of them%s%s%s",
+    reader_refuse(reader, name->at, path, "found %s, no such name%s%s%s",
                   reader_quote(name->text, quoted), best.name ? "; did you mean \"" : "",
                   best.name ? best.name : "", best.name ? "\"?" : "");
 }

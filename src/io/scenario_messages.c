@@ -129,13 +129,19 @@ void reader_finish_messages(scenario_reader *reader)
     reader->no_memory = reader->no_memory || !last->text;
 }
 
+// Whether the path `inner` is `outer` or a key below it.
+static bool is_at_or_below(const char *inner, const char *outer)
+{
+    size_t length = strlen(outer);
+    return length > 0 && strncmp(inner, outer, length) == 0 &&
+           (inner[length] == '\0' || inner[length] == '.');
+}
+
 bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path)
 {
-    size_t length = strlen(path);
     for (size_t i = 0; i < count; i++) {
         const char *other = reader->messages->item[i].path;
-        if (other && strncmp(other, path, length) == 0 &&
-            (other[length] == '\0' || other[length] == '.'))
+        if (other && (is_at_or_below(other, path) || is_at_or_below(path, other)))
             return true;
     }
     return false;

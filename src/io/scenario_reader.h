@@ -72,7 +72,8 @@ void pool_free(scenario_reader *reader);
 // Adds a message about the key `path` at `place`.
 void reader_refuse(scenario_reader *reader, text_place place, const char *path, const char *format,
                    ...) LD_PRINTF(4, 5);
-// Whether one of the first `count` messages is about `path` or a key below it.
+// Whether one of the first `count` messages is about `path`, a key below it or a
+// block around it.
 bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path);
 
 // Puts the messages into the order of the text.
@@ -107,7 +108,8 @@ bool quantity_read(scenario_reader *reader, const struct field_row *f, text_plac
                    const char *path, const char *text, double *values, int count);
 
 // Reads the table `f` from the file `name` (beside the file that names it), a RASP .eng file or a
-// CSV file by the ending of its name. Messages about what it holds point into it. False after a message.
+// CSV file by the ending of its name. Messages about what it holds point into it. False after a
+// message.
 bool table_file_read(scenario_reader *reader, const struct field_row *f, text_place place,
                      const char *path, const char *name, ld_table *table);
 // The name of a file beside the one that names it, in the pool.

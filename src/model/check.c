@@ -55,7 +55,7 @@ static void check_integer(model_checker *checker, const char *path, const field_
     if (f->offset == FIELD_NOWHERE)
         return;
     memcpy(&value, field_at_const(base, f), sizeof value);
-    snprintf(text, sizeof text, "%d is not from %g to %g", value, f->range.low, f->range.high);
+    snprintf(text, sizeof text, "%d is not from %g to %.9g", value, f->range.low, f->range.high);
     if (!field_in_range(f->range, value))
         refuse(checker, path, text);
 }
@@ -72,7 +72,8 @@ static void check_integers(model_checker *checker, const char *path, const field
     }
     for (int i = 0; i < count; i++) {
         int value = ((const int *)field_at_const(base, f))[i];
-        snprintf(text, sizeof text, "%d is not from %g to %g", value, f->range.low, f->range.high);
+        snprintf(text, sizeof text, "%d is not from %g to %.9g", value, f->range.low,
+                 f->range.high);
         if (!field_in_range(f->range, value))
             refuse(checker, path, text);
     }

@@ -247,7 +247,7 @@ void field_expectation(const field_row *field, char *text, size_t size)
         number_expectation(field, text, size);
         return;
     case FIELD_INTEGER:
-        snprintf(text, size, "a whole number from %g to %g", field->range.low, field->range.high);
+        snprintf(text, size, "a whole number from %g to %.9g", field->range.low, field->range.high);
         return;
     case FIELD_INTEGERS:
         snprintf(text, size, "a list of at most %d whole numbers from %g to %g", field->count,

@@ -1,35 +1,6 @@
 // Rules that tie several keys together. Conditions are written so that NaN, and a choice of -1,
 // break no rule, but for keys that only other keys make necessary.
-#include "model/field.h"
-
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
-
-typedef struct rule_set {
-    const ld_model *model;
-    rule_report *report;
-    void *self;
-} rule_set;
-
-// Reports a broken rule; `index` (from 1; 0: none) replaces the # in `path`.
-static void broken(const rule_set *rules, const char *path, int index, const char *format, ...)
-    LD_PRINTF(4, 5);
-static void broken(const rule_set *rules, const char *path, int index, const char *format, ...)
-{
-    char full_path[128], text[384];
-    const char *place = strchr(path, '#');
-    if (place)
-        snprintf(full_path, sizeof full_path, "%.*s%d%s", (int)(place - path), path, index,
-                 place + 1);
-    else
-        snprintf(full_path, sizeof full_path, "%s", path);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    rules->report(rules->self, full_path, text);
-}
+#include "model/rules.h"
 
 // A station must lie on the tube.
 static void station_rule(const rule_set *rules, const char *path, int index, double at)
@@ -104,6 +75,20 @@ static void derived_rules(const rule_set *rules)
     }
 }
 
+// Firing `i` needs a tube, and a rocket in it.
+static void firing_rule(const rule_set *rules, int i, int count)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    int tube = rules->model->firing[i].tube;
+    if (tube > count)
+        broken(rules, "firing.#.tube", i + 1, "%d; the layout has tubes 1 to %d", tube, count);
+    for (int k = 0; k < tubes->empty_count; k++)
+        if (tubes->empty[k] == tube) {
+            broken(rules, "firing.#.tube", i + 1, "%d has no rocket: tubes.empty lists it", tube);
+            return;
+        }
+}
+
 static void layout_rules(const rule_set *rules)
 {
     const ld_tubes *tubes = &rules->model->tubes;
@@ -113,10 +98,19 @@ static void layout_rules(const rule_set *rules)
         broken(rules, "tubes.layout.pitch", 0,
                "%g m: %d tubes with a bore of %g m in diameter would overlap", layout->pitch, count,
                2 * tubes->section[0].bore_radius);
+    if (count > LD_MAX_TUBES)
+        broken(rules, "tubes.layout", 0, "%d tubes; at most %d are allowed", count, LD_MAX_TUBES);
+    for (int i = 0; i < tubes->empty_count; i++) {
+        if (tubes->empty[i] > count)
+            broken(rules, "tubes.empty.#", i + 1, "%d; the layout has tubes 1 to %d",
+                   tubes->empty[i], count);
+        for (int k = 0; k < i; k++)
+            if (tubes->empty[i] == tubes->empty[k])
+                broken(rules, "tubes.empty.#", i + 1, "%d is entry %d already", tubes->empty[i],
+                       k + 1);
+    }
     for (int i = 0; i < rules->model->firing_count; i++)
-        if (rules->model->firing[i].tube > count)
-            broken(rules, "firing.#.tube", i + 1, "%d; the layout has tubes 1 to %d",
-                   rules->model->firing[i].tube, count);
+        firing_rule(rules, i, count);
 }
 
 static void modes_rules(const rule_set *rules)
@@ -135,8 +129,8 @@ static void modes_rules(const rule_set *rules)
 
 // Principal moments of a rigid body: none may exceed the sum of the two others, which is to say
 // that P = tr(J)/2 E - J (the second moments of mass) has no negative eigenvalue.
-static void inertia_rule(const rule_set *rules, const char *path, const double J[3],
-                         const double products[3])
+void inertia_rule(const rule_set *rules, const char *path, const double J[3],
+                  const double products[3])
 {
     double half = (J[0] + J[1] + J[2]) / 2, slack = 1e-12 * half;
     double p[3] = {half - J[0] + slack, half - J[1] + slack, half - J[2] + slack};
@@ -148,7 +142,7 @@ static void inertia_rule(const rule_set *rules, const char *path, const double J
                    "xyz"[i], J[i]);
             return;
         }
-    if (products[0] == 0 && products[1] == 0 && products[2] == 0)
+    if (!products || (products[0] == 0 && products[1] == 0 && products[2] == 0))
         return;
     // leading minors of P, whose off-diagonal elements are minus the products
     double xy = -products[0], xz = -products[1], yz = -products[2];
@@ -206,16 +200,14 @@ static void support_rules(const rule_set *rules)
 static void tail_rules(const rule_set *rules)
 {
     const ld_tail *tail = &rules->model->tubes.tail;
-    const double none[3] = {0};
     if (tail->mass == 0 && (tail->inertia[0] > 0 || tail->inertia[1] > 0 || tail->inertia[2] > 0))
         broken(rules, "tubes.tail.inertia", 0, "given for a tail without mass");
     else
-        inertia_rule(rules, "tubes.tail.inertia", tail->inertia, none);
+        inertia_rule(rules, "tubes.tail.inertia", tail->inertia, NULL);
 }
 
-// The first column of a table must rise; with `jumps`, a value may stand twice.
-static void rising_rule(const rule_set *rules, const char *path, const ld_table *table,
-                        const char *unit, bool jumps)
+void rising_rule(const rule_set *rules, const char *path, const ld_table *table, const char *unit,
+                 bool jumps)
 {
     for (size_t i = 1; i < table->rows; i++) {
         double before = table->data[(i - 1) * table->columns], x = table->data[i * table->columns];
@@ -341,6 +333,15 @@ static void thrust_rules(const rule_set *rules)
                impulse);
 }
 
+static void coupling_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    if (model->run.coupling_step > 0 && model->base.kind != LD_BASE_VEHICLE &&
+        (int)model->base.kind >= 0)
+        broken(rules, "run.coupling", 0,
+               "goes with base.kind: vehicle; another base has no subsystems to couple");
+}
+
 static void environment_rules(const rule_set *rules)
 {
     const ld_environment *environment = &rules->model->environment;
@@ -405,6 +406,7 @@ static void launch_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
     base_rules(rules);
+    vehicle_rules(rules);
     layout_rules(rules);
     section_rules(rules);
     derived_rules(rules);
@@ -432,4 +434,5 @@ void model_check_rules(const ld_model *model, rule_report *report, void *self)
     environment_rules(&all);
     aerodynamics_rules(&all);
     end_rules(&all);
+    coupling_rules(&all);
 }

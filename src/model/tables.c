@@ -238,7 +238,7 @@ static const field_word track_words[] = {
     {"both", LD_TRACK_BOTH}, {"left", LD_TRACK_LEFT}, {"right", LD_TRACK_RIGHT}, {NULL, 0}};
 static const field_word true_words[] = {{"true", 1}, {NULL, 0}};
 static const field_word road_forms[] = {
-    {"a flat road", LD_ROAD_FLAT}, {"a road that is not flat", LD_ROAD_SUM}, {NULL, 0}};
+    {"flat: true", LD_ROAD_FLAT}, {"class, sines, bumps or table", LD_ROAD_SUM}, {NULL, 0}};
 
 static const field_row coherence_columns[] = {
     {"n", .unit = "1/m", NOT_NEGATIVE},
@@ -405,7 +405,7 @@ static const field_block chassis_block = {.fields = chassis_fields};
 
 static const field_row command_columns[] = {
     {"t", .unit = "s", ANY},
-    {"angle", .unit = "rad", FROM_TO(-100 * PI, 100 * PI)},
+    {"angle", .unit = "rad", ANY},
 };
 static const table_format command_table = {TABLE_CONSTANT | TABLE_CSV, 2, command_columns, NULL};
 #define UNLESS_LOCKED NO_DEFAULT("needed unless the hinge has a lock")

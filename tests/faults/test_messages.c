@@ -11,7 +11,7 @@
 enum { MAX_TEXT = 8192, MAX_SETS = 8 };
 
 typedef struct fault_case {
-    char title[256];
+    char title[256], base[64];
     char find[MAX_TEXT], replace[MAX_TEXT], whole[MAX_TEXT], expected[MAX_TEXT];
     char set[MAX_SETS][256];
     int sets, wholes;
@@ -42,9 +42,12 @@ static char *take_case(fault_case *c, char *line)
 {
     memset(c, 0, sizeof *c);
     snprintf(c->title, sizeof c->title, "%s", line + 3);
+    snprintf(c->base, sizeof c->base, "base.yaml");
     bool finds = false, replaces = false;
     while ((line = strtok(NULL, "\n")) && strncmp(line, "## ", 3) != 0) {
-        if (line[0] == '-') {
+        if (line[0] == '<') {
+            snprintf(c->base, sizeof c->base, "%s", line + 2);
+        } else if (line[0] == '-') {
             add_line(c->find, line, finds ? "\n" : "");
             finds = true;
         } else if (line[0] == '+') {
@@ -63,21 +66,18 @@ static char *take_case(fault_case *c, char *line)
 }
 
 // The scenario of a case; the text to replace must stand in the base exactly once.
-static char *scenario_text(const fault_case *c, const char *base)
+static char *scenario_text(const fault_case *c)
 {
-    char *text = calloc(1, strlen(base) + 2 * MAX_TEXT);
+    char *base = read_file(c->base), *text = calloc(1, strlen(base) + 2 * MAX_TEXT);
     assert_non_null(text);
-    if (c->wholes > 0) {
-        strcpy(text, c->whole);
-        return text;
-    }
-    strcpy(text, base);
-    if (!c->find[0])
-        return text;
-    const char *place = strstr(base, c->find);
-    if (!place || strstr(place + 1, c->find))
+    const char *place = c->find[0] ? strstr(base, c->find) : base + strlen(base);
+    if (!place || (c->find[0] && strstr(place + 1, c->find)))
         fail_msg("%s: the text to replace is not there exactly once", c->title);
-    sprintf(text, "%.*s%s%s", (int)(place - base), base, c->replace, place + strlen(c->find));
+    if (c->wholes > 0)
+        strcpy(text, c->whole);
+    else
+        sprintf(text, "%.*s%s%s", (int)(place - base), base, c->replace, place + strlen(c->find));
+    free(base);
     return text;
 }
 
@@ -115,7 +115,7 @@ static void test_messages_are_exact(void **state)
     (void)state;
     assert_int_equal(chdir(LD_SOURCE_DIR "/tests/faults"), 0);
     static fault_case c;
-    char *base = read_file("base.yaml"), *cases = read_file("cases.txt");
+    char *cases = read_file("cases.txt");
     FILE *record = fopen(LD_BINARY_DIR "/faults-printed.txt", "w");
     assert_non_null(record);
     int count = 0, wrong = 0;
@@ -124,7 +124,7 @@ static void test_messages_are_exact(void **state)
         line = strtok(NULL, "\n");
     while (line) {
         line = take_case(&c, line);
-        char *text = scenario_text(&c, base), *printed = messages_of(&c, text);
+        char *text = scenario_text(&c), *printed = messages_of(&c, text);
         write_case(record, &c, printed);
         if (strcmp(printed, c.expected) != 0) {
             printf("%s: expected\n%sprinted\n%s", c.title, c.expected, printed);
@@ -135,29 +135,31 @@ static void test_messages_are_exact(void **state)
         free(printed);
     }
     fclose(record);
-    free(base);
     free(cases);
     CHECK_BELOW("broken scenarios with another message", wrong, 0);
     CHECK_WITHIN("broken scenarios", count, 150, 1000);
 }
 
-// The scenario that the cases change is good.
-static void test_base_is_good(void **state)
+// The scenarios that the cases change are good.
+static void test_bases_are_good(void **state)
 {
     (void)state;
-    ld_model model;
-    ld_messages messages;
-    ld_status status =
-        ld_scenario_read(LD_SOURCE_DIR "/tests/faults/base.yaml", NULL, 0, &model, &messages);
-    ld_messages_print(&messages, stdout);
-    assert_int_equal(status, LD_OK);
-    ld_model_free(&model);
+    const char *const bases[] = {LD_SOURCE_DIR "/tests/faults/base.yaml",
+                                 LD_SOURCE_DIR "/tests/faults/vehicle.yaml"};
+    for (int i = 0; i < 2; i++) {
+        ld_model model;
+        ld_messages messages;
+        ld_status status = ld_scenario_read(bases[i], NULL, 0, &model, &messages);
+        ld_messages_print(&messages, stdout);
+        assert_int_equal(status, LD_OK);
+        ld_model_free(&model);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_base_is_good),
+        cmocka_unit_test(test_bases_are_good),
         cmocka_unit_test(test_messages_are_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
