@@ -238,7 +238,7 @@ static const field_word track_words[] = {
     {"both", LD_TRACK_BOTH}, {"left", LD_TRACK_LEFT}, {"right", LD_TRACK_RIGHT}, {NULL, 0}};
 static const field_word true_words[] = {{"true", 1}, {NULL, 0}};
 static const field_word road_forms[] = {
-    {"flat: true", LD_ROAD_FLAT}, {"class, sines, bumps or table", LD_ROAD_SUM}, {NULL, 0}};
+    {"a flat road", LD_ROAD_FLAT}, {"a road with a profile", LD_ROAD_SUM}, {NULL, 0}};
 
 static const field_row coherence_columns[] = {
     {"n", .unit = "1/m", NOT_NEGATIVE},
@@ -275,8 +275,8 @@ static const table_format profile_table = {TABLE_CSV, 2, profile_columns, &track
 #define SUM .forms = FORM(LD_ROAD_SUM)
 static const double road_wavelengths[] = {0.3, 100};
 static const field_row road_fields[] = {
-    {"flat", .kind = FIELD_CHOICE, .offset = FIELD_NOWHERE, .words = true_words, .required = true,
-     .forms = FORM(LD_ROAD_FLAT), .doc = "height 0 everywhere"},
+    {"flat", .kind = FIELD_CHOICE, .offset = FIELD_NOWHERE, .words = true_words,
+     .initial_doc = "not flat", .forms = FORM(LD_ROAD_FLAT), .doc = "height 0 everywhere"},
     {"class", CHOICE(ld_road, iso_class, class_words), DEFAULT(LD_ROAD_SMOOTH), SUM,
      .doc = "random part: class of ISO 8608"},
     {"tracks", CHOICE(ld_road, tracks, tracks_words), DEFAULT(LD_TRACKS_SAME), SUM,

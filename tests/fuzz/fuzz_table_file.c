@@ -1,4 +1,5 @@
-// Any text, read as a RASP .eng file and as a motion in CSV, ends with messages or with a table.
+// Any text, read as a RASP .eng file and as a motion and a road in CSV, ends with messages or with
+// a table.
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,18 +37,20 @@ static void read_with(const char *set)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char names[2][64], set[160];
-    snprintf(names[0], sizeof names[0], "/tmp/launchdyn-fuzz-%ld.eng", (long)getpid());
-    snprintf(names[1], sizeof names[1], "/tmp/launchdyn-fuzz-%ld.csv", (long)getpid());
-    for (int i = 0; i < 2; i++) {
-        FILE *stream = fopen(names[i], "wb");
+    static const struct {
+        const char *set, *ending;
+    } tables[] = {{"rocket.motor.thrust=%s", "eng"},
+                  {"base={kind: prescribed, motion: {table: %s}}", "csv"},
+                  {"base={kind: vehicle, road: {table: %s}}", "csv"}};
+    char name[64], set[160];
+    for (int i = 0; i < 3; i++) {
+        snprintf(name, sizeof name, "/tmp/launchdyn-fuzz-%ld.%s", (long)getpid(), tables[i].ending);
+        FILE *stream = fopen(name, "wb");
         if (!stream || fwrite(data, 1, size, stream) != size || fclose(stream) != 0)
             abort();
-        snprintf(set, sizeof set,
-                 i == 0 ? "rocket.motor.thrust=%s" : "base={kind: prescribed, motion: {table: %s}}",
-                 names[i]);
+        snprintf(set, sizeof set, tables[i].set, name);
         read_with(set);
-        unlink(names[i]);
+        unlink(name);
     }
     return 0;
 }

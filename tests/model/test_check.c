@@ -5,19 +5,20 @@
 
 #include "launchdyn/scenario.h"
 
-static ld_model good_model(void)
+static ld_model good_model(const char *file)
 {
     ld_model model;
     ld_messages messages;
-    assert_int_equal(
-        ld_scenario_read(LD_SOURCE_DIR "/tests/faults/base.yaml", NULL, 0, &model, &messages),
-        LD_OK);
+    assert_int_equal(ld_scenario_read(file, NULL, 0, &model, &messages), LD_OK);
     return model;
 }
 
-#define REFUSED(change, text_)                                                                     \
+#define FIXED LD_SOURCE_DIR "/tests/faults/base.yaml"
+#define VEHICLE LD_SOURCE_DIR "/tests/faults/vehicle.yaml"
+#define REFUSED(change, text_) REFUSED_OF(FIXED, change, text_)
+#define REFUSED_OF(file, change, text_)                                                            \
     do {                                                                                           \
-        ld_model m = good_model();                                                                 \
+        ld_model m = good_model(file);                                                             \
         ld_error error;                                                                            \
         change;                                                                                    \
         assert_int_equal(ld_model_check(&m, &error), LD_ERR_INPUT);                                \
@@ -29,10 +30,13 @@ static ld_model good_model(void)
 static void test_good(void **state)
 {
     (void)state;
-    ld_model m = good_model();
-    ld_error error = {0};
-    assert_int_equal(ld_model_check(&m, &error), LD_OK);
-    ld_model_free(&m);
+    const char *const files[] = {FIXED, VEHICLE};
+    for (int i = 0; i < 2; i++) {
+        ld_model m = good_model(files[i]);
+        ld_error error = {0};
+        assert_int_equal(ld_model_check(&m, &error), LD_OK);
+        ld_model_free(&m);
+    }
 }
 
 static void test_values(void **state)
@@ -75,6 +79,52 @@ static void test_rules(void **state)
     REFUSED(m.run.stuck_time = NAN, "run.stuck_time: not computed; call ld_model_complete()");
 }
 
+static void test_vehicle(void **state)
+{
+    (void)state;
+    REFUSED_OF(VEHICLE, m.base.vehicle.speed = -1,
+               "base.speed: -1 m/s is not allowed; expected from 0 to 1000 m/s");
+    REFUSED_OF(VEHICLE, m.base.vehicle.wheel_count = 2, "base.wheels: 2 entries, not 3 to 32");
+    REFUSED_OF(VEHICLE, m.base.vehicle.wheel[1].mount[2] = NAN,
+               "base.wheels.2.mount: nan m is not allowed; expected from -1000 to 1000 m");
+    REFUSED_OF(VEHICLE, m.base.vehicle.road.iso_class = -2,
+               "base.road.class: no value of this choice");
+    REFUSED_OF(VEHICLE, m.base.vehicle.road.iso_class = 8,
+               "base.road.class: no value of this choice");
+    REFUSED_OF(VEHICLE, m.base.vehicle.road.form = (ld_road_form)2,
+               "base.road: no value of this choice");
+    REFUSED_OF(VEHICLE, m.base.vehicle.road.iso_class = LD_ROAD_SMOOTH,
+               "base.road: nothing gives it a height: give class, sines, bumps or table, or flat: "
+               "true");
+    REFUSED_OF(VEHICLE, m.base.vehicle.road.tracks = LD_TRACKS_COHERENT,
+               "base.road.coherence: missing; coherent tracks need the table of g over spatial "
+               "frequency");
+    REFUSED_OF(VEHICLE, m.base.vehicle.road.wavelengths[1] = 0.1,
+               "base.road.wavelengths: the shortest, 0.3 m, must be less than the longest, 0.1 m");
+    REFUSED_OF(VEHICLE, for (int i = 0; i < 4; i++) m.base.vehicle.wheel[i].driven = false,
+               "base.drive.wheels: no wheel is driven; nothing would hold 10 m/s");
+    REFUSED_OF(VEHICLE, m.platform.elevation.mass = NAN,
+               "platform.elevation.mass: nan kg is not allowed; expected > 0 kg");
+    REFUSED_OF(VEHICLE, m.platform.elevation.stabiliser.command.data[1] = 1.5,
+               "platform.elevation.stabiliser.command: 85.9437 deg; a pitch command must lie "
+               "between -80 and 80 deg");
+    REFUSED_OF(VEHICLE, m.platform.azimuth.stabiliser.command.columns = 3,
+               "platform.azimuth.stabiliser.command: has not the columns that it must have");
+    REFUSED_OF(VEHICLE, m.platform.azimuth.stabiliser.kd = NAN,
+               "platform.azimuth.stabiliser: missing: kd; only a hinge with a lock does without");
+    REFUSED_OF(VEHICLE, m.platform.azimuth.lock.present = true,
+               "platform.azimuth.lock.stiffness: nan N.m/rad is not allowed; expected > 0 N.m/rad");
+    REFUSED_OF(VEHICLE, m.tubes.empty_count = 513, "tubes.empty: 513 numbers, not 0 to 512");
+    REFUSED_OF(VEHICLE, (m.tubes.empty_count = 1, m.tubes.empty[0] = 0),
+               "tubes.empty: 0 is not from 1 to 10000");
+    REFUSED_OF(VEHICLE, (m.tubes.empty_count = 1, m.tubes.empty[0] = 1),
+               "firing.1.tube: 1 has no rocket: tubes.empty lists it");
+    REFUSED_OF(VEHICLE, m.run.coupling_step = 0.02,
+               "run.coupling.step: 0.02 s is not allowed; expected from 0 to 0.01 s");
+    REFUSED(m.run.coupling_step = 1e-4,
+            "run.coupling: goes with base.kind: vehicle; another base has no subsystems to couple");
+}
+
 // A fresh model lacks what has no default, and says so.
 static void test_defaults(void **state)
 {
@@ -97,9 +147,8 @@ static void test_defaults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good),
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_rules),
+        cmocka_unit_test(test_good),     cmocka_unit_test(test_values),
+        cmocka_unit_test(test_rules),    cmocka_unit_test(test_vehicle),
         cmocka_unit_test(test_defaults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
