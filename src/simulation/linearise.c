@@ -11,17 +11,6 @@ static const double TWO_PI = 6.283185307179586476925286766559;
 // Eigenvalues of a vehicle below this modulus [1/s] belong to its neutral directions.
 static const double LEAST_RATE = 1e-2;
 
-// Displacements: place and attitude of R (6), q, then of the rocket s, y_S, z_S, psi, theta, gamma
-// (without the rocket they are left out); with a vehicle place and attitude of the chassis (6), the
-// hinge angles, the wheels' places. Speeds in the same order: v, w, q_dot, V, ... Then what has a
-// rate alone: the stabilisers' integrals, eta and xi of each wheel, the drive's integral.
-// d/dt of all: the Jacobian J.
-typedef struct linear_system {
-    int tube, rocket, vehicle; // displacements of each
-    int half, count;           // displacements in all; unknowns in all
-    double *J;                 // count x count, by columns
-} linear_system;
-
 static void displace_vehicle(const launcher_system *launcher, int unknown, double change, double *y)
 {
     double *base = y + launcher->orientating_at;
@@ -406,9 +395,9 @@ static ld_status linearise_at_rest(ld_simulation *self, linear_system *system, l
     return status ? status : linearise(self, false, t, &phase, y, system, error);
 }
 
-// As linearise_at_rest, a vehicle on a flat road in place of the model's.
-static ld_status linearise_on_flat_road(ld_simulation *self, linear_system *system, ld_error *error)
+ld_status simulation_linearise(ld_simulation *self, linear_system *system, ld_error *error)
 {
+    *system = (linear_system){0};
     static const ld_road level = {.iso_class = LD_ROAD_SMOOTH};
     road *of_model = self->launcher.marching.road, *flat = NULL;
     ld_status status = self->launcher.vehicle ? road_build(&level, 0, 0, &flat, error) : LD_OK;
@@ -428,7 +417,7 @@ ld_status ld_simulation_system_modes(ld_simulation *self, ld_mode *modes, int ca
     linear_system system = {0};
     bool vehicle = self->launcher.vehicle;
     *count = *pole_count = 0;
-    ld_status status = linearise_on_flat_road(self, &system, error);
+    ld_status status = simulation_linearise(self, &system, error);
     if (!status)
         status = eigenvalues(self, &system, vehicle ? LEAST_RATE : 1, poles, pole_capacity,
                              pole_count, error);
@@ -463,7 +452,7 @@ ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_e
     // without an equilibrium on a flat road there is nothing to say
     ld_error unused;
     ld_status status = LD_OK;
-    if (!linearise_on_flat_road(self, &system, &unused))
+    if (!simulation_linearise(self, &system, &unused))
         eigenvalues(self, &system, LEAST_RATE, poles, MOST, &count, &unused);
     for (int i = 0; i < count && !status; i++) {
         int hinge = unstable_hinge(poles[i].shape);

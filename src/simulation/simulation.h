@@ -69,6 +69,21 @@ ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_e
 // Phase before ignition: rocket in the tube, lock closed, no adaptor beyond the tip.
 launching_phase simulation_start_phase(const ld_simulation *self);
 
+// The equations linearised. Displacements: place and attitude of R (6), q, then of the rocket s,
+// y_S, z_S, psi, theta, gamma (without the rocket they are left out); with a vehicle place and
+// attitude of the chassis (6, the rotation in its own axes), the hinge angles, the wheels' places.
+// Speeds in the same order: v, w, q_dot, V, ... Then what has a rate alone: the stabilisers'
+// integrals, eta and xi of each wheel, the drive's integral. d/dt of all: the Jacobian J.
+typedef struct linear_system {
+    int tube, rocket, vehicle; // displacements of each
+    int half, count;           // displacements in all; unknowns in all
+    double *J;                 // count x count, by columns; to be freed
+} linear_system;
+
+// Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching
+// speed; lock closed, no Coulomb friction.
+ld_status simulation_linearise(ld_simulation *self, linear_system *system, ld_error *error);
+
 // History: column names once, then a row of values.
 void history_build(ld_simulation *self);
 void history_row(const ld_simulation *self, double t, const double *y, double energy_start,
