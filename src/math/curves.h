@@ -1,0 +1,31 @@
+// Several functions of one variable, tabulated at the same points: piecewise polynomials of degree
+// 3 (pchip, spline) or 1 (linear).
+#ifndef LD_MATH_CURVES_H
+#define LD_MATH_CURVES_H
+
+#include <stddef.h>
+
+#include "launchdyn/model.h"
+
+typedef struct curves {
+    size_t points;
+    int count;           // functions
+    double *x;           // [points] increasing, owned
+    double *coefficient; // [points - 1][4][count] of (x - x_i)^k, owned
+} curves;
+
+// Columns 1 .. of `table` over its column 0, which must increase; at least one row (with one row
+// the functions are constant).
+ld_status curves_build(curves *self, const ld_table *table, ld_interpolation kind, ld_error *error);
+void curves_free(curves *self);
+
+// The interval that x lies in, the first or last one outside; `hint` is tried first.
+size_t curves_interval(const curves *self, double x, size_t hint);
+
+// Values at x [count] by the polynomials of that interval; outside the table they go on.
+void curves_values(const curves *self, size_t interval, double x, double *values);
+
+// The same, but constant outside the table.
+void curves_held(const curves *self, double x, double *values);
+
+#endif
