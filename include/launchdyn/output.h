@@ -56,13 +56,22 @@ typedef struct ld_figure {
 /// The standard figures, by index from 0; NULL after the last.
 const ld_figure *ld_figure_at(size_t index);
 
-/// Draws figures of the run in `folder`, one below the other, with gnuplot, which must be in PATH.
-/// @param names `count` names of figures
-/// @param file  the picture; its ending says what it becomes: .svg, .pdf or .png
-/// @return LD_OK, LD_ERR_INPUT (unknown figure or ending, no history in the folder), LD_ERR_FILE,
+/// A page of figures, one below the other.
+typedef struct ld_picture {
+    const char *const *folder; ///< results of `folder_count` runs, at most 8; several are laid one
+                               ///< over the other, named by their titles or else their folders
+    size_t folder_count;
+    const char *const *figure; ///< `figure_count` names of figures; "all": all that there are
+                               ///< columns for
+    size_t figure_count;
+    double from, to; ///< [s] from ignition; NaN: what the figure shows by itself
+} ld_picture;
+
+/// Draws a page with gnuplot, which must be in PATH.
+/// @param file the picture; its ending says what it becomes: .svg, .pdf or .png
+/// @return LD_OK, LD_ERR_INPUT (unknown figure or ending, no history in a folder), LD_ERR_FILE,
 ///         LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)
-ld_status ld_plot(const char *folder, const char *const *names, size_t count, const char *file,
-                  ld_error *error);
+ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error);
 
 #ifdef __cplusplus
 }

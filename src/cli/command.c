@@ -50,7 +50,7 @@ static void print_help(const command *self, poptContext context)
 }
 
 bool command_line_read(command_line *line, const command *self, int argc, const char **argv,
-                       const struct poptOption *options, size_t count, int *code)
+                       const struct poptOption *options, int count, int *code)
 {
     line->context = poptGetContext("launchdyn", argc, argv, options, POPT_CONTEXT_NO_EXEC);
     poptSetOtherOptionHelp(line->context, self->arguments);
@@ -64,7 +64,7 @@ bool command_line_read(command_line *line, const command *self, int argc, const 
         *code = 0;
     } else if (found < -1) {
         complain_option(line->context, options, found);
-    } else if (line->count != count) {
+    } else if (count == COMMAND_WORDS ? line->count == 0 : line->count != (size_t)count) {
         command_complain("%s wants %s; see launchdyn %s --help", self->name, self->arguments,
                          self->name);
     } else {

@@ -50,10 +50,12 @@ typedef struct command_line {
     size_t count;
 } command_line;
 
+enum { COMMAND_WORDS = -1 }; // one word or more
+
 // Reads the options and `count` words; argv[0] is "launchdyn NAME". Returns true to go on, then
 // command_line_end() is due; false to end with *code.
 bool command_line_read(command_line *line, const command *self, int argc, const char **argv,
-                       const struct poptOption *options, size_t count, int *code);
+                       const struct poptOption *options, int count, int *code);
 void command_line_end(command_line *line);
 
 // Prints "launchdyn: text" on stderr.

@@ -13,7 +13,8 @@ static const command commands[] = {
     {"check", "FILE", "Check a scenario file and print what was understood, in SI", NULL,
      command_check},
     {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes},
-    {"plot", "DIR", "Draw figures of a run with gnuplot", command_plot_help, command_plot},
+    {"plot", "DIR...", "Draw figures of one run, or of several laid one over the other",
+     command_plot_help, command_plot},
     {"version", "", "Print the version", NULL, command_version},
     {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help},
 };

@@ -1,4 +1,5 @@
-// launchdyn plot: figures of a run.
+// launchdyn plot: figures of one run, or of several laid one over the other.
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +14,8 @@ void command_plot_help(void)
     puts("\nFigures for --what, one below the other on one page:");
     const ld_figure *figure;
     for (size_t i = 0; (figure = ld_figure_at(i)) != NULL; i++)
-        printf("  %-10s %s\n", figure->name, figure->description);
-    puts("  all        every one of them");
+        printf("  %-13s %s\n", figure->name, figure->description);
+    puts("  all           all that there are columns for");
 }
 
 // Parts the list at its commas, in place.
@@ -26,40 +27,42 @@ static size_t split(char *list, const char *names[MOST])
     return count;
 }
 
-static size_t all_figures(const char *names[MOST])
-{
-    size_t count = 0;
-    for (const ld_figure *figure; (figure = ld_figure_at(count)) != NULL; count++)
-        names[count] = figure->name;
-    return count;
-}
-
-static int draw(const char *folder, char *what, const char *file)
+static int draw(const command_line *line, char *what, double from, double to, const char *file)
 {
     const char *names[MOST];
-    size_t count = strcmp(what, "all") == 0 ? all_figures(names) : split(what, names);
+    ld_picture picture = {.folder = line->word,
+                          .folder_count = line->count,
+                          .figure = names,
+                          .figure_count = split(what, names),
+                          .from = from * 1e-3,
+                          .to = to * 1e-3};
     ld_error error;
-    ld_status status = ld_plot(folder, names, count, file, &error);
+    ld_status status = ld_plot(&picture, file, &error);
     return status ? command_fail(status, &error) : 0;
 }
 
 int command_plot(const command *self, int argc, const char **argv)
 {
     char *what = NULL, *file = NULL, usual[] = "tip,contact,relative";
-    const struct poptOption options[] = {{"what", 'w', POPT_ARG_STRING, &what, 0,
-                                          "Figures to draw (tip,contact,relative)", "NAME,..."},
-                                         {"output", 'o', POPT_ARG_STRING, &file, 0,
-                                          "The picture: FILE.svg, FILE.pdf or FILE.png", "FILE"},
-                                         COMMAND_HELP,
-                                         COMMAND_END};
+    double from = NAN, to = NAN;
+    const struct poptOption options[] = {
+        {"what", 'w', POPT_ARG_STRING, &what, 0, "Figures to draw (tip,contact,relative)",
+         "NAME,..."},
+        {"output", 'o', POPT_ARG_STRING, &file, 0, "The picture: FILE.svg, FILE.pdf or FILE.png",
+         "FILE"},
+        {"from", '\0', POPT_ARG_DOUBLE, &from, 0, "Draw from this time after ignition [ms] on",
+         "MS"},
+        {"to", '\0', POPT_ARG_DOUBLE, &to, 0, "Draw up to this time after ignition [ms]", "MS"},
+        COMMAND_HELP,
+        COMMAND_END};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, 1, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
         if (!file) {
             command_complain("plot wants -o FILE.svg, FILE.pdf or FILE.png");
             code = EXIT_INPUT;
         } else {
-            code = draw(line.word[0], what ? what : usual, file);
+            code = draw(&line, what ? what : usual, from, to, file);
         }
         command_line_end(&line);
     }

@@ -1,4 +1,4 @@
-// Drawing figures: from a folder of results through gnuplot to a picture.
+// Drawing figures: from folders of results through gnuplot to a picture.
 #include "io/plot.h"
 
 #include <errno.h>
@@ -17,7 +17,7 @@ extern char **environ;
 static ld_status unknown_figure(const char *name, ld_error *error)
 {
     const char *names[MOST_FIGURES];
-    char list[256] = "";
+    char list[512] = "";
     size_t count = 0;
     for (const ld_figure *figure; (figure = ld_figure_at(count)) != NULL; count++) {
         names[count] = figure->name;
@@ -87,15 +87,14 @@ static ld_status run_gnuplot(FILE *script, FILE *printed, ld_error *error)
 }
 
 // Draws into the file `part`.
-static ld_status draw(const history_data *history, const plot_figure *const *figures, size_t count,
-                      plot_format format, const char *part, ld_error *error)
+static ld_status draw(const plot_page *page, plot_format format, const char *part, ld_error *error)
 {
     FILE *script = tmpfile(), *printed = tmpfile();
     ld_status status = LD_OK;
     if (!script || !printed)
         status = ld_fail(error, LD_ERR_FILE, "cannot make a temporary file: %s", strerror(errno));
     if (!status)
-        status = plot_write_script(script, history, figures, count, format, part, error);
+        status = plot_write_script(script, page, format, part, error);
     if (!status && (fflush(script) != 0 || ferror(script) || lseek(fileno(script), 0, SEEK_SET)))
         status = ld_fail(error, LD_ERR_FILE, "cannot write a temporary file: %s", strerror(errno));
     if (!status)
@@ -108,8 +107,8 @@ static ld_status draw(const history_data *history, const plot_figure *const *fig
 }
 
 // Draws under a temporary name beside the picture, then gives it its own.
-static ld_status draw_in_place(const history_data *history, const plot_figure *const *figures,
-                               size_t count, plot_format format, const char *file, ld_error *error)
+static ld_status draw_in_place(const plot_page *page, plot_format format, const char *file,
+                               ld_error *error)
 {
     char part[4096];
     if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
@@ -118,13 +117,15 @@ static ld_status draw_in_place(const history_data *history, const plot_figure *c
     if (probe < 0)
         return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
     close(probe);
-    ld_status status = draw(history, figures, count, format, part, error);
+    ld_status status = draw(page, format, part, error);
     if (!status && rename(part, file) != 0)
         status = ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
     if (status)
         unlink(part);
     return status;
 }
+
+// ---- the page ----
 
 static ld_status read_folder(const char *folder, history_data *history, ld_error *error)
 {
@@ -135,24 +136,101 @@ static ld_status read_folder(const char *folder, history_data *history, ld_error
     return history_read(path, history, error);
 }
 
-ld_status ld_plot(const char *folder, const char *const *names, size_t count, const char *file,
-                  ld_error *error)
+// Runs are known by their titles where these differ, else by their folders.
+static void name_runs(const ld_picture *picture, const history_data *run, const char **name)
 {
-    const plot_figure *figures[MOST_FIGURES];
-    plot_format format = PLOT_SVG;
-    if (count == 0 || count > MOST_FIGURES)
-        return ld_fail(error, LD_ERR_INPUT, "name 1 to %d figures", MOST_FIGURES);
-    for (size_t i = 0; i < count; i++)
-        if (!(figures[i] = plot_figure_find(names[i])))
-            return unknown_figure(names[i], error);
-    ld_status status = find_format(file, &format, error);
+    bool differ = true;
+    for (size_t i = 0; i < picture->folder_count; i++) {
+        name[i] = run[i].title;
+        differ = differ && name[i];
+        for (size_t j = 0; differ && j < i; j++)
+            differ = strcmp(name[i], name[j]) != 0;
+    }
+    if (!differ)
+        memcpy(name, picture->folder, picture->folder_count * sizeof *name);
+}
+
+static ld_status add_figure(const plot_figure **figure, size_t *count, const plot_figure *added,
+                            ld_error *error)
+{
+    if (*count == MOST_FIGURES)
+        return ld_fail(error, LD_ERR_INPUT, "at most %d figures fit on a page", MOST_FIGURES);
+    figure[(*count)++] = added;
+    return LD_OK;
+}
+
+// All figures for which some run has a column.
+static ld_status add_all(const plot_figure **figure, size_t *count, const history_data *run,
+                         size_t runs, ld_error *error)
+{
+    ld_status status = LD_OK;
+    const ld_figure *about;
+    for (size_t i = 0; !status && (about = ld_figure_at(i)) != NULL; i++) {
+        const plot_figure *found = plot_figure_find(about->name);
+        bool has = false;
+        for (size_t j = 0; j < runs; j++)
+            has = has || plot_figure_has_columns(found, &run[j]);
+        if (has)
+            status = add_figure(figure, count, found, error);
+    }
+    return status;
+}
+
+static ld_status draw_runs(const ld_picture *picture, const history_data *run, plot_format format,
+                           const char *file, ld_error *error)
+{
+    const plot_figure *figure[MOST_FIGURES];
+    const char *name[PLOT_RUNS];
+    size_t count = 0;
+    ld_status status = LD_OK;
+    for (size_t i = 0; i < picture->figure_count && !status; i++)
+        if (strcmp(picture->figure[i], "all") == 0)
+            status = add_all(figure, &count, run, picture->folder_count, error);
+        else
+            status = add_figure(figure, &count, plot_figure_find(picture->figure[i]), error);
     if (status)
         return status;
-    history_data history;
-    status = read_folder(folder, &history, error);
-    if (!status) {
-        status = draw_in_place(&history, figures, count, format, file, error);
-        history_free(&history);
+    name_runs(picture, run, name);
+    plot_page page = {.run = run,
+                      .name = name,
+                      .runs = picture->folder_count,
+                      .figure = figure,
+                      .figures = count,
+                      .from = picture->from,
+                      .to = picture->to};
+    return draw_in_place(&page, format, file, error);
+}
+
+static ld_status check_picture(const ld_picture *picture, ld_error *error)
+{
+    if (picture->folder_count == 0 || picture->folder_count > PLOT_RUNS)
+        return ld_fail(error, LD_ERR_INPUT, "name 1 to %d folders with results", PLOT_RUNS);
+    if (picture->figure_count == 0)
+        return ld_fail(error, LD_ERR_INPUT, "name the figures to draw");
+    for (size_t i = 0; i < picture->figure_count; i++)
+        if (strcmp(picture->figure[i], "all") != 0 && !plot_figure_find(picture->figure[i]))
+            return unknown_figure(picture->figure[i], error);
+    if (picture->from >= picture->to)
+        return ld_fail(error, LD_ERR_INPUT, "there is nothing to draw from %g ms to %g ms",
+                       picture->from * 1e3, picture->to * 1e3);
+    return LD_OK;
+}
+
+ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
+{
+    plot_format format = PLOT_SVG;
+    ld_status status = check_picture(picture, error);
+    if (!status)
+        status = find_format(file, &format, error);
+    history_data run[PLOT_RUNS];
+    size_t read = 0;
+    while (!status && read < picture->folder_count) {
+        status = read_folder(picture->folder[read], &run[read], error);
+        read += !status;
     }
+    if (!status)
+        status = draw_runs(picture, run, format, file, error);
+    while (read > 0)
+        history_free(&run[--read]);
     return status;
 }

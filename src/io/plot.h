@@ -10,7 +10,7 @@
 #include "launchdyn/output.h"
 #include "launchdyn/status.h"
 
-enum { PLOT_PANELS = 4, PLOT_CURVES = 8 };
+enum { PLOT_PANELS = 6, PLOT_CURVES = 8, PLOT_RUNS = 8 };
 
 // A column of the history and its name in the legend. A '*' in the column stands for any text: a
 // curve for each that matches, named by that text.
@@ -27,13 +27,16 @@ typedef struct plot_panel {
     const char *x_column;          // NULL: time from ignition
     const char *x_label;
     double x_factor;
-    bool wide; // takes a row of its own
+    bool wide;  // takes a row of its own
+    bool since; // values less those at ignition
+    bool each;  // a diagram for each text that the '*' stands for, which takes the title's %s
 } plot_panel;
 
 // A standard figure: panels in rows of two under a heading.
 typedef struct plot_figure {
     ld_figure about;
     plot_panel panel[PLOT_PANELS]; // up to the first without a title
+    bool vehicle;                  // over the lead-in too, in seconds
 } plot_figure;
 
 // The figure with this name, or NULL.
@@ -41,9 +44,21 @@ const plot_figure *plot_figure_find(const char *name);
 
 typedef enum plot_format { PLOT_SVG, PLOT_PDF, PLOT_PNG } plot_format;
 
-// Writes the commands with which gnuplot draws the figures into `output`.
-ld_status plot_write_script(FILE *script, const history_data *history,
-                            const plot_figure *const *figures, size_t count, plot_format format,
+// What stands on a page.
+typedef struct plot_page {
+    const history_data *run; // [runs], laid one over the other
+    const char *const *name; // [runs], in the legend of several
+    size_t runs;
+    const plot_figure *const *figure; // [figures]
+    size_t figures;
+    double from, to; // [s] from ignition, NaN: what the figure shows by itself
+} plot_page;
+
+// Whether a run has a column that the figure shows.
+bool plot_figure_has_columns(const plot_figure *figure, const history_data *run);
+
+// Writes the commands with which gnuplot draws the page into `output`.
+ld_status plot_write_script(FILE *script, const plot_page *page, plot_format format,
                             const char *output, ld_error *error);
 
 #endif

@@ -149,6 +149,13 @@ static void add_frames(ld_simulation *self)
     add(self, "m/s", "tip.vz", "rate of tip.z");
     add(self, "rad/s", "tip.pitch_rate", "rate of tip.pitch");
     add(self, "rad/s", "tip.yaw_rate", "rate of tip.yaw");
+    add(self, "m", "tip.inertial_x", "tip in I");
+    add(self, "m", "tip.inertial_y", "tip in I");
+    add(self, "m", "tip.inertial_z", "tip in I");
+    add(self, "rad", "tip.inertial_pitch", "tip's axis in I: pitch");
+    add(self, "rad", "tip.inertial_yaw", "tip's axis in I: yaw, positive to the left");
+    add(self, "rad/s", "tip.inertial_pitch_rate", "rate of tip.inertial_pitch");
+    add(self, "rad/s", "tip.inertial_yaw_rate", "rate of tip.inertial_yaw");
 }
 
 static void add_hinge(ld_simulation *self, const char *part)
@@ -307,6 +314,26 @@ static double *put_pose_angles(double *to, const m3 *A)
     return to;
 }
 
+static double *put_tip(const ld_simulation *self, const base_frame *base, const double *y,
+                       double *to)
+{
+    tip_state tip = tip_state_of(self, base, y);
+    to = put(to,
+             (double[]){tip.offset.y, tip.offset.z, tip.angles.pitch, tip.angles.yaw,
+                        tip.offset_dot.y, tip.offset_dot.z, tip.angles.pitch_rate,
+                        tip.angles.yaw_rate},
+             8);
+    const launching_system *launching = &self->launcher.launching;
+    launching_section section;
+    launching_section_at(launching, y, launching->tube.length, &section);
+    m3 A_IR = q_matrix(q_from(y + launching->layout.quaternion));
+    v3 axis = m3_column(section.A, 0);
+    direction_angles angles =
+        direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(section.w, axis)));
+    to = put_v3(to, v3_add(v3_from(y + launching->layout.r), m3_apply(A_IR, section.P)));
+    return put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
+}
+
 static double *put_vehicle(const ld_simulation *self, const launcher_input *input, const double *y,
                            const launcher_output *out, double *to)
 {
@@ -382,12 +409,7 @@ void history_row(const ld_simulation *self, double t, const double *y, double en
     }
     to = put(to, y + at->r, 13);
     to = put(to, y + at->q, 2 * at->nq);
-    tip_state tip = tip_state_of(self, base, y);
-    to = put(to,
-             (double[]){tip.offset.y, tip.offset.z, tip.angles.pitch, tip.angles.yaw,
-                        tip.offset_dot.y, tip.offset_dot.z, tip.angles.pitch_rate,
-                        tip.angles.yaw_rate},
-             8);
+    to = put_tip(self, base, y, to);
     if (self->phase.rocket)
         to = put_rocket(self, &input.launching, y, &out.launching, to);
     else

@@ -50,21 +50,47 @@ static int run(const char *format, const char *path)
     return system(command);
 }
 
-// The script of one figure of the made-up run, to be freed.
-static char *script_of(const char *name)
+// The script of one figure of the made-up run, `runs` times over, from `from` [s] on, to be freed.
+static char *script_of_runs(const char *name, size_t runs, double from)
 {
-    history_data history;
-    assert_int_equal(history_read(in("run/history.h5"), &history, NULL), LD_OK);
+    history_data history[2];
+    for (size_t i = 0; i < runs; i++)
+        assert_int_equal(history_read(in("run/history.h5"), &history[i], NULL), LD_OK);
     const plot_figure *figure = plot_figure_find(name);
     assert_non_null(figure);
+    const char *names[] = {"the one", "the other's"};
+    plot_page page = {.run = history,
+                      .name = names,
+                      .runs = runs,
+                      .figure = &figure,
+                      .figures = 1,
+                      .from = from,
+                      .to = NAN};
     char *text = NULL;
     size_t length = 0;
     FILE *script = open_memstream(&text, &length);
-    assert_int_equal(plot_write_script(script, &history, &figure, 1, PLOT_SVG, "it's", NULL),
-                     LD_OK);
+    assert_int_equal(plot_write_script(script, &page, PLOT_SVG, "it's", NULL), LD_OK);
     fclose(script);
-    history_free(&history);
+    for (size_t i = 0; i < runs; i++)
+        history_free(&history[i]);
     return text;
+}
+
+static char *script_of(const char *name)
+{
+    return script_of_runs(name, 1, NAN);
+}
+
+// Draws one figure of a run.
+static ld_status plot(const char *run_folder, const char *figure, const char *file, ld_error *error)
+{
+    return ld_plot(&(ld_picture){.folder = &run_folder,
+                                 .folder_count = 1,
+                                 .figure = &figure,
+                                 .figure_count = 1,
+                                 .from = NAN,
+                                 .to = NAN},
+                   file, error);
 }
 
 // Largest distance, over the rows of a made column, of the thinned curve from the full one, as a
@@ -119,6 +145,13 @@ static void test_curves_are_the_history(void **state)
     free(script);
 }
 
+static void expect_in(const char *script, const char *const *expected, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!strstr(script, expected[i]))
+            fail_msg("not in the script: %s", expected[i]);
+}
+
 static void test_instants_titles_and_names(void **state)
 {
     (void)state;
@@ -137,26 +170,72 @@ static void test_instants_titles_and_names(void **state)
         "set label '[kN]' at screen",
         "set label 'time from ignition [ms]' at screen",
     };
-    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
-        if (!strstr(script, expected[i]))
-            fail_msg("not in the script: %s", expected[i]);
+    expect_in(script, expected, sizeof expected / sizeof *expected);
     free(script);
+}
+
+// Colours tell the runs, dashes the columns; the legend names both.
+static void test_several_runs(void **state)
+{
+    (void)state;
+    char *script = script_of_runs("tip", 2, NAN);
+    static const char *const expected[] = {
+        "set label 'the one' at screen",
+        "set label 'the other''s' at screen",
+        "$p0c0 using 1:2 with lines ls 1 dt solid notitle",
+        "$p0c1 using 1:2 with lines ls 2 dt solid notitle",
+        "$p0c2 using 1:2 with lines ls 1 dt (8,4) notitle",
+        "$p0c3 using 1:2 with lines ls 2 dt (8,4) notitle",
+        "keyentry with lines lw 1.5 lc rgb '#404040' dt solid title 'y'",
+        "keyentry with lines lw 1.5 lc rgb '#404040' dt (8,4) title 'z'",
+    };
+    expect_in(script, expected, sizeof expected / sizeof *expected);
+    assert_null(strstr(script, "Made-up launch"));
+    free(script);
+}
+
+// A diagram for each adaptor, and no more.
+static void test_each_of_a_kind(void **state)
+{
+    (void)state;
+    char *script = script_of("contact-force");
+    static const char *const expected[] = {"set label 'Adaptor rear' at",
+                                           "set label 'Adaptor middle' at",
+                                           "set label 'Adaptor front' at", "$p2c0 << EOD\n"};
+    expect_in(script, expected, sizeof expected / sizeof *expected);
+    assert_null(strstr(script, "$p3c0"));
+    free(script);
+}
+
+// The first time [ms] of a curve that is drawn.
+static double first_time(const char *script)
+{
+    double x = NAN;
+    const char *block = "$p0c0 << EOD\n";
+    assert_int_equal(sscanf(strstr(script, block) + strlen(block), "%lf", &x), 1);
+    return x;
+}
+
+static void test_window_of_time(void **state)
+{
+    (void)state;
+    char *whole = script_of("tip"), *part = script_of_runs("tip", 1, 0.08);
+    CHECK_WITHIN("first time drawn of all [ms]", first_time(whole), 0, 0);
+    CHECK_WITHIN("first time drawn from 80 ms on [ms]", first_time(part), 80, 80.1);
+    free(whole);
+    free(part);
 }
 
 static void test_every_figure_in_every_format(void **state)
 {
     (void)state;
-    const char *names[32];
-    size_t count = 0;
     ld_error error = {0};
-    for (const ld_figure *figure; (figure = ld_figure_at(count)) != NULL; count++)
-        names[count] = figure->name;
     static const struct {
         const char *file, *magic;
     } formats[] = {{"all.svg", "<?xml"}, {"all.pdf", "%PDF-"}, {"all.PNG", "\x89PNG\r"}};
     for (size_t i = 0; i < 3; i++) {
         char start[6] = "";
-        if (ld_plot(in("run"), names, count, in(formats[i].file), &error))
+        if (plot(in("run"), "all", in(formats[i].file), &error))
             fail_msg("%s", error.text);
         FILE *file = fopen(in(formats[i].file), "r");
         assert_non_null(fgets(start, sizeof start, file));
@@ -171,7 +250,7 @@ static void test_every_figure_in_every_format(void **state)
 static void test_nothing_to_show(void **state)
 {
     (void)state;
-    const char *figures[] = {"contact", "phase"};
+    const char *figures[] = {"contact", "phase", "chassis"};
     const ld_column t = {"t", "s", "time"};
     ld_error error = {0};
     for (int rows = 0; rows < 2; rows++) {
@@ -182,8 +261,9 @@ static void test_nothing_to_show(void **state)
         for (int i = 0; i < rows; i++)
             assert_int_equal(history_hdf5_row(history, &(double){0}, NULL), LD_OK);
         assert_int_equal(history_hdf5_close(history, NULL, NULL), LD_OK);
-        if (ld_plot(in("few"), figures, 2, in("few.svg"), &error))
-            fail_msg("%s", error.text);
+        for (int i = 0; i < 3; i++)
+            if (plot(in("few"), figures[i], in("few.svg"), &error))
+                fail_msg("%s", error.text);
     }
 }
 
@@ -191,7 +271,7 @@ static void expect(const char *where, const char *figure, const char *file, ld_s
                    const char *text)
 {
     ld_error error = {0};
-    assert_int_equal(ld_plot(where, &figure, 1, file, &error), status);
+    assert_int_equal(plot(where, figure, file, &error), status);
     if (!strstr(error.text, text))
         fail_msg("\"%s\" does not say \"%s\"", error.text, text);
     printf("    %s\n", error.text);
@@ -200,13 +280,23 @@ static void expect(const char *where, const char *figure, const char *file, ld_s
 static void test_what_can_be_wrong(void **state)
 {
     (void)state;
-    expect(in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
-           "there is no figure \"tipp\" (did you mean tip?); there are tip, tip-rate, travel, "
-           "relative, phase, attitude, contact, slot, energy");
+    expect(
+        in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
+        "there is no figure \"tipp\" (did you mean tip?); there are tip, tip-rate, tip-inertial, "
+        "travel, relative, phase, across, relative-rate, attitude, contact, contact-force, slot, "
+        "energy, wheels, tyres, chassis, platform");
     expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT, "no figure \"spaghetti\"; there are");
     expect(in("run"), "tip", in("x.jpg"), LD_ERR_INPUT, "ends in .svg, .pdf or .png");
     expect(in("run"), "tip", in("none/x.svg"), LD_ERR_FILE, "No such file or directory");
     expect(in("none"), "tip", in("x.svg"), LD_ERR_INPUT, "there is no history.h5");
+    const char *figure = "tip", *run_folder = in("run");
+    ld_picture picture = {&run_folder, 1, &figure, 1, .from = 0.1, .to = 0.05};
+    ld_error error = {0};
+    assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "there is nothing to draw from 100 ms to 50 ms");
+    picture.folder_count = 9;
+    assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "name 1 to 8 folders with results");
     assert_int_not_equal(access(in("x.svg"), F_OK), 0);
 }
 
@@ -215,8 +305,7 @@ static void test_without_gnuplot(void **state)
 {
     (void)state;
     char *path = strdup(getenv("PATH"));
-    const char *tip = "tip";
-    assert_int_equal(ld_plot(in("run"), &tip, 1, in("x.svg"), NULL), LD_OK);
+    assert_int_equal(plot(in("run"), "tip", in("x.svg"), NULL), LD_OK);
     assert_int_equal(run("cd %s && cp x.svg before", folder), 0);
     setenv("PATH", folder, 1);
     expect(in("run"), "tip", in("x.svg"), LD_ERR_MISSING,
@@ -237,11 +326,10 @@ static void test_without_gnuplot(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_curves_are_the_history),
-        TEST(test_instants_titles_and_names),
-        TEST(test_every_figure_in_every_format),
-        TEST(test_nothing_to_show),
-        TEST(test_what_can_be_wrong),
+        TEST(test_curves_are_the_history), TEST(test_instants_titles_and_names),
+        TEST(test_several_runs),           TEST(test_each_of_a_kind),
+        TEST(test_window_of_time),         TEST(test_every_figure_in_every_format),
+        TEST(test_nothing_to_show),        TEST(test_what_can_be_wrong),
         TEST(test_without_gnuplot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
