@@ -15,6 +15,7 @@ static const command commands[] = {
     {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes},
     {"plot", "DIR...", "Draw figures of one run, or of several laid one over the other",
      command_plot_help, command_plot},
+    {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road},
     {"version", "", "Print the version", NULL, command_version},
     {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help},
 };

@@ -3,9 +3,9 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/folder.h"
 #include "io/history.h"
 
 // Files of a results folder, in the order in which they get their names: summary.json comes last,
@@ -40,42 +40,6 @@ static ld_status row(void *self, const double *values, size_t count, ld_error *e
     if (!status && output->csv)
         status = history_csv_row(output->csv, values, count, error);
     return status;
-}
-
-// Makes the folder, parents first; made_from remembers what was there.
-static ld_status make_folder(ld_output *output, ld_error *error)
-{
-    char *path = output->folder;
-    bool made = false;
-    for (size_t end = 1;; end++) {
-        char letter = path[end];
-        if (letter && letter != '/')
-            continue;
-        path[end] = '\0';
-        if (mkdir(path, 0777) == 0) {
-            made = true;
-        } else if (errno != EEXIST) {
-            return ld_fail(error, LD_ERR_FILE, "cannot make the folder %s: %s", path,
-                           strerror(errno));
-        }
-        path[end] = letter;
-        if (!made)
-            output->made_from = end;
-        if (!letter)
-            return LD_OK;
-    }
-}
-
-// Removes the folders that were made and are empty.
-static void remove_folders(ld_output *output)
-{
-    char *path = output->folder;
-    for (size_t end = strlen(path); end > output->made_from; end--)
-        if (!path[end] || path[end] == '/') {
-            path[end] = '\0';
-            if (rmdir(path) != 0)
-                return;
-        }
 }
 
 static char *join(const char *folder, const char *name, const char *ending)
@@ -123,7 +87,7 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
     opened->sink = (ld_sink){opened, begin, row};
     ld_status status = set_paths(opened, folder, error);
     if (!status)
-        status = make_folder(opened, error);
+        status = folder_make(opened->folder, &opened->made_from, error);
     if (!status)
         status = history_hdf5_create(opened->part[HDF5], model->title ? model->title : "",
                                      &opened->hdf5, error);
@@ -191,6 +155,6 @@ void ld_output_discard(ld_output *output)
         if (output->part[i])
             unlink(output->part[i]);
     if (output->folder)
-        remove_folders(output);
+        folder_remove(output->folder, output->made_from);
     free_output(output);
 }

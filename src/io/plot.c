@@ -30,7 +30,7 @@ static ld_status unknown_figure(const char *name, ld_error *error)
                    list);
 }
 
-static ld_status find_format(const char *file, plot_format *format, ld_error *error)
+ld_status plot_format_of(const char *file, plot_format *format, ld_error *error)
 {
     static const char *const endings[] = {
         [PLOT_SVG] = ".svg", [PLOT_PDF] = ".pdf", [PLOT_PNG] = ".png"};
@@ -87,14 +87,15 @@ static ld_status run_gnuplot(FILE *script, FILE *printed, ld_error *error)
 }
 
 // Draws into the file `part`.
-static ld_status draw(const plot_page *page, plot_format format, const char *part, ld_error *error)
+static ld_status draw(plot_writer *write, const void *page, plot_format format, const char *part,
+                      ld_error *error)
 {
     FILE *script = tmpfile(), *printed = tmpfile();
     ld_status status = LD_OK;
     if (!script || !printed)
         status = ld_fail(error, LD_ERR_FILE, "cannot make a temporary file: %s", strerror(errno));
     if (!status)
-        status = plot_write_script(script, page, format, part, error);
+        status = write(script, page, format, part, error);
     if (!status && (fflush(script) != 0 || ferror(script) || lseek(fileno(script), 0, SEEK_SET)))
         status = ld_fail(error, LD_ERR_FILE, "cannot write a temporary file: %s", strerror(errno));
     if (!status)
@@ -106,9 +107,9 @@ static ld_status draw(const plot_page *page, plot_format format, const char *par
     return status;
 }
 
-// Draws under a temporary name beside the picture, then gives it its own.
-static ld_status draw_in_place(const plot_page *page, plot_format format, const char *file,
-                               ld_error *error)
+// Under a temporary name beside the picture, which then gets its own.
+ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
+                    ld_error *error)
 {
     char part[4096];
     if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
@@ -117,7 +118,7 @@ static ld_status draw_in_place(const plot_page *page, plot_format format, const 
     if (probe < 0)
         return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
     close(probe);
-    ld_status status = draw(page, format, part, error);
+    ld_status status = draw(write, page, format, part, error);
     if (!status && rename(part, file) != 0)
         status = ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
     if (status)
@@ -198,7 +199,7 @@ static ld_status draw_runs(const ld_picture *picture, const history_data *run, p
                       .figures = count,
                       .from = picture->from,
                       .to = picture->to};
-    return draw_in_place(&page, format, file, error);
+    return plot_draw(plot_write_script, &page, format, file, error);
 }
 
 static ld_status check_picture(const ld_picture *picture, ld_error *error)
@@ -221,7 +222,7 @@ ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
     plot_format format = PLOT_SVG;
     ld_status status = check_picture(picture, error);
     if (!status)
-        status = find_format(file, &format, error);
+        status = plot_format_of(file, &format, error);
     history_data run[PLOT_RUNS];
     size_t read = 0;
     while (!status && read < picture->folder_count) {

@@ -57,8 +57,30 @@ typedef struct plot_page {
 // Whether a run has a column that the figure shows.
 bool plot_figure_has_columns(const plot_figure *figure, const history_data *run);
 
-// Writes the commands with which gnuplot draws the page into `output`.
-ld_status plot_write_script(FILE *script, const plot_page *page, plot_format format,
-                            const char *output, ld_error *error);
+// Writes the commands with which gnuplot draws `page` into `output`.
+typedef ld_status plot_writer(FILE *script, const void *page, plot_format format,
+                              const char *output, ld_error *error);
+
+// The writer of a plot_page.
+plot_writer plot_write_script;
+
+// The format that the ending of a picture's name says.
+ld_status plot_format_of(const char *file, plot_format *format, ld_error *error);
+
+// Draws a page with gnuplot.
+ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
+                    ld_error *error);
+
+// Sets terminal, output and styles 1 to 6 of lines, and begins a page of this height: pixels of an
+// svg 1000 wide, points of a pdf, half pixels of a png.
+void plot_begin(FILE *script, plot_format format, double height, const char *output);
+
+// Text between the single quotes of gnuplot.
+void plot_write_quoted(FILE *script, const char *text);
+
+// Marks in `keep` the points from first to last that a curve needs to be within 1/3000 of a panel
+// of the spans; stack has room for 2 count + 8.
+void plot_thin(const double *x, const double *y, double x_span, double y_span, size_t first,
+               size_t last, char *keep, size_t *stack);
 
 #endif

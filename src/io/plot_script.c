@@ -225,48 +225,6 @@ static void set_ranges(plot_drawing *drawing)
     memcpy(drawing->y_range, y, sizeof y);
 }
 
-// ---- thinning: points that would not be seen are left out (Douglas and Peucker) ----
-
-// Square of the distance of point i from the straight line a to b, in shares of the panel.
-static double distance2(const plot_drawing *drawing, size_t i, size_t a, size_t b)
-{
-    double across = drawing->x_range[1] - drawing->x_range[0],
-           up = drawing->y_range[1] - drawing->y_range[0];
-    double bx = (drawing->x[b] - drawing->x[a]) / across, by = (drawing->y[b] - drawing->y[a]) / up;
-    double ix = (drawing->x[i] - drawing->x[a]) / across, iy = (drawing->y[i] - drawing->y[a]) / up;
-    double length2 = bx * bx + by * by;
-    double along = length2 > 0 ? fmin(fmax((ix * bx + iy * by) / length2, 0), 1) : 0;
-    double dx = ix - along * bx, dy = iy - along * by;
-    return dx * dx + dy * dy;
-}
-
-// Marks the points between a and b that the curve needs.
-static void thin(plot_drawing *drawing, size_t first, size_t last)
-{
-    const double seen = 1.0 / 3000;
-    size_t depth = 0, *stack = drawing->stack;
-    drawing->keep[first] = drawing->keep[last] = 1;
-    stack[depth++] = first;
-    stack[depth++] = last;
-    while (depth > 0) {
-        size_t b = stack[--depth], a = stack[--depth], far = a;
-        double farthest = seen * seen;
-        for (size_t i = a + 1; i < b; i++) {
-            double d2 = distance2(drawing, i, a, b);
-            if (d2 > farthest) {
-                farthest = d2;
-                far = i;
-            }
-        }
-        if (far == a)
-            continue;
-        drawing->keep[far] = 1;
-        size_t parts[] = {a, far, far, b};
-        memcpy(stack + depth, parts, sizeof parts);
-        depth += 4;
-    }
-}
-
 // Each run of drawable points becomes a line; an empty line of data parts them.
 static void write_curve(plot_drawing *drawing, int curve)
 {
@@ -280,7 +238,9 @@ static void write_curve(plot_drawing *drawing, int curve)
         size_t last = first;
         while (last + 1 < rows && drawable(drawing, last + 1))
             last++;
-        thin(drawing, first, last);
+        plot_thin(drawing->x, drawing->y, drawing->x_range[1] - drawing->x_range[0],
+                  drawing->y_range[1] - drawing->y_range[0], first, last, drawing->keep,
+                  drawing->stack);
         for (size_t i = first; i <= last; i++)
             if (drawing->keep[i])
                 fprintf(drawing->script, "%.8g %.8g\n", drawing->x[i], drawing->y[i]);
@@ -292,8 +252,7 @@ static void write_curve(plot_drawing *drawing, int curve)
 
 // ---- the panel ----
 
-// Text between the single quotes of gnuplot.
-static void write_quoted(FILE *script, const char *text)
+void plot_write_quoted(FILE *script, const char *text)
 {
     fputc('\'', script);
     for (; *text; text++) {
@@ -394,7 +353,7 @@ static void write_text(const plot_drawing *drawing, const char *text, double lef
                        const char *style)
 {
     fputs("set label ", drawing->script);
-    write_quoted(drawing->script, text);
+    plot_write_quoted(drawing->script, text);
     fprintf(drawing->script, " at screen %.6f, screen %.6f %s\n", left / WIDTH,
             1 - top / drawing->height, style);
 }
@@ -470,7 +429,7 @@ static void write_title(FILE *script, const char *title)
 {
     fputs(*title ? "title " : "notitle", script);
     if (*title)
-        write_quoted(script, title);
+        plot_write_quoted(script, title);
 }
 
 // Of one run, a colour for each column. Of several, a colour for each run, and where there are
@@ -581,7 +540,7 @@ static double place_figures(const plot_page *page, plot_drawing *drawing)
     return top;
 }
 
-static void write_terminal(FILE *script, plot_format format, double height, const char *output)
+void plot_begin(FILE *script, plot_format format, double height, const char *output)
 {
     if (format == PLOT_SVG)
         fprintf(script, "set terminal svg size %d,%.0f font 'sans-serif,12' background 'white'",
@@ -596,7 +555,7 @@ static void write_terminal(FILE *script, plot_format format, double height, cons
                 "2 pointscale 2 background 'white'",
                 2 * WIDTH, 2 * height);
     fputs(" noenhanced\nset encoding utf8\nset output ", script);
-    write_quoted(script, output);
+    plot_write_quoted(script, output);
     fputs("\nset multiplot\n"
           "set key at graph 1, 1.15 right center horizontal Left reverse samplen 2 font ',10'\n"
           "set grid lc rgb '#e0e0e0' lw 0.8\nset border 3 lc rgb '#404040'\n"
@@ -621,9 +580,10 @@ static ld_status set_source(plot_source *source, const history_data *history, ld
     return source->t ? LD_OK : ld_fail(error, LD_ERR_INPUT, "the history has no column t");
 }
 
-ld_status plot_write_script(FILE *script, const plot_page *page, plot_format format,
-                            const char *output, ld_error *error)
+ld_status plot_write_script(FILE *script, const void *what, plot_format format, const char *output,
+                            ld_error *error)
 {
+    const plot_page *page = what;
     size_t rows = 0;
     for (size_t i = 0; i < page->runs; i++)
         rows = page->run[i].rows > rows ? page->run[i].rows : rows;
@@ -643,7 +603,7 @@ ld_status plot_write_script(FILE *script, const plot_page *page, plot_format for
         status = set_source(&drawing.source[i], &page->run[i], error);
     if (!status) {
         locale_t before = numeric_locale_enter();
-        write_terminal(script, format, drawing.height, output);
+        plot_begin(script, format, drawing.height, output);
         place_figures(page, &drawing);
         fputs("unset multiplot\nunset output\n", script);
         numeric_locale_leave(before);

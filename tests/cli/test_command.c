@@ -257,6 +257,48 @@ static void test_modes_table(void **state)
     CHECK_WITHIN("first frequency on the supports [Hz]", frequency, 67.20, 67.22);
 }
 
+static void test_road(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("launchdyn road examples/reference.yaml --set base.road.tracks=independent "
+            "--from -20 --to 80 --step 0.1 --out a/b --plot road.svg"),
+        0);
+    expect_in(shell.out,
+              "Road: class A, seed 1, tracks independent, x = -20 m to 80 m every 0.1 m");
+    expect_in(shell.out, "\n  n [1/m]                        left       right     class A\n");
+    assert_int_equal(run("ls a/b; head -n 2 road.svg | grep -c svg; wc -l <a/b/road.csv; "
+                         "head -n 1 a/b/road.csv a/b/road-spectrum.csv; tail -n 1 a/b/road.csv | "
+                         "cut -d , -f 1"),
+                     0);
+    assert_string_equal(shell.out,
+                        "road-spectrum.csv\nroad.csv\n1\n1002\n"
+                        "==> a/b/road.csv <==\nx [m],left [m],right [m]\n\n"
+                        "==> a/b/road-spectrum.csv <==\nfrom [1/m],to [1/m],left [m3],right [m3],"
+                        "class [m3]\n80\n");
+
+    // a road of bumps alone: heights, and no class to compare with
+    assert_int_equal(
+        run("sed 's/road: {class.*/road: {bumps: [{at: 2 m, length: 1 m, height: 30 mm, "
+            "tracks: left}]}/' examples/reference.yaml >bumps.yaml; "
+            "launchdyn road bumps.yaml --from 0 --to 10 --step 0.5 --out c; "
+            "sed -n 7p c/road.csv; head -n 1 c/road-spectrum.csv"),
+        0);
+    expect_in(shell.out, "Road without a random part");
+    expect_in(shell.out, "  highest              30.000       0.000\n");
+    expect_in(shell.out,
+              "\n2.5,0.029999999999999999,0\nfrom [1/m],to [1/m],left [m3],right [m3]\n");
+
+    expect_complaint("launchdyn road examples/fixed.yaml", 2,
+                     "launchdyn: there is no road: the base is no vehicle\n");
+    expect_complaint("launchdyn road examples/reference.yaml --step 0", 2,
+                     "from -100 m to 100 m by 0 m has not");
+    expect_complaint("launchdyn road examples/reference.yaml --to x", 2,
+                     "launchdyn: x: invalid numeric value\n");
+    expect_complaint("launchdyn road examples/reference.yaml --plot x.bmp", 2,
+                     "a picture's name ends in .svg, .pdf or .png");
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
 
 int main(void)
@@ -272,6 +314,7 @@ int main(void)
         TEST(test_a_launch_that_cannot_happen),
         TEST(test_interrupted),
         TEST(test_modes_table),
+        TEST(test_road),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

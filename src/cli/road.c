@@ -1,0 +1,51 @@
+// launchdyn road: the road of a scenario, to look at.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/command.h"
+#include "launchdyn/environment.h"
+
+typedef struct road_wishes {
+    char **sets;
+    char *folder, *picture; // NULL: not wanted
+    ld_stretch stretch;
+} road_wishes;
+
+static int show_road(const ld_model *model, void *data)
+{
+    const road_wishes *wishes = data;
+    ld_road_view *view = NULL;
+    ld_error error;
+    ld_status status = ld_road_view_create(model, wishes->stretch, &view, &error);
+    if (!status && wishes->folder)
+        status = ld_road_view_write(view, wishes->folder, &error);
+    if (!status && wishes->picture)
+        status = ld_road_view_draw(view, wishes->picture, &error);
+    if (!status)
+        ld_road_view_print(view, stdout);
+    ld_road_view_free(view);
+    return status ? command_fail(status, &error) : 0;
+}
+
+int command_road(const command *self, int argc, const char **argv)
+{
+    road_wishes wishes = {.stretch = {NAN, NAN, NAN}};
+    const struct poptOption options[] = {
+        COMMAND_SETS(&wishes.sets),
+        {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
+         "Write road.csv and road-spectrum.csv into this folder", "DIR"},
+        {"plot", 'p', POPT_ARG_STRING, &wishes.picture, 0,
+         "Draw both with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
+        {"from", '\0', POPT_ARG_DOUBLE, &wishes.stretch.from, 0,
+         "Where the stretch begins, x in metres (-100)", "X"},
+        {"to", '\0', POPT_ARG_DOUBLE, &wishes.stretch.to, 0, "Where it ends, in metres (100)", "X"},
+        {"step", '\0', POPT_ARG_DOUBLE, &wishes.stretch.step, 0,
+         "From place to place, in metres (0.02)", "DX"},
+        COMMAND_HELP,
+        COMMAND_END};
+    int code = command_on_model(self, argc, argv, options, &wishes.sets, show_road, &wishes);
+    free(wishes.folder);
+    free(wishes.picture);
+    return code;
+}
