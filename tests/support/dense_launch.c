@@ -527,9 +527,44 @@ static jet_frame base_frame(const dense_base *base)
     return frame;
 }
 
-static void add_supports(equations *eq, const jet_scene *scene, const dense_base *motion)
+// A^T a of a matrix by rows
+static void turn_back(double out[3], const double *A, const double a[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = A[i] * a[0] + A[3 + i] * a[1] + A[6 + i] * a[2];
+}
+
+// A a
+static void turn(double out[3], const double *A, const double a[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = A[3 * i] * a[0] + A[3 * i + 1] * a[1] + A[3 * i + 2] * a[2];
+}
+
+// Opposite of all support forces on the tube: generalised forces of R's place (in I) and turning
+// (in R), which move the sections as one rigid body.
+static void react_on_base(const jet_scene *scene, const dense_base *base, const double *support,
+                          dense_launch_output *output)
+{
+    const dense_state *state = scene->state;
+    double moment[3], force[3];
+    turn(moment, state->A_R[0], support + 3);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        force[i] = -support[i];
+        moment[i] +=
+            (state->r[j] - base->r[j]) * support[k] - (state->r[k] - base->r[k]) * support[j];
+        moment[i] = -moment[i];
+    }
+    turn_back(output->base_force, base->A[0], force);
+    turn_back(output->base_moment, base->A[0], moment);
+}
+
+static void add_supports(equations *eq, const jet_scene *scene, const dense_base *motion,
+                         dense_launch_output *output)
 {
     const ld_tubes *tubes = &scene->dense->model->tubes;
+    double force[DENSE_MAX_COORDINATES] = {0};
     jet_frame base = base_frame(motion);
     jet33 to_base = jet33_transpose(&base.A);
     for (int i = 0; i < tubes->support_count; i++) {
@@ -548,14 +583,17 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_base
             double damper = support->damping[a] * d.c[a].e;
             moment[a] = -support->rotational_damping[a] * w[a];
             for (int k = 0; k < eq->n; k++) {
-                eq->h[k] -= spring * d.c[a].d[k] + coil * phi.c[a].d[k] + damper * d.c[a].d[k];
+                force[k] -= spring * d.c[a].d[k] + coil * phi.c[a].d[k] + damper * d.c[a].d[k];
                 eq->other[k] -= damper * d.c[a].d[k];
             }
             eq->potential += 0.5 * (spring * d.c[a].v + coil * phi.c[a].v);
         }
-        add_moment(eq->h, eq->n, &turn, moment);
+        add_moment(force, eq->n, &turn, moment);
         add_moment(eq->other, eq->n, &turn, moment);
     }
+    for (int k = 0; k < eq->n; k++)
+        eq->h[k] += force[k];
+    react_on_base(scene, motion, force, output);
 }
 
 // A force f (in I) on the rocket at a place of I, opposite on the section at station s, same place.
@@ -841,20 +879,6 @@ static bool solve_signed(const equations *eq, bool rubs, double x_ddot[], double
     return true;
 }
 
-// A^T a of a matrix by rows
-static void turn_back(double out[3], const double *A, const double a[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = A[i] * a[0] + A[3 + i] * a[1] + A[6 + i] * a[2];
-}
-
-// A a
-static void turn(double out[3], const double *A, const double a[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = A[3 * i] * a[0] + A[3 * i + 1] * a[1] + A[3 * i + 2] * a[2];
-}
-
 static void write_output(const dense_launch *dense, const dense_state *state, const equations *eq,
                          const double x_ddot[], const double multiplier[ROWS], double sign,
                          dense_launch_output *output)
@@ -915,7 +939,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
               conditions->products, model->gravity);
     // forces
     add_modes(&eq, &moving);
-    add_supports(&eq, &moving, &conditions->base);
+    add_supports(&eq, &moving, &conditions->base, output);
     for (int i = 0; i < rocket->adaptor_count; i++)
         add_adaptor(&eq, &moving, &still, conditions, i, state->s + rocket->adaptor[i].at, output);
     add_thrust(&eq, &moving, conditions->thrust);

@@ -93,7 +93,8 @@ typedef struct dense_launch_output {
         double normal;           // [N] F_n
         double force[3];         // [N] on the rocket, normal and friction, in I
     } contact[LD_MAX_ADAPTORS];
-    double kinetic;   // [J] of everything
+    double base_force[3], base_moment[3]; // on the base, in its axes, about its origin
+    double kinetic;                       // [J] of everything
     double potential; // [J] modes, support springs, gravity of everything (from I's origin)
     double power;     // [W] of all that is not in kinetic or potential (fixed base): contacts,
                       // thrust, damping, lock, slot

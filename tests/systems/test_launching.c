@@ -6,7 +6,7 @@
 #include "support/reference_model.h"
 
 typedef struct agreement {
-    double eta, V, slot, lock, contact, elastic;
+    double eta, V, slot, lock, contact, base;
 } agreement;
 
 static double relative3(const double *a, v3 b, double scale)
@@ -45,6 +45,10 @@ static void compare(const launching_system *system, const launching_case *c,
         if (!c->phase.passed[i])
             worst->contact = fmax(worst->contact,
                                   fabs(dense->contact[i].normal - out->adaptor[i].normal) / force);
+    worst->base =
+        fmax(worst->base, relative3(dense->base_force, out->base_force, norm3(dense->base_force)));
+    worst->base = fmax(worst->base,
+                       relative3(dense->base_moment, out->base_moment, norm3(dense->base_moment)));
 }
 
 typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
@@ -78,6 +82,7 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
     CHECK_BELOW("slot force", worst.slot, bound);
     CHECK_BELOW("lock force", worst.lock, bound);
     CHECK_BELOW("contact forces", worst.contact, bound);
+    CHECK_BELOW("force and moment on the base", worst.base, 1e-12);
     dense_launch_free(&dense);
     launching_free(system);
     free(system);
