@@ -6,14 +6,20 @@
 #include <string.h>
 
 // Integrated numbers: r, A_IR as a quaternion, v, w, q, q_dot, r_O1, A_IB as a quaternion, v_O1,
-// w_B.
-enum { STATE_MAX = 26 + 2 * DENSE_MAX_MODES };
+// w_B; of a vehicle also its states.
+enum {
+    LAUNCH_MAX = 26 + 2 * DENSE_MAX_MODES,
+    STATE_MAX = LAUNCH_MAX + ORIENTATING_STATES + DENSE_MARCHING_STATES
+};
 
 typedef struct launch_run {
     const ld_model *model;
     dense_launch dense;
-    int size, rocket; // count of numbers, where the rocket's begin
-    double ignition;  // [s] on the run's clock
+    bool on_vehicle;
+    dense_vehicle vehicle;
+    hinge_rest rest[HINGES];
+    int size, rocket, platform, wheels; // count of numbers, where the rocket's and vehicle's begin
+    double ignition;                    // [s] on the run's clock
     bool locked, passed[LD_MAX_ADAPTORS];
     bool apart[LD_MAX_ADAPTORS];         // adaptor was off the wall
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] when it last touched
@@ -84,6 +90,21 @@ void dense_base_at(const ld_model *model, double t, dense_base *base)
     turn_about(base->A, 2, given->elevation);
 }
 
+// The same of the run's base, of a vehicle at state x.
+static void base_at(const launch_run *launch, double t, const double *x, dense_base *base)
+{
+    if (!launch->on_vehicle) {
+        dense_base_at(launch->model, t, base);
+        return;
+    }
+    base_frame tube;
+    dense_vehicle_tube(&launch->vehicle, x + launch->platform, &tube);
+    v3_store(base->r, tube.r);
+    v3_store(base->v, tube.v);
+    v3_store(base->w, tube.w);
+    memcpy(base->A, tube.A.a, sizeof base->A);
+}
+
 // Thrust [N] at tau seconds of the table's clock, on the line between two points that holds
 // `middle`.
 static double thrust_at(const ld_motor *motor, double tau, double middle)
@@ -123,14 +144,16 @@ static void mass_at(const ld_rocket *rocket, double burnt, dense_conditions *on)
     on->center[2] += rocket->eccentricity[1];
 }
 
-// What acts at time t of the run, on the piece of the thrust table that holds time `middle`.
-static void conditions_at(const launch_run *launch, double t, double middle, dense_conditions *on)
+// What acts at time t of the run and state x, on the piece of the thrust table that holds time
+// `middle`.
+static void conditions_at(const launch_run *launch, double t, double middle, const double *x,
+                          dense_conditions *on)
 {
     const ld_rocket *rocket = &launch->model->rocket;
     const ld_motor *motor = &rocket->motor;
     double tau = (t - launch->ignition) / motor->time_scale;
     memset(on, 0, sizeof *on);
-    dense_base_at(launch->model, t, &on->base);
+    base_at(launch, t, x, &on->base);
     mass_at(rocket, burnt_at(motor, tau), on);
     on->thrust = thrust_at(motor, tau, (middle - launch->ignition) / motor->time_scale);
     on->locked = launch->locked;
@@ -220,15 +243,31 @@ static void pack(const launch_run *launch, const dense_state *state, double *x)
     memcpy(rocket + 10, state->w_B, sizeof state->w_B);
 }
 
+// Rates and forces of the vehicle under the tube's supports.
+static bool vehicle_at(const launch_run *launch, double t, double middle, const double *x,
+                       const dense_launch_output *tube, dense_vehicle_output *output)
+{
+    dense_vehicle_input input = {.t = t,
+                                 .command_at = middle,
+                                 .orientating = x + launch->platform,
+                                 .marching = x + launch->wheels,
+                                 .tube_force = v3_from(tube->base_force),
+                                 .tube_moment = v3_from(tube->base_moment)};
+    memcpy(input.rest, launch->rest, sizeof input.rest);
+    return dense_vehicle_evaluate(&launch->vehicle, &input, output);
+}
+
 static bool derivative(launch_run *launch, double t, double middle, const double *x, double *x_dot,
                        dense_launch_output *output)
 {
     dense_state state;
     dense_conditions on;
     dense_rates rates;
+    dense_launch_output own;
+    output = output ? output : &own;
     int nq = launch->dense.mode_count;
     unpack(launch, x, &state);
-    conditions_at(launch, t, middle, &on);
+    conditions_at(launch, t, middle, x, &on);
     launch->summary->evaluations++;
     if (!dense_launch_rates(&launch->dense, &state, &on, &rates, output))
         return false;
@@ -241,7 +280,27 @@ static bool derivative(launch_run *launch, double t, double middle, const double
     memcpy(rocket, state.v_O1, sizeof state.v_O1);
     quaternion_rate(rocket + 3, x + launch->rocket + 3, state.w_B);
     memcpy(rocket + 7, rates.x_ddot + 6 + nq, 6 * sizeof *x_dot);
+    if (!launch->on_vehicle)
+        return true;
+    dense_vehicle_output vehicle;
+    if (!vehicle_at(launch, t, middle, x, output, &vehicle))
+        return false;
+    memcpy(x_dot + launch->platform, vehicle.orientating, sizeof vehicle.orientating);
+    memcpy(x_dot + launch->wheels, vehicle.marching,
+           (size_t)(launch->size - launch->wheels) * sizeof *x_dot);
     return true;
+}
+
+// The vehicle as it is at time t.
+static void note_instant(const launch_run *launch, double t, const double *x,
+                         const dense_launch_output *tube, dense_instant *instant)
+{
+    if (!launch->on_vehicle)
+        return;
+    memcpy(instant->orientating, x + launch->platform, sizeof instant->orientating);
+    memcpy(instant->marching, x + launch->wheels,
+           (size_t)(launch->size - launch->wheels) * sizeof *x);
+    vehicle_at(launch, t, t, x, tube, &instant->output);
 }
 
 // One classical Runge-Kutta step from x with the rate k1 that holds there; output at its end.
@@ -403,38 +462,84 @@ static void co_move(dense_state *state, const dense_base *base)
     }
 }
 
+// The base at rest as it is at state x.
+static void hold_base(const launch_run *launch, double t, const double *x, dense_conditions *on)
+{
+    conditions_at(launch, t, t, x, on);
+    on->thrust = 0;
+    on->frictionless = true;
+    memset(on->base.v, 0, sizeof on->base.v);
+    memset(on->base.w, 0, sizeof on->base.w);
+}
+
+// Vehicle and launching subsystem in equilibrium with one another, each in turn under what the
+// other gave; the vehicle's states go into x, the launching subsystem's unknowns into u.
+static bool find_balance_on_vehicle(balance_problem *balance, launch_run *launch, double t,
+                                    double *x, double *u)
+{
+    const ld_model *model = launch->model;
+    double place = -model->base.vehicle.speed * model->run.lead_in, residual;
+    double wrench[6] = {0}, change = INFINITY;
+    for (int i = 0; i < 12 && change > 1e-7; i++) {
+        dense_launch_output output;
+        double left[DENSE_MAX_COORDINATES];
+        if (!dense_vehicle_equilibrium(&launch->vehicle, t, place, v3_from(wrench),
+                                       v3_from(wrench + 3), x + launch->platform,
+                                       x + launch->wheels, launch->rest, &residual))
+            return false;
+        hold_base(launch, t, x, &balance->on);
+        if (!find_balance(balance, u) || !residual_of(balance, u, left, &output))
+            return false;
+        change = 0;
+        for (int k = 0; k < 3; k++) {
+            change = fmax(change, fabs(output.base_force[k] - wrench[k]));
+            change = fmax(change, fabs(output.base_moment[k] - wrench[3 + k]));
+            wrench[k] = output.base_force[k];
+            wrench[3 + k] = output.base_moment[k];
+        }
+    }
+    return change <= 1e-7;
+}
+
+static bool settle(launch_run *launch, double t, balance_problem *balance, double *x, double *u)
+{
+    const ld_rocket *rocket = &launch->model->rocket;
+    int nq = launch->dense.mode_count;
+    dense_launch_output output;
+    double residual[DENSE_MAX_COORDINATES];
+    lay_down(rocket, balance->on.center[0], &u[6 + nq], &u[8 + nq]);
+    bool found = launch->on_vehicle ? find_balance_on_vehicle(balance, launch, t, x, u)
+                                    : find_balance(balance, u);
+    if (!found || !residual_of(balance, u, residual, &output))
+        return false;
+    dense_summary *summary = launch->summary;
+    summary->equilibrium.lock_force = -u[balance->n - 2];
+    summary->equilibrium.slot_force =
+        launch->model->tubes.slot.kind == LD_SLOT_HELIX ? u[balance->n - 1] : 0;
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        summary->equilibrium.contact_force[i] = output.contact[i].normal;
+    double worst = 0;
+    for (int i = 0; i < 3; i++)
+        worst = fmax(worst, fmax(fmax(fabs(output.a[i]), fabs(output.w_dot[i])),
+                                 fmax(fabs(output.a_O1[i]), fabs(output.alpha_B[i]))));
+    for (int i = 0; i < nq; i++)
+        worst = fmax(worst, fabs(output.q_ddot[i]));
+    summary->equilibrium.residual = worst;
+    note_instant(launch, t, x, &output, &summary->start);
+    return true;
+}
+
 static bool start(launch_run *launch, double t, double *x)
 {
     const ld_model *model = launch->model;
-    int nq = launch->dense.mode_count;
-    balance_problem balance = {.launch = launch, .n = nq + 12};
+    balance_problem balance = {.launch = launch, .n = launch->dense.mode_count + 12};
     double u[DENSE_MAX_COORDINATES] = {0};
     launch->locked = true;
-    conditions_at(launch, t, t, &balance.on);
-    balance.on.thrust = 0;
-    balance.on.frictionless = true;
-    memset(balance.on.base.v, 0, sizeof balance.on.base.v);
-    memset(balance.on.base.w, 0, sizeof balance.on.base.w);
-    if (model->run.start == LD_START_EQUILIBRIUM) {
-        lay_down(&model->rocket, balance.on.center[0], &u[6 + nq], &u[8 + nq]);
-        dense_launch_output output;
-        double residual[DENSE_MAX_COORDINATES];
-        if (!find_balance(&balance, u) || !residual_of(&balance, u, residual, &output))
-            return false;
-        dense_summary *summary = launch->summary;
-        summary->equilibrium.lock_force = -u[balance.n - 2];
-        summary->equilibrium.slot_force =
-            model->tubes.slot.kind == LD_SLOT_HELIX ? u[balance.n - 1] : 0;
-        for (int i = 0; i < model->rocket.adaptor_count; i++)
-            summary->equilibrium.contact_force[i] = output.contact[i].normal;
-        double worst = 0;
-        for (int i = 0; i < 3; i++)
-            worst = fmax(worst, fmax(fmax(fabs(output.a[i]), fabs(output.w_dot[i])),
-                                     fmax(fabs(output.a_O1[i]), fabs(output.alpha_B[i]))));
-        for (int i = 0; i < nq; i++)
-            worst = fmax(worst, fabs(output.q_ddot[i]));
-        summary->equilibrium.residual = worst;
-    }
+    if (launch->on_vehicle)
+        x[launch->platform + ORIENTATING_QUATERNION] = 1;
+    hold_base(launch, t, x, &balance.on);
+    if (model->run.start == LD_START_EQUILIBRIUM && !settle(launch, t, &balance, x, u))
+        return false;
     dense_launch_input input;
     dense_state state;
     double tip[8];
@@ -442,8 +547,13 @@ static bool start(launch_run *launch, double t, double *x)
     dense_launch_place(&launch->dense, &input, &state);
     dense_launch_tip(&launch->dense, &state, &balance.on.base, tip);
     memcpy(launch->summary->equilibrium.tip_sag, tip, sizeof launch->summary->equilibrium.tip_sag);
+    if (launch->on_vehicle) {
+        x[launch->platform + ORIENTATING_V] = model->base.vehicle.speed;
+        for (int i = 0; i < model->base.vehicle.wheel_count; i++)
+            x[launch->wheels + WHEEL_STATES * i + WHEEL_V] = model->base.vehicle.speed;
+    }
     dense_base base;
-    dense_base_at(model, t, &base);
+    base_at(launch, t, x, &base);
     co_move(&state, &base);
     launch->s = input.s;
     const ld_table *angle = &model->tubes.slot.angle;
@@ -577,7 +687,8 @@ static void summarise(launch_run *launch, double t, const double *x,
     dense_base base;
     double tip[8], d[3], d_dot[3];
     unpack(launch, x, &state);
-    dense_base_at(launch->model, t, &base);
+    base_at(launch, t, x, &base);
+    note_instant(launch, t, x, output, &summary->exit);
     summary->muzzle_speed = output->s_dot;
     summary->inertial_speed = norm_of(state.v_O1, 3);
     summary->spin_rate = state.w_B[0];
@@ -614,6 +725,14 @@ static double next_corner(const launch_run *launch, double t)
         if (corner > t + 1e-12)
             next = fmin(next, corner);
     }
+    const ld_stabiliser *stabiliser[HINGES] = {&launch->model->platform.azimuth.stabiliser,
+                                               &launch->model->platform.elevation.stabiliser};
+    for (int i = 0; i < HINGES && launch->on_vehicle; i++)
+        for (size_t k = 0; k < stabiliser[i]->command.rows; k++) {
+            double corner = stabiliser[i]->command.data[2 * k];
+            if (corner > t + 1e-12)
+                next = fmin(next, corner);
+        }
     return next;
 }
 
@@ -639,6 +758,8 @@ static bool run(launch_run *launch, double t, double *x)
                 break;
             }
             watch(launch, &before);
+            if (i == 0 && fabs(t - launch->ignition) < 1e-12)
+                note_instant(launch, t, x, &before, &launch->summary->ignition);
             if (!step_to_event(launch, t, &h, x, k1, after, rate, &output, &which, &before))
                 return false;
             memcpy(x, after, sizeof after);
@@ -670,9 +791,18 @@ bool dense_simulate(const ld_model *model, const flexible_tube *tube, double ste
     dense_launch_create(&launch.dense, model, tube);
     launch.rocket = 13 + 2 * launch.dense.mode_count;
     launch.size = launch.rocket + 13;
+    launch.on_vehicle = model->base.kind == LD_BASE_VEHICLE;
+    if (launch.on_vehicle) {
+        dense_vehicle_create(&launch.vehicle, model, model->firing[0].tube, NULL, 0);
+        launch.platform = launch.size;
+        launch.wheels = launch.platform + ORIENTATING_STATES;
+        launch.size = launch.wheels + WHEEL_STATES * model->base.vehicle.wheel_count + 1;
+    }
     launch.ignition = model->firing[0].at;
     double t = -model->run.lead_in;
     bool done = start(&launch, t, x) && run(&launch, t, x);
     dense_launch_free(&launch.dense);
+    if (launch.on_vehicle)
+        dense_vehicle_free(&launch.vehicle);
     return done;
 }

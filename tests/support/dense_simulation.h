@@ -1,9 +1,17 @@
 // A whole launch on the independent equations of support/dense_launch.h: own equilibrium, own
-// base motion, own mass and thrust, classical Runge-Kutta at a fixed step, located events.
+// base motion or vehicle (support/dense_vehicle.h), own mass and thrust, classical Runge-Kutta at a
+// fixed step, located events.
 #ifndef LD_TESTS_SUPPORT_DENSE_SIMULATION_H
 #define LD_TESTS_SUPPORT_DENSE_SIMULATION_H
 
 #include "support/dense_launch.h"
+#include "support/dense_vehicle.h"
+
+// The vehicle at one instant.
+typedef struct dense_instant {
+    double orientating[ORIENTATING_STATES], marching[DENSE_MARCHING_STATES];
+    dense_vehicle_output output;
+} dense_instant;
 
 // As ld_rocket_summary (same names, units, frames); NaN where an instant was not reached.
 typedef struct dense_summary {
@@ -21,7 +29,8 @@ typedef struct dense_summary {
         double lock_force, slot_force, contact_force[LD_MAX_ADAPTORS], tip_sag[2];
         double residual; // largest acceleration of the start, lock closed [m/s2, rad/s2, 1/s2]
     } equilibrium;
-    double slot_drift; // [m/s] largest |n . v_rel|
+    dense_instant start, ignition, exit; // of a vehicle
+    double slot_drift;                   // [m/s] largest |n . v_rel|
     int evaluations;
     bool complete; // the rocket has left the tube
 } dense_summary;
@@ -29,9 +38,10 @@ typedef struct dense_summary {
 // Pose and rates of the base at time t [s] of the run's clock.
 void dense_base_at(const ld_model *model, double t, dense_base *base);
 
-// Runs `model` (base fixed, or prescribed by sines and a velocity; not by a table) with steps of at
-// most `step` [s]. Returns false where the equilibrium or the dense system fails or the rocket is
-// still in the tube at the model's stuck time.
+// Runs `model` (base fixed, prescribed by sines and a velocity, or a vehicle that starts in its
+// equilibrium on a flat road, sines or bumps; not by a table) with steps of at most `step` [s].
+// Returns false where the equilibrium or the dense system fails or the rocket is still in the tube
+// at the model's stuck time.
 bool dense_simulate(const ld_model *model, const flexible_tube *tube, double step,
                     dense_summary *summary);
 

@@ -445,6 +445,8 @@ static void add_wheels(equations *eq)
     double v = (ahead.x * v_C.x + ahead.z * v_C.z) / hypot(ahead.x, ahead.z);
     double z_d = eq->input->marching[WHEEL_STATES * count];
     double drive = vehicle->drive.kp * (vehicle->speed - v) + vehicle->drive.ki * z_d;
+    if (eq->input->still)
+        drive = 0;
     eq->output->marching[WHEEL_STATES * count] = vehicle->speed - v; // parked as well
     for (int i = 0; i < count; i++) {
         const double *state = eq->input->marching + WHEEL_STATES * i;
@@ -541,6 +543,18 @@ bool dense_vehicle_evaluate(const dense_vehicle *vehicle, const dense_vehicle_in
         return false;
     write_rates(&eq, x);
     return true;
+}
+
+void dense_vehicle_tube(const dense_vehicle *vehicle, const double *orientating, base_frame *tube)
+{
+    static _Thread_local equations eq;
+    dense_vehicle_input input = {.orientating = orientating};
+    dense_vehicle_output output;
+    eq.vehicle = vehicle;
+    eq.input = &input;
+    eq.output = &output;
+    place_bodies(&eq);
+    *tube = output.tube;
 }
 
 // ---------------------------------------------------------------- equilibrium
@@ -680,7 +694,8 @@ bool dense_vehicle_equilibrium(const dense_vehicle *vehicle, double t, double x,
                             .command_at = t,
                             .tube_force = tube_force,
                             .tube_moment = tube_moment,
-                            .frictionless = true},
+                            .frictionless = true,
+                            .still = true},
                   .x = x,
                   .n = PLACE + 3 * vehicle->model->base.vehicle.wheel_count};
     double u[PLACE + 3 * LD_MAX_WHEELS];

@@ -44,6 +44,7 @@ typedef struct dense_vehicle_input {
     v3 tube_force, tube_moment; // [N], [N m] on the platform, in T, about T's origin
     hinge_rest rest[HINGES];    // of locked hinges
     bool frictionless;          // Coulomb friction off
+    bool still;                 // the drive gives nothing (equilibrium)
 } dense_vehicle_input;
 
 typedef struct dense_vehicle_output {
@@ -65,6 +66,9 @@ typedef struct dense_vehicle_output {
 // Rates and forces of one state. Returns false where the dense system is singular.
 bool dense_vehicle_evaluate(const dense_vehicle *vehicle, const dense_vehicle_input *input,
                             dense_vehicle_output *output);
+
+// Frame T of the undeformed tube at a state of the platforms.
+void dense_vehicle_tube(const dense_vehicle *vehicle, const double *orientating, base_frame *tube);
 
 // Height of the road under a wheel at x [m] and its slope.
 double dense_road_height(const ld_road *profile, bool left, double x, double *slope);

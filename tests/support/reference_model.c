@@ -130,8 +130,8 @@ static void fill_wheels(ld_vehicle *vehicle)
         wheel->driven = true;
     }
     vehicle->drive = (ld_drive){.kp = 4e4, .ki = 1e4};
-    vehicle->suspension =
-        (ld_suspension){{2e6, 4e5, 2e6}, {2e4, 2.5e4, 2e4}, {.compression = NAN, .extension = NAN}};
+    set3(vehicle->suspension.stiffness, 2e6, 4e5, 2e6);
+    set3(vehicle->suspension.damping, 2e4, 2.5e4, 2e4);
     vehicle->tyre = (ld_tyre){.radius = 0.55,
                               .stiffness = {4e5, 1.1e6, 5e5},
                               .damping = {4e3, 4e3, 4e3},
