@@ -15,7 +15,7 @@ enum {
 typedef struct launch_run {
     const ld_model *model;
     dense_launch dense;
-    bool on_vehicle;
+    bool on_vehicle, frictionless;
     dense_vehicle vehicle;
     hinge_rest rest[HINGES];
     int size, rocket, platform, wheels; // count of numbers, where the rocket's and vehicle's begin
@@ -157,6 +157,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, con
     mass_at(rocket, burnt_at(motor, tau), on);
     on->thrust = thrust_at(motor, tau, (middle - launch->ignition) / motor->time_scale);
     on->locked = launch->locked;
+    on->frictionless = launch->frictionless;
     on->slot_piece = launch->slot_piece;
     memcpy(on->passed, launch->passed, sizeof on->passed);
     memcpy(on->touch_speed, launch->touch_speed, sizeof on->touch_speed);
@@ -252,7 +253,8 @@ static bool vehicle_at(const launch_run *launch, double t, double middle, const 
                                  .orientating = x + launch->platform,
                                  .marching = x + launch->wheels,
                                  .tube_force = v3_from(tube->base_force),
-                                 .tube_moment = v3_from(tube->base_moment)};
+                                 .tube_moment = v3_from(tube->base_moment),
+                                 .frictionless = launch->frictionless};
     memcpy(input.rest, launch->rest, sizeof input.rest);
     return dense_vehicle_evaluate(&launch->vehicle, &input, output);
 }
@@ -779,30 +781,94 @@ static bool run(launch_run *launch, double t, double *x)
     return false;
 }
 
+static void prepare(launch_run *launch, const ld_model *model, const flexible_tube *tube,
+                    dense_summary *summary)
+{
+    memset(summary, 0, sizeof *summary);
+    launch->model = model;
+    launch->summary = summary;
+    dense_launch_create(&launch->dense, model, tube);
+    launch->rocket = 13 + 2 * launch->dense.mode_count;
+    launch->size = launch->rocket + 13;
+    launch->ignition = model->firing[0].at;
+    launch->on_vehicle = model->base.kind == LD_BASE_VEHICLE;
+    if (launch->on_vehicle) {
+        dense_vehicle_create(&launch->vehicle, model, model->firing[0].tube, NULL, 0);
+        launch->platform = launch->size;
+        launch->wheels = launch->platform + ORIENTATING_STATES;
+        launch->size = launch->wheels + WHEEL_STATES * model->base.vehicle.wheel_count + 1;
+    }
+}
+
+static void release(launch_run *launch)
+{
+    dense_launch_free(&launch->dense);
+    if (launch->on_vehicle)
+        dense_vehicle_free(&launch->vehicle);
+}
+
 bool dense_simulate(const ld_model *model, const flexible_tube *tube, double step,
                     dense_summary *summary)
 {
-    launch_run launch = {.model = model, .step = step, .summary = summary};
+    launch_run launch = {.step = step};
     double x[STATE_MAX] = {0};
-    memset(summary, 0, sizeof *summary);
+    prepare(&launch, model, tube, summary);
     summary->t_release = summary->t_front = summary->t_middle = summary->t_rear = NAN;
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
         summary->t_exit[i] = NAN;
-    dense_launch_create(&launch.dense, model, tube);
-    launch.rocket = 13 + 2 * launch.dense.mode_count;
-    launch.size = launch.rocket + 13;
-    launch.on_vehicle = model->base.kind == LD_BASE_VEHICLE;
-    if (launch.on_vehicle) {
-        dense_vehicle_create(&launch.vehicle, model, model->firing[0].tube, NULL, 0);
-        launch.platform = launch.size;
-        launch.wheels = launch.platform + ORIENTATING_STATES;
-        launch.size = launch.wheels + WHEEL_STATES * model->base.vehicle.wheel_count + 1;
-    }
-    launch.ignition = model->firing[0].at;
     double t = -model->run.lead_in;
     bool done = start(&launch, t, x) && run(&launch, t, x);
-    dense_launch_free(&launch.dense);
-    if (launch.on_vehicle)
-        dense_vehicle_free(&launch.vehicle);
+    release(&launch);
     return done;
+}
+
+// ---------------------------------------------------------------- poles
+
+static int by_modulus(const void *a, const void *b)
+{
+    const dense_pole *p = a, *q = b;
+    double d = hypot(p->real, p->imaginary) - hypot(q->real, q->imaginary);
+    return (d > 0) - (d < 0);
+}
+
+static bool jacobian_of(launch_run *launch, double t, double *x, double *jacobian)
+{
+    double side[2][STATE_MAX];
+    int torque = launch->platform + ORIENTATING_Z;
+    for (int k = 0; k < launch->size; k++) {
+        // contacts are pressed in by micrometres, torques go to 1e4 N m
+        double kept = x[k], h = k == torque || k == torque + 1 ? 1 : 1e-7;
+        for (int i = 0; i < 2; i++) {
+            x[k] = kept + (i == 0 ? -h : h);
+            if (!derivative(launch, t, t, x, side[i], NULL))
+                return false;
+        }
+        x[k] = kept;
+        for (int i = 0; i < launch->size; i++)
+            jacobian[k * launch->size + i] = (side[1][i] - side[0][i]) / (2 * h);
+    }
+    return true;
+}
+
+int dense_poles(const ld_model *model, const flexible_tube *tube, double least, dense_pole *pole,
+                int capacity)
+{
+    static _Thread_local double jacobian[STATE_MAX * STATE_MAX];
+    static _Thread_local dense_summary unused;
+    launch_run launch = {0};
+    double x[STATE_MAX] = {0}, real[STATE_MAX], imaginary[STATE_MAX], t = -model->run.lead_in;
+    int count = 0;
+    prepare(&launch, model, tube, &unused);
+    bool found = start(&launch, t, x);
+    int n = launch.size;
+    launch.frictionless = true;
+    if (found && jacobian_of(&launch, t, x, jacobian) &&
+        LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', n, jacobian, n, real, imaginary, NULL, 1, NULL,
+                      1) == 0)
+        for (int i = 0; i < n && count < capacity; i++)
+            if (imaginary[i] >= 0 && hypot(real[i], imaginary[i]) >= least)
+                pole[count++] = (dense_pole){real[i], imaginary[i]};
+    release(&launch);
+    qsort(pole, (size_t)count, sizeof *pole, by_modulus);
+    return count;
 }

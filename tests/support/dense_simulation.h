@@ -45,4 +45,15 @@ void dense_base_at(const ld_model *model, double t, dense_base *base);
 bool dense_simulate(const ld_model *model, const flexible_tube *tube, double step,
                     dense_summary *summary);
 
+// One eigenvalue [1/s] of each conjugate pair.
+typedef struct dense_pole {
+    double real, imaginary;
+} dense_pole;
+
+// Eigenvalues of the equations of a vehicle with its launching subsystem, lock closed, linearised
+// at the start of a run by central differences, without Coulomb friction, by ascending modulus;
+// those below `least` are left out. Returns their number; 0 where the equilibrium fails.
+int dense_poles(const ld_model *model, const flexible_tube *tube, double least, dense_pole *pole,
+                int capacity);
+
 #endif
