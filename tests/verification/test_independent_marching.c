@@ -347,7 +347,7 @@ static void poles(void **state)
     static ld_mode mode[MOST];
     static ld_pole pole[MOST];
     static dense_pole dense[MOST];
-    int mode_count, count;
+    int mode_count, count = 0;
     reference_vehicle(&model, *speed);
     if (ld_simulation_create(&model, &simulation, &error) ||
         ld_simulation_system_modes(simulation, mode, MOST, &mode_count, pole, MOST, &count, &error))
