@@ -166,6 +166,7 @@ void reference_vehicle(ld_model *model, double speed)
     reference_model(model);
     model->base.kind = LD_BASE_VEHICLE;
     model->base.vehicle.speed = speed;
+    model->base.vehicle.road.form = LD_ROAD_FLAT;
     model->base.vehicle.road.iso_class = LD_ROAD_SMOOTH;
     fill_wheels(&model->base.vehicle);
     fill_platform(&model->platform);

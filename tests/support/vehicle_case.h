@@ -26,6 +26,7 @@ static inline void shift3(uint64_t *seed, double x[3], double size)
 
 static inline void draw_road(uint64_t *seed, int kind, ld_road *given)
 {
+    given->form = kind & 3 ? LD_ROAD_SUM : LD_ROAD_FLAT;
     if (kind & 1) {
         given->sine_count = 2;
         for (int i = 0; i < 2; i++)

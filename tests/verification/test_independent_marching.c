@@ -35,6 +35,7 @@ static const double degree = 3.14159265358979323846 / 180;
 static void waves_and_a_bump(ld_model *model)
 {
     ld_road *profile = &model->base.vehicle.road;
+    profile->form = LD_ROAD_SUM;
     profile->sine_count = 2;
     profile->sine[0] = (ld_road_sine){0.010, 3, 0.4};
     profile->sine[1] = (ld_road_sine){0.002, 0.7, 1};
@@ -47,6 +48,7 @@ static void waves_and_a_bump(ld_model *model)
 static void holes(ld_model *model)
 {
     ld_vehicle *vehicle = &model->base.vehicle;
+    vehicle->road.form = LD_ROAD_SUM;
     vehicle->road.bump_count = 2;
     vehicle->road.bump[0] = (ld_bump){1.3, 0.8, -0.15, LD_TRACK_LEFT};
     vehicle->road.bump[1] = (ld_bump){2.0, 0.6, 0.08, LD_TRACK_RIGHT};
