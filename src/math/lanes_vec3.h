@@ -14,22 +14,24 @@ LD_INLINE v3 v4d_v3(v4d v)
 {
     return (v3){v[0], v[1], v[2]};
 }
-// (y, z, x)
+// (y, z, x) and (z, x, y), the second one cheaper
 LD_INLINE v4d v4d_yzx(v4d v)
 {
-    return __builtin_shufflevector(v, v, 1, 2, 0, 3);
+    return (v4d){v[1], v[2], v[0], v[3]};
+}
+LD_INLINE v4d v4d_zxy(v4d v)
+{
+    return (v4d){v[2], v[0], v[1], v[3]};
 }
 LD_INLINE v4d v4d_cross(v4d a, v4d b)
 {
-    return v4d_yzx(a * v4d_yzx(b) - v4d_yzx(a) * b);
+    return v4d_zxy(v4d_zxy(a) * b - a * v4d_zxy(b));
 }
-LD_INLINE double v4d_sum3(v4d v)
+// (x + z) + y in all lanes.
+LD_INLINE v4d v4d_total(v4d v)
 {
-    return (v[0] + v[1]) + v[2];
-}
-LD_INLINE double v4d_dot3(v4d a, v4d b)
-{
-    return v4d_sum3(a * b);
+    v += (v4d){v[2], v[3], v[0], v[1]};
+    return v + (v4d){v[1], v[0], v[3], v[2]};
 }
 // x column[0] + y column[1] + z column[2]
 LD_INLINE v4d v4d_combine(const v4d column[3], double x, double y, double z)

@@ -243,12 +243,14 @@ static bool allocate(ld_mstmm *s)
     s->node = array(n, sizeof *s->node, &missing);
     s->inertia = array(n, sizeof *s->inertia, &missing);
     s->beam_of = array(n, sizeof *s->beam_of, &missing);
-    s->angle_q = array(n + 1, sizeof *s->angle_q, &missing);
-    s->angle = array(n + 1, sizeof *s->angle, &missing);
-    s->sine = array(n + 1, sizeof *s->sine, &missing);
-    s->cosine = array(n + 1, sizeof *s->cosine, &missing);
+    s->angle_q = array(n + 4, sizeof *s->angle_q, &missing);
+    s->angle = array(n + 4, sizeof *s->angle, &missing);
+    s->sine = array(n + 4, sizeof *s->sine, &missing);
+    s->cosine = array(n + 4, sizeof *s->cosine, &missing);
     s->motion = array(n, sizeof *s->motion, &missing);
     s->axis = array(u, sizeof *s->axis, &missing);
+    s->passing = array(0, sizeof *s->passing, &missing);
+    s->own = array(MULTIBODY_BLOCK, sizeof *s->own, &missing);
     s->branch = array(k, sizeof *s->branch, &missing);
     s->branch_x = array(k, sizeof *s->branch_x, &missing);
     s->tau = array(u, sizeof *s->tau, &missing);
@@ -267,7 +269,8 @@ void ld_mstmm_free(ld_mstmm *s)
                       s->q_length, s->u_length, s->body_axes,    s->node,      s->inertia,
                       s->beam_of,  s->beams,    s->element_beam, s->angle_q,   s->angle,
                       s->sine,     s->cosine,   s->motion,       s->axis,      s->branch,
-                      s->branch_x, s->tau,      s->wrench,       s->place};
+                      s->branch_x, s->passing,  s->own,          s->tau,       s->wrench,
+                      s->place};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         free(blocks[i]);
     free(s);
@@ -450,9 +453,10 @@ static void link_shares(ld_mstmm *s)
 static void choose_sweep(ld_mstmm *s)
 {
     s->sweep = &sweep_default;
-#ifdef LD_HAVE_AVX2
-    if (__builtin_cpu_supports("avx2"))
-        s->sweep = &sweep_avx2;
+#ifdef LD_HAVE_AVX
+    // valgrind does not know all of AVX: LAUNCHDYN_PLAIN=1 does without
+    if (__builtin_cpu_supports("avx") && !getenv("LAUNCHDYN_PLAIN"))
+        s->sweep = &sweep_avx;
 #endif
 }
 
@@ -592,7 +596,7 @@ ld_status multibody_singular(const ld_mstmm *s, int i, ld_error *error)
 {
     int element = s->node[i].element >= 0 ? s->node[i].element : s->node[i + 1].element;
     const node_motion *m = &s->motion[i];
-    bool finite_state = isfinite(m->A[0][0] + v4d_sum3(m->w) + v4d_sum3(m->r));
+    bool finite_state = isfinite(m->A[0][0] + v4d_total(m->w)[0] + v4d_total(m->r)[0]);
     return ld_fail(error, LD_ERR_NUMERIC,
                    finite_state ? "element '%s': its hinge is in a singular state, nothing resists "
                                   "along one of its axes"

@@ -10,8 +10,7 @@
 
 #include "elements/beam.h"
 #include "launchdyn/mstmm.h"
-#include "math/lanes_vec3.h"
-#include "math/spatial.h"
+#include "math/lanes_mat3.h"
 
 typedef enum node_hinge { NODE_WELD, NODE_TURN, NODE_SLIDE, NODE_BALL, NODE_FREE } node_hinge;
 typedef enum node_body { NODE_RIGID, NODE_BEAM, NODE_SECTION } node_body;
@@ -47,28 +46,34 @@ typedef struct node_beam {
 
 // Motion of a node in inertial axes, from q and u alone.
 typedef struct node_motion {
-    v4d A[3];               // columns: internal to inertial axes
     v4d w;                  // angular velocity
+    v4d w2;                 // its square, in all lanes
+    v4d A[3];               // columns: internal to inertial axes
     v4d r;                  // from the parent's origin to this one's
     v4d bias_a, bias_alpha; // [a; alpha] = T(r) [a; alpha]_parent + axes u_dot + bias
 } node_motion;
 
-// What a subtree exerts at a cut, F = Z x + zf, by the columns of Z = [A, B; T, C], T = B^T.
+// What a subtree exerts at a cut, F = Z x + zf, Z = [A, B; B^T, C].
 typedef struct share {
-    v4d A[3], T[3], B[3], C[3];
+    lanes_sym3 A, C;
+    lanes_m3 B;
     v4d f, m; // zf
 } share;
 
-// One axis of a hinge after the reduced step: u_dot = rate - V . x, x the parent's acceleration
-// (hinges with one axis) or T x and the axes before (balls and free hinges).
+// A hinge after the reduced step. With one axis: u_dot = rate - V . x, x the parent's acceleration.
+// A ball has three of these for the inertial components of its body's alpha, found from the last
+// one on, x its body's a and the components found; a free hinge six (V = 0), of alpha and a.
 typedef struct axis_record {
-    v4d V_a, V_alpha; // Z e/D
+    v4d V_a, V_alpha; // of one axis: Z e/D
     double rate;
 } axis_record;
 
 typedef struct spatial_lanes {
     v4d a, alpha;
 } spatial_lanes;
+
+// So many bodies' own shares are made at a time, independent of each other.
+enum { MULTIBODY_BLOCK = 8 };
 
 struct ld_mstmm {
     int element_count, node_count; // the ground not counted
@@ -97,6 +102,8 @@ struct ld_mstmm {
     double *angle, *sine, *cosine;
     node_motion *motion; // [node_count + 1]
     axis_record *axis;
+    share *own;              // of a few bodies that come next, [MULTIBODY_BLOCK]
+    share *passing;          // from a node to the one before
     share *branch;           // sums over children
     spatial_lanes *branch_x; // accelerations of nodes with several children
     double *tau;             // with springs and dampers
@@ -114,7 +121,7 @@ typedef struct sweep {
     void (*outwards)(ld_mstmm *system, double *u_dot);
 } sweep;
 
-extern const sweep sweep_default, sweep_avx2;
+extern const sweep sweep_default, sweep_avx;
 
 // Motion of all nodes.
 LD_INLINE void multibody_move(ld_mstmm *system, const double *q, const double *u)

@@ -33,7 +33,7 @@ static void check_case(const char *name, double bound, double force_bound)
     ld_mstmm_free(system);
 }
 
-#ifdef LD_HAVE_AVX2
+#ifdef LD_HAVE_AVX
 // The sweep for wider registers gives the same bits.
 static void test_same_bits_with_wider_registers(void **state)
 {
@@ -69,7 +69,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference_cases),
-#ifdef LD_HAVE_AVX2
+#ifdef LD_HAVE_AVX
         cmocka_unit_test(test_same_bits_with_wider_registers),
 #endif
     };
