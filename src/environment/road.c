@@ -344,6 +344,8 @@ ld_status road_build(const ld_road *model, double x0, double x1, road **out, ld_
     road *self = calloc(1, sizeof *self);
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a road");
+    static const ld_road flat = {.iso_class = LD_ROAD_SMOOTH};
+    model = model->form == LD_ROAD_FLAT ? &flat : model;
     self->model = model;
     ld_status status = LD_OK;
     if (model->iso_class != LD_ROAD_SMOOTH)

@@ -275,13 +275,19 @@ static void test_sum(void **state)
 static void test_flat(void **state)
 {
     (void)state;
-    ld_road model = {.iso_class = LD_ROAD_SMOOTH};
-    road *self = build(&model, 0, 10);
-    for (double x = -10; x < 20; x += 0.7) {
-        double slope;
-        assert_true(road_height(self, ROAD_LEFT, x, &slope) == 0 && slope == 0);
+    ld_road smooth = {.iso_class = LD_ROAD_SMOOTH}, flat = class_road(3, LD_TRACKS_SAME, 1);
+    flat.form = LD_ROAD_FLAT;
+    flat.sine_count = 1;
+    flat.sine[0] = (ld_road_sine){0.01, 3, 1};
+    const ld_road *models[] = {&smooth, &flat};
+    for (int i = 0; i < 2; i++) {
+        road *self = build(models[i], 0, 10);
+        for (double x = -10; x < 20; x += 0.7) {
+            double slope;
+            assert_true(road_height(self, ROAD_LEFT, x, &slope) == 0 && slope == 0);
+        }
+        road_free(self);
     }
-    road_free(self);
 }
 
 // ---- what the seed decides ----
