@@ -5,8 +5,7 @@
 
 #include "environment/road.h"
 #include "io/chart.h"
-#include "io/folder.h"
-#include "io/history.h"
+#include "io/columns.h"
 #include "launchdyn/environment.h"
 #include "math/spectrum.h"
 
@@ -182,29 +181,6 @@ void ld_road_view_print(const ld_road_view *view, FILE *stream)
 
 // ---- as files ----
 
-// Writes columns of equal length as CSV.
-static ld_status write_columns(const char *folder, const char *name, const ld_column *columns,
-                               const double *const *values, size_t width, size_t rows,
-                               ld_error *error)
-{
-    char path[4096];
-    history_csv *csv = NULL;
-    if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
-        return ld_fail(error, LD_ERR_INPUT, "the folder's name is too long");
-    ld_status status = history_csv_create(path, &csv, error);
-    if (status)
-        return status;
-    status = history_csv_begin(csv, columns, width, error);
-    for (size_t i = 0; i < rows && !status; i++) {
-        double row[8];
-        for (size_t j = 0; j < width; j++)
-            row[j] = values[j][i];
-        status = history_csv_row(csv, row, width, error);
-    }
-    ld_status closed = history_csv_close(csv, status ? NULL : error);
-    return status ? status : closed;
-}
-
 ld_status ld_road_view_write(const ld_road_view *view, const char *folder, ld_error *error)
 {
     static const ld_column profile[] = {
@@ -214,18 +190,11 @@ ld_status ld_road_view_write(const ld_road_view *view, const char *folder, ld_er
                                          {.name = "left", .unit = "m3"},
                                          {.name = "right", .unit = "m3"},
                                          {.name = "class", .unit = "m3"}};
-    char *path = strdup(folder);
-    size_t there = 0;
-    if (!path)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the folder's name");
-    ld_status status = folder_make(path, &there, error);
-    free(path);
+    ld_status status = columns_write(
+        folder, "road.csv", profile,
+        (const double *const[]){view->x, view->height[0], view->height[1]}, 3, view->count, error);
     if (!status)
-        status = write_columns(folder, "road.csv", profile,
-                               (const double *const[]){view->x, view->height[0], view->height[1]},
-                               3, view->count, error);
-    if (!status)
-        status = write_columns(folder, "road-spectrum.csv", spectrum,
+        status = columns_write(folder, "road-spectrum.csv", spectrum,
                                (const double *const[]){view->edge, view->edge + 1, view->density[0],
                                                        view->density[1], view->line},
                                is_random(view->model) ? 5 : 4, view->bands, error);
