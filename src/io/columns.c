@@ -1,5 +1,6 @@
 #include "io/columns.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
