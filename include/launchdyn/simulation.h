@@ -18,6 +18,38 @@ extern "C" {
 
 enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES };
 
+/// Free flight of one rocket, of its mass centre in I against the ground; NaN where it has not
+/// landed, or has not flown. The launch point is the projection of the rear adaptor at ignition (of
+/// a flight alone: at its start).
+typedef struct ld_flight_summary {
+    double apogee;              ///< [m] greatest y
+    double downrange, drift;    ///< [m] x and z of the impact from the launch point
+    double range;               ///< [m] distance of the two
+    double t_impact;            ///< [s] from ignition
+    double time_of_flight;      ///< [s] from t_rear, or from the start of a flight alone
+    double impact_speed;        ///< [m/s]
+    double impact_angle;        ///< [rad] of the velocity below the horizontal
+    double max_mach;            ///< [-] at the ends of the steps
+    double max_angle_of_attack; ///< [rad] likewise
+} ld_flight_summary;
+
+/// State at the end of a free flight, of the rear adaptor's centre in I against the ground.
+typedef struct ld_final_state {
+    double t;                    ///< [s] on the run's clock, NaN: has not flown
+    double position[3];          ///< [m]
+    double velocity[3];          ///< [m/s]
+    double quaternion[4];        ///< of B against I, scalar part first
+    double rate[3];              ///< [rad/s] of B against I, in B
+    double center[3];            ///< [m] mass centre
+    double center_velocity[3];   ///< [m/s]
+    bool earth;                  ///< a round or WGS 84 Earth: what follows is there
+    double latitude, longitude;  ///< [rad] geodetic, of the mass centre
+    double altitude;             ///< [m] above the ellipsoid, of the mass centre
+    double velocity_ned[3];      ///< [m/s] of the mass centre towards north, east, down there
+    double heading, pitch, roll; ///< [rad] against north, up and east there
+    double rate_inertial[3];     ///< [rad/s] against inertial axes, in B
+} ld_final_state;
+
 /// Attitude, rates and forces of one rocket at its key instants. Instants in [s] from its ignition,
 /// NaN where the instant was not reached or does not exist.
 typedef struct ld_rocket_summary {
@@ -46,6 +78,8 @@ typedef struct ld_rocket_summary {
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
+    ld_flight_summary flight;
+    ld_final_state final;
 } ld_rocket_summary;
 
 /// Work by kind of force since the start [J]; positive: into the tube and the rocket.

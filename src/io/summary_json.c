@@ -142,11 +142,57 @@ static void write_tip(json_writer *json, const ld_rocket_summary *rocket)
     json_close(json, '}');
 }
 
-static void write_rocket(json_writer *json, const ld_model *model, const ld_rocket_summary *rocket)
+// Number by number, as an array.
+static void write_vector(json_writer *json, const char *key, const double *values, int count)
 {
-    json_open(json, NULL, '{');
-    json_integer(json, "tube", rocket->tube);
-    json_number(json, "t_ignition", rocket->t_ignition);
+    json_open(json, key, '[');
+    for (int i = 0; i < count; i++)
+        json_number(json, NULL, values[i]);
+    json_close(json, ']');
+}
+
+static void write_flight(json_writer *json, const ld_flight_summary *flight)
+{
+    json_open(json, "flight", '{');
+    json_number(json, "apogee", flight->apogee);
+    json_number(json, "downrange", flight->downrange);
+    json_number(json, "drift", flight->drift);
+    json_number(json, "range", flight->range);
+    json_number(json, "t_impact", flight->t_impact);
+    json_number(json, "time_of_flight", flight->time_of_flight);
+    json_number(json, "impact_speed", flight->impact_speed);
+    json_number(json, "impact_angle", flight->impact_angle);
+    json_number(json, "max_mach", flight->max_mach);
+    json_number(json, "max_angle_of_attack", flight->max_angle_of_attack);
+    json_close(json, '}');
+}
+
+static void write_final(json_writer *json, const ld_final_state *final)
+{
+    json_open(json, "final", '{');
+    json_number(json, "t", final->t);
+    write_vector(json, "position", final->position, 3);
+    write_vector(json, "velocity", final->velocity, 3);
+    write_vector(json, "quaternion", final->quaternion, 4);
+    write_vector(json, "rate", final->rate, 3);
+    write_vector(json, "center", final->center, 3);
+    write_vector(json, "center_velocity", final->center_velocity, 3);
+    if (final->earth) {
+        json_number(json, "latitude", final->latitude);
+        json_number(json, "longitude", final->longitude);
+        json_number(json, "altitude", final->altitude);
+        write_vector(json, "velocity_ned", final->velocity_ned, 3);
+        json_number(json, "heading", final->heading);
+        json_number(json, "pitch", final->pitch);
+        json_number(json, "roll", final->roll);
+        write_vector(json, "rate_inertial", final->rate_inertial, 3);
+    }
+    json_close(json, '}');
+}
+
+// What a rocket does in its tube.
+static void write_launch(json_writer *json, const ld_model *model, const ld_rocket_summary *rocket)
+{
     json_number(json, "t_release", rocket->t_release);
     json_number(json, "t_front", rocket->t_front);
     json_number(json, "t_middle", rocket->t_middle);
@@ -163,16 +209,21 @@ static void write_rocket(json_writer *json, const ld_model *model, const ld_rock
     write_tip(json, rocket);
     write_adaptors(json, "max_contact_force", model, rocket->max_contact_force);
     json_number(json, "max_slot_force", rocket->max_slot_force);
-    json_close(json, '}');
 }
 
-// Number by number, as an array.
-static void write_vector(json_writer *json, const char *key, const double *values, int count)
+static void write_rocket(json_writer *json, const ld_model *model, const ld_rocket_summary *rocket)
 {
-    json_open(json, key, '[');
-    for (int i = 0; i < count; i++)
-        json_number(json, NULL, values[i]);
-    json_close(json, ']');
+    json_open(json, NULL, '{');
+    if (model->base.kind != LD_BASE_NONE)
+        json_integer(json, "tube", rocket->tube);
+    json_number(json, "t_ignition", rocket->t_ignition);
+    if (model->base.kind != LD_BASE_NONE)
+        write_launch(json, model, rocket);
+    if (isfinite(rocket->final.t)) {
+        write_flight(json, &rocket->flight);
+        write_final(json, &rocket->final);
+    }
+    json_close(json, '}');
 }
 
 static void write_vehicle_at_rest(json_writer *json, const ld_model *model,
@@ -304,9 +355,11 @@ static void write_summary(json_writer *json, const ld_model *model, const ld_sum
     for (int i = 0; i < summary->rocket_count; i++)
         write_rocket(json, model, &summary->rocket[i]);
     json_close(json, ']');
-    write_equilibrium(json, model, &summary->equilibrium);
-    write_energy(json, &summary->energy, model->base.kind == LD_BASE_VEHICLE);
-    write_modes(json, summary);
+    if (model->base.kind != LD_BASE_NONE) {
+        write_equilibrium(json, model, &summary->equilibrium);
+        write_energy(json, &summary->energy, model->base.kind == LD_BASE_VEHICLE);
+        write_modes(json, summary);
+    }
     write_statistics(json, &summary->statistics);
     json_close(json, '}');
     fputc('\n', json->file);

@@ -81,12 +81,34 @@ static void print_rocket(const ld_model *model, const ld_rocket_summary *rocket,
     line(stream, "largest slot force", rocket->max_slot_force, 1, "N");
 }
 
-static void print_cost(const ld_summary *summary, FILE *stream)
+static void print_flight(const ld_rocket_summary *rocket, FILE *stream)
+{
+    const ld_flight_summary *flight = &rocket->flight;
+    const double *r = rocket->final.center;
+    if (!isfinite(rocket->final.t))
+        return;
+    fputs("\nFlight\n", stream);
+    line(stream, "apogee", flight->apogee, 3, "m");
+    line_of_two(stream, "downrange, drift", flight->downrange, flight->drift, 3, "m");
+    line(stream, "range", flight->range, 3, "m");
+    line(stream, "impact from ignition", flight->t_impact, 4, "s");
+    line(stream, "time of flight", flight->time_of_flight, 4, "s");
+    line(stream, "impact speed", flight->impact_speed, 3, "m/s");
+    line(stream, "impact angle", flight->impact_angle / degree, 3, "deg");
+    line(stream, "largest Mach number", flight->max_mach, 4, "");
+    line(stream, "largest angle of attack", flight->max_angle_of_attack / degree, 3, "deg");
+    if (!isfinite(flight->t_impact))
+        fprintf(stream, "  %-22s %12.3f %12.3f %12.3f m\n", "mass centre at the end", r[0], r[1],
+                r[2]);
+}
+
+static void print_cost(const ld_summary *summary, bool launch, FILE *stream)
 {
     const ld_statistics *statistics = &summary->statistics;
     fputs("\nRun\n", stream);
-    fprintf(stream, "  %-22s %12.3e J, %.1e of the largest work\n", "energy balance misses",
-            summary->energy.residual, summary->energy.residual_relative);
+    if (launch)
+        fprintf(stream, "  %-22s %12.3e J, %.1e of the largest work\n", "energy balance misses",
+                summary->energy.residual, summary->energy.residual_relative);
     fprintf(stream, "  %-22s %12lld, %lld evaluations\n", "steps", (long long)statistics->steps,
             (long long)statistics->rhs_evaluations);
     fprintf(stream, "  %-22s %12.1f ms, %.1f ms of it set-up\n", "CPU time",
@@ -96,14 +118,21 @@ static void print_cost(const ld_summary *summary, FILE *stream)
 
 void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *stream)
 {
-    fprintf(stream, "%s\n", model->title && *model->title ? model->title : "Launch");
-    print_modes(summary, stream);
-    print_equilibrium(model, &summary->equilibrium, stream);
-    for (int i = 0; i < summary->rocket_count; i++)
-        print_rocket(model, &summary->rocket[i], stream);
-    print_cost(summary, stream);
+    bool launch = model->base.kind != LD_BASE_NONE;
+    const char *unnamed = launch ? "Launch" : "Flight alone";
+    fprintf(stream, "%s\n", model->title && *model->title ? model->title : unnamed);
+    if (launch) {
+        print_modes(summary, stream);
+        print_equilibrium(model, &summary->equilibrium, stream);
+    }
+    for (int i = 0; i < summary->rocket_count; i++) {
+        if (launch)
+            print_rocket(model, &summary->rocket[i], stream);
+        print_flight(&summary->rocket[i], stream);
+    }
+    print_cost(summary, launch, stream);
     for (int i = 0; i < summary->note_count; i++)
         fprintf(stream, "%snote: %s\n", i ? "" : "\n", summary->note[i]);
     if (!summary->complete)
-        fprintf(stream, "\nStopped at %.4f ms: %s\n", summary->t_end * 1e3, summary->stopped);
+        fprintf(stream, "\nStopped at %.7f s: %s\n", summary->t_end, summary->stopped);
 }

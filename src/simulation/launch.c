@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "simulation/free_flight.h"
 #include "simulation/propagator.h"
 
 // ---- life ----
@@ -24,6 +25,23 @@ static void road_under(const ld_model *model, double x[2])
     x[1] = front + speed * (model->firing[0].at + end) + 1;
 }
 
+static ld_status create_launch(ld_simulation *self, ld_error *error)
+{
+    const ld_model *model = self->model;
+    double stretch[2];
+    road_under(model, stretch);
+    ld_status status = launcher_build(&self->launcher, model, model->firing[0].tube, stretch[0],
+                                      stretch[1], error);
+    if (!status)
+        status = motor_build(&self->motor, &model->rocket, error);
+    if (status)
+        return status;
+    self->t_ignition = model->firing[0].at;
+    history_build(self);
+    self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
+    return LD_OK;
+}
+
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
 {
     clock_t start = clock();
@@ -33,19 +51,12 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
     memset(self, 0, sizeof *self);
     self->model = model;
-    double stretch[2];
-    road_under(model, stretch);
-    ld_status status = launcher_build(&self->launcher, model, model->firing[0].tube, stretch[0],
-                                      stretch[1], error);
-    if (!status)
-        status = motor_build(&self->motor, &model->rocket, error);
+    ld_status status = model->base.kind == LD_BASE_NONE ? flight_alone_create(self, error)
+                                                        : create_launch(self, error);
     if (status) {
         ld_simulation_free(self);
         return status;
     }
-    self->t_ignition = model->firing[0].at;
-    history_build(self);
-    self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
     self->cpu_seconds_setup = (double)(clock() - start) / CLOCKS_PER_SEC;
     *out = self;
     return LD_OK;
@@ -56,6 +67,7 @@ void ld_simulation_free(ld_simulation *self)
     if (!self)
         return;
     launcher_free(&self->launcher);
+    flight_free(&self->flight);
     motor_free(&self->motor);
     free(self);
 }
@@ -142,6 +154,7 @@ static void set_up_phase(launch_run *run)
     self->worst_condition = 0;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
     run->summary->rocket_count = 1;
+    free_flight_clear(rocket);
     rocket->tube = self->model->firing[0].tube;
     rocket->t_ignition = self->t_ignition;
     rocket->t_release = rocket->t_front = rocket->t_middle = rocket->t_rear = NAN;
@@ -569,9 +582,7 @@ static ld_status begin(launch_run *run)
     return status ? status : write_row(run, run->t_start, y);
 }
 
-static void add_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
-
-static void add_note(ld_summary *summary, const char *format, ...)
+void simulation_note(ld_summary *summary, const char *format, ...)
 {
     int capacity = (int)(sizeof summary->note / sizeof summary->note[0]);
     if (summary->note_count == capacity)
@@ -586,11 +597,12 @@ static void note_formulation(const ld_simulation *self, ld_summary *summary)
 {
     if (self->model->run.formulation != LD_FORMULATION_OVERALL)
         return;
-    add_note(summary, "overall form: condition of the tube's transfer matrix up to %.2g",
-             self->worst_condition);
+    simulation_note(summary, "overall form: condition of the tube's transfer matrix up to %.2g",
+                    self->worst_condition);
     if (self->fallbacks)
-        add_note(summary, "overall form: %lld of %lld evaluations fell back on the reduced form",
-                 (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
+        simulation_note(summary,
+                        "overall form: %lld of %lld evaluations fell back on the reduced form",
+                        (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
 }
 
 // A run that ends early has its last state as its last row.
@@ -625,8 +637,8 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
     summary->statistics.rhs_evaluations = propagator_evaluations(run->propagator);
     note_formulation(self, summary);
     if (self->growing.real > 0)
-        add_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
-                 self->growing.real, self->growing.shape);
+        simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
+                        self->growing.real, self->growing.shape);
 }
 
 ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,
@@ -643,6 +655,8 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
                       .row = row,
                       .between = between};
     *run.error = (ld_error){0};
+    if (self->model->base.kind == LD_BASE_NONE)
+        return flight_alone_run(self, options, summary, run.error);
     ld_status status = begin(&run);
     if (!status) {
         status = loop(&run);

@@ -417,6 +417,8 @@ ld_status ld_simulation_system_modes(ld_simulation *self, ld_mode *modes, int ca
     linear_system system = {0};
     bool vehicle = self->launcher.vehicle;
     *count = *pole_count = 0;
+    if (self->model->base.kind == LD_BASE_NONE)
+        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
     ld_status status = simulation_linearise(self, &system, error);
     if (!status)
         status = eigenvalues(self, &system, vehicle ? LEAST_RATE : 1, poles, pole_capacity,

@@ -5,6 +5,7 @@
 #include "elements/motor.h"
 #include "launchdyn/simulation.h"
 #include "simulation/integrator.h"
+#include "systems/flight.h"
 #include "systems/launcher.h"
 
 enum { LD_MAX_COLUMNS = 1024 };
@@ -13,6 +14,7 @@ struct ld_simulation {
     const ld_model *model;
     motor motor;
     launcher_system launcher;
+    flight_system flight;
 
     // of a run
     launching_phase phase;
@@ -36,6 +38,14 @@ struct ld_simulation {
     int mode_count;
     ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
 };
+
+// Adds a remark that the user should see.
+void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
+
+// Set-up and run of a model without launcher.
+ld_status flight_alone_create(ld_simulation *self, ld_error *error);
+ld_status flight_alone_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,
+                           ld_error *error);
 
 // Thrust and mass at time t, and the base there at state y.
 void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input);

@@ -1,0 +1,61 @@
+#include "elements/aerodynamics.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void build_body(aerodynamics *self, const ld_aerodynamics *model)
+{
+    double damping[3];
+    for (int i = 0; i < 3; i++)
+        damping[i] = 0.25 * model->area * model->lengths[i] * model->lengths[i] * model->damping[i];
+    self->drag = 0.5 * model->area * model->drag;
+    self->damping = v3_from(damping);
+    self->axisymmetric = damping[1] == damping[2];
+}
+
+// The table with its scales and shift.
+static ld_status build_table(aerodynamics *self, const ld_aerodynamics *model, ld_error *error)
+{
+    const double factor[] = {1, model->ca_scale, model->ca_scale, model->cn_scale, 1, 1, 1, 1};
+    size_t columns = model->table.columns;
+    ld_table scaled = model->table;
+    scaled.data = malloc(scaled.rows * columns * sizeof(double));
+    if (!scaled.data)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the aerodynamic table");
+    for (size_t i = 0; i < scaled.rows; i++)
+        for (size_t k = 0; k < columns; k++)
+            scaled.data[i * columns + k] =
+                model->table.data[i * columns + k] * factor[k] + (k == 4 ? model->x_cp_shift : 0);
+    ld_status status = curves_build(&self->table, &scaled, model->interpolation, error);
+    self->last_mach = scaled.data[(scaled.rows - 1) * columns];
+    free(scaled.data);
+    return status;
+}
+
+ld_status aerodynamics_build(aerodynamics *self, const ld_aerodynamics *model, ld_error *error)
+{
+    const double pi = 3.14159265358979323846;
+    *self = (aerodynamics){.present = model->present,
+                           .model = model->model,
+                           .axisymmetric = true,
+                           .last_mach = INFINITY};
+    if (!model->present)
+        return LD_OK;
+    if (model->model == LD_AERODYNAMICS_BODY) {
+        build_body(self, model);
+        return LD_OK;
+    }
+    self->diameter = model->reference_diameter;
+    self->half_area = pi * self->diameter * self->diameter / 8;
+    self->cant = model->fin_cant;
+    if (model->crossflow.present) {
+        self->crossflow_drag = model->crossflow.drag;
+        self->crossflow_at = model->crossflow.at;
+    }
+    return build_table(self, model, error);
+}
+
+void aerodynamics_free(aerodynamics *self)
+{
+    curves_free(&self->table);
+}

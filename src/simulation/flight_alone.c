@@ -1,0 +1,101 @@
+// A run without launcher: the state that the scenario gives, flown to its end.
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "simulation/free_flight.h"
+#include "simulation/simulation.h"
+
+static double cpu_now(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
+typedef struct alone_run {
+    const ld_simulation *self;
+    const ld_sink *sink; // NULL: no rows wanted
+    double cpu_output;   // [s] spent on rows and their sink
+} alone_run;
+
+static ld_status write_row(void *user, const flight_phase *phase, double t, const double *state,
+                           ld_error *error)
+{
+    alone_run *run = user;
+    double row[FLIGHT_MAX_COLUMNS], start = cpu_now();
+    flight_row(&run->self->flight, phase, t, state, row);
+    ld_status status = run->sink->row(run->sink->self, row, (size_t)run->self->column_count, error);
+    run->cpu_output += cpu_now() - start;
+    return status;
+}
+
+// Marks what belongs to the tube as not there.
+static void clear_rocket(ld_rocket_summary *rocket, double t_ignition)
+{
+    double *tube[] = {&rocket->t_release,      &rocket->t_front,   &rocket->t_middle,
+                      &rocket->t_rear,         &rocket->spin_rate, &rocket->muzzle_speed,
+                      &rocket->inertial_speed, &rocket->pitch,     &rocket->yaw,
+                      &rocket->pitch_rate,     &rocket->yaw_rate,  &rocket->max_slot_force};
+    for (size_t i = 0; i < sizeof tube / sizeof tube[0]; i++)
+        *tube[i] = NAN;
+    for (int i = 0; i < 8; i++)
+        (&rocket->relative.y)[i] = (&rocket->tip.y)[i] = NAN;
+    rocket->t_ignition = t_ignition;
+    free_flight_clear(rocket);
+}
+
+ld_status flight_alone_create(ld_simulation *self, ld_error *error)
+{
+    ld_status status = flight_build(&self->flight, self->model, error);
+    if (!status)
+        self->column_count = flight_columns(&self->flight, self->column);
+    return status;
+}
+
+static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *summary,
+                     ld_error *error)
+{
+    const ld_simulation *self = run->self;
+    const ld_model *model = self->model;
+    double state[FLIGHT_STATES], ignition = model->flight.ignition;
+    flight_phase phase = free_flight_phase(&self->flight, ignition, 0);
+    flight_pose pose;
+    flight_start(&self->flight, &phase, &model->flight, state);
+    flight_leave(&self->flight, &phase, 0, state, &pose);
+    free_flight job = {
+        .system = &self->flight,
+        .model = model,
+        .t_ignition = ignition,
+        .t_end = model->run.end == LD_END_TIME ? ignition + model->run.end_time : INFINITY,
+        .launch_x = pose.r_O1.x,
+        .launch_z = pose.r_O1.z,
+        .options = options,
+        .row = run->sink ? write_row : NULL,
+        .self = run,
+    };
+    summary->rocket_count = 1;
+    clear_rocket(&summary->rocket[0], ignition);
+    double start = cpu_now();
+    ld_status status = LD_OK;
+    if (run->sink)
+        status = run->sink->begin(run->sink->self, self->column, (size_t)self->column_count, error);
+    run->cpu_output += cpu_now() - start;
+    if (!status)
+        status = free_flight_run(&job, state, &summary->rocket[0], summary, error);
+    return status;
+}
+
+ld_status flight_alone_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,
+                           ld_error *error)
+{
+    alone_run run = {.self = self, .sink = options ? options->sink : NULL};
+    double start = cpu_now();
+    ld_status status = fly(&run, options, summary, error);
+    summary->complete = status == LD_OK;
+    if (status && !error->text[0])
+        ld_fail(error, status, "the receiver of the rows stopped the run");
+    if (status)
+        memcpy(summary->stopped, error->text, sizeof summary->stopped);
+    summary->statistics.cpu_seconds = cpu_now() - start - run.cpu_output;
+    summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
+    return status;
+}

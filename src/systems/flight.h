@@ -1,0 +1,116 @@
+// Free flight: the rocket as one rigid body in the air (model.md, section 8).
+//
+// State (flat array of FLIGHT_STATES), in the axes C of environment/earth.h:
+//   r [3] mass centre [m], v [3] its velocity v_O1 + w x c [m/s], q [4] quaternion of N against C,
+//   roll [1] angle phi [rad] from N to B, w [3] angular velocity of B against C, in N.
+// N has the rocket's x axis but does not turn about it, so A_CB = A_CN Rx(phi): of a rocket that is
+// the same all around nothing in the state turns as fast as it spins. With c_dot the rate at which
+// the mass centre moves in B as propellant burns, f the force without gravity, g gravity, and m, c,
+// J taken as constants at each instant (a_O1 as in model.md, differentiated):
+//   r_dot = v + A c_dot,   v_dot = A f/m + g + A (w x c_dot),   J alpha = M_C - w x J w (in B),
+//   q_dot = 1/2 q (0, 0, w_y, w_z),   phi_dot = w_x,   w_dot = alpha + w_x e_x x w (in N)
+#ifndef LD_SYSTEMS_FLIGHT_H
+#define LD_SYSTEMS_FLIGHT_H
+
+#include <stdbool.h>
+
+#include "elements/aerodynamics.h"
+#include "elements/motor.h"
+#include "environment/atmosphere.h"
+#include "environment/earth.h"
+#include "environment/wind.h"
+#include "math/quaternion.h"
+
+enum {
+    FLIGHT_R = 0,
+    FLIGHT_V = 3,
+    FLIGHT_Q = 6,
+    FLIGHT_ROLL = 10,
+    FLIGHT_W = 11,
+    FLIGHT_STATES = 14,
+};
+
+typedef struct flight_system {
+    earth earth;
+    atmosphere atmosphere;
+    wind wind;
+    aerodynamics aerodynamics;
+    motor motor;
+    v3 thrust_point;     // [m] in B
+    v3 thrust_direction; // unit vector, in B
+    bool symmetric;      // the same all around its x axis: nothing depends on the roll angle
+    double ground;       // [m] y of I
+    bool has_ground;
+} flight_system;
+
+ld_status flight_build(flight_system *self, const ld_model *model, ld_error *error);
+void flight_free(flight_system *self);
+
+// What is switched between steps.
+typedef struct flight_phase {
+    double t_ignition; // [s]
+    int piece;         // of the thrust curve
+    bool burning;
+    bool power;       // the thrust table has not ended
+    rocket_mass mass; // while it does not burn
+    m3 J_inverse;
+    size_t interval; // of the aerodynamic table, where it was last read
+} flight_phase;
+
+// Begins a piece of the thrust curve (elements/motor.h).
+void flight_set_piece(const flight_system *self, flight_phase *phase, int piece);
+
+// Derivative of the state.
+void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,
+                  double *state_dot);
+
+// The rocket as the rest of the program knows it: rear adaptor O1 and attitude against the ground.
+typedef struct flight_pose {
+    v3 r_O1, v_O1; // [m], [m/s] against the ground, in I
+    quat q_IB;
+    v3 w; // [rad/s] against the inertial axes C, in B
+} flight_pose;
+
+void flight_enter(const flight_system *self, const flight_phase *phase, double t,
+                  const flight_pose *pose, double *state);
+void flight_leave(const flight_system *self, const flight_phase *phase, double t,
+                  const double *state, flight_pose *pose);
+
+// The state that a flight alone begins with, at t = 0.
+void flight_start(const flight_system *self, const flight_phase *phase, const ld_flight *start,
+                  double *state);
+
+// Mass centre against the ground, in I.
+earth_motion flight_center(const flight_system *self, double t, const double *state);
+
+// Where the mass centre is on a round Earth, and how it and the rocket (A_IB: its attitude) go
+// against north, east and down there.
+typedef struct flight_place {
+    geodetic geodetic;
+    v3 velocity_ned;             // [m/s]
+    double heading, pitch, roll; // [rad] Ry(-heading) Rz(pitch) Rx(roll) against north, up, east
+} flight_place;
+
+flight_place flight_place_at(const flight_system *self, double t, const double *state, m3 A_IB);
+
+// Height of the mass centre above the ground plane's zero (y of I) and its rate.
+void flight_height(const flight_system *self, const flight_phase *phase, double t,
+                   const double *state, double *y, double *y_dot);
+
+// Flow about the rocket.
+typedef struct flight_flow {
+    double altitude;        // [m] of the mass centre
+    double density;         // [kg/m3]
+    double airspeed;        // [m/s]
+    double mach;            // 0 without air
+    double angle_of_attack; // [rad] between x of B and the velocity through the air, 0 to pi
+    v3 wind;                // [m/s] velocity of the air against the ground, in I
+} flight_flow;
+
+flight_flow flight_flow_at(const flight_system *self, double t, const double *state);
+
+// Mass data and thrust now.
+rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t);
+double flight_thrust(const flight_system *self, const flight_phase *phase, double t);
+
+#endif
