@@ -35,7 +35,7 @@ typedef struct ld_flight_summary {
 
 /// State at the end of a free flight, of the rear adaptor's centre in I against the ground.
 typedef struct ld_final_state {
-    double t;                    ///< [s] on the run's clock, NaN: has not flown
+    double t;                    ///< [s] on the run's clock
     double position[3];          ///< [m]
     double velocity[3];          ///< [m/s]
     double quaternion[4];        ///< of B against I, scalar part first
@@ -78,6 +78,7 @@ typedef struct ld_rocket_summary {
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
+    bool flown; ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
     ld_final_state final;
 } ld_rocket_summary;

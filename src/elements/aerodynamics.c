@@ -17,6 +17,8 @@ static void build_body(aerodynamics *self, const ld_aerodynamics *model)
 static ld_status build_table(aerodynamics *self, const ld_aerodynamics *model, ld_error *error)
 {
     const double factor[] = {1, model->ca_scale, model->ca_scale, model->cn_scale, 1, 1, 1, 1};
+    const curve_kind kind[] = {
+        [LD_PCHIP] = CURVE_PCHIP, [LD_SPLINE] = CURVE_SPLINE, [LD_LINEAR] = CURVE_LINEAR};
     size_t columns = model->table.columns;
     ld_table scaled = model->table;
     scaled.data = malloc(scaled.rows * columns * sizeof(double));
@@ -26,7 +28,8 @@ static ld_status build_table(aerodynamics *self, const ld_aerodynamics *model, l
         for (size_t k = 0; k < columns; k++)
             scaled.data[i * columns + k] =
                 model->table.data[i * columns + k] * factor[k] + (k == 4 ? model->x_cp_shift : 0);
-    ld_status status = curves_build(&self->table, &scaled, model->interpolation, error);
+    ld_status status = curves_build(&self->table, scaled.rows, columns, scaled.data,
+                                    kind[model->interpolation], error);
     self->last_mach = scaled.data[(scaled.rows - 1) * columns];
     free(scaled.data);
     return status;

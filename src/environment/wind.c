@@ -23,7 +23,8 @@ ld_status wind_build(wind *self, const ld_wind *model, ld_error *error)
     }
     self->has_profile = model->profile.rows > 0;
     if (self->has_profile)
-        return curves_build(&self->profile, &model->profile, LD_PCHIP, error);
+        return curves_build(&self->profile, model->profile.rows, 3, model->profile.data,
+                            CURVE_PCHIP, error);
     self->steady = v3_axpy(self->steady, self->scale, along(model->speed, model->heading));
     return LD_OK;
 }

@@ -219,7 +219,7 @@ static void write_rocket(json_writer *json, const ld_model *model, const ld_rock
     json_number(json, "t_ignition", rocket->t_ignition);
     if (model->base.kind != LD_BASE_NONE)
         write_launch(json, model, rocket);
-    if (isfinite(rocket->final.t)) {
+    if (rocket->flown) {
         write_flight(json, &rocket->flight);
         write_final(json, &rocket->final);
     }

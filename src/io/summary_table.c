@@ -85,7 +85,7 @@ static void print_flight(const ld_rocket_summary *rocket, FILE *stream)
 {
     const ld_flight_summary *flight = &rocket->flight;
     const double *r = rocket->final.center;
-    if (!isfinite(rocket->final.t))
+    if (!rocket->flown)
         return;
     fputs("\nFlight\n", stream);
     line(stream, "apogee", flight->apogee, 3, "m");

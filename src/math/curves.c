@@ -17,10 +17,10 @@ static void hermite(double h, double y0, double y1, double d0, double d1, double
 }
 
 // Coefficients [n - 1][4] of one function.
-static ld_status fit(size_t n, const double *x, const double *y, ld_interpolation kind, double *c,
+static ld_status fit(size_t n, const double *x, const double *y, curve_kind kind, double *c,
                      ld_error *error)
 {
-    if (kind == LD_SPLINE) {
+    if (kind == CURVE_SPLINE) {
         spline cubic;
         ld_status status = spline_build(&cubic, n, x, y, error);
         if (!status)
@@ -31,30 +31,30 @@ static ld_status fit(size_t n, const double *x, const double *y, ld_interpolatio
     double *d = malloc(n * sizeof(double));
     if (!d)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a table of %zu points", n);
-    if (kind == LD_PCHIP)
+    if (kind == CURVE_PCHIP)
         pchip_slopes(n, x, y, d);
     for (size_t i = 0; i + 1 < n; i++) {
         double h = x[i + 1] - x[i], s = (y[i + 1] - y[i]) / h;
-        hermite(h, y[i], y[i + 1], kind == LD_LINEAR ? s : d[i], kind == LD_LINEAR ? s : d[i + 1],
-                c + 4 * i);
+        hermite(h, y[i], y[i + 1], kind == CURVE_LINEAR ? s : d[i],
+                kind == CURVE_LINEAR ? s : d[i + 1], c + 4 * i);
     }
     free(d);
     return LD_OK;
 }
 
-static ld_status fill(curves *self, const ld_table *table, ld_interpolation kind, double *scratch,
-                      ld_error *error)
+static ld_status fill(curves *self, size_t rows, const double *data, curve_kind kind,
+                      double *scratch, ld_error *error)
 {
-    size_t n = self->points;
+    size_t n = self->points, columns = (size_t)self->count + 1;
     double *x = scratch, *y = scratch + n, *c = scratch + 2 * n;
     // a single row is a constant: one interval, wherever
     for (size_t i = 0; i < n; i++)
-        x[i] = i < table->rows ? table->data[i * table->columns] : x[0] + 1;
+        x[i] = i < rows ? data[i * columns] : x[0] + 1;
     memcpy(self->x, x, n * sizeof(double));
     for (int k = 0; k < self->count; k++) {
         for (size_t i = 0; i < n; i++) {
-            size_t row = i < table->rows ? i : 0;
-            y[i] = table->data[row * table->columns + (size_t)k + 1];
+            size_t row = i < rows ? i : 0;
+            y[i] = data[row * columns + (size_t)k + 1];
         }
         ld_status status = fit(n, x, y, kind, c, error);
         if (status)
@@ -67,16 +67,17 @@ static ld_status fill(curves *self, const ld_table *table, ld_interpolation kind
     return LD_OK;
 }
 
-ld_status curves_build(curves *self, const ld_table *table, ld_interpolation kind, ld_error *error)
+ld_status curves_build(curves *self, size_t rows, size_t columns, const double *data,
+                       curve_kind kind, ld_error *error)
 {
-    size_t n = table->rows > 1 ? table->rows : 2;
-    *self = (curves){.points = n, .count = (int)table->columns - 1};
+    size_t n = rows > 1 ? rows : 2;
+    *self = (curves){.points = n, .count = (int)columns - 1};
     self->x = malloc(n * sizeof(double));
     self->coefficient = malloc((n - 1) * 4 * (size_t)self->count * sizeof(double));
     double *scratch = malloc(6 * n * sizeof(double));
     ld_status status;
     if (self->x && self->coefficient && scratch)
-        status = fill(self, table, kind, scratch, error);
+        status = fill(self, rows, data, kind, scratch, error);
     else
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for a table of %zu points", n);
     free(scratch);

@@ -5,7 +5,9 @@
 
 #include <stddef.h>
 
-#include "launchdyn/model.h"
+#include "launchdyn/status.h"
+
+typedef enum curve_kind { CURVE_PCHIP, CURVE_SPLINE, CURVE_LINEAR } curve_kind;
 
 typedef struct curves {
     size_t points;
@@ -14,9 +16,10 @@ typedef struct curves {
     double *coefficient; // [points - 1][4][count] of (x - x_i)^k, owned
 } curves;
 
-// Columns 1 .. of `table` over its column 0, which must increase; at least one row (with one row
-// the functions are constant).
-ld_status curves_build(curves *self, const ld_table *table, ld_interpolation kind, ld_error *error);
+// Columns 1 .. of `data` [rows][columns] over column 0, which must increase; at least one row (with
+// one row the functions are constant).
+ld_status curves_build(curves *self, size_t rows, size_t columns, const double *data,
+                       curve_kind kind, ld_error *error);
 void curves_free(curves *self);
 
 // The interval that x lies in, the first or last one outside; `hint` is tried first.

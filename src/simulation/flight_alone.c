@@ -40,7 +40,6 @@ static void clear_rocket(ld_rocket_summary *rocket, double t_ignition)
     for (int i = 0; i < 8; i++)
         (&rocket->relative.y)[i] = (&rocket->tip.y)[i] = NAN;
     rocket->t_ignition = t_ignition;
-    free_flight_clear(rocket);
 }
 
 ld_status flight_alone_create(ld_simulation *self, ld_error *error)

@@ -367,14 +367,6 @@ static void note(flight_run *run)
                         run->t_tumbling, run->tilted / degree);
 }
 
-void free_flight_clear(ld_rocket_summary *rocket)
-{
-    double *flight = &rocket->flight.apogee;
-    for (size_t i = 0; i < sizeof rocket->flight / sizeof(double); i++)
-        flight[i] = NAN;
-    rocket->final = (ld_final_state){.t = NAN};
-}
-
 ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
                           ld_rocket_summary *rocket, ld_summary *summary, ld_error *error)
 {
@@ -391,7 +383,10 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
                       .last_time = self->t_start,
                       .t_beyond = NAN,
                       .t_tumbling = NAN};
-    free_flight_clear(rocket);
+    rocket->flown = true;
+    double *flight = &rocket->flight.apogee;
+    for (size_t i = 0; i < sizeof rocket->flight / sizeof(double); i++)
+        flight[i] = NAN;
     ld_status status = begin(&run, state);
     if (!status)
         status = loop(&run, state);

@@ -32,9 +32,6 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
 // The phase in which a flight begins at t.
 flight_phase free_flight_phase(const flight_system *system, double t_ignition, double t);
 
-// Marks what only a flight fills as not there.
-void free_flight_clear(ld_rocket_summary *rocket);
-
 // History of a flight: columns (count returned; the texts are constant) and the values of a row.
 enum { FLIGHT_MAX_COLUMNS = 64 };
 int flight_columns(const flight_system *system, ld_column columns[FLIGHT_MAX_COLUMNS]);

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "simulation/free_flight.h"
 #include "simulation/propagator.h"
 
 // ---- life ----
@@ -154,7 +153,6 @@ static void set_up_phase(launch_run *run)
     self->worst_condition = 0;
     ld_rocket_summary *rocket = &run->summary->rocket[0];
     run->summary->rocket_count = 1;
-    free_flight_clear(rocket);
     rocket->tube = self->model->firing[0].tube;
     rocket->t_ignition = self->t_ignition;
     rocket->t_release = rocket->t_front = rocket->t_middle = rocket->t_rear = NAN;

@@ -4,11 +4,6 @@
 #include "math/curves.h"
 #include "math/pchip.h"
 
-static ld_table table_of(size_t rows, size_t columns, double *data)
-{
-    return (ld_table){rows, columns, data};
-}
-
 // Squares at 0, 1, 2, 3: harmonic means 2 s0 s1/(s0 + s1) of the secants 1, 3, 5; ends (3 s0 -
 // s1)/2.
 static void test_slopes_of_a_parabola(void **state)
@@ -58,9 +53,8 @@ static void test_monotone(void **state)
 {
     (void)state;
     double data[] = {0, 0, 0.1, 0, 0.2, 1e-3, 1, 0.5, 1.1, 0.501, 3, 10, 3.5, 10, 8, 11};
-    ld_table table = table_of(8, 2, data);
     curves c;
-    assert_int_equal(curves_build(&c, &table, LD_PCHIP, NULL), LD_OK);
+    assert_int_equal(curves_build(&c, 8, 2, data, CURVE_PCHIP, NULL), LD_OK);
     double before = -1, least = INFINITY, value;
     for (double x = 0; x <= 8; x += 1.0 / 1024) {
         curves_held(&c, x, &value);
@@ -82,10 +76,9 @@ static void test_polynomials(void **state)
         data[3 * i + 1] = 1 + x * (2 + x * (3 - x));
         data[3 * i + 2] = 2 - 3 * x;
     }
-    ld_table table = table_of(6, 3, data);
     curves spline, line;
-    assert_int_equal(curves_build(&spline, &table, LD_SPLINE, NULL), LD_OK);
-    assert_int_equal(curves_build(&line, &table, LD_LINEAR, NULL), LD_OK);
+    assert_int_equal(curves_build(&spline, 6, 3, data, CURVE_SPLINE, NULL), LD_OK);
+    assert_int_equal(curves_build(&line, 6, 3, data, CURVE_LINEAR, NULL), LD_OK);
     for (double x = 0; x <= 4; x += 0.01) {
         curves_held(&spline, x, value);
         worst = fmax(worst, fabs(value[0] - (1 + x * (2 + x * (3 - x)))));
@@ -107,16 +100,14 @@ static void test_edges(void **state)
 {
     (void)state;
     double one[] = {5, 7}, many[] = {0, 0, 1, 1, 2, 4, 3, 9}, value;
-    ld_table table = table_of(1, 2, one);
     curves c;
-    assert_int_equal(curves_build(&c, &table, LD_PCHIP, NULL), LD_OK);
+    assert_int_equal(curves_build(&c, 1, 2, one, CURVE_PCHIP, NULL), LD_OK);
     for (double x = 0; x < 10; x += 1) {
         curves_held(&c, x, &value);
         assert_true(value == 7);
     }
     curves_free(&c);
-    table = table_of(4, 2, many);
-    assert_int_equal(curves_build(&c, &table, LD_PCHIP, NULL), LD_OK);
+    assert_int_equal(curves_build(&c, 4, 2, many, CURVE_PCHIP, NULL), LD_OK);
     for (size_t hint = 0; hint < 6; hint++) {
         assert_int_equal(curves_interval(&c, -1, hint), 0);
         assert_int_equal(curves_interval(&c, 0.5, hint), 0);
