@@ -174,14 +174,20 @@ static void half_turns(const double angle[HINGES], half_turn turn[HINGES])
 static double command_at(const ld_table *table, double t, double *rate)
 {
     const double *row = table->data;
-    size_t n = table->columns, last = table->rows - 1, k = 0;
+    size_t n = table->columns, first = 0, end = table->rows;
     *rate = 0;
     if (t < row[0])
         return row[1];
-    while (k < last && t >= row[(k + 1) * n])
-        k++;
-    row += k * n;
-    if (k == last)
+    // the last row at or before t
+    while (end - first > 1) {
+        size_t middle = (first + end) / 2;
+        if (t >= row[middle * n])
+            first = middle;
+        else
+            end = middle;
+    }
+    row += first * n;
+    if (end == table->rows)
         return row[1];
     *rate = (row[n + 1] - row[1]) / (row[n] - row[0]);
     return row[1] + *rate * (t - row[0]);

@@ -251,6 +251,28 @@ static void test_tyre_on_slope(void **context)
     tear_down(&f);
 }
 
+// Wheels with mount z < 0 run on the left track: a bump under the others lifts them alone.
+static void test_tracks(void **context)
+{
+    (void)context;
+    fixture f;
+    set_up(&f, 8);
+    make_wavy(&f);
+    f.vehicle->road.sine_count = 0;
+    build(&f);
+    base_frame chassis = level_frame(1.2, v3_zero());
+    double state[STATES], dot[STATES];
+    marching_output out;
+    marching_place(&f.system, &chassis, state);
+    marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+    for (int j = 0; j < WHEELS; j++) {
+        double x = f.vehicle->wheel[j].mount[0];
+        double bump = 0.015 * (1 - cos(2 * PI * (x + 4) / 8));
+        CHECK_NEAR(f.vehicle->wheel[j].name, out.wheel[j].height, j % 2 ? bump : 0, 1e-16);
+    }
+    tear_down(&f);
+}
+
 // ---- one wheel against closed forms
 
 // The unilateral vertical force: none in the air, none where damping would pull.
@@ -432,6 +454,23 @@ static void test_relaxation_length(void **context)
     tear_down(&f);
 }
 
+// Rolling: the damper works on the deflection's rate, not on the slip alone.
+static void test_rolling_side_force(void **context)
+{
+    (void)context;
+    fixture f;
+    set_up(&f, 8);
+    f.vehicle->tyre.friction = 1e9;
+    build(&f);
+    const double eta = 1e-3, eta_dot = 0.05 - 8 * eta / 0.3;
+    double rate;
+    marching_output out;
+    double side = side_by_side(&f, v3_make(-8, 0, 0.05), eta, 0, &rate, &out);
+    CHECK_NEAR("rate of the deflection [m/s]", rate, eta_dot, 1e-15);
+    CHECK_NEAR("side force [N]", side, -5e5 * eta - 4e3 * eta_dot, 1e-10);
+    tear_down(&f);
+}
+
 // |f| = |f_0|/sqrt(1 + |f_0|^2/(mu F_n)^2): its direction stays, mu F_n is reached from below.
 static void test_friction_limit(void **context)
 {
@@ -532,6 +571,13 @@ static void test_drive_step(void **context)
         double t = i * h, e = step * (cos(w * t) - d / w * sin(w * t)) * exp(-d * t);
         error = worst(error, V - y[0] - e);
     }
+    // held in the equilibrium it gives nothing
+    base_frame chassis = level_frame(1.24, v3_zero());
+    double state[STATES], dot[STATES];
+    marching_output out;
+    marching_place(&f.system, &chassis, state);
+    marching_evaluate(&f.system, &chassis, true, state, dot, &out);
+    CHECK_BELOW("force of a held drive [N]", out.drive_force + out.wheel[5].along, 0);
     CHECK_BELOW("speed's lag against the closed form [m/s]", error, 1e-8);
     CHECK_BELOW("half the force on each of two driven wheels [N]", share_error, 1e-8);
     tear_down(&f);
@@ -540,11 +586,18 @@ static void test_drive_step(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_balances),          cmocka_unit_test(test_tyre_on_slope),
-        cmocka_unit_test(test_unilateral),        cmocka_unit_test(test_static_deflection),
-        cmocka_unit_test(test_quarter_car),       cmocka_unit_test(test_bump_stops),
-        cmocka_unit_test(test_relaxation_length), cmocka_unit_test(test_friction_limit),
-        cmocka_unit_test(test_parked_hold),       cmocka_unit_test(test_drive_step),
+        cmocka_unit_test(test_balances),
+        cmocka_unit_test(test_tyre_on_slope),
+        cmocka_unit_test(test_tracks),
+        cmocka_unit_test(test_rolling_side_force),
+        cmocka_unit_test(test_unilateral),
+        cmocka_unit_test(test_static_deflection),
+        cmocka_unit_test(test_quarter_car),
+        cmocka_unit_test(test_bump_stops),
+        cmocka_unit_test(test_relaxation_length),
+        cmocka_unit_test(test_friction_limit),
+        cmocka_unit_test(test_parked_hold),
+        cmocka_unit_test(test_drive_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
