@@ -361,7 +361,7 @@ static void write_text(const plot_drawing *drawing, const char *text, double lef
 // The runs' colours and names in rows above the figures; returns the height that they take.
 static double place_run_names(const plot_drawing *drawing, const plot_page *page)
 {
-    const double line = 26, letter = 7.4;
+    const double line = 26, letter = 6.6;
     double left = 16, top = 0;
     for (size_t run = 0; run < page->runs; run++) {
         double width = line + 28 + letter * (double)strlen(page->name[run]);
