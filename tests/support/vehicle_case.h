@@ -27,16 +27,15 @@ static inline void shift3(uint64_t *seed, double x[3], double size)
 static inline void draw_road(uint64_t *seed, int kind, ld_road *given)
 {
     given->form = kind & 3 ? LD_ROAD_SUM : LD_ROAD_FLAT;
-    if (kind & 1) {
-        given->sine_count = 2;
-        for (int i = 0; i < 2; i++)
-            given->sine[i] = (ld_road_sine){0.01 + 0.01 * i, 1.5 + draw(seed), 3 * draw(seed)};
+    given->sine_count = kind & 1 ? 2 : 0;
+    given->bump_count = kind & 2 ? 3 : 0;
+    for (int i = 0; i < given->sine_count; i++) {
+        double wavelength = 1.5 + draw(seed), phase = 3 * draw(seed);
+        given->sine[i] = (ld_road_sine){0.01 + 0.01 * i, wavelength, phase};
     }
-    if (kind & 2) {
-        given->bump_count = 3;
-        for (int i = 0; i < 3; i++)
-            given->bump[i] =
-                (ld_bump){4 * draw(seed), 2 + draw(seed), 0.05 * draw(seed), (ld_track)i};
+    for (int i = 0; i < given->bump_count; i++) {
+        double at = 4 * draw(seed), length = 2 + draw(seed), height = 0.05 * draw(seed);
+        given->bump[i] = (ld_bump){at, length, height, (ld_track)i};
     }
 }
 
@@ -124,8 +123,8 @@ static inline void draw_vehicle_state(uint64_t *seed, ld_model *model, vehicle_c
     c->frictionless = draw(seed) > 0.5;
     // chassis and hinges
     double *o = c->orientating;
-    m3 A = m3_mul(m3_rotation_y(3 * draw(seed)),
-                  m3_mul(m3_rotation_z(0.4 * draw(seed)), m3_rotation_x(0.4 * draw(seed))));
+    double heading = 3 * draw(seed), pitch = 0.4 * draw(seed), roll = 0.4 * draw(seed);
+    m3 A = m3_mul(m3_rotation_y(heading), m3_mul(m3_rotation_z(pitch), m3_rotation_x(roll)));
     quat q = q_from_matrix(A);
     v3 r = draw_v3(seed, 3), v = draw_v3(seed, 10), w = draw_v3(seed, 2);
     v3_store(o + ORIENTATING_R, r);
@@ -134,7 +133,8 @@ static inline void draw_vehicle_state(uint64_t *seed, ld_model *model, vehicle_c
     v3_store(o + ORIENTATING_W, w);
     for (int i = 0; i < HINGES; i++) {
         o[ORIENTATING_ANGLE + i] = (i == 0 ? 3 : 0.7) * draw(seed);
-        o[ORIENTATING_RATE + i] = draw(seed) * (draw(seed) > 0 ? 1 : 2e-3);
+        double rate = draw(seed); // slow ones for the friction
+        o[ORIENTATING_RATE + i] = rate * (draw(seed) > 0 ? 1 : 2e-3);
     }
     m3 turn = m3_mul(m3_rotation_y(o[ORIENTATING_ANGLE]), m3_rotation_z(o[ORIENTATING_ANGLE + 1]));
     aim(seed, model, m3_mul(A, turn), c);
