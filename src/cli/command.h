@@ -28,6 +28,7 @@ int command_modes(const command *self, int argc, const char **argv);
 int command_plot(const command *self, int argc, const char **argv);
 void command_plot_help(void);
 int command_road(const command *self, int argc, const char **argv);
+int command_wind(const command *self, int argc, const char **argv);
 
 // The options that a command knows end with these two.
 #define COMMAND_HELP                                                                               \

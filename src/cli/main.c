@@ -16,6 +16,7 @@ static const command commands[] = {
     {"plot", "DIR...", "Draw figures of one run, or of several laid one over the other",
      command_plot_help, command_plot},
     {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road},
+    {"wind", "FILE", "Show profile, gusts and turbulence of the wind", NULL, command_wind},
     {"version", "", "Print the version", NULL, command_version},
     {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help},
 };

@@ -104,7 +104,7 @@ static void write_data(FILE *script, size_t index, int j, drawn_curve *drawn, co
 static void write_faint_label(FILE *script, const drawn_curve *drawn, const char *label,
                               const double x[2], const double y[2], bool logarithmic)
 {
-    for (size_t i = drawn->count; i-- > 0;)
+    for (size_t i = *label ? drawn->count : 0; i-- > 0;)
         if (drawable(drawn, i) && drawn->x[i] >= x[0] && drawn->x[i] <= x[1] &&
             drawn->y[i] >= y[0] && drawn->y[i] <= y[1]) {
             fputs("set label ", script);

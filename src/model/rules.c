@@ -354,8 +354,6 @@ static void environment_rules(const rule_set *rules)
     rising_rule(rules, "environment.wind.profile.#", &wind->profile, "m", false);
     if (wind->profile.rows > 0 && wind->speed != 0)
         broken(rules, "environment.wind.speed", 0, "given together with profile; give one of them");
-    if (wind->turbulence.present)
-        broken(rules, "environment.wind.turbulence", 0, "not simulated yet");
 }
 
 static void aerodynamics_rules(const rule_set *rules)

@@ -1,0 +1,58 @@
+// launchdyn wind: the wind of a scenario, to look at.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/command.h"
+#include "launchdyn/environment.h"
+
+typedef struct wind_wishes {
+    char **sets;
+    char *folder, *picture; // NULL: not wanted
+    ld_wind_section section;
+} wind_wishes;
+
+static int show_wind(const ld_model *model, void *data)
+{
+    const wind_wishes *wishes = data;
+    ld_wind_view *view = NULL;
+    ld_error error;
+    ld_status status = ld_wind_view_create(model, wishes->section, &view, &error);
+    if (!status && wishes->folder)
+        status = ld_wind_view_write(view, wishes->folder, &error);
+    if (!status && wishes->picture)
+        status = ld_wind_view_draw(view, wishes->picture, &error);
+    if (!status)
+        ld_wind_view_print(view, stdout);
+    ld_wind_view_free(view);
+    return status ? command_fail(status, &error) : 0;
+}
+
+int command_wind(const command *self, int argc, const char **argv)
+{
+    wind_wishes wishes = {.section = {100, 2000, NAN, NAN, 1}};
+    const struct poptOption options[] = {
+        COMMAND_SETS(&wishes.sets),
+        {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
+         "Write wind-profile.csv and, where there are such, wind-gusts.csv, wind-turbulence.csv, "
+         "wind-spectrum.csv into this folder",
+         "DIR"},
+        {"plot", 'p', POPT_ARG_STRING, &wishes.picture, 0,
+         "Draw them with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
+        {"height", '\0', POPT_ARG_DOUBLE, &wishes.section.height, 0,
+         "Height of gusts and turbulence above ground, in metres (100)", "H"},
+        {"top", '\0', POPT_ARG_DOUBLE, &wishes.section.top, 0,
+         "Height up to which the profile goes, in metres (2000)", "H"},
+        {"length", '\0', POPT_ARG_DOUBLE, &wishes.section.length, 0,
+         "Length of the line through the turbulence, in metres (100 L_u)", "S"},
+        {"step", '\0', POPT_ARG_DOUBLE, &wishes.section.step, 0,
+         "From place to place on it, in metres (0.03 of the smaller length scale)", "DS"},
+        {"rocket", '\0', POPT_ARG_INT, &wishes.section.rocket, 0,
+         "Whose turbulence, by its place in the firing sequence (1)", "N"},
+        COMMAND_HELP,
+        COMMAND_END};
+    int code = command_on_model(self, argc, argv, options, &wishes.sets, show_wind, &wishes);
+    free(wishes.folder);
+    free(wishes.picture);
+    return code;
+}
