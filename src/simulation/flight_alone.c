@@ -44,7 +44,7 @@ static void clear_rocket(ld_rocket_summary *rocket, double t_ignition)
 
 ld_status flight_alone_create(ld_simulation *self, ld_error *error)
 {
-    ld_status status = flight_build(&self->flight, self->model, error);
+    ld_status status = flight_build(&self->flight, self->model, 0, error);
     if (!status)
         self->column_count = flight_columns(&self->flight, self->column);
     return status;

@@ -30,7 +30,7 @@ static int rhs(double t, const double *y, double *y_dot, void *self)
     flight_run *run = self;
     flight_rates(run->job->system, &run->phase, t, y, y_dot);
     double sum = 0;
-    for (int i = 0; i < FLIGHT_STATES; i++)
+    for (int i = 0; i < run->job->system->states; i++)
         sum += 0 * y_dot[i];
     return sum == 0 ? 0 : -1;
 }
@@ -65,9 +65,11 @@ static ld_status make_integrator(flight_run *run)
     for (int i = 0; i < 4; i++)
         atol[FLIGHT_Q + i] = tolerance;
     atol[FLIGHT_ROLL] = 10 * tolerance;
-    absolute[FLIGHT_ROLL] = true;
+    for (int i = 0; i < 2; i++)
+        atol[FLIGHT_XI + i] = tolerance;
+    absolute[FLIGHT_ROLL] = absolute[FLIGHT_XI] = absolute[FLIGHT_XI + 1] = true;
     integrator_settings settings = {
-        .n = FLIGHT_STATES,
+        .n = run->job->system->states,
         .method = INTEGRATOR_CASH_KARP,
         .rtol = tolerance,
         .atol = atol,
@@ -182,12 +184,13 @@ static void small_step(flight_run *run, double t, double h, double *y)
 {
     double k[4][FLIGHT_STATES], at[FLIGHT_STATES];
     const double part[4] = {0, 0.5, 0.5, 1};
+    int states = run->job->system->states;
     for (int stage = 0; stage < 4; stage++) {
-        for (int i = 0; i < FLIGHT_STATES; i++)
+        for (int i = 0; i < states; i++)
             at[i] = y[i] + (stage ? part[stage] * h * k[stage - 1][i] : 0);
         flight_rates(run->job->system, &run->phase, t + part[stage] * h, at, k[stage]);
     }
-    for (int i = 0; i < FLIGHT_STATES; i++)
+    for (int i = 0; i < states; i++)
         y[i] += h / 6 * (k[0][i] + 2 * (k[1][i] + k[2][i]) + k[3][i]);
 }
 
@@ -292,7 +295,8 @@ static bool is_down(flight_run *run, integrator_outcome outcome, double t, const
 static ld_status after_step(flight_run *run, integrator_outcome outcome, double *end)
 {
     double t = integrator_time(run->integrator);
-    memcpy(end, integrator_state(run->integrator), FLIGHT_STATES * sizeof(double));
+    memcpy(end, integrator_state(run->integrator),
+           (size_t)run->job->system->states * sizeof(double));
     run->landed = is_down(run, outcome, t, end);
     ld_status status = write_rows(run, t);
     if (run->landed)

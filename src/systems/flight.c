@@ -11,7 +11,7 @@ static bool is_symmetric_mass(const rocket_mass *mass)
            J[1][2] == 0;
 }
 
-ld_status flight_build(flight_system *self, const ld_model *model, ld_error *error)
+ld_status flight_build(flight_system *self, const ld_model *model, int rocket, ld_error *error)
 {
     const ld_motor *thrust = &model->rocket.motor;
     *self = (flight_system){.thrust_point = v3_from(thrust->at),
@@ -24,6 +24,10 @@ ld_status flight_build(flight_system *self, const ld_model *model, ld_error *err
     ld_status status = wind_build(&self->wind, &model->environment.wind, error);
     if (!status)
         status = aerodynamics_build(&self->aerodynamics, &model->rocket.aerodynamics, error);
+    if (!status && self->wind.present && self->aerodynamics.present)
+        status =
+            turbulence_build(&self->turbulence, &model->environment.wind.turbulence, rocket, error);
+    self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;
     if (!status)
         status = motor_build(&self->motor, &model->rocket, error);
     if (status) {
@@ -40,6 +44,7 @@ ld_status flight_build(flight_system *self, const ld_model *model, ld_error *err
 void flight_free(flight_system *self)
 {
     wind_free(&self->wind);
+    turbulence_free(&self->turbulence);
     aerodynamics_free(&self->aerodynamics);
     motor_free(&self->motor);
 }
@@ -102,14 +107,26 @@ static v3 wind_velocity(const flight_system *self, double t, v3 r, double altitu
     return m3_apply(A_CE, m3_apply(globe->A_EI, wind_at(moving, t, above.y - self->ground)));
 }
 
+// Velocity of the air by turbulence, in C, and its scales at the point r of C.
+static v3 turbulence_at(const flight_system *self, double t, v3 r, const double xi[2],
+                        turbulence_scales *scales)
+{
+    const earth *globe = &self->earth;
+    double y = globe->flat ? r.y : earth_to_ground(globe, t, r, v3_zero()).r.y;
+    *scales = turbulence_scales_at(&self->turbulence, y - self->ground);
+    v3 v = turbulence_velocity(&self->turbulence, scales, xi[0], xi[1]);
+    return globe->flat ? v : m3_apply(earth_turn(globe, t), m3_apply(globe->A_EI, v));
+}
+
 // The air at a point of C that moves with v: density, speed of sound, velocity through it, in C.
 typedef struct flow {
     double altitude;
     air air;
     v3 v;
+    double xi_dot[2];
 } flow;
 
-LD_INLINE flow flow_at(const flight_system *self, double t, v3 r, v3 v)
+LD_INLINE flow flow_at(const flight_system *self, double t, v3 r, v3 v, const double xi[2])
 {
     flow out;
     out.altitude = earth_altitude(&self->earth, r);
@@ -118,6 +135,13 @@ LD_INLINE flow flow_at(const flight_system *self, double t, v3 r, v3 v)
         v = v3_sub(v, v3_cross(earth_rate(&self->earth), r));
     if (self->wind.present)
         v = v3_sub(v, wind_velocity(self, t, r, out.altitude));
+    if (self->turbulence.present) {
+        turbulence_scales scales;
+        double mean_speed = v3_norm(v);
+        v = v3_sub(v, turbulence_at(self, t, r, xi, &scales));
+        out.xi_dot[0] = mean_speed / scales.L_u;
+        out.xi_dot[1] = mean_speed / scales.L_w;
+    }
     out.v = v;
     return out;
 }
@@ -125,7 +149,7 @@ LD_INLINE flow flow_at(const flight_system *self, double t, v3 r, v3 v)
 flight_flow flight_flow_at(const flight_system *self, double t, const double *state)
 {
     v3 r = v3_from(state + FLIGHT_R), v = v3_from(state + FLIGHT_V);
-    flow here = flow_at(self, t, r, v);
+    flow here = flow_at(self, t, r, v, state + FLIGHT_XI);
     v3 axis = m3_column(q_matrix(q_from(state + FLIGHT_Q)), 0);
     double along = v3_dot(axis, here.v), speed = v3_norm(here.v);
     bool has_air = self->atmosphere.kind != LD_ATMOSPHERE_NONE;
@@ -136,6 +160,9 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
                        .angle_of_attack = atan2(v3_norm(v3_cross(axis, here.v)), along)};
     if (self->wind.present) {
         v3 w = wind_velocity(self, t, r, here.altitude);
+        turbulence_scales scales;
+        if (self->turbulence.present)
+            w = v3_add(w, turbulence_at(self, t, r, state + FLIGHT_XI, &scales));
         m3 A_CI = m3_mul(earth_turn(&self->earth, t), self->earth.A_EI);
         out.wind = m3_apply_transposed(A_CI, w);
     }
@@ -176,7 +203,9 @@ LD_INLINE void rates(const flight_system *self, flight_phase *phase, double t, c
     v3 moment = v3_cross(v3_sub(self->thrust_point, mass->c), force);
     // air
     if (self->aerodynamics.present) {
-        flow here = flow_at(self, t, r, v);
+        flow here = flow_at(self, t, r, v, y + FLIGHT_XI);
+        if (self->turbulence.present)
+            memcpy(y_dot + FLIGHT_XI, here.xi_dot, sizeof here.xi_dot);
         double speed = v3_norm(here.v), mach = speed / here.air.speed_of_sound;
         v3 v_B = roll(c, -s, m3_apply_transposed(A, here.v));
         air_wrench wrench =
@@ -238,6 +267,7 @@ void flight_enter(const flight_system *self, const flight_phase *phase, double t
     memcpy(state + FLIGHT_Q, &q, sizeof q);
     state[FLIGHT_ROLL] = 0;
     v3_store(state + FLIGHT_W, pose->w);
+    state[FLIGHT_XI] = state[FLIGHT_XI + 1] = 0;
 }
 
 void flight_leave(const flight_system *self, const flight_phase *phase, double t,

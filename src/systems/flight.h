@@ -9,6 +9,8 @@
 // J taken as constants at each instant (a_O1 as in model.md, differentiated):
 //   r_dot = v + A c_dot,   v_dot = A f/m + g + A (w x c_dot),   J alpha = M_C - w x J w (in B),
 //   q_dot = 1/2 q (0, 0, w_y, w_z),   phi_dot = w_x,   w_dot = alpha + w_x e_x x w (in N)
+// In turbulence two more states: xi_dot = V_m/L_u and V_m/L_w, V_m the speed through the air
+// without it.
 #ifndef LD_SYSTEMS_FLIGHT_H
 #define LD_SYSTEMS_FLIGHT_H
 
@@ -18,6 +20,7 @@
 #include "elements/motor.h"
 #include "environment/atmosphere.h"
 #include "environment/earth.h"
+#include "environment/turbulence.h"
 #include "environment/wind.h"
 #include "math/quaternion.h"
 
@@ -27,13 +30,16 @@ enum {
     FLIGHT_Q = 6,
     FLIGHT_ROLL = 10,
     FLIGHT_W = 11,
-    FLIGHT_STATES = 14,
+    FLIGHT_XI = 14,
+    FLIGHT_STATES = 16,
 };
 
 typedef struct flight_system {
     earth earth;
     atmosphere atmosphere;
     wind wind;
+    turbulence turbulence; // none without aerodynamics
+    int states;            // 14, or FLIGHT_STATES in turbulence
     aerodynamics aerodynamics;
     motor motor;
     v3 thrust_point;     // [m] in B
@@ -43,7 +49,8 @@ typedef struct flight_system {
     bool has_ground;
 } flight_system;
 
-ld_status flight_build(flight_system *self, const ld_model *model, ld_error *error);
+// Of the rocket with this place in the firing sequence, from 0, which decides its turbulence.
+ld_status flight_build(flight_system *self, const ld_model *model, int rocket, ld_error *error);
 void flight_free(flight_system *self);
 
 // What is switched between steps.
@@ -60,7 +67,7 @@ typedef struct flight_phase {
 // Begins a piece of the thrust curve (elements/motor.h).
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece);
 
-// Derivative of the state.
+// Derivative of the state, of as many numbers as the system has states.
 void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,
                   double *state_dot);
 
