@@ -299,6 +299,45 @@ static void test_road(void **state)
                      "a picture's name ends in .svg, .pdf or .png");
 }
 
+static void test_wind(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("launchdyn wind examples/fixed.yaml --set 'environment.wind={profile: [[0 m, 0 m/s, 0 "
+            "m/s], [10 m, 2 m/s, 1 m/s], [500 m, 8 m/s, 4 m/s]], gust: [{start: 1 s, rise: 0.2 s, "
+            "speed: 3 m/s, heading: 90 deg}], turbulence: {wind_at_6m: 5 m/s}}' --height 10 --top "
+            "500 --length 1000 --step 1 --out a --plot wind.svg"),
+        0);
+    expect_in(shell.out, "\n       500         8.000       0.000       4.000\n");
+    expect_in(shell.out,
+              "\n          1        0.2          0        0.2           3            90\n");
+    expect_in(shell.out, "\n  sigma [m/s] 0.944       0.500       0.944\n");
+    assert_int_equal(run("ls a; wc -l <a/wind-turbulence.csv; grep -c '^<svg' wind.svg; sort -t , "
+                         "-g -k 4 a/wind-gusts.csv | tail -n 1 | cut -d , -f 4; head -n 1 "
+                         "a/wind-spectrum.csv | cut -c 1-40"),
+                     0);
+    expect_in(shell.out, "wind-gusts.csv\nwind-profile.csv\nwind-spectrum.csv\n"
+                         "wind-turbulence.csv\n1002\n1\n4\n"
+                         "from [rad/m],to [rad/m],x [m3/s2/rad],");
+
+    // a steady wind by north and east: nothing but its profile
+    assert_int_equal(run("launchdyn wind examples/fixed.yaml --set 'environment.wind={axes: "
+                         "geographic, speed: 5 m/s, heading: 90 deg}' --out b; ls b; head -n 2 "
+                         "b/wind-profile.csv | tail -n 1 | cut -d , -f 1,3,4"),
+                     0);
+    expect_in(shell.out, "  altitude [m]       north          up        east\n");
+    expect_in(shell.out, "\nwind-profile.csv\n0,0,5\n");
+
+    expect_complaint("launchdyn wind examples/fixed.yaml", 2,
+                     "launchdyn: there is no wind in the scenario\n");
+    expect_complaint("launchdyn wind examples/fixed.yaml --set 'environment.wind={turbulence: "
+                     "{wind_at_6m: 5 m/s}}' --step 0",
+                     2, "a line through the air needs 2 to 1000000 places");
+    expect_complaint("launchdyn wind examples/fixed.yaml --set 'environment.wind={speed: 1 m/s}' "
+                     "--height -1",
+                     2, "a wind is shown at a height from 0 m on");
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
 
 int main(void)
@@ -315,6 +354,7 @@ int main(void)
         TEST(test_interrupted),
         TEST(test_modes_table),
         TEST(test_road),
+        TEST(test_wind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
