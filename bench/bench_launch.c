@@ -1,36 +1,11 @@
 // Cost of a launch: one evaluation of the launching subsystem's accelerations, set-up, a whole
 // launch. Medians of many, process CPU time; the reference launcher on a fixed base at default
 // settings.
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
-
+#include "bench_sample.h"
 #include "launchdyn/scenario.h"
 #include "simulation/simulation.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void print(const char *what, double *sample, int count, double unit, const char *name)
-{
-    if (!what)
-        return;
-    qsort(sample, (size_t)count, sizeof *sample, ascending);
-    printf("%-58s median %8.3f  least %8.3f %s\n", what, sample[count / 2] / unit, sample[0] / unit,
-           name);
-}
 
 // A state in the tube with `contacts` adaptors on the wall.
 static void bench_evaluation(ld_simulation *simulation, int contacts, const char *what)
@@ -74,7 +49,8 @@ static void bench_form(ld_simulation *simulation, ld_formulation form, const cha
     for (int r = 0; r < REPEATS; r++) {
         double start = now();
         for (int i = 0; i < FEW_EVALUATIONS; i++)
-            launching_evaluate_general(&simulation->launcher.launching, form, &input.launching, &phase, y, &out);
+            launching_evaluate_general(&simulation->launcher.launching, form, &input.launching,
+                                       &phase, y, &out);
         sample[r] = (now() - start) / FEW_EVALUATIONS;
     }
     print(what, sample, REPEATS, 1e-9, "ns");

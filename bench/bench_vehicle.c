@@ -1,0 +1,98 @@
+// Cost of a launch from the marching vehicle: one evaluation and its parts, the whole run of
+// examples/reference.yaml (3 s lead-in), and the part in the tube against the fixed base. Process
+// CPU time.
+#include <string.h>
+
+#include "bench_sample.h"
+#include "launchdyn/scenario.h"
+#include "simulation/simulation.h"
+
+enum { REPEATS = 11, PARTS = 41, EVALUATIONS = 2000 };
+
+typedef struct part_of_it {
+    const char *name;
+    bool place, launching, vehicle;
+} part_of_it;
+
+// What an evaluation of the whole, or of parts of it, costs in the state before ignition.
+static void bench_evaluation(ld_simulation *simulation, const part_of_it *part)
+{
+    double y[LD_MAX_STATES], y_dot[LD_MAX_STATES], sample[PARTS];
+    ld_equilibrium_summary unused;
+    const launcher_system *launcher = &simulation->launcher;
+    launching_phase phase = simulation_start_phase(simulation);
+    launcher_input input;
+    launcher_output out;
+    memset(&out, 0, sizeof out);
+    if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
+        return;
+    simulation_move_with_base(simulation, 0, y);
+    simulation_input(simulation, 0, y, &input);
+    launcher_evaluate(launcher, &input, &phase, y, &out);
+    for (int r = 0; r < PARTS; r++) {
+        double start = now();
+        for (int i = 0; i < EVALUATIONS; i++) {
+            y[launcher->orientating_at] += 1e-9; // a new place each time
+            if (part->place)
+                simulation_input(simulation, 0, y, &input);
+            if (part->launching)
+                launching_evaluate(&launcher->launching, &input.launching, &phase, y,
+                                   &out.launching);
+            if (part->vehicle)
+                launcher_evaluate_vehicle(launcher, &input, &phase, y, &out);
+            if (part->launching && part->vehicle)
+                launcher_rates(launcher, y, &out, true, y_dot);
+        }
+        sample[r] = (now() - start) / EVALUATIONS;
+    }
+    print(part->name, sample, PARTS, 1e-9, "ns");
+}
+
+// Least CPU time [s] of a run.
+static double bench_run(const char *what, const char *file, const char *const *sets, int count)
+{
+    ld_model model;
+    ld_messages messages = {0};
+    ld_simulation *simulation;
+    ld_summary summary;
+    double sample[REPEATS];
+    if (ld_scenario_read(file, sets, (size_t)count, &model, &messages) ||
+        ld_simulation_create(&model, &simulation, NULL))
+        return 0;
+    for (int r = 0; r < REPEATS; r++) {
+        double start = now();
+        ld_simulation_run(simulation, NULL, &summary, NULL);
+        sample[r] = now() - start;
+    }
+    print(what, sample, REPEATS, 1e-3, "ms");
+    printf("    %lld evaluations\n", (long long)summary.statistics.rhs_evaluations);
+    ld_simulation_free(simulation);
+    ld_model_free(&model);
+    return sample[0];
+}
+
+int main(void)
+{
+    static const char reference[] = LD_SOURCE_DIR "/examples/reference.yaml";
+    static const char fixed[] = LD_SOURCE_DIR "/examples/fixed.yaml";
+    static const char *const no_lead_in[] = {"run.lead_in=0 s"};
+    static const part_of_it parts[] = {{"evaluation of the whole", true, true, true},
+                                 {"of it frames, thrust and mass", true, false, false},
+                                 {"of it tube and rocket", false, true, false},
+                                 {"of it wheels, chassis and platforms", false, false, true}};
+    ld_model model;
+    ld_messages messages = {0};
+    ld_simulation *simulation;
+    if (ld_scenario_read(reference, NULL, 0, &model, &messages) ||
+        ld_simulation_create(&model, &simulation, NULL))
+        return 1;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        bench_evaluation(simulation, &parts[i]);
+    ld_simulation_free(simulation);
+    ld_model_free(&model);
+    bench_run("whole run, 3 s lead-in", reference, NULL, 0);
+    double vehicle = bench_run("in the tube alone, vehicle", reference, no_lead_in, 1);
+    double base = bench_run("in the tube alone, fixed base", fixed, NULL, 0);
+    printf("vehicle against fixed base, least against least: %.2f\n", vehicle / base);
+    return 0;
+}
