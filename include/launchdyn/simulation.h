@@ -66,6 +66,12 @@ typedef struct ld_rocket_summary {
     double pitch, yaw;              ///< [rad] of B's x axis in I: model.md section 1
     double pitch_rate, yaw_rate;    ///< [rad/s] their time derivatives
     struct {
+        double position[3];   ///< [m] of O1 in I
+        double velocity[3];   ///< [m/s] of O1 in I
+        double quaternion[4]; ///< B against I
+        double rate[3];       ///< [rad/s] of B against I, in B
+    } exit;                   ///< the rocket at t_rear, where its flight begins
+    struct {
         double y, z;              ///< [m] y_S, z_S
         double psi, theta, gamma; ///< [rad] A_SB = Rz(psi) Ry(theta) Rx(gamma)
         double w_x, w_y, w_z;     ///< [rad/s] rate of B against S, in S
@@ -78,6 +84,7 @@ typedef struct ld_rocket_summary {
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
+    double energy_dropped; ///< [J] when its tube took the place of the one before
     bool flown; ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
     ld_final_state final;

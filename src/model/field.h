@@ -70,7 +70,6 @@ typedef struct field_row {
     size_t mark;             // selection: place of the mark in an entry
     int count;               // number: how many; list, integers: most entries
     int least;               // list: fewest entries
-    bool more_later;         // list: more entries are not simulated yet
     const char *unit;        // SI, "" without
     double initial;          // default in SI; NaN: none
     const double *initials;  // number: default of each, where they differ

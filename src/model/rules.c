@@ -87,6 +87,13 @@ static void firing_rule(const rule_set *rules, int i, int count)
             broken(rules, "firing.#.tube", i + 1, "%d has no rocket: tubes.empty lists it", tube);
             return;
         }
+    const ld_firing *firing = rules->model->firing;
+    if (i > 0 && firing[i].at <= firing[i - 1].at)
+        broken(rules, "firing.#.at", i + 1, "%g s does not come after the firing before, at %g s",
+               firing[i].at, firing[i - 1].at);
+    for (int k = 0; k < i; k++)
+        if (firing[k].tube == tube)
+            broken(rules, "firing.#.tube", i + 1, "%d has fired already, as entry %d", tube, k + 1);
 }
 
 static void layout_rules(const rule_set *rules)

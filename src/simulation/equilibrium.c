@@ -530,3 +530,111 @@ ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
     report(&whole, y, summary);
     return LD_OK;
 }
+
+// ---- another tube ----
+
+// Gives the vehicle's orientating coordinates the speeds u, and tube and rocket what that changes
+// of the motion of a body that rides on the platform.
+static void add_rigid_motion(const ld_simulation *self, double t, const double *u, double *y)
+{
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    launcher_input before, after;
+    launching_output unused;
+    launching_pose pose;
+    launcher_place(launcher, t, y, &before);
+    for (int i = 0; i < ORIENTATING_SPEEDS; i++)
+        y[launcher->orientating_at + ORIENTATING_V + i] += u[i];
+    launcher_place(launcher, t, y, &after);
+    const base_frame *base = &before.launching.base;
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    v3 dw = v3_sub(after.launching.base.w, base->w), arm = v3_sub(v3_from(y + at->r), base->r);
+    v3 dv = v3_add(v3_sub(after.launching.base.v, base->v), v3_cross(dw, arm));
+    dw = m3_apply_transposed(A, dw);
+    dv = m3_apply_transposed(A, dv);
+    launching_rocket_pose(&launcher->launching, y, &pose, &unused);
+    v3_store(y + at->v, v3_add(v3_from(y + at->v), dv));
+    v3_store(y + at->w, v3_add(v3_from(y + at->w), dw));
+    v3_store(y + at->V, v3_add(v3_from(y + at->V), v3_add(dv, v3_cross(dw, pose.p1))));
+    v3_store(y + at->V + 3, v3_add(v3_from(y + at->V + 3), dw));
+}
+
+// Generalised momentum of the orientating coordinates, tube and rocket in the sum: the derivative
+// of the kinetic energy, a quadratic form, along each of their speeds.
+static void generalised_momentum(const ld_simulation *self, double t, const launching_phase *phase,
+                                 const double *y, double p[ORIENTATING_SPEEDS])
+{
+    for (int j = 0; j < ORIENTATING_SPEEDS; j++) {
+        double energy[2];
+        for (int side = 0; side < 2; side++) {
+            double moved[LD_MAX_STATES], u[ORIENTATING_SPEEDS] = {0};
+            launcher_input input;
+            u[j] = side ? 1 : -1;
+            memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
+            add_rigid_motion(self, t, u, moved);
+            simulation_input(self, t, moved, &input);
+            energy[side] = launcher_kinetic_energy(&self->launcher, &input, phase, moved);
+        }
+        p[j] = 0.5 * (energy[1] - energy[0]);
+    }
+}
+
+// Speeds of the vehicle at which all, rigid as it now is, has the generalised momentum p.
+static ld_status speeds_from_momentum(const ld_simulation *self, double t, const double *p,
+                                      double *y, ld_error *error)
+{
+    launching_phase phase = simulation_start_phase(self);
+    double M[ORIENTATING_SPEEDS * ORIENTATING_SPEEDS], u[ORIENTATING_SPEEDS];
+    lapack_int pivot[ORIENTATING_SPEEDS];
+    // columns of the mass matrix: momentum at unit speeds
+    for (int j = 0; j < ORIENTATING_SPEEDS; j++) {
+        double moved[LD_MAX_STATES], unit[ORIENTATING_SPEEDS] = {0};
+        unit[j] = 1;
+        memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
+        add_rigid_motion(self, t, unit, moved);
+        generalised_momentum(self, t, &phase, moved, M + ORIENTATING_SPEEDS * j);
+    }
+    memcpy(u, p, sizeof u);
+    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, ORIENTATING_SPEEDS, 1, M, ORIENTATING_SPEEDS, pivot, u,
+                      ORIENTATING_SPEEDS))
+        return ld_fail(error, LD_ERR_NUMERIC, "the vehicle's mass matrix is singular");
+    add_rigid_motion(self, t, u, y);
+    return LD_OK;
+}
+
+ld_status simulation_change_tube(ld_simulation *self, int next, double t, double *y,
+                                 ld_error *error)
+{
+    launching_phase phase = simulation_start_phase(self), without = {.rocket = false};
+    const launcher_system *launcher = &self->launcher;
+    double p[ORIENTATING_SPEEDS], still[LD_MAX_STATES], accepted = accepted_residual(self);
+    double best = INFINITY;
+    size_t launching = (size_t)launcher->launching.layout.count * sizeof(double);
+    if (launcher->vehicle)
+        generalised_momentum(self, t, &without, y, p);
+    launcher_select(&self->launcher, next);
+
+    // the new tube in equilibrium on the platform held still
+    phase.frictionless = true;
+    memcpy(still, y, (size_t)launcher->state_count * sizeof(double));
+    if (launcher->vehicle)
+        memset(still + launcher->orientating_at + ORIENTATING_V, 0,
+               ORIENTATING_SPEEDS * sizeof(double));
+    problem tube = {.self = self, .t = t, .phase = &phase, .count = launching_freedoms(self)};
+    double found[LD_MAX_STATES];
+    for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
+        best = fmin(best, try_pairs(&tube, still, extra, accepted, found));
+    if (!(best <= accepted))
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "tube %d finds no static equilibrium when it takes its place at t = %.6g s "
+                       "(smallest residual %.3g m/s2)",
+                       self->model->firing[next].tube, t, best);
+    memcpy(y, found, launching);
+
+    if (!launcher->vehicle) {
+        simulation_move_with_base(self, t, y);
+        return LD_OK;
+    }
+    memset(y + launcher->orientating_at + ORIENTATING_V, 0, ORIENTATING_SPEEDS * sizeof(double));
+    return speeds_from_momentum(self, t, p, y, error);
+}

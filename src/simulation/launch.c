@@ -21,7 +21,7 @@ static void road_under(const ld_model *model, double x[2])
     }
     double end = model->run.end == LD_END_TIME ? model->run.end_time : 1;
     x[0] = rear - speed * model->run.lead_in - 1;
-    x[1] = front + speed * (model->firing[0].at + end) + 1;
+    x[1] = front + speed * (model->firing[model->firing_count - 1].at + end) + 1;
 }
 
 static ld_status create_launch(ld_simulation *self, ld_error *error)
@@ -29,8 +29,7 @@ static ld_status create_launch(ld_simulation *self, ld_error *error)
     const ld_model *model = self->model;
     double stretch[2];
     road_under(model, stretch);
-    ld_status status = launcher_build(&self->launcher, model, model->firing[0].tube, stretch[0],
-                                      stretch[1], error);
+    ld_status status = launcher_build(&self->launcher, model, stretch[0], stretch[1], error);
     if (!status)
         status = motor_build(&self->motor, &model->rocket, error);
     if (status)
@@ -143,26 +142,31 @@ static void restart_output(launch_run *run, double t)
     run->next_output = t + output_step(run, t);
 }
 
-static void set_up_phase(launch_run *run)
+// Rocket i of the firing comes next: its lock closed, its motor not yet lit.
+static void set_up_rocket(launch_run *run, int i)
 {
     ld_simulation *self = run->self;
+    const ld_firing *firing = &self->model->firing[i];
+    self->current = i;
+    self->t_ignition = firing->at;
     self->phase = simulation_start_phase(self);
     self->piece = -1;
     self->jammed = false;
-    self->fallbacks = 0;
-    self->worst_condition = 0;
-    ld_rocket_summary *rocket = &run->summary->rocket[0];
-    run->summary->rocket_count = 1;
-    rocket->tube = self->model->firing[0].tube;
-    rocket->t_ignition = self->t_ignition;
+    run->greatest_lock_force = 0;
+    ld_rocket_summary *rocket = &run->summary->rocket[i];
+    run->summary->rocket_count = i + 1;
+    rocket->tube = firing->tube;
+    rocket->t_ignition = firing->at;
     rocket->t_release = rocket->t_front = rocket->t_middle = rocket->t_rear = NAN;
-    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
-        rocket->t_exit[i] = NAN;
+    for (int k = 0; k < LD_MAX_ADAPTORS; k++)
+        rocket->t_exit[k] = NAN;
     rocket->muzzle_speed = rocket->inertial_speed = rocket->spin_rate = NAN;
     rocket->pitch = rocket->yaw = rocket->pitch_rate = rocket->yaw_rate = NAN;
-    double *relative = &rocket->relative.y, *tip = &rocket->tip.y;
-    for (int i = 0; i < 8; i++)
-        relative[i] = tip[i] = NAN;
+    double *relative = &rocket->relative.y, *tip = &rocket->tip.y, *out = rocket->exit.position;
+    for (int k = 0; k < 8; k++)
+        relative[k] = tip[k] = NAN;
+    for (int k = 0; k < 13; k++)
+        out[k] = NAN;
 }
 
 static ld_status find_start(launch_run *run, double *y)
@@ -195,7 +199,7 @@ static void record_exit(launch_run *run, double t, const double *landed)
     double y[LD_MAX_STATES];
     memcpy(y, landed, (size_t)self->launcher.state_count * sizeof(double));
     y[at->x] = fmin(y[at->x], self->launcher.launching.tube.length);
-    ld_rocket_summary *rocket = &run->summary->rocket[0];
+    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
     launching_output out;
     launching_pose pose;
     launcher_input input;
@@ -214,6 +218,11 @@ static void record_exit(launch_run *run, double t, const double *landed)
     rocket->yaw_rate = angles.yaw_rate;
     memcpy(&rocket->relative.y, y + at->x + 1, 5 * sizeof(double));
     memcpy(&rocket->relative.w_x, out.y + 3, 3 * sizeof(double));
+    v3_store(rocket->exit.position, v3_add(v3_from(y + at->r), m3_apply(A_IR, pose.p1)));
+    v3_store(rocket->exit.velocity, m3_apply(A_IR, pose.v_O1));
+    quat q = q_from_matrix(m3_mul(A_IR, pose.A_RB));
+    memcpy(rocket->exit.quaternion, &q, sizeof q);
+    v3_store(rocket->exit.rate, m3_apply_transposed(pose.A_RB, pose.w_B));
     tip_state tip = tip_state_of(self, &input.launching.base, y);
     rocket->tip.y = tip.offset.y;
     rocket->tip.z = tip.offset.z;
@@ -228,7 +237,7 @@ static void record_exit(launch_run *run, double t, const double *landed)
 static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 {
     ld_simulation *self = run->self;
-    ld_rocket_summary *rocket = &run->summary->rocket[0];
+    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
     int count = self->launcher.launching.adaptor_count, ahead = 0;
     double since = t - self->t_ignition;
     const ld_adaptor *adaptor = self->model->rocket.adaptor;
@@ -266,7 +275,7 @@ static bool switch_phase(launch_run *run, double t, const double *y)
     bool changed = false;
     if (self->phase.locked && propagator_event(run->propagator, 0) < 0) {
         self->phase.locked = false;
-        run->summary->rocket[0].t_release = t - self->t_ignition;
+        run->summary->rocket[self->current].t_release = t - self->t_ignition;
         changed = true;
     }
     for (int i = count - 1; i >= 0; i--) {
@@ -284,7 +293,9 @@ static bool switch_phase(launch_run *run, double t, const double *y)
     }
     for (int j = 0; j < self->launcher.marching.wheel_count; j++)
         changed |= propagator_event(run->propagator, 1 + 2 * count + j) > 0;
-    if (self->phase.passed[0] && self->phase.rocket && self->model->run.end != LD_END_TIP) {
+    bool last = self->current + 1 == self->model->firing_count;
+    if (self->phase.passed[0] && self->phase.rocket &&
+        !(last && self->model->run.end == LD_END_TIP)) {
         let_rocket_go(run, t, y);
         changed = true;
     }
@@ -297,7 +308,7 @@ static void watch_forces(launch_run *run, double t, const double *y)
     ld_simulation *self = run->self;
     if (!self->phase.rocket)
         return;
-    ld_rocket_summary *rocket = &run->summary->rocket[0];
+    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
     const launcher_output *at = simulation_output(self, t, y);
     if (!at)
         return;
@@ -354,6 +365,20 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
         "the rocket is stuck in the tube: its rear adaptor is at %.4g m of %.4g m, %.4g s "
         "after ignition",
         s, self->launcher.launching.tube.length, since);
+}
+
+// Launches must not overlap.
+static ld_status check_next(launch_run *run, double t)
+{
+    const ld_simulation *self = run->self;
+    int next = self->current + 1;
+    if (next == self->model->firing_count || !self->phase.rocket ||
+        t < self->model->firing[next].at)
+        return LD_OK;
+    return ld_fail(run->error, LD_ERR_LAUNCH,
+                   "firing %d: at its ignition, t = %.6g s, the rocket before is still in its "
+                   "tube; launches that overlap are not simulated",
+                   next + 1, t);
 }
 
 // A table of the base's motion must go on beyond t.
@@ -417,6 +442,12 @@ static double next_corner(const ld_table *command, double t)
     return INFINITY;
 }
 
+// When the next tube takes the place of the one that is empty now.
+static double change_instant(const ld_simulation *self)
+{
+    return self->model->firing[self->current + 1].at - 0.2;
+}
+
 // The next instant at which the step must end: ignition, a corner of the thrust, the end.
 static double next_stop(const launch_run *run, double t)
 {
@@ -430,6 +461,9 @@ static double next_stop(const launch_run *run, double t)
                             next_corner(&self->model->platform.elevation.stabiliser.command, t)));
     if (t < self->t_ignition)
         return fmin(stop, self->t_ignition);
+    if (self->current + 1 < self->model->firing_count)
+        stop = fmin(stop, self->phase.rocket ? self->model->firing[self->current + 1].at
+                                             : change_instant(self));
     int next = self->piece + 1;
     if (next < (int)self->motor.corner_count)
         stop = fmin(stop, self->t_ignition + self->motor.t[next]);
@@ -465,15 +499,56 @@ static void let_go_at_once(launch_run *run, double t, const double *y)
     run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
     self->phase.locked = false;
     self->latest.t = NAN;
-    run->summary->rocket[0].t_release = t - self->t_ignition;
+    run->summary->rocket[self->current].t_release = t - self->t_ignition;
 }
 
 static bool finished(const launch_run *run, double t)
 {
     const ld_simulation *self = run->self;
+    if (self->current + 1 < self->model->firing_count)
+        return false;
     if (self->model->run.end == LD_END_TIP)
         return self->phase.passed[0];
     return t >= run->t_end;
+}
+
+static void energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
+                      ld_energy *energy)
+{
+    launcher_input input;
+    launcher_output out = {0};
+    simulation_input(self, t, y, &input);
+    launcher_evaluate(&self->launcher, &input, &self->phase, y, &out);
+    simulation_energy(self, &input, &out, y, energy_start, energy);
+}
+
+// Once a rocket is out, the next tube is put in its place; the balance goes on without what that
+// drops.
+static ld_status change_tube(launch_run *run, double t)
+{
+    ld_simulation *self = run->self;
+    int next = self->current + 1;
+    if (next == self->model->firing_count || self->phase.rocket || t < change_instant(self))
+        return LD_OK;
+    double y[LD_MAX_STATES];
+    ld_energy before, after;
+    memcpy(y, propagator_state(run->propagator),
+           (size_t)self->launcher.state_count * sizeof(double));
+    energy_at(self, t, y, run->energy_start, &before);
+    set_up_rocket(run, next);
+    ld_status status = simulation_change_tube(self, next, t, y, run->error);
+    if (status)
+        return status;
+    self->phase.locked = self->model->rocket.lock.present;
+    energy_at(self, t, y, run->energy_start, &after);
+    run->energy_start += after.residual - before.residual;
+    run->summary->rocket[next].energy_dropped =
+        before.kinetic + before.elastic - after.kinetic - after.elastic;
+    let_go_at_once(run, t, y);
+    restart_output(run, t);
+    run->last_row = NAN;
+    status = propagator_start(run->propagator, t, y, true, run->error);
+    return status ? status : write_row(run, t, y);
 }
 
 static ld_status step_failed(launch_run *run)
@@ -506,12 +581,14 @@ static ld_status after_step(launch_run *run, integrator_outcome outcome)
     if (!status)
         status = check_progress(run, t, y);
     if (!status)
+        status = check_next(run, t);
+    if (!status)
         status = check_steps(run, t);
     if (!status)
         status = report_progress(run, t);
     if (!status && (changed || outcome == INTEGRATOR_EVENT)) {
         let_go_at_once(run, t, y);
-        status = propagator_start(run->propagator, t, y, run->error);
+        status = propagator_start(run->propagator, t, y, false, run->error);
     }
     return status;
 }
@@ -529,32 +606,28 @@ static ld_status loop(launch_run *run)
             return step_failed(run);
         t = propagator_time(run->propagator);
         status = after_step(run, outcome);
+        if (!status)
+            status = change_tube(run, t);
         if (status)
             return status;
     }
     return LD_OK;
 }
 
-static void energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
-                      ld_energy *energy)
-{
-    launcher_input input;
-    launcher_output out = {0};
-    simulation_input(self, t, y, &input);
-    launcher_evaluate(&self->launcher, &input, &self->phase, y, &out);
-    simulation_energy(self, &input, &out, y, energy_start, energy);
-}
-
 static ld_status begin(launch_run *run)
 {
     ld_simulation *self = run->self;
     double y[LD_MAX_STATES];
-    run->t_start = fmin(self->t_ignition, 0 - self->model->run.lead_in);
-    run->t_end = self->model->run.end == LD_END_TIME ? self->t_ignition + self->model->run.end_time
-                                                     : INFINITY;
+    const ld_model *model = self->model;
+    double last = model->firing[model->firing_count - 1].at;
+    launcher_select(&self->launcher, 0);
+    self->fallbacks = 0;
+    self->worst_condition = 0;
+    run->t_start = fmin(model->firing[0].at, 0 - model->run.lead_in);
+    run->t_end = model->run.end == LD_END_TIME ? last + model->run.end_time : INFINITY;
     run->last_row = NAN;
     run->summary->t_end = run->t_start;
-    set_up_phase(run);
+    set_up_rocket(run, 0);
     ld_status status = check_base(run, run->t_start);
     if (!status)
         status = find_start(run, y);
@@ -576,7 +649,7 @@ static ld_status begin(launch_run *run)
     run->next_progress = run->t_start;
     status = propagator_create(self, &run->propagator, run->error);
     if (!status)
-        status = propagator_start(run->propagator, run->t_start, y, run->error);
+        status = propagator_start(run->propagator, run->t_start, y, true, run->error);
     return status ? status : write_row(run, run->t_start, y);
 }
 

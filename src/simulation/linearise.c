@@ -460,7 +460,8 @@ ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_e
         int hinge = unstable_hinge(poles[i].shape);
         if (poles[i].real < LEAST_RATE)
             continue;
-        if (poles[i].real > growing->real)
+        // what grows by less than a thousandth of its rate is within the differences' error
+        if (poles[i].real > fmax(growing->real, 1e-3 * poles[i].imaginary))
             *growing = poles[i];
         if (hinge >= 0)
             status = ld_fail(error, LD_ERR_INPUT,

@@ -488,13 +488,18 @@ void propagator_free(propagator *self)
     free(self);
 }
 
-ld_status propagator_start(propagator *self, double t, const double *y, ld_error *error)
+ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error)
 {
     if (!self->apart)
         return integrator_start(self->integrator, t, y, error);
     const launcher_system *launcher = &self->simulation->launcher;
     double launching[LD_MAX_STATES];
-    if (self->exchanges == 0) {
+    if (anew) {
+        memset(&self->on_chassis, 0, sizeof self->on_chassis);
+        memset(&self->on_tube, 0, sizeof self->on_tube);
+        memset(&self->chassis, 0, sizeof self->chassis);
+        memset(&self->tube, 0, sizeof self->tube);
+        self->exchanges = 0;
         self->t = self->t_next = self->t_first = t;
         memcpy(self->to, y, (size_t)launcher->state_count * sizeof(double));
         memcpy(self->from, y, (size_t)launcher->state_count * sizeof(double));

@@ -11,7 +11,8 @@ ld_status propagator_create(ld_simulation *simulation, propagator **out, ld_erro
 void propagator_free(propagator *self);
 
 // As those of integrator.h, for the whole state. Events are numbered by simulation_event.
-ld_status propagator_start(propagator *self, double t, const double *y, ld_error *error);
+// `anew`: the state is another one, nothing of before goes on.
+ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error);
 integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error);
 double propagator_time(const propagator *self);
 const double *propagator_state(const propagator *self);

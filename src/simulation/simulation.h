@@ -21,6 +21,7 @@ struct ld_simulation {
     hinge_rest rest[HINGES]; // of the equilibrium
     bool stability_checked;
     ld_pole growing; // what grows about the equilibrium, if anything
+    int current;     // rocket in the order of firing
     double t_ignition;
     int piece; // of the thrust curve
     bool jammed;
@@ -64,6 +65,13 @@ ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
 
 // Gives tube and rocket the base's velocity at t, as one rigid body with it; a vehicle its speed.
 void simulation_move_with_base(const ld_simulation *self, double t, double *y);
+
+// Puts the tube of firing `next` and its rocket in place of the one before, which becomes rigid
+// with the platform: static equilibrium on the base held still in its pose, at rest relative to it;
+// the vehicle's speeds by conservation of the generalised momentum of the orientating coordinates,
+// both tubes in the sum (model.md section 9).
+ld_status simulation_change_tube(ld_simulation *self, int next, double t, double *y,
+                                 ld_error *error);
 
 // Degrees of freedom besides the rocket's travel and roll, and their small changes: R's place and
 // attitude (6), q, then y_S, z_S, psi, theta; of a vehicle also chassis y, pitch, roll, the two

@@ -2,15 +2,36 @@
 
 #include <string.h>
 
-ld_status launcher_build(launcher_system *self, const ld_model *model, int tube, double x0,
-                         double x1, ld_error *error)
+void launcher_select(launcher_system *self, int i)
+{
+    if (self->vehicle)
+        self->orientating = self->of_tube[i];
+}
+
+static ld_status build_orientating(launcher_system *self, ld_error *error)
+{
+    const ld_model *model = self->model;
+    int fired[LD_MAX_FIRINGS];
+    for (int i = 0; i < model->firing_count; i++) {
+        fired[i] = model->firing[i].tube;
+        ld_status status = orientating_build(&self->of_tube[i], model, fired[i], fired, i, error);
+        if (status)
+            return status;
+        self->tube_count++;
+    }
+    launcher_select(self, 0);
+    return LD_OK;
+}
+
+ld_status launcher_build(launcher_system *self, const ld_model *model, double x0, double x1,
+                         ld_error *error)
 {
     *self = (launcher_system){.model = model, .vehicle = model->base.kind == LD_BASE_VEHICLE};
     ld_status status = launching_build(&self->launching, model, error);
     if (!status && !self->vehicle)
         status = base_motion_build(&self->motion, &model->base, error);
     if (!status && self->vehicle)
-        status = orientating_build(&self->orientating, model, tube, NULL, 0, error);
+        status = build_orientating(self, error);
     if (!status && self->vehicle)
         status =
             marching_build(&self->marching, &model->base.vehicle, model->gravity, x0, x1, error);
@@ -30,7 +51,8 @@ void launcher_free(launcher_system *self)
 {
     launching_free(&self->launching);
     base_motion_free(&self->motion);
-    orientating_free(&self->orientating);
+    for (int i = 0; i < self->tube_count; i++)
+        orientating_free(&self->of_tube[i]);
     marching_free(&self->marching);
 }
 

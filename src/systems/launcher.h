@@ -21,7 +21,9 @@ typedef struct launcher_system {
     launching_system launching;
     base_motion motion; // of a fixed or prescribed base
     bool vehicle;
-    orientating_system orientating;
+    orientating_system orientating; // with the tube that launches now
+    int tube_count;
+    orientating_system of_tube[LD_MAX_FIRINGS]; // in the order of firing
     marching_system marching;
     int orientating_at, marching_at, work_at; // offsets in the state
     int work_count, state_count;
@@ -44,13 +46,18 @@ typedef struct launcher_output {
     double base_dot[ORIENTATING_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1];
 } launcher_output;
 
-// Builds the launcher for the rocket in tube `tube`; a road is tabulated from x0 to x1 [m].
-ld_status launcher_build(launcher_system *self, const ld_model *model, int tube, double x0, double x1,
+// Builds the launcher, for the first rocket of the model's firing; a road is tabulated from x0 to
+// x1 [m].
+ld_status launcher_build(launcher_system *self, const ld_model *model, double x0, double x1,
                          ld_error *error);
 void launcher_free(launcher_system *self);
 
+// Takes the tube of firing i as the flexible one, the others with the platform.
+void launcher_select(launcher_system *self, int i);
+
 // The base's frames at time t [s] and state: fills input->launching.base and input->motion.
-void launcher_place(const launcher_system *self, double t, const double *state, launcher_input *input);
+void launcher_place(const launcher_system *self, double t, const double *state,
+                    launcher_input *input);
 
 // All accelerations, by the formulation that the model asks for.
 launching_outcome launcher_evaluate(const launcher_system *self, const launcher_input *input,

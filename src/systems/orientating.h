@@ -21,6 +21,7 @@ enum {
     ORIENTATING_V = 9,
     ORIENTATING_W = 12,
     ORIENTATING_RATE = 15, // of the two angles
+    ORIENTATING_SPEEDS = 8,
     ORIENTATING_Z = 17,
     ORIENTATING_STATES = 19
 };
