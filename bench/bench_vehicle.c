@@ -77,9 +77,9 @@ int main(void)
     static const char fixed[] = LD_SOURCE_DIR "/examples/fixed.yaml";
     static const char *const no_lead_in[] = {"run.lead_in=0 s"};
     static const part_of_it parts[] = {{"evaluation of the whole", true, true, true},
-                                 {"of it frames, thrust and mass", true, false, false},
-                                 {"of it tube and rocket", false, true, false},
-                                 {"of it wheels, chassis and platforms", false, false, true}};
+                                       {"of it frames, thrust and mass", true, false, false},
+                                       {"of it tube and rocket", false, true, false},
+                                       {"of it wheels, chassis and platforms", false, false, true}};
     ld_model model;
     ld_messages messages = {0};
     ld_simulation *simulation;

@@ -32,11 +32,10 @@ static const struct {
                 {"k", 1e3},  {"M", 1e6},  {"G", 1e9}};
 
 // Common units, for suggestions, and slips that are no matter of spelling.
-static const char *const common[] = {"m",   "mm",  "cm",  "um",  "km", "kg",  "g",    "t",
-                                     "s",   "ms",  "us",  "min", "h",  "rad", "mrad", "deg",
-                                     "rev", "Hz",  "kHz", "N",   "kN", "MN",  "Pa",   "kPa",
-                                     "MPa", "GPa", "bar", "J",   "kJ", "W",   "kW",   "rpm",
-                                     "K"};
+static const char *const common[] = {"m",   "mm", "cm",  "um", "km",  "kg",   "g",   "t",   "s",
+                                     "ms",  "us", "min", "h",  "rad", "mrad", "deg", "rev", "Hz",
+                                     "kHz", "N",  "kN",  "MN", "Pa",  "kPa",  "MPa", "GPa", "bar",
+                                     "J",   "kJ", "W",   "kW", "rpm", "K"};
 static const struct {
     const char *wrong, *right;
 } slips[] = {{"kph", "km/h"}, {"kmh", "km/h"},   {"mps", "m/s"},    {"Nm", "N.m"},

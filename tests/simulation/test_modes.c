@@ -103,7 +103,8 @@ static void the_lowest_mode_is_seen_in_time(void **state)
             launching_output out;
             for (int i = 0; i < at->count; i++)
                 k[i] = y[i] + h * share[stage] * y_dot[i];
-            assert_int_equal(launching_evaluate(&simulation->launcher.launching, &input.launching, &phase, k, &out),
+            assert_int_equal(launching_evaluate(&simulation->launcher.launching, &input.launching,
+                                                &phase, k, &out),
                              LAUNCHING_OK);
             launching_rates(&simulation->launcher.launching, k, &out, true, y_dot);
             for (int i = 0; i < at->count; i++)
