@@ -85,7 +85,7 @@ typedef struct ld_rocket_summary {
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
     double energy_dropped; ///< [J] when its tube took the place of the one before
-    bool flown; ///< it has left the tube and flown: what follows is there
+    bool flown;            ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
     ld_final_state final;
 } ld_rocket_summary;
