@@ -77,7 +77,8 @@ static void move(ld_mstmm *system, const double *q, const double *u)
     // sines and cosines of all turns
     for (int k = 0; k < system->angle_count; k++)
         system->angle[k] = q[system->angle_q[k]];
-    sine_cosine(system->angle_count, system->angle, system->sine, system->cosine);
+    for (int k = 0; k < system->angle_count; k += 4)
+        sine_cosine_four(system->angle + k, system->sine + k, system->cosine + k);
 
     for (int i = 1; i <= system->node_count; i++) {
         const node *n = &system->node[i];
