@@ -547,7 +547,7 @@ bool dense_vehicle_evaluate(const dense_vehicle *vehicle, const dense_vehicle_in
 
 void dense_vehicle_tube(const dense_vehicle *vehicle, const double *orientating, base_frame *tube)
 {
-    static _Thread_local equations eq;
+    equations eq;
     dense_vehicle_input input = {.orientating = orientating};
     dense_vehicle_output output;
     eq.vehicle = vehicle;
