@@ -44,7 +44,7 @@ static ld_status run(const ld_model *model, const char *folder, ld_error *error)
         status = ld_output_open(folder, model, false, &output, error);
     if (!status) {
         watch watched = {.next = output ? ld_output_sink(output) : NULL};
-        const ld_sink sink = {&watched, watch_begin, watch_row};
+        const ld_sink sink = {.self = &watched, .begin = watch_begin, .row = watch_row};
         status = ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, error);
         if (!status)
             printf("%5.1f kg  leaves at %8.4f ms with %8.4f m/s, pitch rate %8.3f mrad/s; "

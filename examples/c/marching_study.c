@@ -406,7 +406,7 @@ static ld_status run_model(const ld_model *model, record *kept, result *out, ld_
 {
     ld_simulation *simulation = NULL;
     ld_summary *summary = calloc(1, sizeof *summary);
-    ld_sink sink = {kept, begin, row};
+    ld_sink sink = {.self = kept, .begin = begin, .row = row};
     kept->t_ignition = model->firing[0].at;
     ld_status status = ld_simulation_create(model, &simulation, error);
     if (!status)

@@ -17,12 +17,17 @@ typedef struct ld_column {
     const char *description; ///< one line, with frame
 } ld_column;
 
-/// Where rows go. `begin` is called once, before the first row; both return an error status to stop
-/// the run. The run never frees or keeps `values`.
+/// Where rows go. `begin` is called once, before the first row; after the launcher's rows `flight`
+/// once for each rocket that flies on, before the rows of its flight. All return an error status to
+/// stop the run. The run never frees or keeps `values`.
 typedef struct ld_sink {
     void *self;
     ld_status (*begin)(void *self, const ld_column *columns, size_t count, ld_error *error);
     ld_status (*row)(void *self, const double *values, size_t count, ld_error *error);
+    /// Rows of the flight of rocket number `rocket` (from 1, in the order of firing) follow; NULL:
+    /// no rows of flights are wanted.
+    ld_status (*flight)(void *self, int rocket, const ld_column *columns, size_t count,
+                        ld_error *error);
 } ld_sink;
 
 #ifdef __cplusplus

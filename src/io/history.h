@@ -17,6 +17,9 @@ ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 
                               ld_error *error);
 ld_status history_hdf5_begin(history_hdf5 *history, const ld_column *columns, size_t count,
                              ld_error *error);
+// The rows that follow are of the flight of rocket number `rocket`: group rockets/N/flight.
+ld_status history_hdf5_flight(history_hdf5 *history, int rocket, const ld_column *columns,
+                              size_t count, ld_error *error);
 ld_status history_hdf5_row(history_hdf5 *history, const double *values, ld_error *error);
 // Writes what is left and, if `summary` is not NULL, the key instants; closes the file and frees.
 ld_status history_hdf5_close(history_hdf5 *history, const ld_summary *summary, ld_error *error);

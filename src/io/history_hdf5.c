@@ -47,17 +47,28 @@ static bool create_file(history_hdf5 *history, const char *title)
            hdf5_write_integer(history->file, "complete", 0);
 }
 
-static void close_all(history_hdf5 *history)
+// Ends the table whose rows were written.
+static void close_table(history_hdf5 *history)
 {
     for (size_t i = 0; i < history->count; i++)
         if (history->dataset[i] > 0)
             H5Dclose(history->dataset[i]);
     if (history->group > 0)
         H5Gclose(history->group);
-    if (history->file > 0)
-        H5Fclose(history->file);
     free(history->dataset);
     free(history->block);
+    history->dataset = NULL;
+    history->block = NULL;
+    history->group = 0;
+    history->count = history->used = 0;
+    history->written = 0;
+}
+
+static void close_all(history_hdf5 *history)
+{
+    close_table(history);
+    if (history->file > 0)
+        H5Fclose(history->file);
     free(history->path);
     free(history);
 }
@@ -170,16 +181,55 @@ ld_status history_hdf5_row(history_hdf5 *history, const double *values, ld_error
     return ++history->used == BLOCK ? flush(history, error) : LD_OK;
 }
 
-// A group "rockets" with one group each, named by its number in the order of firing.
+// The group of that name, made where it is not there.
+static hid_t open_group(hid_t parent, const char *name)
+{
+    return H5Lexists(parent, name, H5P_DEFAULT) > 0 ? H5Gopen2(parent, name, H5P_DEFAULT)
+                                                    : create_group(parent, name);
+}
+
+// The group of rocket number `rocket`, by its number in the order of firing.
+static hid_t open_rocket(hid_t file, int rocket)
+{
+    char name[16];
+    snprintf(name, sizeof name, "%d", rocket);
+    hid_t rockets = open_group(file, "rockets");
+    hid_t group = rockets >= 0 ? open_group(rockets, name) : -1;
+    if (rockets >= 0)
+        H5Gclose(rockets);
+    return group;
+}
+
+static bool begin_flight(history_hdf5 *history, int rocket)
+{
+    if (history->used > 0 && !write_block(history))
+        return false;
+    close_table(history);
+    hid_t group = open_rocket(history->file, rocket);
+    if (group >= 0) {
+        history->group = create_group(group, "flight");
+        H5Gclose(group);
+    }
+    return group >= 0 && history->group >= 0;
+}
+
+ld_status history_hdf5_flight(history_hdf5 *history, int rocket, const ld_column *columns,
+                              size_t count, ld_error *error)
+{
+    hdf5_quiet quiet = hdf5_quiet_begin();
+    ld_status status = begin_flight(history, rocket) ? LD_OK : failed(history, error);
+    hdf5_quiet_end(&quiet);
+    return status ? status : history_hdf5_begin(history, columns, count, error);
+}
+
+// A group "rockets" with one group each.
 static bool write_rockets(hid_t file, const ld_summary *summary)
 {
-    hid_t rockets = create_group(file, "rockets");
+    hid_t rockets = open_group(file, "rockets");
     bool fine = rockets >= 0;
     for (int i = 0; fine && i < summary->rocket_count; i++) {
         const ld_rocket_summary *rocket = &summary->rocket[i];
-        char name[16];
-        snprintf(name, sizeof name, "%d", i + 1);
-        hid_t group = create_group(rockets, name);
+        hid_t group = open_rocket(file, i + 1);
         fine = group >= 0 && hdf5_write_integer(group, "tube", rocket->tube) &&
                hdf5_write_number(group, "t_ignition", rocket->t_ignition) &&
                hdf5_write_number(group, "t_release", rocket->t_release) &&

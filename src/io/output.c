@@ -10,9 +10,11 @@
 
 // Files of a results folder, in the order in which they get their names: summary.json comes last,
 // so that where it stands the others belong to it.
-enum { HDF5, CSV, SUMMARY, FILES };
+enum { MOST_FLIGHT_COLUMNS = 256 };
+enum { HDF5, CSV, FLIGHTS, SUMMARY, FILES };
 
-static const char *const file_name[FILES] = {"history.h5", "history.csv", "summary.json"};
+static const char *const file_name[FILES] = {"history.h5", "history.csv", "flights.csv",
+                                             "summary.json"};
 
 struct ld_output {
     const ld_model *model;
@@ -20,7 +22,9 @@ struct ld_output {
     size_t made_from; // length of the folder's part that was there before
     char *path[FILES], *part[FILES];
     history_hdf5 *hdf5;
-    history_csv *csv; // NULL: not wanted
+    history_csv *csv;     // NULL: not wanted
+    history_csv *flights; // NULL: not wanted, or none has flown on
+    double flying;        // number of the rocket whose flight's rows come; 0: the launcher's
     ld_sink sink;
 };
 
@@ -33,11 +37,51 @@ static ld_status begin(void *self, const ld_column *columns, size_t count, ld_er
     return status;
 }
 
+// Rows of all flights go into one file, with the rocket's number before them.
+static ld_status begin_flights(ld_output *output, const ld_column *columns, size_t count,
+                               ld_error *error)
+{
+    ld_column *with_number = malloc((count + 1) * sizeof *with_number);
+    if (!with_number)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
+    with_number[0] = (ld_column){"rocket", "1", "number in the order of firing"};
+    memcpy(with_number + 1, columns, count * sizeof *columns);
+    ld_status status = history_csv_create(output->part[FLIGHTS], &output->flights, error);
+    if (!status)
+        status = history_csv_begin(output->flights, with_number, count + 1, error);
+    free(with_number);
+    return status;
+}
+
+static ld_status flight(void *self, int rocket, const ld_column *columns, size_t count,
+                        ld_error *error)
+{
+    ld_output *output = self;
+    output->flying = rocket;
+    ld_status status = history_hdf5_flight(output->hdf5, rocket, columns, count, error);
+    if (!status && output->csv && !output->flights)
+        status = begin_flights(output, columns, count, error);
+    return status;
+}
+
+static ld_status csv_flight_row(ld_output *output, const double *values, size_t count,
+                                ld_error *error)
+{
+    double with_number[MOST_FLIGHT_COLUMNS] = {output->flying};
+    if (count + 1 > MOST_FLIGHT_COLUMNS)
+        return ld_fail(error, LD_ERR_INPUT, "a flight has at most %d columns",
+                       MOST_FLIGHT_COLUMNS - 1);
+    memcpy(with_number + 1, values, count * sizeof *values);
+    return history_csv_row(output->flights, with_number, count + 1, error);
+}
+
 static ld_status row(void *self, const double *values, size_t count, ld_error *error)
 {
     ld_output *output = self;
     ld_status status = history_hdf5_row(output->hdf5, values, error);
-    if (!status && output->csv)
+    if (!status && output->csv && output->flying > 0)
+        status = csv_flight_row(output, values, count, error);
+    else if (!status && output->csv)
         status = history_csv_row(output->csv, values, count, error);
     return status;
 }
@@ -84,7 +128,7 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
     if (!opened)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
     opened->model = model;
-    opened->sink = (ld_sink){opened, begin, row};
+    opened->sink = (ld_sink){.self = opened, .begin = begin, .row = row, .flight = flight};
     ld_status status = set_paths(opened, folder, error);
     if (!status)
         status = folder_make(opened->folder, &opened->made_from, error);
@@ -111,9 +155,13 @@ static ld_status close_histories(ld_output *output, const ld_summary *summary, l
     ld_status status = LD_OK, csv_status = LD_OK;
     if (output->csv)
         csv_status = history_csv_close(output->csv, error);
+    if (output->flights && csv_status)
+        history_csv_close(output->flights, NULL);
+    else if (output->flights)
+        csv_status = history_csv_close(output->flights, error);
     if (output->hdf5)
         status = history_hdf5_close(output->hdf5, summary, error);
-    output->csv = NULL;
+    output->csv = output->flights = NULL;
     output->hdf5 = NULL;
     return status ? status : csv_status;
 }

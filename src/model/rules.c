@@ -383,8 +383,6 @@ static void end_rules(const rule_set *rules)
         return;
     if (model->environment.ground == LD_GROUND_NONE)
         broken(rules, "run.end", 0, "without ground there is no landing; give a time");
-    if (model->base.kind != LD_BASE_NONE)
-        broken(rules, "run.end", 0, "landing is not simulated yet");
 }
 
 static void start_rules(const rule_set *rules)

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "simulation/free_flight.h"
 #include "simulation/propagator.h"
 
 // ---- life ----
@@ -90,6 +91,8 @@ typedef struct launch_run {
     int64_t steps_since_progress;
     bool sink_failed;
     double greatest_lock_force;
+    double point[LD_MAX_FIRINGS][2]; // [m] x and z of the rear adaptors at their ignition
+    int flight_column_count;
     double cpu_output; // [s] spent on rows and their sink
 } launch_run;
 
@@ -295,7 +298,7 @@ static bool switch_phase(launch_run *run, double t, const double *y)
         changed |= propagator_event(run->propagator, 1 + 2 * count + j) > 0;
     bool last = self->current + 1 == self->model->firing_count;
     if (self->phase.passed[0] && self->phase.rocket &&
-        !(last && self->model->run.end == LD_END_TIP)) {
+        !(last && self->model->run.end != LD_END_TIME)) {
         let_rocket_go(run, t, y);
         changed = true;
     }
@@ -484,6 +487,19 @@ static bool pass_stop(launch_run *run, double t)
     return changed;
 }
 
+// Where the rocket is when it is lit, over the ground.
+static void record_launch_point(launch_run *run, const double *y)
+{
+    ld_simulation *self = run->self;
+    const launching_layout *at = &self->launcher.launching.layout;
+    launching_output unused;
+    launching_pose pose;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+    v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), pose.p1));
+    run->point[self->current][0] = r.x;
+    run->point[self->current][1] = r.z;
+}
+
 // A jump of the thrust, or the start itself, can carry the lock's force past the release force
 // without a crossing that the integrator could locate.
 static void let_go_at_once(launch_run *run, double t, const double *y)
@@ -507,9 +523,9 @@ static bool finished(const launch_run *run, double t)
     const ld_simulation *self = run->self;
     if (self->current + 1 < self->model->firing_count)
         return false;
-    if (self->model->run.end == LD_END_TIP)
-        return self->phase.passed[0];
-    return t >= run->t_end;
+    if (self->model->run.end == LD_END_TIME)
+        return t >= run->t_end;
+    return self->phase.passed[0];
 }
 
 static void energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
@@ -575,8 +591,10 @@ static ld_status after_step(launch_run *run, integrator_outcome outcome)
     if (outcome == INTEGRATOR_STOPPED) {
         bool igniting = t == self->t_ignition && self->piece < 0;
         changed = pass_stop(run, t);
-        if (igniting)
+        if (igniting) {
+            record_launch_point(run, y);
             restart_output(run, t);
+        }
     }
     if (!status)
         status = check_progress(run, t, y);
@@ -641,8 +659,10 @@ static ld_status begin(launch_run *run)
     ld_energy energy;
     energy_at(self, run->t_start, y, 0, &energy);
     run->energy_start = energy.kinetic + energy.potential + energy.elastic;
-    if (run->t_start >= self->t_ignition)
+    if (run->t_start >= self->t_ignition) {
+        record_launch_point(run, y);
         pass_stop(run, run->t_start);
+    }
     self->phase.locked = self->model->rocket.lock.present;
     let_go_at_once(run, run->t_start, y);
     restart_output(run, run->t_start);
@@ -662,6 +682,84 @@ void simulation_note(ld_summary *summary, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(summary->note[summary->note_count++], sizeof summary->note[0], format, arguments);
     va_end(arguments);
+}
+
+// ---- the flights ----
+
+static ld_status write_flight_row(void *user, const flight_phase *phase, double t,
+                                  const double *state, ld_error *error)
+{
+    launch_run *run = user;
+    const ld_sink *sink = run->options->sink;
+    double row[FLIGHT_MAX_COLUMNS], start = cpu_now();
+    flight_row(&run->self->flight, phase, t, state, row);
+    ld_status status = sink->row(sink->self, row, (size_t)run->flight_column_count, error);
+    run->cpu_output += cpu_now() - start;
+    return status;
+}
+
+static ld_status begin_flight_rows(launch_run *run, int i)
+{
+    const ld_sink *sink = run->options->sink;
+    double start = cpu_now();
+    ld_column columns[FLIGHT_MAX_COLUMNS];
+    run->flight_column_count = flight_columns(&run->self->flight, columns);
+    ld_status status =
+        sink->flight(sink->self, i + 1, columns, (size_t)run->flight_column_count, run->error);
+    run->cpu_output += cpu_now() - start;
+    return status;
+}
+
+// Flies rocket i from the state in which it left its tube; nothing jumps.
+static ld_status fly(launch_run *run, int i)
+{
+    ld_simulation *self = run->self;
+    ld_rocket_summary *rocket = &run->summary->rocket[i];
+    flight_free(&self->flight);
+    ld_status status = flight_build(&self->flight, self->model, i, run->error);
+    if (status)
+        return status;
+    double t = rocket->t_ignition + rocket->t_rear, state[FLIGHT_STATES];
+    bool rows = run->options && run->options->sink && run->options->sink->flight;
+    quat q = q_from(rocket->exit.quaternion);
+    const earth *globe = &self->flight.earth;
+    m3 A_EB = m3_mul(globe->A_EI, q_matrix(q));
+    flight_pose pose = {
+        .r_O1 = v3_from(rocket->exit.position),
+        .v_O1 = v3_from(rocket->exit.velocity),
+        .q_IB = q,
+        .w = v3_add(v3_from(rocket->exit.rate), m3_apply_transposed(A_EB, earth_rate(globe))),
+    };
+    flight_phase phase = free_flight_phase(&self->flight, rocket->t_ignition, t);
+    flight_enter(&self->flight, &phase, t, &pose, state);
+    free_flight job = {
+        .system = &self->flight,
+        .model = self->model,
+        .t_ignition = rocket->t_ignition,
+        .t_start = t,
+        .t_end = INFINITY,
+        .launch_x = run->point[i][0],
+        .launch_z = run->point[i][1],
+        .options = run->options,
+        .row = rows ? write_flight_row : NULL,
+        .self = run,
+    };
+    if (rows)
+        status = begin_flight_rows(run, i);
+    if (!status)
+        status = free_flight_run(&job, state, rocket, run->summary, run->error);
+    return status;
+}
+
+// Every rocket flies to the ground.
+static ld_status fly_all(launch_run *run)
+{
+    ld_status status = LD_OK;
+    if (run->self->model->run.end != LD_END_LANDING)
+        return LD_OK;
+    for (int i = 0; i < run->summary->rocket_count && !status; i++)
+        status = fly(run, i);
+    return status;
 }
 
 static void note_formulation(const ld_simulation *self, ld_summary *summary)
@@ -704,8 +802,8 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
     double t = propagator_time(run->propagator);
     summary->t_end = t;
     energy_at(self, t, propagator_state(run->propagator), run->energy_start, &summary->energy);
-    summary->statistics.steps = propagator_steps(run->propagator);
-    summary->statistics.rhs_evaluations = propagator_evaluations(run->propagator);
+    summary->statistics.steps += propagator_steps(run->propagator);
+    summary->statistics.rhs_evaluations += propagator_evaluations(run->propagator);
     note_formulation(self, summary);
     if (self->growing.real > 0)
         simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
@@ -733,6 +831,8 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
         status = loop(&run);
         if (status)
             write_last_row(&run);
+        else
+            status = fly_all(&run);
     }
     summarise(&run, status, cpu_now() - start - run.cpu_output);
     propagator_free(run.propagator);

@@ -54,7 +54,7 @@ typedef struct outcome {
 // Runs the model (which is freed) without the checks that the reader makes.
 static void run(ld_model *model, listener *ear, outcome *out)
 {
-    ld_sink sink = {ear, begin, row};
+    ld_sink sink = {.self = ear, .begin = begin, .row = row};
     ld_run_options options = {.sink = &sink, .self = ear};
     ld_simulation *simulation;
     if (ear->stop_at > 0)

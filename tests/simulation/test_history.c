@@ -76,7 +76,7 @@ static record *record_launch(const char *scenario, const char *set)
     if (ld_scenario_read(scenario, sets, 2, &model, &messages))
         ld_messages_print(&messages, stderr);
     assert_int_equal(ld_simulation_create(&model, &simulation, NULL), LD_OK);
-    ld_sink sink = {kept, begin, row};
+    ld_sink sink = {.self = kept, .begin = begin, .row = row};
     assert_int_equal(
         ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, NULL), LD_OK);
     ld_simulation_free(simulation);

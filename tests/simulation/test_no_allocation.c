@@ -71,7 +71,7 @@ static void check_model(const char *name, const ld_model *model)
     ld_simulation *simulation;
     ld_summary summary;
     counter seen = {0};
-    ld_sink sink = {&seen, begin, row};
+    ld_sink sink = {.self = &seen, .begin = begin, .row = row};
     long before = allocations;
     if (ld_simulation_create(model, &simulation, &error) ||
         ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, &error))

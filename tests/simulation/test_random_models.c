@@ -255,7 +255,7 @@ static int run_model(int number, const ld_model *model)
     ld_simulation *simulation = NULL;
     static ld_summary summary;
     watcher watch = {0};
-    ld_sink sink = {&watch, begin, row};
+    ld_sink sink = {.self = &watch, .begin = begin, .row = row};
     if (ld_model_check(model, &error) || ld_simulation_create(model, &simulation, &error)) {
         printf("  %3d refused: %s\n", number, error.text);
         check_sentence(error.text);

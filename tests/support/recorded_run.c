@@ -34,7 +34,7 @@ static void run_model(const ld_model *model, const ld_sink *sink, ld_simulation 
 
 void recorded_run_make(recorded_run *run, const ld_model *model)
 {
-    ld_sink sink = {run, begin, row};
+    ld_sink sink = {.self = run, .begin = begin, .row = row};
     memset(run, 0, sizeof *run);
     run_model(model, &sink, &run->simulation, &run->summary);
 }
