@@ -189,6 +189,8 @@ static ld_status draw_runs(const ld_picture *picture, const history_data *run, p
             status = add_all(figure, &count, run, picture->folder_count, error);
         else
             status = add_figure(figure, &count, plot_figure_find(picture->figure[i]), error);
+    if (!status && count == 0)
+        status = ld_fail(error, LD_ERR_INPUT, "no figure shows a column of these results");
     if (status)
         return status;
     name_runs(picture, run, name);

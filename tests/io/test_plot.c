@@ -265,6 +265,8 @@ static void test_nothing_to_show(void **state)
             if (plot(in("few"), figures[i], in("few.svg"), &error))
                 fail_msg("%s", error.text);
     }
+    assert_int_equal(plot(in("few"), "all", in("few.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "no figure shows a column of these results");
 }
 
 static void expect(const char *where, const char *figure, const char *file, ld_status status,
