@@ -10,8 +10,8 @@ enum { TURBULENCE_COMPONENTS = 3 };
 // U_j(xi) = sum_i a_ji cos(kappa_ji xi + phi_ji), j = 0 .. 2: U_1 to U_3 of section 8.
 typedef struct turbulence {
     bool present;
-    double wind_at_6m;       // [m/s]
-    int harmonics;           // an even number; of an odd one the last has no amplitude
+    double wind_at_6m; // [m/s]
+    int harmonics;
     double *a, *kappa, *phi; // [TURBULENCE_COMPONENTS][harmonics], owned by a
 } turbulence;
 
