@@ -104,6 +104,13 @@ static void a_run_allocates_nothing(void **state)
         3, 7, (double[]){-1, 0, 0, 0, 0, 0, 0, 0.1, 1, 0, 0, 0, 0, 0, 1, 3, 0.1, 0, 0, 0, 0});
     check_model("reduced form, base by a table", &model);
     reference_model_free(&model);
+    reference_vehicle(&model, 8);
+    model.base.vehicle.road.iso_class = 2;
+    model.run.lead_in = 0.1;
+    check_model("reduced form, vehicle on a road of class C", &model);
+    model.platform.elevation.lock = (ld_hinge_lock){true, 1e8, 1e5};
+    check_model("reduced form, vehicle with a locked hinge", &model);
+    reference_model_free(&model);
 }
 
 // The sweep of a multibody system allocates nothing either.
