@@ -453,7 +453,8 @@ static ld_status check_vehicle(const ld_simulation *self, double t, const double
             return ld_fail(error, LD_ERR_INPUT,
                            "wheel \"%s\" does not reach the ground at the start: in equilibrium it "
                            "hangs %.3g m above the road",
-                           self->model->base.vehicle.wheel[j].name, -marching.wheel[j].deflection);
+                           self->model->base.vehicle.wheel[j].name,
+                           fmax(0, -marching.wheel[j].deflection));
     for (int i = 0; i < HINGES; i++) {
         double torque = y[self->launcher.orientating_at + ORIENTATING_Z + i];
         double limit = turret[i]->stabiliser.torque_limit;

@@ -350,6 +350,11 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
     ld_simulation *self = run->self;
     const ld_rocket *rocket = &self->model->rocket;
     double since = t - self->t_ignition, s = y[self->launcher.launching.layout.x];
+    if (self->phase.passed[0] && since < 0)
+        return ld_fail(run->error, LD_ERR_LAUNCH,
+                       "the rocket slid out of the tube's tip at t = %.6g s, %.3g s before its "
+                       "ignition",
+                       t, -since);
     if (!self->phase.rocket)
         return LD_OK;
     if (s < 0)

@@ -90,6 +90,7 @@ static void check_stopped(ld_model *model, listener *ear, ld_status status, cons
                           double t_end)
 {
     outcome out;
+    double lead_in = model->run.lead_in;
     run(model, ear, &out);
     printf("    %s\n", out.error.text);
     assert_int_equal(out.status, status);
@@ -100,7 +101,7 @@ static void check_stopped(ld_model *model, listener *ear, ld_status status, cons
     CHECK_BELOW("ended [s]", out.summary.t_end - t_end, 6e-4);
     assert_int_equal(ear->begun, 1);
     assert_true(ear->ascending);
-    assert_true(ear->first == -model->run.lead_in);
+    assert_true(ear->first == -lead_in);
     if (ear->fail_at)
         assert_int_equal(ear->rows, ear->fail_at);
     else
@@ -192,8 +193,8 @@ static void check_no_start(ld_model *model, ld_status status, const char *senten
     run(model, &ear, &out);
     printf("    %s\n", out.error.text);
     assert_int_equal(out.status, status);
-    assert_string_equal(out.error.text, sentence);
-    assert_string_equal(out.summary.stopped, sentence);
+    assert_true(matches(out.error.text, sentence));
+    assert_string_equal(out.summary.stopped, out.error.text);
     assert_false(out.summary.complete);
     assert_int_equal(ear.rows, 0);
     assert_true(isnan(out.summary.rocket[0].t_release));
@@ -238,6 +239,74 @@ static void no_equilibrium_of_a_rope(void **state)
     assert_int_equal(ear.rows, 0);
 }
 
+// ---- on a vehicle
+
+#define VEHICLE_DOES_NOT_START(name, status, sentence, ...)                                        \
+    static void name(void **state)                                                                 \
+    {                                                                                              \
+        (void)state;                                                                               \
+        ld_model model;                                                                            \
+        reference_vehicle(&model, 30 / 3.6);                                                       \
+        ld_vehicle *vehicle = &model.base.vehicle;                                                 \
+        (void)vehicle;                                                                             \
+        __VA_ARGS__;                                                                               \
+        check_no_start(&model, status, sentence);                                                  \
+    }
+
+VEHICLE_DOES_NOT_START(wheel_in_the_air, LD_ERR_INPUT,
+                       "wheel \"middle-left\" does not reach the ground at the start: in "
+                       "equilibrium it hangs # m above the road",
+                       vehicle->wheel[2].mount[1] += 0.3)
+
+VEHICLE_DOES_NOT_START(weak_stabiliser, LD_ERR_INPUT,
+                       "platform.elevation.stabiliser.torque_limit: holding the platform at the "
+                       "start takes # N m, more than the limit of 10000 N m",
+                       model.platform.elevation.stabiliser.torque_limit = 1e4)
+
+VEHICLE_DOES_NOT_START(mass_centre_before_the_wheels, LD_ERR_NUMERIC,
+                       "the vehicle finds no static equilibrium on its wheels (smallest residual # "
+                       "m/s2): do all wheels reach the road, and is the mass centre between them?",
+                       for (int i = 0; i < 6; i++) vehicle->wheel[i].mount[0] += 4)
+
+VEHICLE_DOES_NOT_START(weightless, LD_ERR_INPUT,
+                       "wheel \"front-left\" does not reach the ground at the start: in "
+                       "equilibrium it hangs # m above the road",
+                       model.gravity = 0)
+
+// The lock lets go when the wheels hit a wall, and the rocket slides back.
+static void drives_against_a_wall(void **state)
+{
+    (void)state;
+    ld_model model;
+    listener ear = {0};
+    reference_vehicle(&model, 30 / 3.6);
+    model.base.vehicle.road.bump_count = 1;
+    model.base.vehicle.road.bump[0] = (ld_bump){-5, 1, 3, LD_TRACK_BOTH};
+    model.run.lead_in = 2;
+    check_stopped(&model, &ear, LD_ERR_LAUNCH,
+                  "the rocket slid out of the tube's rear end at t = # s", -0.690024);
+}
+
+// Before its ignition a rocket that nothing locks slides out of a tube that points down.
+static void falls_out_of_the_tube(void **state)
+{
+    (void)state;
+    ld_model model;
+    outcome out;
+    listener ear = {0};
+    reference_model(&model);
+    model.base.elevation = -60 * degree;
+    model.rocket.lock.present = false;
+    model.run.lead_in = 2;
+    run(&model, &ear, &out);
+    printf("    %s\n", out.error.text);
+    assert_int_equal(out.status, LD_ERR_LAUNCH);
+    assert_true(matches(out.error.text, "the rocket slid out of the tube's tip at t = # s, # s "
+                                        "before its ignition"));
+    assert_true(ear.last == out.summary.t_end);
+    CHECK_WITHIN("left the tube at [s]", out.summary.rocket[0].t_rear, -1.4, -1);
+}
+
 // Not failures: launches that look odd but happen.
 static void check_happens(const char *name, ld_model *model)
 {
@@ -271,6 +340,29 @@ HAPPENS(mass_centre_before_the_front_adaptor,
         model.rocket.full.center[0] = model.rocket.empty.center[0] = 2.2)
 HAPPENS(mass_centre_behind_the_rear_adaptor,
         model.rocket.full.center[0] = model.rocket.empty.center[0] = -0.3)
+
+#define VEHICLE_HAPPENS(name, speed, ...)                                                          \
+    static void name(void **state)                                                                 \
+    {                                                                                              \
+        (void)state;                                                                               \
+        ld_model model;                                                                            \
+        reference_vehicle(&model, speed);                                                          \
+        ld_road *road = &model.base.vehicle.road;                                                  \
+        (void)road;                                                                                \
+        model.run.lead_in = 1;                                                                     \
+        __VA_ARGS__;                                                                               \
+        check_happens(#name, &model);                                                              \
+    }
+
+VEHICLE_HAPPENS(wheels_leave_the_road, 30 / 3.6, road->bump_count = 1;
+                road->bump[0] = (ld_bump){-13, 4, -0.5, LD_TRACK_BOTH}; model.run.lead_in = 2)
+VEHICLE_HAPPENS(on_ice, 30 / 3.6, model.base.vehicle.tyre.friction = 0)
+VEHICLE_HAPPENS(parked_on_ice, 0, model.base.vehicle.tyre.friction = 1e-3; road->iso_class = 2)
+VEHICLE_HAPPENS(fires_backwards, 30 / 3.6,
+                model.platform.azimuth.stabiliser.command.data[1] = 179 * degree)
+VEHICLE_HAPPENS(both_hinges_locked, 30 / 3.6,
+                model.platform.azimuth.lock = (ld_hinge_lock){true, 1e8, 1e5};
+                model.platform.elevation.lock = (ld_hinge_lock){true, 1e8, 1e5})
 
 static void adaptors_in_any_order(void **state)
 {
@@ -313,11 +405,22 @@ int main(void)
         cmocka_unit_test(base_table_begins_too_late),
         cmocka_unit_test(one_adaptor_holds_no_rocket),
         cmocka_unit_test(no_equilibrium_of_a_rope),
+        cmocka_unit_test(wheel_in_the_air),
+        cmocka_unit_test(weak_stabiliser),
+        cmocka_unit_test(mass_centre_before_the_wheels),
+        cmocka_unit_test(weightless),
+        cmocka_unit_test(drives_against_a_wall),
+        cmocka_unit_test(falls_out_of_the_tube),
         cmocka_unit_test(without_gravity),
         cmocka_unit_test(straight_up),
         cmocka_unit_test(downwards),
         cmocka_unit_test(mass_centre_before_the_front_adaptor),
         cmocka_unit_test(mass_centre_behind_the_rear_adaptor),
+        cmocka_unit_test(wheels_leave_the_road),
+        cmocka_unit_test(on_ice),
+        cmocka_unit_test(parked_on_ice),
+        cmocka_unit_test(fires_backwards),
+        cmocka_unit_test(both_hinges_locked),
         cmocka_unit_test(adaptors_in_any_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
