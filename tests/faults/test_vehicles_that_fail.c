@@ -1,0 +1,89 @@
+// Launches on a vehicle that cannot begin, that end early, and that look odd but happen.
+#include "support/expected_launch.h"
+
+static const double degree = 3.14159265358979323846 / 180;
+
+#define DOES_NOT_START(name, status, sentence, ...)                                                \
+    static void name(void **state)                                                                 \
+    {                                                                                              \
+        (void)state;                                                                               \
+        ld_model model;                                                                            \
+        reference_vehicle(&model, 30 / 3.6);                                                       \
+        ld_vehicle *vehicle = &model.base.vehicle;                                                 \
+        (void)vehicle;                                                                             \
+        __VA_ARGS__;                                                                               \
+        check_no_start(&model, status, sentence);                                                  \
+    }
+
+DOES_NOT_START(wheel_in_the_air, LD_ERR_INPUT,
+               "wheel \"middle-left\" does not reach the ground at the start: in "
+               "equilibrium it hangs # m above the road",
+               vehicle->wheel[2].mount[1] += 0.3)
+
+DOES_NOT_START(weak_stabiliser, LD_ERR_INPUT,
+               "platform.elevation.stabiliser.torque_limit: holding the platform at the "
+               "start takes # N m, more than the limit of 10000 N m",
+               model.platform.elevation.stabiliser.torque_limit = 1e4)
+
+DOES_NOT_START(mass_centre_before_the_wheels, LD_ERR_NUMERIC,
+               "the vehicle finds no static equilibrium on its wheels (smallest residual # "
+               "m/s2): do all wheels reach the road, and is the mass centre between them?",
+               for (int i = 0; i < 6; i++) vehicle->wheel[i].mount[0] += 4)
+
+DOES_NOT_START(weightless, LD_ERR_INPUT,
+               "wheel \"front-left\" does not reach the ground at the start: in "
+               "equilibrium it hangs # m above the road",
+               model.gravity = 0)
+
+// The lock lets go when the wheels hit a wall, and the rocket slides back.
+static void drives_against_a_wall(void **state)
+{
+    (void)state;
+    ld_model model;
+    listener ear = {0};
+    reference_vehicle(&model, 30 / 3.6);
+    model.base.vehicle.road.bump_count = 1;
+    model.base.vehicle.road.bump[0] = (ld_bump){-5, 1, 3, LD_TRACK_BOTH};
+    model.run.lead_in = 2;
+    check_stopped(&model, &ear, LD_ERR_LAUNCH,
+                  "the rocket slid out of the tube's rear end at t = # s", -0.690024);
+}
+
+// Not failures: launches that look odd but happen.
+#define HAPPENS(name, speed, ...)                                                                  \
+    static void name(void **state)                                                                 \
+    {                                                                                              \
+        (void)state;                                                                               \
+        ld_model model;                                                                            \
+        reference_vehicle(&model, speed);                                                          \
+        ld_road *road = &model.base.vehicle.road;                                                  \
+        (void)road;                                                                                \
+        model.run.lead_in = 1;                                                                     \
+        __VA_ARGS__;                                                                               \
+        check_happens(#name, &model);                                                              \
+    }
+
+HAPPENS(wheels_leave_the_road, 30 / 3.6, road->bump_count = 1;
+        road->bump[0] = (ld_bump){-13, 4, -0.5, LD_TRACK_BOTH}; model.run.lead_in = 2)
+HAPPENS(on_ice, 30 / 3.6, model.base.vehicle.tyre.friction = 0)
+HAPPENS(parked_on_ice, 0, model.base.vehicle.tyre.friction = 1e-3; road->iso_class = 2)
+HAPPENS(fires_backwards, 30 / 3.6, model.platform.azimuth.stabiliser.command.data[1] = 179 * degree)
+HAPPENS(both_hinges_locked, 30 / 3.6, model.platform.azimuth.lock = (ld_hinge_lock){true, 1e8, 1e5};
+        model.platform.elevation.lock = (ld_hinge_lock){true, 1e8, 1e5})
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wheel_in_the_air),
+        cmocka_unit_test(weak_stabiliser),
+        cmocka_unit_test(mass_centre_before_the_wheels),
+        cmocka_unit_test(weightless),
+        cmocka_unit_test(drives_against_a_wall),
+        cmocka_unit_test(wheels_leave_the_road),
+        cmocka_unit_test(on_ice),
+        cmocka_unit_test(parked_on_ice),
+        cmocka_unit_test(fires_backwards),
+        cmocka_unit_test(both_hinges_locked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
