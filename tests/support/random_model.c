@@ -1,0 +1,304 @@
+#include "support/random_model.h"
+
+#include <stdlib.h>
+
+#include "launchdyn/simulation.h"
+#include "support/check.h"
+#include "support/draw.h"
+#include "support/reference_model.h"
+
+// ---- drawing ----
+
+double between(uint64_t *seed, double low, double high)
+{
+    return low + 0.5 * (1 + draw(seed)) * (high - low);
+}
+
+bool chance(uint64_t *seed, double probability)
+{
+    return between(seed, 0, 1) < probability;
+}
+
+int choice(uint64_t *seed, int count)
+{
+    return (int)between(seed, 0, count);
+}
+
+void scale(uint64_t *seed, double *value)
+{
+    double factor = exp(between(seed, log(0.3), log(3)));
+    if (chance(seed, 0.75))
+        *value *= factor;
+}
+
+void scale_all(uint64_t *seed, int count, double *value)
+{
+    for (int i = 0; i < count; i++)
+        scale(seed, &value[i]);
+}
+
+void scale_together(uint64_t *seed, int count, double *value)
+{
+    double factor = 1;
+    scale(seed, &factor);
+    for (int i = 0; i < count; i++)
+        value[i] *= factor;
+}
+
+static void draw_sines(uint64_t *seed, double size, ld_sines *sines)
+{
+    sines->count = choice(seed, 3);
+    for (int i = 0; i < sines->count; i++)
+        sines->term[i] =
+            (ld_sine){size * between(seed, 0, 1), between(seed, 0.1, 10), between(seed, -3, 3)};
+}
+
+static void draw_base(uint64_t *seed, ld_base *base)
+{
+    base->elevation = between(seed, -1.57, 1.57);
+    if (chance(seed, 0.5))
+        return;
+    base->kind = LD_BASE_PRESCRIBED;
+    base->azimuth = between(seed, -3, 3);
+    for (int i = 0; i < 3; i++)
+        base->velocity[i] = 10 * draw(seed);
+    ld_sines *path[3] = {&base->surge, &base->heave, &base->sway};
+    ld_sines *turn[3] = {&base->yaw, &base->pitch, &base->roll};
+    for (int i = 0; i < 3; i++) {
+        draw_sines(seed, 0.05, path[i]);
+        draw_sines(seed, 0.05, turn[i]);
+    }
+}
+
+static void draw_slot(uint64_t *seed, ld_slot *slot)
+{
+    slot->kind = chance(seed, 0.25) ? LD_SLOT_NONE : LD_SLOT_HELIX;
+    scale(seed, &slot->angle.data[1]);
+    slot->angle.data[1] *= draw(seed);
+    slot->friction = chance(seed, 0.2) ? 0 : between(seed, 0, 0.5);
+    if (chance(seed, 0.3)) {
+        free(slot->angle.data);
+        slot->angle = reference_table(
+            3, 2, (double[]){0, 0.3 * draw(seed), 1, 0.3 * draw(seed), 2, 0.3 * draw(seed)});
+    }
+}
+
+static void draw_tubes(uint64_t *seed, ld_tubes *tubes)
+{
+    ld_section *section = tubes->section;
+    scale(seed, &section->mass_per_length);
+    scale(seed, &section->bending_stiffness);
+    scale(seed, &section->torsion_stiffness);
+    scale(seed, &section->axial_stiffness);
+    scale(seed, &section->polar_inertia);
+    scale(seed, &tubes->length);
+    if (chance(seed, 0.3)) {
+        section[1] = section[0];
+        section[1].from = between(seed, 0.2, 0.8) * tubes->length;
+        scale(seed, &section[1].bending_stiffness);
+        tubes->section_count = 2;
+    }
+    if (chance(seed, 0.3))
+        tubes->point_mass[tubes->point_mass_count++] =
+            (ld_point_mass){between(seed, 0, tubes->length), between(seed, 0, 3)};
+    tubes->modes = (ld_modes){.bending = 1 + choice(seed, 8),
+                              .torsion = choice(seed, 4),
+                              .axial = choice(seed, 3),
+                              .elements = 10 + choice(seed, 30),
+                              .span = (ld_mode_span)choice(seed, 3),
+                              .damping = between(seed, 0, 0.05)};
+    scale(seed, &tubes->tail.mass);
+    scale_together(seed, 3, tubes->tail.inertia);
+    tubes->support_count = 1 + choice(seed, 4);
+    for (int k = 0; k < tubes->support_count; k++) {
+        ld_support *support = &tubes->support[k];
+        *support = tubes->support[0];
+        support->at = between(seed, 0, tubes->length);
+        scale_all(seed, 3, support->stiffness);
+        scale_all(seed, 3, support->damping);
+        scale_all(seed, 3, support->rotational_stiffness);
+        scale_all(seed, 3, support->rotational_damping);
+    }
+    draw_slot(seed, &tubes->slot);
+}
+
+static void draw_contact(uint64_t *seed, ld_contact *contact)
+{
+    contact->law = (ld_contact_law)choice(seed, 4);
+    scale(seed, &contact->stiffness);
+    bool linear = contact->law == LD_CONTACT_BILATERAL || contact->law == LD_CONTACT_KELVIN_VOIGT;
+    contact->exponent = linear ? 1 : between(seed, 1, 1.5);
+    contact->restitution = between(seed, 0.1, 1);
+    scale(seed, &contact->reference_speed);
+    if (linear)
+        contact->damping = between(seed, 0, 2e4);
+    contact->friction = contact->law == LD_CONTACT_BILATERAL ? 0 : between(seed, 0, 0.5);
+    scale(seed, &contact->friction_speed);
+}
+
+static void draw_rocket(uint64_t *seed, double length, ld_rocket *rocket)
+{
+    rocket->start_at = chance(seed, 0.2) ? between(seed, 0, length) : between(seed, 0, 0.3);
+    scale(seed, &rocket->full.mass);
+    rocket->propellant = rocket->full.mass * between(seed, 0, 0.6);
+    rocket->empty.mass = rocket->full.mass - rocket->propellant;
+    rocket->empty.center[0] = between(seed, -0.3, 2.2);
+    rocket->full.center[0] = between(seed, -0.3, 2.2);
+    scale_together(seed, 3, rocket->full.inertia);
+    for (int i = 0; i < 3; i++)
+        rocket->empty.inertia[i] = 0.7 * rocket->full.inertia[i];
+    for (int i = 0; i < 2; i++) {
+        rocket->eccentricity[i] = 1e-3 * draw(seed);
+        rocket->motor.misalignment[i] = 3e-3 * draw(seed);
+        rocket->motor.at[1 + i] = 1e-3 * draw(seed);
+        rocket->products[i] = 1e-3 * rocket->full.inertia[1] * draw(seed);
+    }
+    rocket->adaptor_count = 2 + choice(seed, 3);
+    rocket->adaptor[3] = rocket->adaptor[2];
+    snprintf(rocket->adaptor[3].name, LD_MAX_NAME, "fourth");
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        rocket->adaptor[i].at = i == 0 ? 0 : between(seed, 0.2, 2.5);
+        rocket->adaptor[i].clearance = between(seed, 1e-6, 2e-3);
+    }
+    rocket->knob_angle = between(seed, -3, 3);
+    rocket->lock.present = chance(seed, 0.8);
+    scale(seed, &rocket->lock.release_force);
+    for (size_t i = 0; i < rocket->motor.thrust.rows; i++)
+        scale(seed, &rocket->motor.thrust.data[2 * i + 1]);
+    scale(seed, &rocket->motor.time_scale);
+    if (chance(seed, 0.1)) // hardly any thrust
+        rocket->motor.thrust_scale = 0.02;
+    draw_contact(seed, &rocket->contact);
+}
+
+void draw_random_model(uint64_t seed, ld_model *model)
+{
+    reference_model(model);
+    for (int i = 0; i < 5; i++)
+        draw(&seed);
+    scale(&seed, &model->gravity);
+    if (chance(&seed, 0.05))
+        model->gravity = 0;
+    draw_base(&seed, &model->base);
+    draw_tubes(&seed, &model->tubes);
+    draw_rocket(&seed, model->tubes.length, &model->rocket);
+    ld_run_settings *run = &model->run;
+    run->start = chance(&seed, 0.3) ? LD_START_UNDEFORMED : LD_START_EQUILIBRIUM;
+    run->formulation = chance(&seed, 0.1) ? LD_FORMULATION_OVERALL : LD_FORMULATION_REDUCED;
+    run->tolerance = pow(10, between(&seed, -7, -3));
+    run->lead_in = chance(&seed, 0.3) ? 0.02 : 0;
+    run->stuck_time = 0.3;
+    model->firing[0].at = chance(&seed, 0.3) ? between(&seed, 0, 0.02) : 0;
+    if (chance(&seed, 0.1)) {
+        run->end = LD_END_TIME;
+        run->end_time = between(&seed, 0.01, 0.3);
+    }
+}
+
+// ---- running ----
+
+typedef struct watcher {
+    size_t columns, rocket_first, rocket_last; // the rocket's columns are NaN once it has left
+    long rows, not_finite;
+    double last;
+    bool ascending;
+} watcher;
+
+static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
+{
+    (void)error;
+    watcher *watch = self;
+    *watch = (watcher){.columns = count, .rocket_first = count, .ascending = true};
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(columns[i].name, "lock.force") == 0)
+            watch->rocket_last = i + 1;
+        if (strncmp(columns[i].name, "rocket.", 7) == 0 && watch->rocket_first == count)
+            watch->rocket_first = i;
+    }
+    return LD_OK;
+}
+
+static ld_status row(void *self, const double *values, size_t count, ld_error *error)
+{
+    (void)error;
+    watcher *watch = self;
+    bool gone = values[1] == 3; // phase
+    watch->ascending = watch->ascending && (watch->rows == 0 || values[0] > watch->last);
+    watch->last = values[0];
+    watch->rows++;
+    for (size_t i = 0; i < count; i++) {
+        bool of_rocket = i >= watch->rocket_first && i < watch->rocket_last;
+        // a passed adaptor has no place in the tube
+        bool adaptor = of_rocket && i >= watch->rocket_first + 25 - 3;
+        if (!isfinite(values[i]) && !(of_rocket && gone) && !adaptor)
+            watch->not_finite++;
+    }
+    return LD_OK;
+}
+
+static void check_sentence(const char *text)
+{
+    assert_true(strlen(text) > 20);
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "inf"));
+}
+
+// 0: refused, 1: could not happen, 2: happened.
+static int run_random_model(int number, const ld_model *model)
+{
+    ld_error error = {0};
+    ld_simulation *simulation = NULL;
+    static ld_summary summary;
+    watcher watch = {0};
+    ld_sink sink = {.self = &watch, .begin = begin, .row = row};
+    if (ld_model_check(model, &error) || ld_simulation_create(model, &simulation, &error)) {
+        printf("  %3d refused: %s\n", number, error.text);
+        check_sentence(error.text);
+        return 0;
+    }
+    ld_status status =
+        ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, &error);
+    ld_simulation_free(simulation);
+    printf("  %3d %s%s: %ld rows, %lld steps, %.2f s\n", number, status ? "stopped: " : "went well",
+           error.text, watch.rows, (long long)summary.statistics.steps,
+           summary.statistics.cpu_seconds);
+    assert_true(watch.not_finite == 0);
+    assert_true(watch.rows == 0 || watch.ascending);
+    assert_true(isfinite(summary.t_end));
+    assert_true(summary.complete == (status == LD_OK));
+    if (status) {
+        bool vehicle = model->base.kind == LD_BASE_VEHICLE;
+        assert_true(status == LD_ERR_LAUNCH || status == LD_ERR_NUMERIC ||
+                    (vehicle && status == LD_ERR_INPUT));
+        assert_string_equal(summary.stopped, error.text);
+        check_sentence(error.text);
+        return 1;
+    }
+    const ld_rocket_summary *rocket = &summary.rocket[0];
+    if (model->run.end == LD_END_TIP) {
+        assert_true(isfinite(rocket->t_rear) && isfinite(rocket->pitch_rate));
+        assert_true(rocket->muzzle_speed > 0);
+    }
+    assert_true(isfinite(summary.energy.residual));
+    return 2;
+}
+
+static int from_environment(const char *name, int otherwise)
+{
+    const char *text = getenv(name);
+    return text ? atoi(text) : otherwise;
+}
+
+void run_random_models(void (*draw_one)(uint64_t seed, ld_model *model), int otherwise)
+{
+    int count = from_environment("LD_RANDOM_MODELS", otherwise);
+    int first = from_environment("LD_RANDOM_FIRST", 1), ends[3] = {0};
+    for (int i = first; i < first + count; i++) {
+        ld_model model;
+        draw_one((uint64_t)i, &model);
+        ends[run_random_model(i, &model)]++;
+        reference_model_free(&model);
+    }
+    printf("  %d models: %d refused, %d could not happen, %d happened\n", count, ends[0], ends[1],
+           ends[2]);
+}
