@@ -105,6 +105,7 @@ static void a_run_allocates_nothing(void **state)
     check_model("reduced form, base by a table", &model);
     reference_model_free(&model);
     reference_vehicle(&model, 8);
+    model.base.vehicle.road.form = LD_ROAD_SUM;
     model.base.vehicle.road.iso_class = 2;
     model.run.lead_in = 0.1;
     check_model("reduced form, vehicle on a road of class C", &model);

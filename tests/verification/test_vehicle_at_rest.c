@@ -42,6 +42,7 @@ static void tyres_carry_the_weight(void **state)
     CHECK_BELOW("flat road: tyre forces over the weight - 1", tyre_forces(&summary) / weight - 1,
                 1e-12);
     CHECK_BELOW("rates left [m/s2, rad/s2]", summary.equilibrium.residual, 5e-8);
+    model.base.vehicle.road.form = LD_ROAD_SUM;
     model.base.vehicle.road.iso_class = 2;
     model.tubes.empty_count = 5;
     memcpy(model.tubes.empty, (int[]){1, 2, 7, 13, 14}, 5 * sizeof(int));

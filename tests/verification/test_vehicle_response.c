@@ -100,6 +100,7 @@ static void check_wavelength(double wavelength, double bound)
     recorded_run run;
     double omega = two_pi * speed / wavelength;
     reference_vehicle(&model, speed);
+    model.base.vehicle.road.form = LD_ROAD_SUM;
     model.base.vehicle.road.sine_count = 1;
     model.base.vehicle.road.sine[0] = (ld_road_sine){amplitude, wavelength, 0};
     // what is not linear at small speeds
