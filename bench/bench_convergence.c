@@ -138,8 +138,7 @@ int main(void)
         printf("\n## %s\n", launches[i].name);
         for (int which = launches[i].first; which < 4; which++)
             print_series(&model, which);
-        if (launches[i].first == 0)
-            print_all_at_once(&model);
+        print_all_at_once(&model);
         ld_model_free(&model);
     }
     return 0;

@@ -35,28 +35,6 @@ static void energy_balance(void **state)
     reference_model_free(&model);
 }
 
-// ---- the platform's motion alone ----
-
-static const double lead_in = 0.5;
-
-// Rows of the history at multiples of `step` as a table of the base's motion.
-static ld_table motion_of(const recorded_run *run, double step)
-{
-    static const char *const names[7] = {"t",        "base.x",     "base.y",   "base.z",
-                                         "base.yaw", "base.pitch", "base.roll"};
-    ld_table table = {0, 7, malloc(7 * run->rows * sizeof(double))};
-    for (size_t i = 0; i < run->rows; i++) {
-        double t = recorded_value(run, i, 0), count = (t + lead_in) / step;
-        if (fabs(count - round(count)) > 1e-6)
-            continue;
-        for (int k = 0; k < 7; k++)
-            table.data[7 * table.rows + (size_t)k] =
-                recorded_value(run, i, recorded_column(run, names[k]));
-        table.rows++;
-    }
-    return table;
-}
-
 typedef struct exit_difference {
     double instant, speed, angle, rate; // [s], [m/s], [rad], [rad/s]
 } exit_difference;
@@ -77,6 +55,53 @@ static void print_difference(const char *what, const exit_difference *d)
 {
     printf("  %-28s instants %8.1e s, speeds %8.1e m/s, pitch, yaw %8.1e rad, rates %8.1e rad/s\n",
            what, d->instant, d->speed, d->angle, d->rate);
+}
+
+static void tolerance_converges(void **state)
+{
+    (void)state;
+    enum { COUNT = 5 };
+    static const double tolerance[COUNT] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+    static const double instant[COUNT] = {4e-8, 1e-8, 6e-10, 2e-11, 4e-11};
+    static const double rate[COUNT] = {9e-6, 3e-6, 2e-6, 3e-6, 8e-7};
+    ld_model model;
+    marching(&model, 30 / 3.6);
+    model.run.lead_in = 3;
+    model.run.tolerance = 1e-10;
+    ld_summary truth = summary_of_run(&model);
+    for (int i = 0; i < COUNT; i++) {
+        char name[32];
+        model.run.tolerance = tolerance[i];
+        ld_summary summary = summary_of_run(&model);
+        exit_difference d = differ(&summary, &truth);
+        snprintf(name, sizeof name, "tolerance %.0e", tolerance[i]);
+        print_difference(name, &d);
+        CHECK_BELOW("instants [s]", d.instant, instant[i]);
+        CHECK_BELOW("pitch rate, yaw rate, spin [rad/s]", d.rate, rate[i]);
+    }
+    reference_model_free(&model);
+}
+
+// ---- the platform's motion alone ----
+
+static const double lead_in = 0.5;
+
+// Rows of the history at multiples of `step` as a table of the base's motion.
+static ld_table motion_of(const recorded_run *run, double step)
+{
+    static const char *const names[7] = {"t",        "base.x",     "base.y",   "base.z",
+                                         "base.yaw", "base.pitch", "base.roll"};
+    ld_table table = {0, 7, malloc(7 * run->rows * sizeof(double))};
+    for (size_t i = 0; i < run->rows; i++) {
+        double t = recorded_value(run, i, 0), count = (t + lead_in) / step;
+        if (fabs(count - round(count)) > 1e-6)
+            continue;
+        for (int k = 0; k < 7; k++)
+            table.data[7 * table.rows + (size_t)k] =
+                recorded_value(run, i, recorded_column(run, names[k]));
+        table.rows++;
+    }
+    return table;
 }
 
 // The launch of `model` on a base that moves as the platform does in `run`.
@@ -189,6 +214,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(energy_balance),
+        cmocka_unit_test(tolerance_converges),
         cmocka_unit_test(platform_motion_gives_the_launch),
         cmocka_unit_test(both_formulations),
         cmocka_unit_test(same_bits),
