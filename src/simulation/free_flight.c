@@ -7,6 +7,16 @@
 
 enum { EVENT_GROUND, EVENT_APEX, EVENTS };
 
+// The course of the state in the last step: a cubic by values and slopes at its ends, plus
+// x^2 (1 - x)^2 (A + B x), x from 0 to 1.
+typedef struct step_course {
+    bool open; // what follows t and y0 is there
+    double t;  // [s] where the step began
+    double y0[FLIGHT_STATES];
+    double h, y1[FLIGHT_STATES], f0[FLIGHT_STATES], f1[FLIGHT_STATES];
+    double A[FLIGHT_STATES], B[FLIGHT_STATES];
+} step_course;
+
 typedef struct flight_run {
     const free_flight *job;
     flight_phase phase;
@@ -22,6 +32,7 @@ typedef struct flight_run {
     double t_beyond;        // when the Mach number first went past the table's last; NaN: not
     double t_tumbling;      // when the angle of attack first passed 90 degrees; NaN: not
     double last_time;       // the end of the last step
+    step_course step;
     bool landed;
 } flight_run;
 
@@ -89,6 +100,49 @@ flight_phase free_flight_phase(const flight_system *system, double t_ignition, d
     return phase;
 }
 
+// ---- between the steps' ends ----
+
+static void course_at(const step_course *step, double x, double *y)
+{
+    double left = 1 - x, w = x * x * left * left;
+    double end = x * x * (3 - 2 * x), slope0 = x * left * left, slope1 = -x * x * left;
+    for (int i = 0; i < FLIGHT_STATES; i++)
+        y[i] = step->y0[i] + end * (step->y1[i] - step->y0[i]) +
+               step->h * (slope0 * step->f0[i] + slope1 * step->f1[i]) +
+               w * (step->A[i] + step->B[i] * x);
+}
+
+// Before a step is looked into: slopes at its ends, then the two coefficients that take the cubic
+// of Hermite to the polynomial of degree 5 whose slopes at 1/3 and 2/3 of the step are those of the
+// equations there, twice over (the first time on the cubic).
+static void look_into_step(flight_run *run, double t, const double *y)
+{
+    step_course *step = &run->step;
+    double f[2][FLIGHT_STATES], at[FLIGHT_STATES];
+    step->h = t - step->t;
+    memcpy(step->y1, y, sizeof step->y1);
+    memset(step->A, 0, sizeof step->A);
+    memset(step->B, 0, sizeof step->B);
+    flight_rates(run->job->system, &run->phase, step->t, step->y0, step->f0);
+    flight_rates(run->job->system, &run->phase, t, y, step->f1);
+    for (int round = 0; round < 2; round++) {
+        for (int k = 0; k < 2; k++) {
+            double share = (k + 1) / 3.0;
+            course_at(step, share, at);
+            flight_rates(run->job->system, &run->phase, step->t + share * step->h, at, f[k]);
+        }
+        for (int i = 0; i < FLIGHT_STATES; i++) {
+            // slopes of the cubic at 1/3 and 2/3
+            double rise = 4.0 / 3 * (step->y1[i] - step->y0[i]);
+            double a = step->h * f[0][i] - (rise - step->h * step->f1[i] / 3);
+            double b = step->h * f[1][i] - (rise - step->h * step->f0[i] / 3);
+            step->A[i] = -6.75 * a - 13.5 * b;
+            step->B[i] = 20.25 * (a + b);
+        }
+    }
+    step->open = true;
+}
+
 // ---- rows ----
 
 static ld_status write_row(flight_run *run, double t, const double *y)
@@ -101,12 +155,14 @@ static ld_status write_row(flight_run *run, double t, const double *y)
 }
 
 // Rows that fell into the last step.
-static ld_status write_rows(flight_run *run, double now)
+static ld_status write_rows(flight_run *run, double now, const double *y)
 {
     double between[FLIGHT_STATES];
-    while (run->job->row && run->next_output <= now) {
+    while (run->job->row && run->next_output < now) {
         double t = run->next_output;
-        integrator_interpolate(run->integrator, t, between);
+        if (!run->step.open)
+            look_into_step(run, now, y);
+        course_at(&run->step, (t - run->step.t) / run->step.h, between);
         ld_status status = write_row(run, t, between);
         if (status)
             return status;
@@ -298,7 +354,7 @@ static ld_status after_step(flight_run *run, integrator_outcome outcome, double 
     memcpy(end, integrator_state(run->integrator),
            (size_t)run->job->system->states * sizeof(double));
     run->landed = is_down(run, outcome, t, end);
-    ld_status status = write_rows(run, t);
+    ld_status status = write_rows(run, t, end);
     if (run->landed)
         t = touch_ground(run, t, end);
     watch(run, t, end);
@@ -316,7 +372,9 @@ static ld_status after_step(flight_run *run, integrator_outcome outcome, double 
         pass_corners(run, t);
         status = integrator_start(run->integrator, t, end, run->error);
     }
-    run->last_time = t;
+    run->last_time = run->step.t = t;
+    run->step.open = false;
+    memcpy(run->step.y0, end, sizeof run->step.y0);
     return status;
 }
 
@@ -341,6 +399,8 @@ static ld_status begin(flight_run *run, const double *y)
     const free_flight *job = run->job;
     double height = flight_center(job->system, job->t_start, y).r.y;
     run->apogee = height;
+    run->step.t = job->t_start;
+    memcpy(run->step.y0, y, sizeof run->step.y0);
     watch(run, job->t_start, y);
     if (job->system->has_ground && height < job->system->ground)
         return ld_fail(run->error, LD_ERR_LAUNCH,
