@@ -1,0 +1,116 @@
+// Cost of free flight: one evaluation of its equations, the reference flight to the ground at the
+// loosest of some tolerances whose impact is within 0.1 m of a converged run's, the rocket balanced
+// and not. Process CPU time, medians of many.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "launchdyn/scenario.h"
+#include "simulation/free_flight.h"
+#include "simulation/simulation.h"
+
+enum { REPEATS = 101, EVALUATIONS = 20000 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void print(const char *what, double *sample, int count, double unit, const char *name)
+{
+    qsort(sample, (size_t)count, sizeof *sample, ascending);
+    printf("%-58s median %8.3f  least %8.3f %s\n", what, sample[count / 2] / unit, sample[0] / unit,
+           name);
+}
+
+static void bench_evaluation(const ld_model *model, double t, const char *what)
+{
+    flight_system system;
+    double y[FLIGHT_STATES], y_dot[FLIGHT_STATES], sample[REPEATS], sum = 0;
+    if (flight_build(&system, model, NULL))
+        return;
+    flight_phase phase = free_flight_phase(&system, model->flight.ignition, t);
+    flight_start(&system, &phase, &model->flight, y);
+    y[FLIGHT_R + 1] += 400;
+    y[FLIGHT_V] += 400;
+    for (int r = 0; r < REPEATS; r++) {
+        double start = now();
+        for (int i = 0; i < EVALUATIONS; i++) {
+            y[FLIGHT_R + 1] += 1e-4; // a new state each time
+            flight_rates(&system, &phase, t, y, y_dot);
+            sum += y_dot[FLIGHT_V];
+        }
+        sample[r] = (now() - start) / EVALUATIONS;
+    }
+    if (sum != 0)
+        print(what, sample, REPEATS, 1e-9, "ns");
+    flight_free(&system);
+}
+
+static void fly(ld_model *model, double tolerance, ld_summary *summary, double *sample, int count)
+{
+    ld_simulation *simulation;
+    model->run.flight_tolerance = tolerance;
+    if (ld_simulation_create(model, &simulation, NULL))
+        exit(1);
+    for (int r = 0; r < count; r++) {
+        double start = now();
+        ld_simulation_run(simulation, NULL, summary, NULL);
+        sample[r] = now() - start;
+    }
+    ld_simulation_free(simulation);
+}
+
+static void bench_flight(ld_model *model, const char *what)
+{
+    static ld_summary summary;
+    double sample[REPEATS], tolerance = 1e-2, error;
+    const ld_flight_summary *flight = &summary.rocket[0].flight;
+    fly(model, 1e-12, &summary, sample, 1);
+    ld_flight_summary converged = *flight;
+    do {
+        tolerance /= 2;
+        fly(model, tolerance, &summary, sample, 1);
+        error = hypot(flight->downrange - converged.downrange, flight->drift - converged.drift);
+    } while (error > 0.1);
+    fly(model, tolerance, &summary, sample, REPEATS);
+    print(what, sample, REPEATS, 1e-6, "us");
+    printf("    tolerance %.1e, impact off by %.3f m of %.0f m, %lld steps, %lld evaluations\n",
+           tolerance, error, converged.range, (long long)summary.statistics.steps,
+           (long long)summary.statistics.rhs_evaluations);
+    fly(model, 1e-7, &summary, sample, REPEATS);
+    error = hypot(flight->downrange - converged.downrange, flight->drift - converged.drift);
+    print("    the same at the default tolerance", sample, REPEATS, 1e-6, "us");
+    printf("    impact off by %.1e m, %lld evaluations\n", error,
+           (long long)summary.statistics.rhs_evaluations);
+}
+
+int main(void)
+{
+    ld_model model;
+    ld_messages messages = {0};
+    if (ld_scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", NULL, 0, &model, &messages))
+        return 1;
+    bench_evaluation(&model, 1, "the same as the next, while the processor warms up");
+    bench_evaluation(&model, 1, "evaluation, flat Earth, burning");
+    bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out");
+    bench_flight(&model, "reference flight to the ground");
+    model.rocket.eccentricity[0] = 0.5e-3;
+    model.rocket.motor.misalignment[1] = 0.5e-3;
+    model.rocket.products[0] = 0.02;
+    bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, not balanced");
+    bench_flight(&model, "reference flight, not balanced");
+    model.environment.earth.kind = LD_EARTH_WGS84;
+    bench_evaluation(&model, 10, "evaluation, WGS 84, burnt out, not balanced");
+    ld_model_free(&model);
+    return 0;
+}
