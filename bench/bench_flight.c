@@ -35,8 +35,8 @@ static void print(const char *what, double *sample, int count, double unit, cons
 static void bench_evaluation(const ld_model *model, double t, const char *what)
 {
     flight_system system;
-    double y[FLIGHT_STATES], y_dot[FLIGHT_STATES], sample[REPEATS], sum = 0;
-    if (flight_build(&system, model, NULL))
+    double y[FLIGHT_STATES] = {0}, y_dot[FLIGHT_STATES], sample[REPEATS], sum = 0;
+    if (flight_build(&system, model, 0, NULL))
         return;
     flight_phase phase = free_flight_phase(&system, model->flight.ignition, t);
     flight_start(&system, &phase, &model->flight, y);
@@ -106,9 +106,10 @@ int main(void)
     bench_flight(&model, "reference flight to the ground");
     model.rocket.eccentricity[0] = 0.5e-3;
     model.rocket.motor.misalignment[1] = 0.5e-3;
-    model.rocket.products[0] = 0.02;
     bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, not balanced");
-    bench_flight(&model, "reference flight, not balanced");
+    bench_flight(&model, "the same, 0.5 mm eccentric, thrust 0.5 mrad off");
+    model.rocket.products[0] = 0.02;
+    bench_flight(&model, "the same, also J_xy = 0.02 kg m2");
     model.environment.earth.kind = LD_EARTH_WGS84;
     bench_evaluation(&model, 10, "evaluation, WGS 84, burnt out, not balanced");
     ld_model_free(&model);

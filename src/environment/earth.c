@@ -58,11 +58,12 @@ v3 earth_gravity(const earth *self, v3 r)
 // Sine and cosine of the geodetic latitude of a point at the distances p from the axis and z from
 // the equator: Bowring's iteration on the reduced latitude (Survey Review 23, 1976), by ratios, so
 // that the poles are no exception. The error falls by e2^2 (h/a) or so a round.
-static void latitude_of(const earth *self, double p, double z, double *sine, double *cosine)
+static void latitude_of(const earth *self, double p, double z, int rounds, double *sine,
+                        double *cosine)
 {
     double outer = self->e2 * self->a, inner = outer * self->a / self->b; // e^2 a, e'^2 b
     double s = z * self->a, c = p * self->b;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < rounds; i++) {
         double n = 1 / sqrt(s * s + c * c);
         s *= n;
         c *= n;
@@ -85,7 +86,7 @@ static double height(const earth *self, double p, double z, double sine, double 
 geodetic earth_geodetic(const earth *self, v3 r)
 {
     double sine, cosine, p = hypot(r.x, r.y);
-    latitude_of(self, p, r.z, &sine, &cosine);
+    latitude_of(self, p, r.z, 3, &sine, &cosine);
     return (geodetic){atan2(sine, cosine), atan2(r.y, r.x), height(self, p, r.z, sine, cosine)};
 }
 
@@ -106,7 +107,8 @@ double earth_altitude(const earth *self, v3 r)
     if (self->e2 == 0)
         return sqrt(p * p + r.z * r.z) - self->a;
     double sine, cosine;
-    latitude_of(self, p, r.z, &sine, &cosine);
+    // the height changes with the square of the latitude's error
+    latitude_of(self, p, r.z, 2, &sine, &cosine);
     return height(self, p, r.z, sine, cosine);
 }
 

@@ -3,24 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "simulation/dormand_prince.h"
 #include "simulation/simulation.h"
-
-enum { EVENT_GROUND, EVENT_APEX, EVENTS };
-
-// The course of the state in the last step: a cubic by values and slopes at its ends, plus
-// x^2 (1 - x)^2 (A + B x), x from 0 to 1.
-typedef struct step_course {
-    bool open; // what follows t and y0 is there
-    double t;  // [s] where the step began
-    double y0[FLIGHT_STATES];
-    double h, y1[FLIGHT_STATES], f0[FLIGHT_STATES], f1[FLIGHT_STATES];
-    double A[FLIGHT_STATES], B[FLIGHT_STATES];
-} step_course;
 
 typedef struct flight_run {
     const free_flight *job;
     flight_phase phase;
-    integrator *integrator;
+    dormand_prince steps;
     ld_flight_summary *flight;
     ld_summary *summary;
     ld_error *error;
@@ -32,65 +21,39 @@ typedef struct flight_run {
     double t_beyond;        // when the Mach number first went past the table's last; NaN: not
     double t_tumbling;      // when the angle of attack first passed 90 degrees; NaN: not
     double last_time;       // the end of the last step
-    step_course step;
+    double t_limit;
     bool landed;
 } flight_run;
 
-static int rhs(double t, const double *y, double *y_dot, void *self)
+static void slopes(double t, const double *y, double *y_dot, void *self)
 {
     flight_run *run = self;
     flight_rates(run->job->system, &run->phase, t, y, y_dot);
-    double sum = 0;
-    for (int i = 0; i < run->job->system->states; i++)
-        sum += 0 * y_dot[i];
-    return sum == 0 ? 0 : -1;
-}
-
-static int events(double t, const double *y, double *g, void *self)
-{
-    flight_run *run = self;
-    const flight_system *system = run->job->system;
-    double height;
-    flight_height(system, &run->phase, t, y, &height, &g[EVENT_APEX]);
-    g[EVENT_GROUND] = system->has_ground ? height - system->ground : 1;
-    return 0;
+    for (int i = run->job->system->states; i < DORMAND_PRINCE_STATES; i++)
+        y_dot[i] = 0;
 }
 
 // Absolute tolerances: what an error of the relative tolerance makes of a kilometre, of ten metres
 // a second, of a radian. Places have no relative one: they may be counted from the Earth's centre,
 // where a double holds no more than nanometres.
-static ld_status make_integrator(flight_run *run)
+static void set_tolerances(flight_run *run)
 {
-    double tolerance = run->job->model->run.flight_tolerance, atol[FLIGHT_STATES];
-    bool absolute[FLIGHT_STATES] = {false};
+    double tolerance = run->job->model->run.flight_tolerance;
+    bool flat = run->job->system->earth.flat;
+    dormand_prince *steps = &run->steps;
+    *steps = (dormand_prince){.f = slopes, .self = run, .count = run->job->system->states};
+    for (int i = 0; i < DORMAND_PRINCE_STATES; i++)
+        steps->absolute[i] = 1;
     for (int i = 0; i < 3; i++) {
-        atol[FLIGHT_R + i] = 1e3 * tolerance;
-        atol[FLIGHT_V + i] = 10 * tolerance;
-        atol[FLIGHT_W + i] = tolerance;
-        absolute[FLIGHT_R + i] = absolute[FLIGHT_V + i] = true;
-        if (!run->job->system->earth.flat) {
-            atol[FLIGHT_R + i] = fmax(atol[FLIGHT_R + i], 1e-8);
-            atol[FLIGHT_V + i] = fmax(atol[FLIGHT_V + i], 1e-11);
-        }
+        steps->absolute[FLIGHT_R + i] = fmax(1e3 * tolerance, flat ? 0 : 1e-8);
+        steps->absolute[FLIGHT_V + i] = fmax(10 * tolerance, flat ? 0 : 1e-11);
+        steps->absolute[FLIGHT_W + i] = steps->relative[FLIGHT_W + i] = tolerance;
     }
     for (int i = 0; i < 4; i++)
-        atol[FLIGHT_Q + i] = tolerance;
-    atol[FLIGHT_ROLL] = 10 * tolerance;
-    for (int i = 0; i < 2; i++)
-        atol[FLIGHT_XI + i] = tolerance;
-    absolute[FLIGHT_ROLL] = absolute[FLIGHT_XI] = absolute[FLIGHT_XI + 1] = true;
-    integrator_settings settings = {
-        .n = run->job->system->states,
-        .method = INTEGRATOR_CASH_KARP,
-        .rtol = tolerance,
-        .atol = atol,
-        .absolute = absolute,
-        .rhs = rhs,
-        .events = events,
-        .event_count = EVENTS,
-        .self = run,
-    };
-    return integrator_create(&settings, &run->integrator, run->error);
+        steps->absolute[FLIGHT_Q + i] = steps->relative[FLIGHT_Q + i] = tolerance;
+    steps->absolute[FLIGHT_ROLL] = 10 * tolerance;
+    if (run->job->system->turbulence.present)
+        steps->absolute[FLIGHT_XI] = steps->absolute[FLIGHT_XI + 1] = tolerance;
 }
 
 flight_phase free_flight_phase(const flight_system *system, double t_ignition, double t)
@@ -98,49 +61,6 @@ flight_phase free_flight_phase(const flight_system *system, double t_ignition, d
     flight_phase phase = {.t_ignition = t_ignition};
     flight_set_piece(system, &phase, motor_piece(&system->motor, t - t_ignition));
     return phase;
-}
-
-// ---- between the steps' ends ----
-
-static void course_at(const step_course *step, double x, double *y)
-{
-    double left = 1 - x, w = x * x * left * left;
-    double end = x * x * (3 - 2 * x), slope0 = x * left * left, slope1 = -x * x * left;
-    for (int i = 0; i < FLIGHT_STATES; i++)
-        y[i] = step->y0[i] + end * (step->y1[i] - step->y0[i]) +
-               step->h * (slope0 * step->f0[i] + slope1 * step->f1[i]) +
-               w * (step->A[i] + step->B[i] * x);
-}
-
-// Before a step is looked into: slopes at its ends, then the two coefficients that take the cubic
-// of Hermite to the polynomial of degree 5 whose slopes at 1/3 and 2/3 of the step are those of the
-// equations there, twice over (the first time on the cubic).
-static void look_into_step(flight_run *run, double t, const double *y)
-{
-    step_course *step = &run->step;
-    double f[2][FLIGHT_STATES], at[FLIGHT_STATES];
-    step->h = t - step->t;
-    memcpy(step->y1, y, sizeof step->y1);
-    memset(step->A, 0, sizeof step->A);
-    memset(step->B, 0, sizeof step->B);
-    flight_rates(run->job->system, &run->phase, step->t, step->y0, step->f0);
-    flight_rates(run->job->system, &run->phase, t, y, step->f1);
-    for (int round = 0; round < 2; round++) {
-        for (int k = 0; k < 2; k++) {
-            double share = (k + 1) / 3.0;
-            course_at(step, share, at);
-            flight_rates(run->job->system, &run->phase, step->t + share * step->h, at, f[k]);
-        }
-        for (int i = 0; i < FLIGHT_STATES; i++) {
-            // slopes of the cubic at 1/3 and 2/3
-            double rise = 4.0 / 3 * (step->y1[i] - step->y0[i]);
-            double a = step->h * f[0][i] - (rise - step->h * step->f1[i] / 3);
-            double b = step->h * f[1][i] - (rise - step->h * step->f0[i] / 3);
-            step->A[i] = -6.75 * a - 13.5 * b;
-            step->B[i] = 20.25 * (a + b);
-        }
-    }
-    step->open = true;
 }
 
 // ---- rows ----
@@ -154,16 +74,13 @@ static ld_status write_row(flight_run *run, double t, const double *y)
     return job->row(job->self, &run->phase, t, y, run->error);
 }
 
-// Rows that fell into the last step.
-static ld_status write_rows(flight_run *run, double now, const double *y)
+// Rows within the last step, before t.
+static ld_status write_rows(flight_run *run, double t)
 {
-    double between[FLIGHT_STATES];
-    while (run->job->row && run->next_output < now) {
-        double t = run->next_output;
-        if (!run->step.open)
-            look_into_step(run, now, y);
-        course_at(&run->step, (t - run->step.t) / run->step.h, between);
-        ld_status status = write_row(run, t, between);
+    double between[DORMAND_PRINCE_STATES];
+    while (run->job->row && run->next_output < t) {
+        dormand_prince_between(&run->steps, run->next_output, between);
+        ld_status status = write_row(run, run->next_output, between);
         if (status)
             return status;
         run->next_output = run->output_from +
@@ -208,7 +125,7 @@ static ld_status check_table(flight_run *run, double t, const double *y)
 static ld_status check_limit(flight_run *run, double t)
 {
     double limit = run->job->model->run.flight_limit;
-    if (isfinite(run->job->t_end) || t < run->job->t_start + limit)
+    if (isfinite(run->job->t_end) || t < run->t_limit)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_LAUNCH,
                    "the rocket has not landed within the flight limit of %.6g s", limit);
@@ -258,7 +175,7 @@ static double touch_ground(flight_run *run, double t, double *y)
         double height, rate;
         flight_height(system, &run->phase, t, y, &height, &rate);
         double h = (system->ground - height) / rate;
-        if (!(fabs(h) < 1) || fabs(h) < 1e-14)
+        if (!(fabs(h) < 0.01) || fabs(h) < 1e-14)
             break;
         small_step(run, t, h, y);
         t += h;
@@ -309,6 +226,65 @@ static void record_final(const flight_run *run, double t, const double *y, ld_fi
     final->roll = place.roll;
 }
 
+// ---- events within a step ----
+
+// Where height (rate = false) or its rate goes through zero between a and b: the method of false
+// position as Illinois has it. Height counts from the ground.
+static double crossing(flight_run *run, bool rate, double a, double b)
+{
+    double f[3], t[3] = {a, b, b};
+    for (int i = 0; i < 60; i++) {
+        // of the first two the ends, then a new point between them
+        for (int k = i ? 2 : 0; k < (i ? 3 : 2); k++) {
+            double y[DORMAND_PRINCE_STATES], height, y_dot;
+            dormand_prince_between(&run->steps, t[k], y);
+            flight_height(run->job->system, &run->phase, t[k], y, &height, &y_dot);
+            f[k] = rate ? y_dot : height - run->job->system->ground;
+        }
+        if (i) {
+            bool other = f[2] * f[1] < 0;
+            t[0] = other ? t[1] : t[0];
+            f[0] = other ? f[1] : 0.5 * f[0];
+            t[1] = t[2];
+            f[1] = f[2];
+        }
+        if (f[1] == 0 || f[0] == f[1] || fabs(t[1] - t[0]) < 1e-13 * (1 + fabs(t[1])))
+            break;
+        t[2] = t[1] - f[1] * (t[1] - t[0]) / (f[1] - f[0]);
+    }
+    return t[1];
+}
+
+// The highest point within the last step, NaN without.
+static double find_apex(flight_run *run)
+{
+    double height, before, after;
+    const dormand_prince *steps = &run->steps;
+    flight_height(run->job->system, &run->phase, steps->t0, steps->y0, &height, &before);
+    flight_height(run->job->system, &run->phase, steps->t, steps->y, &height, &after);
+    return before > 0 && after < 0 ? crossing(run, true, steps->t0, steps->t) : NAN;
+}
+
+// Ends the last step on the ground if it went through; apex: of the same step.
+static bool land(flight_run *run, double apex)
+{
+    const flight_system *system = run->job->system;
+    dormand_prince *steps = &run->steps;
+    double height, rate, y[DORMAND_PRINCE_STATES];
+    if (!system->has_ground)
+        return false;
+    flight_height(system, &run->phase, steps->t, steps->y, &height, &rate);
+    if (height > system->ground || rate > 0)
+        return false;
+    double t = crossing(run, false, isnan(apex) ? steps->t0 : apex, steps->t);
+    dormand_prince_retake(steps, t);
+    memcpy(y, steps->y, sizeof y);
+    t = touch_ground(run, t, y);
+    memcpy(steps->y, y, sizeof y);
+    steps->t = t;
+    return true;
+}
+
 // ---- the loop ----
 
 // The next instant at which a step must end: a corner of the thrust or of a gust, the end.
@@ -320,76 +296,69 @@ static double next_stop(const flight_run *run, double t)
     int next = run->phase.piece + 1;
     if (next < (int)thrust->corner_count)
         stop = fmin(stop, job->t_ignition + thrust->t[next]);
-    if (isinf(job->t_end))
-        stop = fmin(stop, job->t_start + job->model->run.flight_limit);
-    return stop;
+    return fmin(stop, isinf(job->t_end) ? run->t_limit : INFINITY);
 }
 
-// Corners of the thrust curve at or before t.
-static void pass_corners(flight_run *run, double t)
+// Corners of the thrust curve at or before t; true where there was one.
+static bool pass_corners(flight_run *run, double t)
 {
     const free_flight *job = run->job;
     const motor *thrust = &job->system->motor;
     int piece = run->phase.piece;
     while (piece + 1 < (int)thrust->corner_count && t >= job->t_ignition + thrust->t[piece + 1])
         piece++;
-    if (piece != run->phase.piece)
-        flight_set_piece(job->system, &run->phase, piece);
-}
-
-static bool is_down(flight_run *run, integrator_outcome outcome, double t, const double *y)
-{
-    double height, rate;
-    if (!run->job->system->has_ground)
+    if (piece == run->phase.piece)
         return false;
-    flight_height(run->job->system, &run->phase, t, y, &height, &rate);
-    if (outcome == INTEGRATOR_EVENT && integrator_event(run->integrator, EVENT_GROUND) < 0)
-        return true;
-    return height < run->job->system->ground && rate < 0; // began on the ground and fell
+    flight_set_piece(job->system, &run->phase, piece);
+    return true;
 }
 
-static ld_status after_step(flight_run *run, integrator_outcome outcome, double *end)
+static ld_status after_step(flight_run *run, bool stopped)
 {
-    double t = integrator_time(run->integrator);
-    memcpy(end, integrator_state(run->integrator),
-           (size_t)run->job->system->states * sizeof(double));
-    run->landed = is_down(run, outcome, t, end);
-    ld_status status = write_rows(run, t, end);
-    if (run->landed)
-        t = touch_ground(run, t, end);
-    watch(run, t, end);
-    if (!status)
-        status = check_table(run, t, end);
-    if (!status && (run->landed || outcome != INTEGRATOR_STEPPED))
-        status = write_row(run, t, end);
-    if (run->landed)
-        record_impact(run, t, end);
-    if (!status && !run->landed)
-        status = check_limit(run, t);
-    if (!status)
-        status = report_progress(run, t, end);
-    if (!status && outcome != INTEGRATOR_STEPPED && !run->landed) {
-        pass_corners(run, t);
-        status = integrator_start(run->integrator, t, end, run->error);
+    const dormand_prince *steps = &run->steps;
+    double apex = find_apex(run);
+    ld_status status = LD_OK;
+    // the step as it was, until the ground ends it
+    if (!isnan(apex)) {
+        double y[DORMAND_PRINCE_STATES];
+        dormand_prince_between(&run->steps, apex, y);
+        run->apogee = fmax(run->apogee, flight_center(run->job->system, apex, y).r.y);
+        status = write_rows(run, apex);
+        if (!status)
+            status = write_row(run, apex, y);
     }
-    run->last_time = run->step.t = t;
-    run->step.open = false;
-    memcpy(run->step.y0, end, sizeof run->step.y0);
-    return status;
+    run->landed = land(run, apex);
+    if (!status)
+        status = write_rows(run, steps->t);
+    watch(run, steps->t, steps->y);
+    if (!status)
+        status = check_table(run, steps->t, steps->y);
+    if (!status && (run->landed || stopped))
+        status = write_row(run, steps->t, steps->y);
+    if (run->landed)
+        record_impact(run, steps->t, steps->y);
+    else if (!status)
+        status = check_limit(run, steps->t);
+    return status ? status : report_progress(run, steps->t, steps->y);
 }
 
-static ld_status loop(flight_run *run, double *y)
+static ld_status loop(flight_run *run)
 {
-    double t = run->job->t_start;
-    while (!run->landed && t < run->job->t_end) {
-        integrator_outcome outcome =
-            integrator_step(run->integrator, next_stop(run, t), run->error);
-        if (outcome == INTEGRATOR_FAILED)
-            return LD_ERR_NUMERIC;
-        ld_status status = after_step(run, outcome, y);
-        t = run->last_time;
+    dormand_prince *steps = &run->steps;
+    while (!run->landed && steps->t < run->job->t_end) {
+        double stop = next_stop(run, steps->t);
+        if (!dormand_prince_step(steps, stop))
+            return ld_fail(
+                run->error, LD_ERR_NUMERIC,
+                "the equations of flight gave no finite result, or the step size fell to "
+                "nothing, at t = %.9g s",
+                steps->t);
+        bool stopped = steps->t == stop;
+        ld_status status = after_step(run, stopped);
         if (status)
             return status;
+        if (stopped && pass_corners(run, steps->t))
+            dormand_prince_start(steps, steps->t, steps->y);
     }
     return LD_OK;
 }
@@ -397,10 +366,13 @@ static ld_status loop(flight_run *run, double *y)
 static ld_status begin(flight_run *run, const double *y)
 {
     const free_flight *job = run->job;
+    double start[DORMAND_PRINCE_STATES] = {0};
+    memcpy(start, y, FLIGHT_STATES * sizeof(double));
+    set_tolerances(run);
+    dormand_prince_start(&run->steps, job->t_start, start);
     double height = flight_center(job->system, job->t_start, y).r.y;
     run->apogee = height;
-    run->step.t = job->t_start;
-    memcpy(run->step.y0, y, sizeof run->step.y0);
+    run->t_limit = job->t_start + job->model->run.flight_limit;
     watch(run, job->t_start, y);
     if (job->system->has_ground && height < job->system->ground)
         return ld_fail(run->error, LD_ERR_LAUNCH,
@@ -408,10 +380,6 @@ static ld_status begin(flight_run *run, const double *y)
                        "ground at %.6g m",
                        height, job->system->ground);
     ld_status status = check_table(run, job->t_start, y);
-    if (!status)
-        status = make_integrator(run);
-    if (!status)
-        status = integrator_start(run->integrator, job->t_start, y, run->error);
     return status ? status : write_row(run, job->t_start, y);
 }
 
@@ -444,7 +412,6 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
                       .next_output = self->t_start + self->model->run.output_step_flight,
                       .next_progress = self->t_start,
                       .last_row = NAN,
-                      .last_time = self->t_start,
                       .t_beyond = NAN,
                       .t_tumbling = NAN};
     rocket->flown = true;
@@ -453,17 +420,15 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
         flight[i] = NAN;
     ld_status status = begin(&run, state);
     if (!status)
-        status = loop(&run, state);
+        status = loop(&run);
+    memcpy(state, run.steps.y, FLIGHT_STATES * sizeof(double));
     rocket->flight.apogee = run.apogee;
     rocket->flight.max_mach = run.fastest;
     rocket->flight.max_angle_of_attack = run.tilted;
-    record_final(&run, run.last_time, state, &rocket->final);
+    record_final(&run, run.steps.t, state, &rocket->final);
     note(&run);
-    summary->t_end = run.last_time;
-    if (run.integrator) {
-        summary->statistics.steps += integrator_steps(run.integrator);
-        summary->statistics.rhs_evaluations += integrator_evaluations(run.integrator);
-        integrator_free(run.integrator);
-    }
+    summary->t_end = run.steps.t;
+    summary->statistics.steps += run.steps.steps;
+    summary->statistics.rhs_evaluations += run.steps.evaluations;
     return status;
 }

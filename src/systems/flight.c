@@ -34,6 +34,8 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
         flight_free(self);
         return status;
     }
+    self->c_change = v3_sub(self->motor.empty.c, self->motor.full.c);
+    self->J_change = m3_sub(self->motor.empty.J, self->motor.full.J);
     self->symmetric = is_symmetric_mass(&self->motor.full) &&
                       is_symmetric_mass(&self->motor.empty) && direction.y == 0 &&
                       direction.z == 0 && self->thrust_point.y == 0 && self->thrust_point.z == 0 &&
@@ -70,6 +72,32 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
     phase->power = piece + 1 < corners;
     motor_mass(&self->motor, piece, piece < 0 ? 0 : self->motor.t[piece], &phase->mass);
     phase->J_inverse = inverse(&phase->mass.J);
+    if (!phase->burning)
+        return;
+    const motor *thrust = &self->motor;
+    double length = thrust->t[piece + 1] - thrust->t[piece];
+    phase->burn.rate = 1 / motor_total_impulse(thrust);
+    phase->burn.t0 = phase->t_ignition + thrust->t[piece];
+    phase->burn.thrust = thrust->thrust[piece];
+    phase->burn.slope = (thrust->thrust[piece + 1] - thrust->thrust[piece]) / length;
+    phase->burn.share = thrust->impulse[piece] * phase->burn.rate;
+}
+
+// Thrust and mass data while it burns, as motor_thrust and motor_mass have them.
+LD_INLINE double burn_at(const flight_system *self, const flight_phase *phase, double t,
+                         rocket_mass *mass)
+{
+    const rocket_mass *full = &self->motor.full;
+    double since = t - phase->burn.t0, thrust = phase->burn.thrust + phase->burn.slope * since;
+    double burnt = 0.5 * (phase->burn.thrust + thrust) * since;
+    double share = phase->burn.share + phase->burn.rate * burnt;
+    mass->m = full->m - share * self->motor.propellant;
+    mass->c = v3_axpy(full->c, share, self->c_change);
+    mass->c_dot = v3_scale(phase->burn.rate * thrust, self->c_change);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            mass->J.a[i][j] = full->J.a[i][j] + share * self->J_change.a[i][j];
+    return thrust;
 }
 
 rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t)
@@ -195,8 +223,7 @@ LD_INLINE void rates(const flight_system *self, flight_phase *phase, double t, c
     rocket_mass burning;
     const rocket_mass *mass = &phase->mass;
     if (phase->burning) {
-        thrust = flight_thrust(self, phase, t);
-        motor_mass(&self->motor, phase->piece, t - phase->t_ignition, &burning);
+        thrust = burn_at(self, phase, t, &burning);
         mass = &burning;
     }
     v3 force = v3_scale(thrust, self->thrust_direction);

@@ -42,6 +42,8 @@ typedef struct flight_system {
     int states;            // 14, or FLIGHT_STATES in turbulence
     aerodynamics aerodynamics;
     motor motor;
+    v3 c_change;         // [m] of the mass centre from full to empty
+    m3 J_change;         // [kg m2] of the inertia likewise
     v3 thrust_point;     // [m] in B
     v3 thrust_direction; // unit vector, in B
     bool symmetric;      // the same all around its x axis: nothing depends on the roll angle
@@ -58,8 +60,13 @@ typedef struct flight_phase {
     double t_ignition; // [s]
     int piece;         // of the thrust curve
     bool burning;
-    bool power;       // the thrust table has not ended
-    rocket_mass mass; // while it does not burn
+    struct {
+        double t0;            // [s] where the piece begins
+        double thrust, slope; // [N] there, [N/s]
+        double share, rate;   // burnt share of the propellant there; 1 over the total impulse
+    } burn;                   // while it burns
+    bool power;               // the thrust table has not ended
+    rocket_mass mass;         // while it does not burn
     m3 J_inverse;
     size_t interval; // of the aerodynamic table, where it was last read
 } flight_phase;
