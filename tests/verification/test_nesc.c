@@ -74,7 +74,7 @@ static void simulate(int number, course *out)
         fail();
     }
     receiver to = {.course = out};
-    const ld_sink sink = {&to, begin, row};
+    const ld_sink sink = {.self = &to, .begin = begin, .row = row};
     const ld_run_options options = {.sink = &sink};
     *out = (course){0};
     assert_int_equal(ld_simulation_create(&model, &simulation, &error), LD_OK);
