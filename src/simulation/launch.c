@@ -165,7 +165,7 @@ static void set_up_rocket(launch_run *run, int i)
         rocket->t_exit[k] = NAN;
     rocket->muzzle_speed = rocket->inertial_speed = rocket->spin_rate = NAN;
     rocket->pitch = rocket->yaw = rocket->pitch_rate = rocket->yaw_rate = NAN;
-    double *relative = &rocket->relative.y, *tip = &rocket->tip.y, *out = rocket->exit.position;
+    double *relative = &rocket->relative.y, *tip = &rocket->tip.y, *out = (double *)&rocket->exit;
     for (int k = 0; k < 8; k++)
         relative[k] = tip[k] = NAN;
     for (int k = 0; k < 13; k++)
