@@ -26,7 +26,7 @@ typedef struct dormand_prince {
     double y0[DORMAND_PRINCE_STATES];
     double k[DORMAND_PRINCE_STAGES][DORMAND_PRINCE_STATES]; // slopes of the last step, the first
                                                             // and the last at its ends
-    bool open; // the course between the ends is known
+    bool open;                                              // the course between the ends is known
     double course[2][DORMAND_PRINCE_STATES];
     int64_t steps, evaluations;
 } dormand_prince;

@@ -281,6 +281,7 @@ static void test_road(void **state)
     assert_int_equal(
         run("sed 's/road: {class.*/road: {bumps: [{at: 2 m, length: 1 m, height: 30 mm, "
             "tracks: left}]}/' examples/reference.yaml >bumps.yaml; "
+            "cp examples/reference-aero.csv .; "
             "launchdyn road bumps.yaml --from 0 --to 10 --step 0.5 --out c; "
             "sed -n 7p c/road.csv; head -n 1 c/road-spectrum.csv"),
         0);
