@@ -33,6 +33,8 @@ enum {
     LD_MAX_AXIAL_MODES = 8,
     LD_MAX_GUSTS = 16,
     LD_MAX_NAME = 64,
+    LD_MAX_PATH = 128,
+    LD_MAX_CHOICES = 32,
 };
 
 /// A numeric table, row by row, `rows` x `columns`, owned by its model. Empty: rows = 0.
@@ -537,6 +539,43 @@ typedef struct ld_run_settings {
     double coupling_step; ///< [s] at which the subsystems, integrated apart, exchange; 0: together
 } ld_run_settings;
 
+/// Distribution of a factor about its nominal value, the scenario's: model.md, section 10.
+typedef enum ld_distribution {
+    LD_NORMAL,
+    LD_UNIFORM,
+    LD_LOGNORMAL, ///< the nominal value is the median
+    LD_DISCRETE,
+    LD_EACH_SAMPLE, ///< a whole number of the key's range, another one in each sample
+} ld_distribution;
+
+/// One scattered number of the scenario. Units are those of the key, in SI.
+typedef struct ld_factor {
+    char path[LD_MAX_PATH]; ///< keys joined by dots; list members by name, else by number from 1;
+                            ///< components of vectors by .w, .x, .y, .z
+    ld_distribution distribution;
+    double deviation;  ///< normal: standard deviation; lognormal: that of the logarithm [-]
+    double within;     ///< [-] normal: kept within so many standard deviations; NaN: not
+    double between[2]; ///< normal: kept between these; uniform: the ends; NaN: not given
+    double spread;     ///< uniform: nominal +- this, where `between` is NaN
+    int value_count;
+    double value[LD_MAX_CHOICES];  ///< discrete
+    double weight[LD_MAX_CHOICES]; ///< discrete
+    bool per_rocket;               ///< drawn for every rocket (keys of the rocket only)
+} ld_factor;
+
+typedef enum ld_plan { LD_PLAN_RANDOM, LD_PLAN_LHS } ld_plan;
+
+/// What a study scatters, and how often it runs.
+typedef struct ld_scatter {
+    bool present;
+    int seed;
+    int samples; ///< runs, each of all rockets of the firing
+    ld_plan plan;
+    int replicates; ///< independent Latin hypercubes, of samples/replicates each
+    int factor_count;
+    ld_factor *factor; ///< owned by the model
+} ld_scatter;
+
 typedef struct ld_model {
     char *title;
     double gravity; ///< [m/s2]
@@ -549,6 +588,7 @@ typedef struct ld_model {
     int firing_count;
     ld_firing firing[LD_MAX_FIRINGS];
     ld_run_settings run;
+    ld_scatter scatter; ///< for studies
 } ld_model;
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
@@ -562,7 +602,7 @@ void ld_model_init(ld_model *model);
 /// reader has done it already.
 void ld_model_complete(ld_model *model);
 
-/// Frees the title and the tables of `model` and resets it to the defaults.
+/// Frees the title, the tables and the factors of `model` and resets it to the defaults.
 void ld_model_free(ld_model *model);
 
 /// Checks that the values of `model` fit together and are finite and in range; for models filled by

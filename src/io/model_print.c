@@ -156,6 +156,68 @@ static void print_table(FILE *stream, const field_row *f, const ld_table *table,
     }
 }
 
+static void print_distribution(FILE *stream, const ld_factor *factor, const char *unit)
+{
+    const char *between = "";
+    switch (factor->distribution) {
+    case LD_NORMAL:
+        fprintf(stream, "normal: ");
+        print_number(stream, &factor->deviation, 1, unit);
+        break;
+    case LD_LOGNORMAL:
+        fprintf(stream, "lognormal: ");
+        print_number(stream, &factor->deviation, 1, "");
+        break;
+    case LD_UNIFORM:
+        fprintf(stream, isnan(factor->between[0]) ? "uniform: +-" : "uniform: ");
+        print_number(stream, isnan(factor->between[0]) ? &factor->spread : factor->between,
+                     isnan(factor->between[0]) ? 1 : 2, unit);
+        return;
+    case LD_DISCRETE:
+        fprintf(stream, "discrete: [");
+        for (int i = 0; i < factor->value_count; i++, between = ", ") {
+            fprintf(stream, "%s", between);
+            print_number(stream, &factor->value[i], 1, unit);
+        }
+        fprintf(stream, "], weights: [");
+        between = "";
+        for (int i = 0; i < factor->value_count; i++, between = ", ") {
+            fprintf(stream, "%s", between);
+            print_number(stream, &factor->weight[i], 1, "");
+        }
+        fprintf(stream, "]");
+        return;
+    case LD_EACH_SAMPLE:
+        fprintf(stream, "each: sample");
+        return;
+    }
+    if (!isnan(factor->within)) {
+        fprintf(stream, ", within: ");
+        print_number(stream, &factor->within, 1, "");
+    }
+    if (!isnan(factor->between[0])) {
+        fprintf(stream, ", between: ");
+        print_number(stream, factor->between, 2, unit);
+    }
+}
+
+static void print_factors(FILE *stream, const field_row *f, const ld_scatter *scatter, int depth)
+{
+    fputc('\n', stream);
+    for (int i = 0; i < field_switch(scatter, f); i++) {
+        const ld_factor *factor = &scatter->factor[i];
+        field_place place;
+        char why[384];
+        // scatter is a part of the model whose numbers it names
+        const ld_model *model = (const void *)((const char *)scatter - offsetof(ld_model, scatter));
+        field_locate(model, factor->path, &place, why, sizeof why);
+        fprintf(stream, "%*s%s: {", depth * 2, "", factor->path);
+        print_distribution(stream, factor, place.row && place.row->unit ? place.row->unit : "");
+        fprintf(stream, "%s}\n",
+                factor_may_be_per_rocket(factor) && !factor->per_rocket ? ", per: sample" : "");
+    }
+}
+
 static void print_block(FILE *stream, const field_block *block, const void *base, int depth);
 
 static void print_field(FILE *stream, const field_row *f, const void *base, int depth)
@@ -168,6 +230,8 @@ static void print_field(FILE *stream, const field_row *f, const void *base, int 
             print_block(stream, f->block, field_at_const(base, f), depth + 1);
     } else if (f->kind == FIELD_LIST) {
         print_list(stream, f, base, depth + 1);
+    } else if (f->kind == FIELD_FACTORS) {
+        print_factors(stream, f, base, depth + 1);
     } else if (f->kind == FIELD_TABLE) {
         print_table(stream, f, field_at_const(base, f), depth + 1);
     } else {

@@ -497,6 +497,8 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
     case FIELD_TABLE:
         read_table(reader, f, value, base, path);
         break;
+    case FIELD_FACTORS:
+        break; // they are about all the rest: scenario_fill_factors()
     case FIELD_LATER:
         reader_refuse(reader, value->key_at, path, "not simulated yet");
         break;
@@ -671,6 +673,7 @@ void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *mod
     }
     read_block(reader, &scenario_block, root, model, "");
     ld_model_complete(model);
+    scenario_fill_factors(reader, root, model);
     context.messages = reader->messages->count;
     model_check_rules(model, refuse_rule, &context);
 }

@@ -102,6 +102,9 @@ bool tree_is_empty(const tree_node *node);
 // Reads the tree into `model` (initialised), each value against its table, then checks the rules.
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
 
+// Reads the distributions of scatter.factors, once the rest of the model is known.
+void scenario_fill_factors(scenario_reader *reader, const tree_node *root, ld_model *model);
+
 // Reads a value of `f`, "15 km/h" or "0 0 1 m", in SI into `values`; false after a message.
 struct field_row;
 bool quantity_read(scenario_reader *reader, const struct field_row *f, text_place place,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 typedef struct model_checker {
+    const ld_model *model;
     ld_error *error;
     ld_status status;
 } model_checker;
@@ -115,6 +116,19 @@ static void check_list(model_checker *checker, const char *path, const field_row
     }
 }
 
+static void check_factors(model_checker *checker, const ld_scatter *scatter)
+{
+    field_place place;
+    char path[LD_MAX_PATH + 24], why[384];
+    for (int i = 0; i < scatter->factor_count; i++) {
+        const ld_factor *factor = &scatter->factor[i];
+        snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH - 1, factor->path);
+        if (!field_locate(checker->model, factor->path, &place, why, sizeof why) ||
+            !factor_is_possible(checker->model, factor, &place, why, sizeof why))
+            refuse(checker, path, why);
+    }
+}
+
 static void check_field(model_checker *checker, const char *path, const field_row *f,
                         const void *base)
 {
@@ -147,6 +161,9 @@ static void check_field(model_checker *checker, const char *path, const field_ro
     case FIELD_WORD:
         if (!memchr(field_at_const(base, f), '\0', LD_MAX_NAME))
             refuse(checker, path, "not ended by a zero");
+        break;
+    case FIELD_FACTORS:
+        check_factors(checker, base);
         break;
     case FIELD_TEXT:
     case FIELD_SELECTION:
@@ -193,7 +210,7 @@ static void check_complete(model_checker *checker, const ld_model *model)
 
 ld_status ld_model_check(const ld_model *model, ld_error *error)
 {
-    model_checker checker = {error, LD_OK};
+    model_checker checker = {model, error, LD_OK};
     check_block(&checker, "", &scenario_block, model);
     if (checker.status == LD_OK)
         model_check_rules(model, refuse_rule, &checker);

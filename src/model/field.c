@@ -129,6 +129,8 @@ void field_release(const field_block *block, void *base)
             free(*(char **)field_at(base, f));
         } else if (f->kind == FIELD_TABLE) {
             free(((ld_table *)field_at(base, f))->data);
+        } else if (f->kind == FIELD_FACTORS) {
+            free(*(ld_factor **)field_at(base, f));
         }
     }
 }
@@ -288,6 +290,9 @@ void field_expectation(const field_row *field, char *text, size_t size)
         return;
     case FIELD_TABLE:
         table_expectation(field->table, text, size);
+        return;
+    case FIELD_FACTORS:
+        snprintf(text, size, "a block of paths, each with its distribution");
         return;
     case FIELD_LATER:
         snprintf(text, size, "nothing yet");

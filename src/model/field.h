@@ -23,6 +23,8 @@ typedef enum field_kind {
     FIELD_SELECTION, // some entries of a list read before, by their names or `all`: the bool at
                      // `mark` of each entry, whose name stands first in it
     FIELD_TABLE,     // ld_table
+    FIELD_FACTORS,   // ld_factor *, owned by the model, their number at `other`: distributions by
+                     // path
     FIELD_LATER,     // a key of the language that is not simulated yet
 } field_kind;
 
@@ -130,6 +132,27 @@ bool field_marked(const void *base, const field_row *field, int i);
 void field_set_mark(void *base, const field_row *field, int i, bool mark);
 // The form of a table that has so many columns, or NULL.
 const table_format *field_table_format(const table_format *format, size_t columns);
+
+// A number of a model: any scalar key or component.
+typedef struct field_place {
+    const field_row *row;
+    size_t offset;          // in ld_model
+    bool whole;             // an int, else a double
+    char path[LD_MAX_PATH]; // list members by name where they have one
+} field_place;
+
+// Finds the number of `model` with the path of keys; false: `why` says what is wrong with the path.
+bool field_locate(const ld_model *model, const char *path, field_place *place, char *why,
+                  size_t size);
+double field_get(const ld_model *model, const field_place *place);
+void field_set(ld_model *model, const field_place *place, double value);
+
+// Whether the factor's distribution goes with the number that it scatters; false: `why` says why
+// not.
+bool factor_is_possible(const ld_model *model, const ld_factor *factor, const field_place *place,
+                        char *why, size_t size);
+// Whether the rockets of one sample may differ in it.
+bool factor_may_be_per_rocket(const ld_factor *factor);
 
 bool field_in_range(field_range range, double value);
 // "> 0 kg", "0 to 1"; "" where all is allowed. Angles in degrees.

@@ -425,6 +425,15 @@ static void launch_rules(const rule_set *rules)
         broken(rules, "rocket.motor", 0, "a launch needs one");
 }
 
+static void scatter_rules(const rule_set *rules)
+{
+    const ld_scatter *scatter = &rules->model->scatter;
+    if (scatter->present && scatter->plan == LD_PLAN_LHS && scatter->replicates > 0 &&
+        scatter->samples % scatter->replicates != 0)
+        broken(rules, "scatter.replicates", 0, "%d samples are no multiple of %d replicates",
+               scatter->samples, scatter->replicates);
+}
+
 void model_check_rules(const ld_model *model, rule_report *report, void *self)
 {
     const rule_set all = {model, report, self};
@@ -438,4 +447,5 @@ void model_check_rules(const ld_model *model, rule_report *report, void *self)
     aerodynamics_rules(&all);
     end_rules(&all);
     coupling_rules(&all);
+    scatter_rules(&all);
 }

@@ -952,6 +952,30 @@ static const field_row run_fields[] = {
     {0}};
 static const field_block run_block = {.fields = run_fields};
 
+// ---- studies
+
+static const field_word plan_words[] = {
+    {"random", LD_PLAN_RANDOM}, {"lhs", LD_PLAN_LHS}, {NULL, 0}};
+static const field_row scatter_fields[] = {
+    {"seed", INTEGER(ld_scatter, seed, 0, 999999999), DEFAULT(1),
+     .doc = "of all random numbers of the study"},
+    {"samples", INTEGER(ld_scatter, samples, 1, 100000000), .required = true,
+     .doc = "runs, each of all rockets of the firing"},
+    {"plan", CHOICE(ld_scatter, plan, plan_words), DEFAULT(LD_PLAN_RANDOM),
+     .doc = "independent samples, or Latin hypercubes"},
+    {"replicates", INTEGER(ld_scatter, replicates, 1, 1000000), DEFAULT(1),
+     .forms = FORM(LD_PLAN_LHS),
+     .doc = "independent hypercubes of samples/replicates each; intervals come from them"},
+    {"factors", .kind = FIELD_FACTORS, .offset = offsetof(ld_scatter, factor),
+     .other = offsetof(ld_scatter, factor_count), .required = true,
+     .doc = "what is scattered: any number of the scenario by its path"},
+    {0}};
+static const field_block scatter_block = {.fields = scatter_fields,
+                                          .form = plan_words,
+                                          .form_offset = offsetof(ld_scatter, plan),
+                                          .form_key = "plan"};
+static const field_word scatter_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
 // ---- the whole
 
 static const field_row scenario_fields[] = {
@@ -975,7 +999,9 @@ static const field_row scenario_fields[] = {
     {"flight", BLOCK(ld_model, flight, flight_block), .required = true, .forms = IN_FLIGHT,
      .doc = "flight alone, in place of base, platform, tubes, firing and what the rocket has for "
             "the tube"},
-    {"scatter", LATER, .doc = "scatter for studies"},
+    {"scatter", BLOCK(ld_model, scatter, scatter_block), .initial_doc = "none",
+     SWITCH(ld_model, scatter.present, scatter_words), .other_is_bool = true,
+     .doc = "random factors of a study (Scatter, above)"},
     {"sweep", LATER, .doc = "sweeps for studies"},
     {0}};
 const field_block scenario_block = {.fields = scenario_fields,

@@ -23,6 +23,12 @@ static inline bool same_tables(const field_block *block, void *a, void *b)
             ld_table *x = field_at(a, f), *y = field_at(b, f);
             same &= same_table(x, y);
             x->data = y->data = NULL;
+        } else if (f->kind == FIELD_FACTORS) {
+            ld_factor **x = field_at(a, f), **y = field_at(b, f);
+            int count = field_switch(a, f);
+            same &= count == field_switch(b, f) &&
+                    (count == 0 || memcmp(*x, *y, (size_t)count * sizeof **x) == 0);
+            *x = *y = NULL;
         }
     }
     return same;

@@ -1,0 +1,17 @@
+// Distribution functions and their inverses.
+#ifndef LD_MATH_DISTRIBUTIONS_H
+#define LD_MATH_DISTRIBUTIONS_H
+
+// Standard normal distribution function, accurate in the lower tail.
+double normal_cumulative(double z);
+// Its inverse for 0 < p < 1 (Wichura, Algorithm AS 241), relative error some 1e-16 in z.
+double normal_quantile(double p);
+
+// Regularised incomplete beta function I_x(a, b), by its continued fraction (Lentz).
+double beta_cumulative(double a, double b, double x);
+// Quantile of Student's t with `freedom` > 0 degrees of freedom.
+double student_quantile(double p, double freedom);
+// Binomial distribution function: P(X <= k) of n draws with probability p.
+double binomial_cumulative(long k, long n, double p);
+
+#endif

@@ -1,0 +1,205 @@
+// Drawn values: their distributions, hypercubes, and that none depends on what else is drawn.
+#include "support/check.h"
+
+#include <stdlib.h>
+
+#include "launchdyn/scenario.h"
+#include "math/distributions.h"
+#include "studies/draw.h"
+
+static const field_row row = {.kind = FIELD_NUMBER, .unit = "m", .range = {0, 999, 0, 0}};
+static const field_place place = {.row = &row};
+
+static ld_factor factor_named(const char *path, ld_distribution distribution)
+{
+    ld_factor factor = {.distribution = distribution,
+                        .deviation = 0.5,
+                        .within = NAN,
+                        .between = {NAN, NAN},
+                        .spread = NAN};
+    snprintf(factor.path, sizeof factor.path, "%s", path);
+    return factor;
+}
+
+// Largest difference between the values' distribution function and the expected one, times sqrt n:
+// below 1.95 in 99.9 % of all seeds (Kolmogorov).
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double distance(double *u, int n)
+{
+    double worst = 0;
+    qsort(u, (size_t)n, sizeof *u, by_value);
+    for (int i = 0; i < n; i++)
+        worst = fmax(worst, fmax(u[i] - (double)i / n, (i + 1.) / n - u[i]));
+    return worst * sqrt(n);
+}
+
+enum { MANY = 20000 };
+
+static void test_uniform_numbers(void **state)
+{
+    (void)state;
+    ld_scatter scatter = {.seed = 7, .samples = MANY, .replicates = 1};
+    ld_factor a = factor_named("rocket.mass", LD_NORMAL),
+              b = factor_named("base.azimuth", LD_NORMAL);
+    static double u[MANY];
+    double product[3] = {0};
+    for (int k = 0; k < MANY; k++) {
+        u[k] = draw_uniform(&scatter, &a, k + 1, 1);
+        double x = u[k] - 0.5;
+        product[0] += x * (draw_uniform(&scatter, &b, k + 1, 1) - 0.5);
+        product[1] += x * (draw_uniform(&scatter, &a, k + 1, 2) - 0.5);
+        product[2] += x * (draw_uniform(&scatter, &a, k + 2, 1) - 0.5);
+    }
+    CHECK_BELOW("Kolmogorov's distance", distance(u, MANY), 1.95);
+    const char *const what[] = {"correlation of factors", "of rockets", "of samples"};
+    for (int i = 0; i < 3; i++)
+        CHECK_BELOW(what[i], product[i] * 12 / sqrt(MANY), 3.3);
+}
+
+static void test_distributions(void **state)
+{
+    (void)state;
+    ld_factor normal = factor_named("a", LD_NORMAL), uniform = factor_named("a", LD_UNIFORM);
+    double z = normal_quantile(0.3);
+    CHECK_BELOW("normal", draw_value(&normal, &place, 10, 0.3) - (10 + 0.5 * z), 1e-15);
+    normal.within = 1;
+    double p = normal_cumulative(-1) + 0.3 * (1 - 2 * normal_cumulative(-1));
+    CHECK_BELOW("kept within",
+                normal_cumulative((draw_value(&normal, &place, 10, 0.3) - 10) / 0.5) - p, 1e-15);
+    CHECK_BELOW("its end", draw_value(&normal, &place, 10, 1 - 0x1p-53) - 10.5, 1e-14);
+    // far out in the upper tail, where 1 - Phi is 1e-23
+    normal.within = NAN;
+    normal.between[0] = 15, normal.between[1] = 16;
+    double far = (draw_value(&normal, &place, 10, 0.5) - 10) / 0.5;
+    double tail = normal_cumulative(-10) + normal_cumulative(-12);
+    CHECK_BELOW("median between 10 and 12 deviations", normal_cumulative(-far) / (tail / 2) - 1,
+                2e-13);
+    uniform.spread = 0.25;
+    CHECK_BELOW("uniform about", draw_value(&uniform, &place, 10, 0.1) - 9.8, 1e-14);
+    uniform.between[0] = 2, uniform.between[1] = 4;
+    CHECK_BELOW("uniform between", draw_value(&uniform, &place, 10, 0.1) - 2.2, 1e-15);
+    ld_factor lognormal = factor_named("a", LD_LOGNORMAL);
+    CHECK_BELOW("lognormal", draw_value(&lognormal, &place, 10, 0.3) - 10 * exp(0.5 * z), 1e-14);
+    assert_true(draw_value(&lognormal, &place, 10, 0.5) == 10);
+    ld_factor discrete = factor_named("a", LD_DISCRETE);
+    discrete.value_count = 3;
+    for (int i = 0; i < 3; i++)
+        discrete.value[i] = i + 5, discrete.weight[i] = (double[]){1, 0, 3}[i];
+    assert_true(draw_value(&discrete, &place, 10, 0.2499) == 5);
+    assert_true(draw_value(&discrete, &place, 10, 0.2501) == 7);
+    assert_true(draw_value(&discrete, &place, 10, 1 - 0x1p-53) == 7);
+    ld_factor each = factor_named("a", LD_EACH_SAMPLE);
+    assert_true(draw_value(&each, &place, 1, 0x1p-53) == 0);
+    assert_true(draw_value(&each, &place, 1, 1 - 0x1p-53) == 999);
+}
+
+static void test_permutation(void **state)
+{
+    (void)state;
+    static const int64_t sizes[] = {1, 2, 3, 10, 257, 4096, 5000};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        int64_t n = sizes[k], fixed = 0;
+        bool *taken = calloc((size_t)n, sizeof *taken);
+        assert_non_null(taken);
+        for (int64_t i = 0; i < n; i++) {
+            int64_t to = draw_permuted((uint64_t[]){3, 4}, 5, 6, n, i);
+            assert_true(to >= 0 && to < n && !taken[to]);
+            taken[to] = true;
+            fixed += to == i;
+        }
+        free(taken);
+        if (n > 100) // one on the average
+            CHECK_WITHIN("places that stay", (double)fixed, 0, 6);
+    }
+}
+
+// Every replicate has one value in each stratum; seeds stay as they are.
+static void test_hypercube(void **state)
+{
+    (void)state;
+    enum { STRATA = 25, REPLICATES = 4, SAMPLES = STRATA * REPLICATES };
+    ld_scatter lhs = {.seed = 7, .samples = SAMPLES, .plan = LD_PLAN_LHS, .replicates = REPLICATES};
+    ld_scatter plain = {.seed = 7, .samples = SAMPLES, .replicates = 1};
+    ld_factor a = factor_named("rocket.mass", LD_NORMAL);
+    ld_factor each = factor_named("base.road.seed", LD_EACH_SAMPLE);
+    int hit[REPLICATES][STRATA] = {0};
+    for (int k = 1; k <= SAMPLES; k++) {
+        hit[(k - 1) / STRATA][(int)(draw_uniform(&lhs, &a, k, 3) * STRATA)]++;
+        assert_true(draw_uniform(&lhs, &each, k, 0) == draw_uniform(&plain, &each, k, 0));
+    }
+    for (int i = 0; i < REPLICATES; i++)
+        for (int j = 0; j < STRATA; j++)
+            assert_int_equal(hit[i][j], 1);
+}
+
+// From a scenario: the factors as written, and the draws moved by no other factor, nor by the way
+// in which a list's member is named.
+static ld_model read_text(const char *factors)
+{
+    char text[1024];
+    ld_model model;
+    ld_messages messages;
+    int length =
+        snprintf(text, sizeof text,
+                 "include: fixed.yaml\nscatter:\n  seed: 5\n  samples: 8\n  factors:\n%s", factors);
+    ld_status status = ld_scenario_read_text(text, (size_t)length, "text",
+                                             LD_SOURCE_DIR "/examples", NULL, 0, &model, &messages);
+    ld_messages_print(&messages, stdout);
+    assert_int_equal(status, LD_OK);
+    return model;
+}
+
+static void test_factors_of_a_scenario(void **state)
+{
+    (void)state;
+    ld_model one = read_text("    rocket.adaptors.2.clearance: {uniform: +-0.1 mm}\n"),
+             two = read_text("    rocket.mass_error: {normal: 200 g, within: 3, per: sample}\n"
+                             "    base.elevation: {normal: 1 deg, between: 19 21 deg}\n"
+                             "    tubes.modes.bending: {discrete: [5, 6], weights: [1, 3]}\n"
+                             "    rocket.adaptors.middle.clearance: {uniform: +-0.1 mm}\n");
+    const ld_factor *f = two.scatter.factor;
+    assert_true(two.scatter.factor_count == 4 && two.scatter.samples == 8);
+    assert_true(f[0].deviation == 0.2 && f[0].within == 3 && !f[0].per_rocket);
+    CHECK_BELOW("19 deg", f[1].between[0] - 19 * 3.14159265358979323846 / 180, 1e-16);
+    assert_true(f[2].value[1] == 6 && f[2].weight[1] == 3 && !f[2].per_rocket);
+    assert_true(f[3].spread == 1e-4 && f[3].per_rocket);
+    assert_string_equal(one.scatter.factor[0].path, f[3].path);
+    for (int k = 1; k <= 8; k++)
+        for (int i = 1; i <= 3; i++)
+            assert_true(draw_uniform(&one.scatter, &one.scatter.factor[0], k, i) ==
+                        draw_uniform(&two.scatter, &f[3], k, i));
+
+    // the number itself
+    field_place at;
+    char why[256];
+    assert_true(field_locate(&two, f[3].path, &at, why, sizeof why));
+    assert_true(field_get(&two, &at) == 0.0005);
+    field_set(&two, &at, 0.0006);
+    assert_true(two.rocket.adaptor[1].clearance == 0.0006);
+    assert_true(field_locate(&two, "rocket.eccentricity.z", &at, why, sizeof why));
+    field_set(&two, &at, 0.01);
+    assert_true(two.rocket.eccentricity[1] == 0.01 && two.rocket.eccentricity[0] == 0);
+    assert_true(field_locate(&two, "firing.1.tube", &at, why, sizeof why) && at.whole);
+    field_set(&two, &at, 3);
+    assert_true(two.firing[0].tube == 3);
+    assert_true(field_locate(&two, "environment.ground", &at, why, sizeof why));
+    field_set(&two, &at, -2);
+    assert_true(two.environment.ground_height == -2);
+    ld_model_free(&one);
+    ld_model_free(&two);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_uniform_numbers),       cmocka_unit_test(test_distributions),
+        cmocka_unit_test(test_permutation),           cmocka_unit_test(test_hypercube),
+        cmocka_unit_test(test_factors_of_a_scenario),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
