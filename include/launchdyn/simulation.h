@@ -29,8 +29,8 @@ typedef struct ld_flight_summary {
     double time_of_flight;      ///< [s] from t_rear, or from the start of a flight alone
     double impact_speed;        ///< [m/s]
     double impact_angle;        ///< [rad] of the velocity below the horizontal
-    double max_mach;            ///< [-] at the ends of the steps
-    double max_angle_of_attack; ///< [rad] likewise
+    double max_mach;            ///< [-]
+    double max_angle_of_attack; ///< [rad] at the ends of the steps
 } ld_flight_summary;
 
 /// State at the end of a free flight, of the rear adaptor's centre in I against the ground.

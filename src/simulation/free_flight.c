@@ -91,35 +91,87 @@ static ld_status write_rows(flight_run *run, double t)
 
 // ---- watching ----
 
+// Mach number at t within the last step.
+static double mach_at(flight_run *run, double t)
+{
+    double y[DORMAND_PRINCE_STATES];
+    dormand_prince_between(&run->steps, t, y);
+    return flight_flow_at(run->job->system, t, y).mach;
+}
+
+// Whether the rocket is getting faster, in a wind that does not change.
+static bool speeds_up(const flight_run *run, const double *y, const double *y_dot)
+{
+    v3 turn = earth_rate(&run->job->system->earth);
+    v3 v = v3_sub(v3_from(y + FLIGHT_V), v3_cross(turn, v3_from(y + FLIGHT_R)));
+    v3 a = v3_sub(v3_from(y_dot + FLIGHT_V), v3_cross(turn, v3_from(y + FLIGHT_V)));
+    return v3_dot(v, a) > 0;
+}
+
+// When the Mach number is greatest within the last step, by golden sections where there is a
+// maximum between its ends.
+static double fastest_instant(flight_run *run, double mach)
+{
+    const dormand_prince *steps = &run->steps;
+    double a = steps->t0, b = steps->t, share = (sqrt(5) - 1) / 2;
+    if (!speeds_up(run, steps->y0, steps->k[0]) || speeds_up(run, steps->y, steps->k[6]))
+        return mach >= run->fastest ? b : NAN;
+    double c = b - share * (b - a), d = a + share * (b - a);
+    double at_c = mach_at(run, c), at_d = mach_at(run, d);
+    for (int i = 0; i < 25; i++) {
+        bool left = at_c > at_d;
+        *(left ? &b : &a) = left ? d : c;
+        *(left ? &d : &c) = left ? c : d;
+        *(left ? &at_d : &at_c) = left ? at_c : at_d;
+        *(left ? &c : &d) = left ? b - share * (b - a) : a + share * (b - a);
+        *(left ? &at_c : &at_d) = mach_at(run, left ? c : d);
+    }
+    return c;
+}
+
+// When the Mach number went past the table's last, between the step's begin and t.
+static double beyond_instant(flight_run *run, double t)
+{
+    double a = run->steps.t0, b = t, last = run->job->system->aerodynamics.last_mach;
+    for (int i = 0; i < 50 && b > a; i++) {
+        double middle = 0.5 * (a + b);
+        *(mach_at(run, middle) > last ? &b : &a) = middle;
+    }
+    return b;
+}
+
 static void watch(flight_run *run, double t, const double *y)
 {
     const flight_system *system = run->job->system;
     flight_flow flow = flight_flow_at(system, t, y);
-    double height = flight_center(system, t, y).r.y;
-    run->apogee = fmax(run->apogee, height);
-    run->fastest = fmax(run->fastest, flow.mach);
+    run->apogee = fmax(run->apogee, flight_center(system, t, y).r.y);
     if (flow.airspeed > 0 && flow.density > 0)
         run->tilted = fmax(run->tilted, flow.angle_of_attack);
-    if (isnan(run->t_beyond) && system->aerodynamics.present &&
-        flow.mach > system->aerodynamics.last_mach)
-        run->t_beyond = t;
     if (isnan(run->t_tumbling) && system->aerodynamics.present && flow.density > 0 &&
         flow.airspeed > 10 && flow.angle_of_attack > acos(0))
         run->t_tumbling = t;
+    double t_fastest = fastest_instant(run, flow.mach);
+    if (isnan(t_fastest))
+        return;
+    run->fastest = fmax(run->fastest, t_fastest == t ? flow.mach : mach_at(run, t_fastest));
+    if (isnan(run->t_beyond) && system->aerodynamics.present &&
+        run->fastest > system->aerodynamics.last_mach)
+        run->t_beyond = beyond_instant(run, t_fastest);
 }
 
-static ld_status check_table(flight_run *run, double t, const double *y)
+static ld_status check_table(flight_run *run)
 {
     const ld_aerodynamics *model = &run->job->model->rocket.aerodynamics;
-    if (isnan(run->t_beyond) || model->beyond_table == LD_BEYOND_HOLD)
+    double t = run->t_beyond, y[DORMAND_PRINCE_STATES];
+    if (isnan(t) || model->beyond_table == LD_BEYOND_HOLD)
         return LD_OK;
+    dormand_prince_between(&run->steps, t, y);
     v3 r = flight_center(run->job->system, t, y).r;
-    flight_flow flow = flight_flow_at(run->job->system, t, y);
     return ld_fail(run->error, LD_ERR_LAUNCH,
-                   "the Mach number %.4g is beyond the aerodynamic table, which ends at %.4g, at "
+                   "the Mach number goes beyond the aerodynamic table, which ends at %.4g, at "
                    "t = %.4f s, x = %.1f m, y = %.1f m, z = %.1f m (beyond_table: hold keeps the "
                    "last values)",
-                   flow.mach, run->job->system->aerodynamics.last_mach, t, r.x, r.y, r.z);
+                   run->job->system->aerodynamics.last_mach, t, r.x, r.y, r.z);
 }
 
 static ld_status check_limit(flight_run *run, double t)
@@ -332,7 +384,7 @@ static ld_status after_step(flight_run *run, bool stopped)
         status = write_rows(run, steps->t);
     watch(run, steps->t, steps->y);
     if (!status)
-        status = check_table(run, steps->t, steps->y);
+        status = check_table(run);
     if (!status && (run->landed || stopped))
         status = write_row(run, steps->t, steps->y);
     if (run->landed)
@@ -379,7 +431,7 @@ static ld_status begin(flight_run *run, const double *y)
                        "the flight begins below the ground: the mass centre is at y = %.6g m, the "
                        "ground at %.6g m",
                        height, job->system->ground);
-    ld_status status = check_table(run, job->t_start, y);
+    ld_status status = check_table(run);
     return status ? status : write_row(run, job->t_start, y);
 }
 

@@ -83,9 +83,10 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
     phase->burn.share = thrust->impulse[piece] * phase->burn.rate;
 }
 
-// Thrust and mass data while it burns, as motor_thrust and motor_mass have them.
+// Thrust and mass data while it burns, as motor_thrust and motor_mass have them; of a symmetric
+// rocket only the two moments of inertia.
 LD_INLINE double burn_at(const flight_system *self, const flight_phase *phase, double t,
-                         rocket_mass *mass)
+                         bool symmetric, rocket_mass *mass)
 {
     const rocket_mass *full = &self->motor.full;
     double since = t - phase->burn.t0, thrust = phase->burn.thrust + phase->burn.slope * since;
@@ -94,9 +95,12 @@ LD_INLINE double burn_at(const flight_system *self, const flight_phase *phase, d
     mass->m = full->m - share * self->motor.propellant;
     mass->c = v3_axpy(full->c, share, self->c_change);
     mass->c_dot = v3_scale(phase->burn.rate * thrust, self->c_change);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            mass->J.a[i][j] = full->J.a[i][j] + share * self->J_change.a[i][j];
+    if (symmetric) {
+        mass->J.a[0][0] = full->J.a[0][0] + share * self->J_change.a[0][0];
+        mass->J.a[1][1] = full->J.a[1][1] + share * self->J_change.a[1][1];
+    } else {
+        mass->J = m3_add(full->J, m3_scale(share, self->J_change));
+    }
     return thrust;
 }
 
@@ -223,7 +227,7 @@ LD_INLINE void rates(const flight_system *self, flight_phase *phase, double t, c
     rocket_mass burning;
     const rocket_mass *mass = &phase->mass;
     if (phase->burning) {
-        thrust = burn_at(self, phase, t, &burning);
+        thrust = burn_at(self, phase, t, symmetric, &burning);
         mass = &burning;
     }
     v3 force = v3_scale(thrust, self->thrust_direction);
