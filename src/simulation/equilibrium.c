@@ -392,7 +392,12 @@ static double try_pairs(const problem *the, const double *start, double extra, d
             straighten(self, base, trial);
             if (hypot(pull.y, pull.z) > 0)
                 guess_contacts(self, i, j, pull, extra, trial);
-            double reached = newton(the, trial);
+            // on a vehicle the tube alone first: it has the kinks
+            problem tube = *the;
+            tube.count = launching_freedoms(self);
+            double reached = newton(&tube, trial);
+            if (tube.count < the->count)
+                reached = newton(the, trial);
             if (reached < best) {
                 best = reached;
                 memcpy(y, trial, size);

@@ -63,7 +63,10 @@ static void tolerance_converges(void **state)
     enum { COUNT = 5 };
     static const double tolerance[COUNT] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
     static const double instant[COUNT] = {2e-8, 8e-9, 8e-10, 6e-11, 1.5e-11};
-    static const double rate[COUNT] = {2e-5, 4e-6, 2e-6, 1.5e-6, 1.2e-6};
+    // below 1e-6 it is the spin of 32 rad/s that counts: torsion shapes have kinks at the nodes,
+    // whose places among the steps differ from run to run (0.1e-6 to 1.3e-6, whatever the
+    // tolerance)
+    static const double rate[COUNT] = {2e-5, 4e-6, 2e-6, 2e-6, 2e-6};
     ld_model model;
     marching(&model, 30 / 3.6);
     model.run.lead_in = 3;
