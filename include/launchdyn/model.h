@@ -75,6 +75,7 @@ typedef struct ld_earth {
 
 /// Where the origin of I is on the Earth, and where its x axis points.
 typedef struct ld_site {
+    bool present;               ///< false: the numbers below are 0, the azimuth a quarter turn
     double latitude, longitude; ///< [rad] geodetic
     double altitude;            ///< [m] above the ellipsoid
     double azimuth;             ///< [rad] of x, clockwise from north

@@ -1,5 +1,6 @@
 #include <hdf5.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -74,33 +75,75 @@ static bool read_columns(hid_t group, history_data *history)
     return fine;
 }
 
-static void read_instants(hid_t file, history_data *history)
+static void read_instants(hid_t rocket, history_data *history)
 {
-    hid_t group = H5Gopen2(file, "rockets/1", H5P_DEFAULT);
-    history->t_ignition = hdf5_read_number(group, "t_ignition");
-    history->t_release = hdf5_read_number(group, "t_release");
-    history->t_front = hdf5_read_number(group, "t_front");
-    history->t_middle = hdf5_read_number(group, "t_middle");
-    history->t_rear = hdf5_read_number(group, "t_rear");
-    if (group >= 0)
-        H5Gclose(group);
+    history->t_ignition = hdf5_read_number(rocket, "t_ignition");
+    history->t_release = hdf5_read_number(rocket, "t_release");
+    history->t_front = hdf5_read_number(rocket, "t_front");
+    history->t_middle = hdf5_read_number(rocket, "t_middle");
+    history->t_rear = hdf5_read_number(rocket, "t_rear");
+}
+
+// The table in a group; none where the group is missing or empty.
+static bool read_table(hid_t file, const char *name, history_data *history)
+{
+    hid_t group = H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+    H5G_info_t info = {0};
+    if (group < 0)
+        return true;
+    bool fine = H5Gget_info(group, &info) >= 0;
+    history->columns = (size_t)info.nlinks;
+    if (fine && info.nlinks > 0)
+        fine = read_columns(group, history);
+    H5Gclose(group);
+    return fine;
+}
+
+// Group rockets/N, or -1.
+static hid_t open_rocket(hid_t file, int number)
+{
+    char name[32];
+    snprintf(name, sizeof name, "rockets/%d", number);
+    bool there =
+        H5Lexists(file, "rockets", H5P_DEFAULT) > 0 && H5Lexists(file, name, H5P_DEFAULT) > 0;
+    return there ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+}
+
+// The flights of the rockets, as far as they have rows.
+static bool read_flights(hid_t file, history_data *history)
+{
+    bool fine = (history->flight = calloc(LD_MAX_FIRINGS, sizeof *history->flight)) != NULL;
+    for (int number = 1; fine && number <= LD_MAX_FIRINGS; number++) {
+        hid_t rocket = open_rocket(file, number);
+        if (rocket < 0)
+            break;
+        history_data *flight = &history->flight[history->flights++];
+        read_instants(rocket, flight);
+        fine = read_table(rocket, "flight", flight);
+        double tube = hdf5_read_number(rocket, "tube");
+        flight->tube = isfinite(tube) ? (int)tube : 0;
+        flight->number = number;
+        H5Gclose(rocket);
+        if (fine && flight->rows == 0) {
+            history_free(flight);
+            history->flights--;
+        }
+    }
+    return fine;
 }
 
 static ld_status read_file(hid_t file, const char *path, history_data *history, ld_error *error)
 {
     history->title = hdf5_read_text(file, "title");
-    read_instants(file, history);
-    hid_t group = H5Gopen2(file, "history", H5P_DEFAULT);
-    H5G_info_t info = {0};
-    if (group < 0 || H5Gget_info(group, &info) < 0 || info.nlinks == 0) {
-        if (group >= 0)
-            H5Gclose(group);
+    hid_t rocket = open_rocket(file, 1);
+    read_instants(rocket, history);
+    if (rocket >= 0)
+        H5Gclose(rocket);
+    if (!read_table(file, "history", history) || !read_flights(file, history))
+        return hdf5_failed(error, "read", path);
+    if (history->columns == 0 && history->flights == 0)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no history", path);
-    }
-    history->columns = (size_t)info.nlinks;
-    ld_status status = read_columns(group, history) ? LD_OK : hdf5_failed(error, "read", path);
-    H5Gclose(group);
-    return status;
+    return LD_OK;
 }
 
 ld_status history_read(const char *path, history_data *history, ld_error *error)
@@ -125,6 +168,9 @@ void history_free(history_data *history)
 {
     for (size_t i = 0; history->name && i < history->columns; i++)
         free(history->name[i]);
+    for (size_t i = 0; i < history->flights; i++)
+        history_free(&history->flight[i]);
+    free(history->flight);
     free(history->name);
     free(history->value);
     free(history->title);

@@ -7,14 +7,15 @@
 
 #include "io/folder.h"
 #include "io/history.h"
+#include "io/kml.h"
 
 // Files of a results folder, in the order in which they get their names: summary.json comes last,
 // so that where it stands the others belong to it.
 enum { MOST_FLIGHT_COLUMNS = 256 };
-enum { HDF5, CSV, FLIGHTS, SUMMARY, FILES };
+enum { HDF5, CSV, FLIGHTS, MAP, SUMMARY, FILES };
 
 static const char *const file_name[FILES] = {"history.h5", "history.csv", "flights.csv",
-                                             "summary.json"};
+                                             "trajectories.kml", "summary.json"};
 
 struct ld_output {
     const ld_model *model;
@@ -24,6 +25,7 @@ struct ld_output {
     history_hdf5 *hdf5;
     history_csv *csv;     // NULL: not wanted
     history_csv *flights; // NULL: not wanted, or none has flown on
+    kml_file *map;        // NULL: no place on the Earth is given, or none has flown on
     double flying;        // number of the rocket whose flight's rows come; 0: the launcher's
     ld_sink sink;
 };
@@ -61,6 +63,10 @@ static ld_status flight(void *self, int rocket, const ld_column *columns, size_t
     ld_status status = history_hdf5_flight(output->hdf5, rocket, columns, count, error);
     if (!status && output->csv && !output->flights)
         status = begin_flights(output, columns, count, error);
+    if (!status && !output->map && kml_has_place(output->model))
+        status = kml_create(output->part[MAP], output->model, &output->map, error);
+    if (!status && output->map)
+        status = kml_flight(output->map, rocket, columns, count, error);
     return status;
 }
 
@@ -83,6 +89,8 @@ static ld_status row(void *self, const double *values, size_t count, ld_error *e
         status = csv_flight_row(output, values, count, error);
     else if (!status && output->csv)
         status = history_csv_row(output->csv, values, count, error);
+    if (!status && output->map && output->flying > 0)
+        status = kml_row(output->map, values, error);
     return status;
 }
 
@@ -149,21 +157,28 @@ const ld_sink *ld_output_sink(ld_output *output)
     return &output->sink;
 }
 
+static ld_status first_failure(ld_status before, ld_status after)
+{
+    return before ? before : after;
+}
+
 // Closes the histories; `summary` NULL: they are not wanted any more.
 static ld_status close_histories(ld_output *output, const ld_summary *summary, ld_error *error)
 {
-    ld_status status = LD_OK, csv_status = LD_OK;
+    ld_status status = LD_OK;
     if (output->csv)
-        csv_status = history_csv_close(output->csv, error);
-    if (output->flights && csv_status)
-        history_csv_close(output->flights, NULL);
-    else if (output->flights)
-        csv_status = history_csv_close(output->flights, error);
+        status = first_failure(status, history_csv_close(output->csv, status ? NULL : error));
+    if (output->flights)
+        status = first_failure(status, history_csv_close(output->flights, status ? NULL : error));
+    if (output->map)
+        status = first_failure(status, kml_close(output->map, status ? NULL : error));
     if (output->hdf5)
-        status = history_hdf5_close(output->hdf5, summary, error);
+        status =
+            first_failure(status, history_hdf5_close(output->hdf5, summary, status ? NULL : error));
     output->csv = output->flights = NULL;
+    output->map = NULL;
     output->hdf5 = NULL;
-    return status ? status : csv_status;
+    return status;
 }
 
 // Takes an earlier run's summary away, then gives every file its name.

@@ -32,11 +32,15 @@ typedef struct plot_panel {
     bool each;  // a diagram for each text that the '*' stands for, which takes the title's %s
 } plot_panel;
 
+// What time a figure shows: the launch, in milliseconds from shortly before ignition; all of the
+// launcher's motion, in seconds; the flight of each rocket, in seconds from its ignition.
+typedef enum plot_time { PLOT_LAUNCH, PLOT_VEHICLE, PLOT_FLIGHT } plot_time;
+
 // A standard figure: panels in rows of two under a heading.
 typedef struct plot_figure {
     ld_figure about;
     plot_panel panel[PLOT_PANELS]; // up to the first without a title
-    bool vehicle;                  // over the lead-in too, in seconds
+    plot_time time;
 } plot_figure;
 
 // The figure with this name, or NULL.

@@ -34,15 +34,25 @@
         .title = heading, .y_label = y_name, .y_factor = y_unit_factor, .curve = {{y, ""}},        \
         .x_column = x, .x_label = x_name, .x_factor = x_unit_factor                                \
     }
+#define BROAD(heading, y_name, y_unit_factor, y, x_name, x_unit_factor, x)                         \
+    {                                                                                              \
+        .title = heading, .y_label = y_name, .y_factor = y_unit_factor, .curve = {{y, ""}},        \
+        .x_column = x, .x_label = x_name, .x_factor = x_unit_factor, .wide = true                  \
+    }
 
-// A figure of what comes after ignition; one over all the time that a vehicle moves.
+// A figure of what comes after ignition; one over all the time that a vehicle moves; one of the
+// flights of the rockets.
 #define LAUNCH(name, text, ...)                                                                    \
     {                                                                                              \
         .about = {name, text}, .panel = { __VA_ARGS__ }                                            \
     }
 #define VEHICLE(name, text, ...)                                                                   \
     {                                                                                              \
-        .about = {name, text}, .panel = {__VA_ARGS__}, .vehicle = true                             \
+        .about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_VEHICLE                        \
+    }
+#define FLIGHT(name, text, ...)                                                                    \
+    {                                                                                              \
+        .about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_FLIGHT                         \
     }
 
 // clang-format off
@@ -134,6 +144,18 @@ static const plot_figure figures[] = {
                 {"elevation.error", "elevation"}, {"azimuth.error", "azimuth"}),
            HALF("Torque of the azimuth's stabiliser", "kN m", KILO, {"azimuth.torque", ""}),
            HALF("Torque of the elevation's stabiliser", "kN m", KILO, {"elevation.torque", ""})),
+    FLIGHT("trajectory", "Trajectories of the rockets",
+           BROAD("Height over the way along x", "altitude [km]", KILO, "altitude",
+                 "x [km]", KILO, "center.x"),
+           BROAD("Ground track", "to the right, z [km]", KILO, "center.z",
+                 "x [km]", KILO, "center.x")),
+    FLIGHT("flight", "Free flight",
+           HALF("Altitude", "m", 1, {"altitude", ""}),
+           HALF("Mach number", "", 1, {"mach", ""}),
+           HALF("Pitch", "deg", DEGREES, {"rocket.pitch", ""}),
+           HALF("Yaw", "deg", DEGREES, {"rocket.yaw", ""}),
+           HALF("Angle of attack", "deg", DEGREES, {"angle_of_attack", ""}),
+           HALF("Spin", "rad/s", 1, {"rocket.spin", ""})),
 };
 // clang-format on
 

@@ -53,15 +53,16 @@ typedef struct plot_drawing {
     const plot_figure *figure;
     const plot_panel *panel;
     plot_source source[PLOT_RUNS];
-    bool headed;             // the figure's heading is written
-    int index;               // of the panel on the page
-    double height;           // of the page
-    double left, top, width; // of the panel on the page, from above
-    double *x, *y;           // [rows] scaled values of one curve
-    char *keep;              // [rows] points that are drawn
-    size_t *stack;           // [2 rows] of the thinning
-    int count;               // curves
-    int columns;             // different columns among them
+    plot_source *flight[PLOT_RUNS]; // [flights of the run]
+    bool headed;                    // the figure's heading is written
+    int index;                      // of the panel on the page
+    double height;                  // of the page
+    double left, top, width;        // of the panel on the page, from above
+    double *x, *y;                  // [rows] scaled values of one curve
+    char *keep;                     // [rows] points that are drawn
+    size_t *stack;                  // [2 rows] of the thinning
+    int count;                      // curves
+    int columns;                    // different columns among them
     found_curve curve[MOST_CURVES];
     double x_range[2], y_range[2];
 } plot_drawing;
@@ -93,6 +94,10 @@ static bool matches(const char *name, const char *pattern, char *label, size_t s
 
 bool plot_figure_has_columns(const plot_figure *figure, const history_data *run)
 {
+    if (figure->time == PLOT_FLIGHT && run->flights == 0)
+        return false;
+    if (figure->time == PLOT_FLIGHT)
+        run = &run->flight[0];
     char unused[LD_MAX_NAME + 8];
     for (const plot_panel *panel = figure->panel;
          panel < figure->panel + PLOT_PANELS && panel->title; panel++)
@@ -111,10 +116,10 @@ static bool any_finite(const double *values, size_t rows)
     return false;
 }
 
-// The curves of one run that a column or a pattern names.
-static int find_in_run(plot_drawing *drawing, const plot_curve *wanted, int run, int column)
+// The curves of a history that a column or a pattern names.
+static int find_in_source(plot_drawing *drawing, const plot_curve *wanted,
+                          const plot_source *source, int run, int column)
 {
-    const plot_source *source = &drawing->source[run];
     const history_data *history = source->history;
     const char *against = drawing->panel->x_column;
     const double *x = against ? history_column(history, against) : NULL;
@@ -131,6 +136,25 @@ static int find_in_run(plot_drawing *drawing, const plot_curve *wanted, int run,
         curve->run = run;
         curve->column = column++;
         drawing->count += any_finite(curve->y, history->rows);
+    }
+    return column;
+}
+
+// The same of one run: of its launcher, or of each of its flights, which are then named.
+static int find_in_run(plot_drawing *drawing, const plot_curve *wanted, int run, int column)
+{
+    if (drawing->figure->time != PLOT_FLIGHT)
+        return find_in_source(drawing, wanted, &drawing->source[run], run, column);
+    const history_data *history = drawing->source[run].history;
+    for (size_t i = 0; i < history->flights; i++) {
+        char name[LD_MAX_NAME];
+        const history_data *flight = &history->flight[i];
+        if (flight->tube > 0)
+            snprintf(name, sizeof name, "rocket %d, tube %d", flight->number, flight->tube);
+        else
+            snprintf(name, sizeof name, "rocket %d", flight->number);
+        plot_curve of_flight = {wanted->column, history->flights > 1 ? name : ""};
+        column = find_in_source(drawing, &of_flight, &drawing->flight[run][i], run, column);
     }
     return column;
 }
@@ -153,7 +177,7 @@ static bool shown(const plot_drawing *drawing, double t)
     const double before = 5e-3;
     double from = drawing->page->from, to = drawing->page->to;
     if (isnan(from))
-        from = drawing->figure->vehicle ? -INFINITY : -before;
+        from = drawing->figure->time == PLOT_LAUNCH ? -before : -INFINITY;
     return t >= from && !(t > to);
 }
 
@@ -171,7 +195,7 @@ static void set_points(plot_drawing *drawing, const found_curve *curve)
 {
     const plot_panel *panel = drawing->panel;
     const plot_source *source = curve->source;
-    double in_time = drawing->figure->vehicle ? 1 : 1e3;
+    double in_time = drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1;
     double reference =
         panel->since && source->history->rows > 0 ? curve->y[row_of_ignition(source)] : 0;
     for (size_t i = 0; i < source->history->rows; i++) {
@@ -263,10 +287,13 @@ void plot_write_quoted(FILE *script, const char *text)
     fputc('\'', script);
 }
 
-// Which instants are marked: of a vehicle's whole way, ignition and the end of the launch.
+// Which instants are marked: of a vehicle's whole way, ignition and the end of the launch; of
+// flights none.
 static bool marked(const plot_drawing *drawing, int which)
 {
-    return drawing->figure->vehicle ? which == 0 || which == INSTANT_REAR : which > 0;
+    plot_time time = drawing->figure->time;
+    return time == PLOT_VEHICLE ? which == 0 || which == INSTANT_REAR
+                                : time == PLOT_LAUNCH && which > 0;
 }
 
 // Places of the instants of a run on the time axis, NaN where they are not on it.
@@ -274,7 +301,7 @@ static void place_instants(const plot_drawing *drawing, const plot_source *sourc
                            double place[INSTANTS])
 {
     for (int i = 0; i < INSTANTS; i++) {
-        double x = source->instant[i].t * (drawing->figure->vehicle ? 1 : 1e3);
+        double x = source->instant[i].t * (drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1);
         bool there = x >= drawing->x_range[0] && x <= drawing->x_range[1];
         place[i] = there && marked(drawing, i) ? x : NAN;
     }
@@ -285,7 +312,7 @@ static void write_instant_names(const plot_drawing *drawing, const double place[
 {
     double pixels = (drawing->width - LEFT - RIGHT) / (drawing->x_range[1] - drawing->x_range[0]);
     static const char *const sides[] = {"right", "left"};
-    bool vehicle = drawing->figure->vehicle, raised = false;
+    bool vehicle = drawing->figure->time == PLOT_VEHICLE, raised = false;
     double before = -INFINITY;
     for (int i = 0; i < INSTANTS; i++) {
         if (isnan(place[i]))
@@ -414,12 +441,13 @@ static void write_axes(plot_drawing *drawing)
             1 - top / drawing->height, 1 - bottom / drawing->height);
     fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", drawing->x_range[0],
             drawing->x_range[1], drawing->y_range[0], drawing->y_range[1]);
-    snprintf(unit, sizeof unit, panel->x_column ? "%s" : "[%s]", panel->y_label);
+    snprintf(unit, sizeof unit, panel->x_column || !*panel->y_label ? "%s" : "[%s]",
+             panel->y_label);
     write_text(drawing, panel->title, drawing->left + LEFT, top - 26, "left font ',11'");
     write_text(drawing, unit, drawing->left + 18, (top + bottom) / 2,
                "center rotate by 90 font ',10'");
     const char *time =
-        drawing->figure->vehicle ? "time from ignition [s]" : "time from ignition [ms]";
+        drawing->figure->time == PLOT_LAUNCH ? "time from ignition [ms]" : "time from ignition [s]";
     write_text(drawing, panel->x_column ? panel->x_label : time,
                drawing->left + (LEFT + drawing->width - RIGHT) / 2, bottom + 34,
                "center font ',10'");
@@ -565,7 +593,7 @@ void plot_begin(FILE *script, plot_format format, double height, const char *out
         fprintf(script, "set style line %d lw 1.5 lc rgb '#%s'\n", i + 1, colour[i]);
 }
 
-static ld_status set_source(plot_source *source, const history_data *history, ld_error *error)
+static void set_source(plot_source *source, const history_data *history)
 {
     *source = (plot_source){
         .history = history,
@@ -577,16 +605,42 @@ static ld_status set_source(plot_source *source, const history_data *history, ld
                     {"middle", history->t_middle, "0.8, -0.8"},
                     {"rear", history->t_rear, "0.8, 0.6"}},
     };
-    return source->t ? LD_OK : ld_fail(error, LD_ERR_INPUT, "the history has no column t");
+}
+
+// A run and its flights.
+static ld_status set_sources(plot_drawing *drawing, size_t run, ld_error *error)
+{
+    const history_data *history = &drawing->page->run[run];
+    set_source(&drawing->source[run], history);
+    bool has_time = history->columns == 0 || drawing->source[run].t;
+    drawing->flight[run] = malloc((history->flights + 1) * sizeof *drawing->flight[run]);
+    if (!drawing->flight[run])
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
+    for (size_t i = 0; i < history->flights; i++) {
+        set_source(&drawing->flight[run][i], &history->flight[i]);
+        has_time = has_time && drawing->flight[run][i].t;
+    }
+    return has_time ? LD_OK : ld_fail(error, LD_ERR_INPUT, "the history has no column t");
+}
+
+// Rows of the longest history on the page.
+static size_t most_rows(const plot_page *page)
+{
+    size_t rows = 0;
+    for (size_t i = 0; i < page->runs; i++) {
+        const history_data *run = &page->run[i];
+        rows = run->rows > rows ? run->rows : rows;
+        for (size_t j = 0; j < run->flights; j++)
+            rows = run->flight[j].rows > rows ? run->flight[j].rows : rows;
+    }
+    return rows;
 }
 
 ld_status plot_write_script(FILE *script, const void *what, plot_format format, const char *output,
                             ld_error *error)
 {
     const plot_page *page = what;
-    size_t rows = 0;
-    for (size_t i = 0; i < page->runs; i++)
-        rows = page->run[i].rows > rows ? page->run[i].rows : rows;
+    size_t rows = most_rows(page);
     plot_drawing drawing = {
         .script = script,
         .page = page,
@@ -600,7 +654,7 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
     if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack)
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
     for (size_t i = 0; i < page->runs && !status; i++)
-        status = set_source(&drawing.source[i], &page->run[i], error);
+        status = set_sources(&drawing, i, error);
     if (!status) {
         locale_t before = numeric_locale_enter();
         plot_begin(script, format, drawing.height, output);
@@ -608,6 +662,8 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
         fputs("unset multiplot\nunset output\n", script);
         numeric_locale_leave(before);
     }
+    for (size_t i = 0; i < page->runs; i++)
+        free(drawing.flight[i]);
     free(drawing.x);
     free(drawing.y);
     free(drawing.keep);

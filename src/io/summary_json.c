@@ -190,6 +190,17 @@ static void write_final(json_writer *json, const ld_final_state *final)
     json_close(json, '}');
 }
 
+// The state in which the rocket leaves its tube and its flight begins.
+static void write_exit(json_writer *json, const ld_rocket_summary *rocket)
+{
+    json_open(json, "exit", '{');
+    write_vector(json, "position", rocket->exit.position, 3);
+    write_vector(json, "velocity", rocket->exit.velocity, 3);
+    write_vector(json, "quaternion", rocket->exit.quaternion, 4);
+    write_vector(json, "rate", rocket->exit.rate, 3);
+    json_close(json, '}');
+}
+
 // What a rocket does in its tube.
 static void write_launch(json_writer *json, const ld_model *model, const ld_rocket_summary *rocket)
 {
@@ -205,10 +216,12 @@ static void write_launch(json_writer *json, const ld_model *model, const ld_rock
     json_number(json, "yaw", rocket->yaw);
     json_number(json, "pitch_rate", rocket->pitch_rate);
     json_number(json, "yaw_rate", rocket->yaw_rate);
+    write_exit(json, rocket);
     write_relative(json, rocket);
     write_tip(json, rocket);
     write_adaptors(json, "max_contact_force", model, rocket->max_contact_force);
     json_number(json, "max_slot_force", rocket->max_slot_force);
+    json_number(json, "energy_dropped", rocket->energy_dropped);
 }
 
 static void write_rocket(json_writer *json, const ld_model *model, const ld_rocket_summary *rocket)

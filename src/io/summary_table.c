@@ -55,9 +55,12 @@ static void print_equilibrium(const ld_model *model, const ld_equilibrium_summar
                 equilibrium->tip_sag[1] * 1e3, 4, "mm");
 }
 
-static void print_rocket(const ld_model *model, const ld_rocket_summary *rocket, FILE *stream)
+static void print_rocket(const ld_model *model, const ld_rocket_summary *rocket, bool first,
+                         FILE *stream)
 {
     fprintf(stream, "\nRocket of tube %d, instants from its ignition\n", rocket->tube);
+    if (!first)
+        line(stream, "dropped at tube change", rocket->energy_dropped, 4, "J");
     line(stream, "lock release", rocket->t_release * 1e3, 4, "ms");
     for (int i = model->rocket.adaptor_count - 1; i >= 0; i--) {
         char name[LD_MAX_NAME + 16];
@@ -127,7 +130,7 @@ void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *st
     }
     for (int i = 0; i < summary->rocket_count; i++) {
         if (launch)
-            print_rocket(model, &summary->rocket[i], stream);
+            print_rocket(model, &summary->rocket[i], i == 0, stream);
         print_flight(&summary->rocket[i], stream);
     }
     print_cost(summary, launch, stream);

@@ -78,6 +78,7 @@ static const field_row site_fields[] = {
      .doc = "of I's x axis, clockwise from north"},
     {0}};
 static const field_block site_block = {.fields = site_fields};
+static const field_word site_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 
 static const field_word atmosphere_words[] = {{"us1976", LD_ATMOSPHERE_US1976},
                                               {"none", LD_ATMOSPHERE_NONE},
@@ -160,8 +161,9 @@ static const field_row environment_fields[] = {
      .doc = "figure of the Earth in free flight; flat: I is inertial and gravity is constant"},
     {"gravity", NUMBER(ld_model, gravity, "m/s2"), FROM_TO(0, 100), DEFAULT(9.80665),
      .doc = "along -y of I; in free flight of a flat Earth"},
-    {"site", BLOCK(ld_model, environment.site, site_block), .initial_doc = "as below",
-     .doc = "place of I's origin on the Earth"},
+    {"site", BLOCK(ld_model, environment.site, site_block), .initial_doc = "none",
+     SWITCH(ld_model, environment.site.present, site_words), .other_is_bool = true,
+     .doc = "place of I's origin on the Earth; none: as below, and on a flat Earth no map"},
     {"atmosphere", BLOCK(ld_model, environment.atmosphere, atmosphere_block),
      .initial_doc = "us1976", SWITCH(ld_model, environment.atmosphere.kind, atmosphere_words),
      .doc = "air in free flight: US Standard Atmosphere 1976, or uniform"},

@@ -231,7 +231,12 @@ static void test_summary_is_json(void **state)
                                       "equilibrium,energy,modes,statistics"},
         {".rockets[0]|keys_unsorted|join(\",\")",
          "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,muzzle_speed,inertial_speed,"
-         "spin_rate,pitch,yaw,pitch_rate,yaw_rate,relative,tip,max_contact_force,max_slot_force"},
+         "spin_rate,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,max_contact_force,"
+         "max_slot_force,energy_dropped"},
+        {".rockets[0].exit|tostring",
+         "{\"position\":[1.5,2.25,-0.5],\"velocity\":[35.5,12.75,0.125],"
+         "\"quaternion\":[0.5,-0.5,0.5,0.5],\"rate\":[32,0.25,-0.75]}"},
+        {".rockets[0].energy_dropped", "0.0625"},
         {".rockets[0].relative|keys_unsorted|join(\",\")", "y,z,psi,theta,gamma,w_x,w_y,w_z"},
         {".rockets[0].relative|[.y,.z,.psi,.theta,.gamma,.w_x,.w_y,.w_z]|tostring",
          "[0.0001,-0.0002,0.0003,-0.0004,2.5,31.9,0.05,-0.25]"},

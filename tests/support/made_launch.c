@@ -201,10 +201,15 @@ void made_summary(ld_summary *summary, int middle)
                             .yaw = -1e-4,
                             .pitch_rate = 0.254,
                             .yaw_rate = 0.012,
+                            .exit = {{1.5, 2.25, -0.5},
+                                     {35.5, 12.75, 0.125},
+                                     {0.5, -0.5, 0.5, 0.5},
+                                     {32, 0.25, -0.75}},
                             .relative = {1e-4, -2e-4, 3e-4, -4e-4, 2.5, 31.9, 0.05, -0.25},
                             .tip = {-1.1e-3, 2e-4, -5e-4, 1e-4, 0.3, -0.02, 0.2, 0.01},
                             .max_contact_force = {1500, 500, 900},
-                            .max_slot_force = 700};
+                            .max_slot_force = 700,
+                            .energy_dropped = 0.0625};
     summary->equilibrium = (ld_equilibrium_summary){.lock_force = -199.25,
                                                     .slot_force = 0.125,
                                                     .contact_force = {250, 0, 303.5},
