@@ -1,5 +1,5 @@
-/// Results on disk and on paper: history.h5, history.csv, summary.json, the table of a run,
-/// figures. What the files hold is described in docs/results.md.
+/// Results on disk and on paper: history.h5, history.csv, flights.csv, trajectories.kml,
+/// summary.json, the table of a run, figures. What the files hold is described in docs/results.md.
 #ifndef LAUNCHDYN_OUTPUT_H
 #define LAUNCHDYN_OUTPUT_H
 
@@ -62,7 +62,8 @@ typedef struct ld_picture {
                                ///< over the other, named by their titles or else their folders
     size_t folder_count;
     const char *const *figure; ///< `figure_count` names of figures; "all": all that there are
-                               ///< columns for
+                               ///< columns for; none: tip, contact and relative, or of a flight
+                               ///< alone trajectory and flight
     size_t figure_count;
     double from, to; ///< [s] from ignition; NaN: what the figure shows by itself
 } ld_picture;

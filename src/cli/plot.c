@@ -22,7 +22,8 @@ void command_plot_help(void)
 static size_t split(char *list, const char *names[MOST])
 {
     size_t count = 0;
-    for (char *name = strtok(list, ","); name && count < MOST; name = strtok(NULL, ","))
+    for (char *name = list ? strtok(list, ",") : NULL; name && count < MOST;
+         name = strtok(NULL, ","))
         names[count++] = name;
     return count;
 }
@@ -43,11 +44,11 @@ static int draw(const command_line *line, char *what, double from, double to, co
 
 int command_plot(const command *self, int argc, const char **argv)
 {
-    char *what = NULL, *file = NULL, usual[] = "tip,contact,relative";
+    char *what = NULL, *file = NULL;
     double from = NAN, to = NAN;
     const struct poptOption options[] = {
-        {"what", 'w', POPT_ARG_STRING, &what, 0, "Figures to draw (tip,contact,relative)",
-         "NAME,..."},
+        {"what", 'w', POPT_ARG_STRING, &what, 0,
+         "Figures to draw (tip,contact,relative; of a flight alone trajectory,flight)", "NAME,..."},
         {"output", 'o', POPT_ARG_STRING, &file, 0, "The picture: FILE.svg, FILE.pdf or FILE.png",
          "FILE"},
         {"from", '\0', POPT_ARG_DOUBLE, &from, 0, "Draw from this time after ignition [ms] on",
@@ -62,7 +63,7 @@ int command_plot(const command *self, int argc, const char **argv)
             command_complain("plot wants -o FILE.svg, FILE.pdf or FILE.png");
             code = EXIT_INPUT;
         } else {
-            code = draw(&line, what ? what : usual, from, to, file);
+            code = draw(&line, what, from, to, file);
         }
         command_line_end(&line);
     }

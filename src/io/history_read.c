@@ -109,6 +109,16 @@ static hid_t open_rocket(hid_t file, int number)
     return there ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
 }
 
+// A flight alone: its rows are all the history there is.
+static bool read_flight_alone(hid_t file, history_data *history)
+{
+    history_data *flight = &history->flight[0];
+    flight->t_ignition = history->t_ignition;
+    flight->number = 1;
+    history->flights = 1;
+    return read_table(file, "history", flight);
+}
+
 // The flights of the rockets, as far as they have rows.
 static bool read_flights(hid_t file, history_data *history)
 {
@@ -129,6 +139,8 @@ static bool read_flights(hid_t file, history_data *history)
             history->flights--;
         }
     }
+    if (fine && history->flights == 0 && history_column(history, "angle_of_attack"))
+        fine = read_flight_alone(file, history);
     return fine;
 }
 

@@ -30,12 +30,26 @@ struct ld_output {
     ld_sink sink;
 };
 
+// The rows that follow are of the flight of this rocket: a line of the map, where there is one.
+static ld_status begin_line(ld_output *output, int rocket, const ld_column *columns, size_t count,
+                            ld_error *error)
+{
+    if (!kml_has_place(output->model))
+        return LD_OK;
+    ld_status status = LD_OK;
+    if (!output->map)
+        status = kml_create(output->part[MAP], output->model, &output->map, error);
+    return status ? status : kml_flight(output->map, rocket, columns, count, error);
+}
+
 static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
 {
     ld_output *output = self;
     ld_status status = history_hdf5_begin(output->hdf5, columns, count, error);
     if (!status && output->csv)
         status = history_csv_begin(output->csv, columns, count, error);
+    if (!status && output->model->base.kind == LD_BASE_NONE)
+        status = begin_line(output, 1, columns, count, error);
     return status;
 }
 
@@ -63,11 +77,7 @@ static ld_status flight(void *self, int rocket, const ld_column *columns, size_t
     ld_status status = history_hdf5_flight(output->hdf5, rocket, columns, count, error);
     if (!status && output->csv && !output->flights)
         status = begin_flights(output, columns, count, error);
-    if (!status && !output->map && kml_has_place(output->model))
-        status = kml_create(output->part[MAP], output->model, &output->map, error);
-    if (!status && output->map)
-        status = kml_flight(output->map, rocket, columns, count, error);
-    return status;
+    return status ? status : begin_line(output, rocket, columns, count, error);
 }
 
 static ld_status csv_flight_row(ld_output *output, const double *values, size_t count,
@@ -89,7 +99,7 @@ static ld_status row(void *self, const double *values, size_t count, ld_error *e
         status = csv_flight_row(output, values, count, error);
     else if (!status && output->csv)
         status = history_csv_row(output->csv, values, count, error);
-    if (!status && output->map && output->flying > 0)
+    if (!status && output->map)
         status = kml_row(output->map, values, error);
     return status;
 }

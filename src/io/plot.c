@@ -177,6 +177,19 @@ static ld_status add_all(const plot_figure **figure, size_t *count, const histor
     return status;
 }
 
+// What is drawn where no figure is named: the launch, or a flight alone.
+static ld_status add_usual(const plot_figure **figure, size_t *count, const history_data *run,
+                           ld_error *error)
+{
+    static const char *const of_launch[] = {"tip", "contact", "relative", NULL};
+    static const char *const of_flight[] = {"trajectory", "flight", NULL};
+    bool alone = run->flights > 0 && !plot_figure_has_columns(plot_figure_find("tip"), run);
+    ld_status status = LD_OK;
+    for (const char *const *name = alone ? of_flight : of_launch; *name && !status; name++)
+        status = add_figure(figure, count, plot_figure_find(*name), error);
+    return status;
+}
+
 static ld_status draw_runs(const ld_picture *picture, const history_data *run, plot_format format,
                            const char *file, ld_error *error)
 {
@@ -184,6 +197,8 @@ static ld_status draw_runs(const ld_picture *picture, const history_data *run, p
     const char *name[PLOT_RUNS];
     size_t count = 0;
     ld_status status = LD_OK;
+    if (picture->figure_count == 0)
+        status = add_usual(figure, &count, run, error);
     for (size_t i = 0; i < picture->figure_count && !status; i++)
         if (strcmp(picture->figure[i], "all") == 0)
             status = add_all(figure, &count, run, picture->folder_count, error);
@@ -208,8 +223,6 @@ static ld_status check_picture(const ld_picture *picture, ld_error *error)
 {
     if (picture->folder_count == 0 || picture->folder_count > PLOT_RUNS)
         return ld_fail(error, LD_ERR_INPUT, "name 1 to %d folders with results", PLOT_RUNS);
-    if (picture->figure_count == 0)
-        return ld_fail(error, LD_ERR_INPUT, "name the figures to draw");
     for (size_t i = 0; i < picture->figure_count; i++)
         if (strcmp(picture->figure[i], "all") != 0 && !plot_figure_find(picture->figure[i]))
             return unknown_figure(picture->figure[i], error);

@@ -908,7 +908,8 @@ static const field_block firing_block = {.fields = firing_fields};
 
 #define OUTPUT_STEP(member) NUMBER(ld_run_settings, member, "s"), .range = {1e-6, 100, 0, 0}
 static const field_row output_step_fields[] = {
-    {"lead_in", OUTPUT_STEP(output_step_lead_in), DEFAULT(5e-3), .doc = "before ignition"},
+    {"lead_in", OUTPUT_STEP(output_step_lead_in), DEFAULT(5e-3),
+     .doc = "before ignition, and between one rocket's exit and the next one's ignition"},
     {"tube", OUTPUT_STEP(output_step_tube), DEFAULT(1e-4), .doc = "from ignition on"},
     {"flight", OUTPUT_STEP(output_step_flight), DEFAULT(2e-2), .doc = "in free flight"},
     {0}};

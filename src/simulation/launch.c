@@ -83,7 +83,8 @@ typedef struct launch_run {
     double *between;     // state between steps
     double energy_start; // [J]
     double t_start, t_end;
-    double next_output;   // time of the next row
+    double next_output; // time of the next row
+    double output_step;
     int64_t output_index; // rows since the last change of the output step
     double output_from;   // where that was
     double last_row;      // time of the last row written
@@ -96,10 +97,14 @@ typedef struct launch_run {
     double cpu_output; // [s] spent on rows and their sink
 } launch_run;
 
+// From ignition on rows come at the tube's step; before it, and where a rocket has left and another
+// is to follow, at that of the lead-in.
 static double output_step(const launch_run *run, double t)
 {
-    const ld_run_settings *settings = &run->self->model->run;
-    return t < run->self->t_ignition ? settings->output_step_lead_in : settings->output_step_tube;
+    const ld_simulation *self = run->self;
+    bool between = !self->phase.rocket && self->current + 1 < self->model->firing_count;
+    return t < self->t_ignition || between ? self->model->run.output_step_lead_in
+                                           : self->model->run.output_step_tube;
 }
 
 static double cpu_now(void)
@@ -132,8 +137,7 @@ static ld_status write_rows(launch_run *run)
         if (status)
             return status;
         run->output_index++;
-        run->next_output =
-            run->output_from + (double)run->output_index * output_step(run, run->output_from);
+        run->next_output = run->output_from + (double)run->output_index * run->output_step;
     }
     return LD_OK;
 }
@@ -142,7 +146,8 @@ static void restart_output(launch_run *run, double t)
 {
     run->output_from = t;
     run->output_index = 1;
-    run->next_output = t + output_step(run, t);
+    run->output_step = output_step(run, t);
+    run->next_output = t + run->output_step;
 }
 
 // Rocket i of the firing comes next: its lock closed, its motor not yet lit.
@@ -268,6 +273,8 @@ static void let_rocket_go(launch_run *run, double t, const double *y)
     self->phase.rocket = false;
     double without = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
     run->energy_start -= with - without;
+    if (self->current + 1 < self->model->firing_count)
+        restart_output(run, t);
 }
 
 // Switches what the events just located say; true where the equations changed.
