@@ -84,7 +84,8 @@ typedef struct ld_rocket_summary {
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
-    double energy_dropped; ///< [J] when its tube took the place of the one before
+    double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
+                           ///< moved against the platform
     bool flown;            ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
     ld_final_state final;

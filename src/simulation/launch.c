@@ -570,8 +570,7 @@ static ld_status change_tube(launch_run *run, double t)
     self->phase.locked = self->model->rocket.lock.present;
     energy_at(self, t, y, run->energy_start, &after);
     run->energy_start += after.residual - before.residual;
-    run->summary->rocket[next].energy_dropped =
-        before.kinetic + before.elastic - after.kinetic - after.elastic;
+    run->summary->rocket[next].energy_dropped = before.kinetic - after.kinetic;
     let_go_at_once(run, t, y);
     restart_output(run, t);
     run->last_row = NAN;
