@@ -816,6 +816,10 @@ static void summarise(launch_run *run, ld_status status, double cpu_seconds)
     summary->statistics.steps += propagator_steps(run->propagator);
     summary->statistics.rhs_evaluations += propagator_evaluations(run->propagator);
     note_formulation(self, summary);
+    for (int i = 0; i < summary->rocket_count; i++)
+        if (summary->rocket[i].t_release < 0)
+            simulation_note(summary, "the lock of tube %d let go %.4g s before its ignition",
+                            summary->rocket[i].tube, -summary->rocket[i].t_release);
     if (self->growing.real > 0)
         simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
                         self->growing.real, self->growing.shape);
