@@ -21,7 +21,7 @@ static void marching_model(ld_model *model)
 static ld_summary launch(const ld_model *model)
 {
     ld_simulation *simulation;
-    ld_summary summary;
+    ld_summary summary = {0};
     ld_error error;
     if (ld_simulation_create(model, &simulation, &error) ||
         ld_simulation_run(simulation, NULL, &summary, &error))

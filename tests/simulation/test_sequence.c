@@ -33,7 +33,7 @@ static ld_simulation *simulation_of(const ld_model *model)
 static ld_summary run(const ld_model *model, const ld_run_options *options)
 {
     ld_simulation *simulation = simulation_of(model);
-    ld_summary summary;
+    ld_summary summary = {0};
     ld_error error;
     if (ld_simulation_run(simulation, options, &summary, &error))
         fail_msg("%s", error.text);
@@ -279,7 +279,7 @@ static void overlapping_launches_are_refused(void **state)
     model.run.lead_in = 0;
     model.firing[1].at = 0.1;
     ld_simulation *simulation = simulation_of(&model);
-    ld_summary summary;
+    ld_summary summary = {0};
     ld_error error;
     assert_int_equal(ld_simulation_run(simulation, NULL, &summary, &error), LD_ERR_LAUNCH);
     printf("    %s\n", error.text);

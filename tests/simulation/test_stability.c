@@ -6,7 +6,7 @@
 static ld_status start(ld_model *model, ld_error *error)
 {
     ld_simulation *simulation;
-    ld_summary summary;
+    ld_summary summary = {0};
     model->run.end = LD_END_TIME;
     model->run.end_time = 1e-3;
     if (ld_simulation_create(model, &simulation, error))
