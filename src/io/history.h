@@ -38,12 +38,12 @@ ld_status history_csv_close(history_csv *history, ld_error *error);
 typedef struct history_data {
     char *title;
     size_t rows, columns; // 0 where a flight began without a launcher
-    char **name;   // [columns]
-    double *value; // [columns][rows]
+    char **name;          // [columns]
+    double *value;        // [columns][rows]
     // key instants of the first rocket [s]: ignition on the run's clock, the others from ignition;
     // NaN where there is none
     double t_ignition, t_release, t_front, t_middle, t_rear;
-    int tube, number;            // of a flight: its tube (0: none) and its place in the firing order
+    int tube, number; // of a flight: its tube (0: none) and its place in the firing order
     struct history_data *flight; // [flights] in the order of firing
     size_t flights;
 } history_data;
