@@ -26,6 +26,8 @@ static ld_status list_modes(const ld_model *model, ld_error *error)
     static ld_mode modes[MOST];
     static ld_pole poles[2 * MOST];
     ld_simulation *simulation = NULL;
+    if (model->base.kind == LD_BASE_NONE)
+        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
     ld_status status = ld_simulation_create(model, &simulation, error);
     if (status)
         return status;

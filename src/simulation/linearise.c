@@ -374,6 +374,8 @@ int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capa
     int count = 0;
     linear_system system = {0};
     launching_phase phase = {.rocket = false};
+    if (self->model->base.kind == LD_BASE_NONE)
+        return 0; // a flight alone has no tube
     simulation_straight(self, self->t_ignition, y);
     if (!linearise(self, true, self->t_ignition, &phase, y, &system, NULL))
         undamped_modes(self, &system, modes, capacity, &count, NULL);

@@ -173,6 +173,8 @@ static void test_bad_input_leaves_nothing(void **state)
     expect_complaint("launchdyn check examples/fixed.yaml --set rocket.mass=61", 2, "rocket.mass");
     expect_complaint("launchdyn modes examples/fixed.yaml --set rocket.mass=-1kg", 2,
                      "rocket.mass");
+    expect_complaint("launchdyn modes examples/flight.yaml", 2,
+                     "launchdyn: a flight alone has no launcher, and no modes\n");
     assert_int_equal(run("ls"), 0);
     assert_string_equal(shell.out, "examples\nlaunchdyn\n");
 }
