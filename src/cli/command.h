@@ -27,6 +27,7 @@ int command_check(const command *self, int argc, const char **argv);
 int command_modes(const command *self, int argc, const char **argv);
 int command_plot(const command *self, int argc, const char **argv);
 void command_plot_help(void);
+int command_report(const command *self, int argc, const char **argv);
 int command_road(const command *self, int argc, const char **argv);
 int command_wind(const command *self, int argc, const char **argv);
 
@@ -65,6 +66,10 @@ void command_complain(const char *format, ...) LD_PRINTF(1, 2);
 
 // Prints the error and returns the exit code that belongs to its status.
 int command_fail(ld_status status, const ld_error *error);
+
+// Writes the report of the results in `folder` (file NULL: into it), says what is missing in them
+// and, unless quiet, what was written. Returns the exit code.
+int command_write_report(const char *folder, const char *file, bool quiet);
 
 // A command on one scenario: reads the options and the file with its overrides, which `options` put
 // into *sets, and does `work` on the model. Returns the exit code.

@@ -15,6 +15,8 @@ static const command commands[] = {
     {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes},
     {"plot", "DIR...", "Draw figures of one run, or of several laid one over the other",
      command_plot_help, command_plot},
+    {"report", "DIR", "Write one HTML file that shows a run, offline and in any browser", NULL,
+     command_report},
     {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road},
     {"wind", "FILE", "Show profile, gusts and turbulence of the wind", NULL, command_wind},
     {"version", "", "Print the version", NULL, command_version},

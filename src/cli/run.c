@@ -10,7 +10,7 @@
 typedef struct run_wishes {
     char **sets;
     char *folder; // NULL: print the table only
-    int csv, quiet;
+    int csv, report, quiet;
 } run_wishes;
 
 // A run that ended early for reasons of its own leaves results up to there.
@@ -65,14 +65,21 @@ static int run_model(const ld_model *model, void *data)
         command_complain("--csv needs --out DIR");
         return EXIT_INPUT;
     }
+    if (wishes->report && !wishes->folder) {
+        command_complain("--report needs --out DIR");
+        return EXIT_INPUT;
+    }
     ld_status status = ld_simulation_create(model, &simulation, &error);
     if (!status)
         status = simulate(simulation, model, wishes, &summary, &error);
     ld_simulation_free(simulation);
+    int code = 0;
+    if (wishes->report && leaves_results(status))
+        code = command_write_report(wishes->folder, NULL, wishes->quiet != 0);
     if (!status)
-        return 0;
+        return code;
     fflush(stdout);
-    int code = command_fail(status, &error);
+    code = command_fail(status, &error);
     return status == LD_ERR_INTERRUPTED ? 128 + progress_signal() : code;
 }
 
@@ -84,6 +91,7 @@ int command_run(const command *self, int argc, const char **argv)
         {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
          "Write summary.json and history.h5 into this folder", "DIR"},
         {"csv", '\0', POPT_ARG_NONE, &wishes.csv, 0, "Write history.csv there too", NULL},
+        {"report", '\0', POPT_ARG_NONE, &wishes.report, 0, "Write report.html there too", NULL},
         {"quiet", 'q', POPT_ARG_NONE, &wishes.quiet, 0, "Print nothing but errors", NULL},
         COMMAND_HELP,
         COMMAND_END};

@@ -39,16 +39,24 @@ typedef struct history_data {
     char *title;
     size_t rows, columns; // 0 where a flight began without a launcher
     char **name;          // [columns]
+    char **unit;          // [columns]
     double *value;        // [columns][rows]
-    // key instants of the first rocket [s]: ignition on the run's clock, the others from ignition;
-    // NaN where there is none
+    // key instants of a rocket [s], the first in the launcher's history: ignition on the run's
+    // clock, the others from ignition; NaN where there is none
     double t_ignition, t_release, t_front, t_middle, t_rear;
     int tube, number; // of a flight: its tube (0: none) and its place in the firing order
     struct history_data *flight; // [flights] in the order of firing
     size_t flights;
+    int complete;  // 0: the run ended early, or was killed
+    char *stopped; // why it ended early, "" or NULL where nothing is known
 } history_data;
 
 ld_status history_read(const char *path, history_data *history, ld_error *error);
+
+// Tube, number and instants of rocket number `rocket`, from 1, whether it has flown on or not; no
+// columns. LD_ERR_INPUT: there is no such rocket.
+ld_status history_read_rocket(const char *path, int rocket, history_data *history, ld_error *error);
+
 void history_free(history_data *history);
 
 // The values of column `name`, or NULL.

@@ -46,7 +46,8 @@ static bool read_values(hid_t dataset, hsize_t rows, double *values)
 static bool read_names(hid_t group, history_data *history)
 {
     history->name = calloc(history->columns + 1, sizeof *history->name);
-    if (!history->name)
+    history->unit = calloc(history->columns + 1, sizeof *history->unit);
+    if (!history->name || !history->unit)
         return false;
     history->rows = SIZE_MAX;
     for (size_t i = 0; i < history->columns; i++) {
@@ -54,6 +55,7 @@ static bool read_names(hid_t group, history_data *history)
         hid_t dataset = history->name[i] ? H5Dopen2(group, history->name[i], H5P_DEFAULT) : -1;
         if (dataset < 0)
             return false;
+        history->unit[i] = hdf5_read_text(dataset, "unit");
         hsize_t rows = count_rows(dataset);
         history->rows = rows < history->rows ? (size_t)rows : history->rows;
         H5Dclose(dataset);
@@ -82,6 +84,14 @@ static void read_instants(hid_t rocket, history_data *history)
     history->t_front = hdf5_read_number(rocket, "t_front");
     history->t_middle = hdf5_read_number(rocket, "t_middle");
     history->t_rear = hdf5_read_number(rocket, "t_rear");
+}
+
+// Its tube and its place in the firing order.
+static void read_place(hid_t rocket, int number, history_data *history)
+{
+    double tube = hdf5_read_number(rocket, "tube");
+    history->tube = isfinite(tube) ? (int)tube : 0;
+    history->number = number;
 }
 
 // The table in a group; none where the group is missing or empty.
@@ -130,9 +140,7 @@ static bool read_flights(hid_t file, history_data *history)
         history_data *flight = &history->flight[history->flights++];
         read_instants(rocket, flight);
         fine = read_table(rocket, "flight", flight);
-        double tube = hdf5_read_number(rocket, "tube");
-        flight->tube = isfinite(tube) ? (int)tube : 0;
-        flight->number = number;
+        read_place(rocket, number, flight);
         H5Gclose(rocket);
         if (fine && flight->rows == 0) {
             history_free(flight);
@@ -144,10 +152,17 @@ static bool read_flights(hid_t file, history_data *history)
     return fine;
 }
 
-static ld_status read_file(hid_t file, const char *path, history_data *history, ld_error *error)
+// What to read from an open file.
+typedef ld_status file_reader(hid_t file, const char *path, int number, history_data *history,
+                              ld_error *error);
+
+static ld_status read_launcher(hid_t file, const char *path, int number, history_data *history,
+                               ld_error *error)
 {
     history->title = hdf5_read_text(file, "title");
-    hid_t rocket = open_rocket(file, 1);
+    history->stopped = hdf5_read_text(file, "stopped");
+    history->complete = hdf5_read_number(file, "complete") > 0;
+    hid_t rocket = open_rocket(file, number);
     read_instants(rocket, history);
     if (rocket >= 0)
         H5Gclose(rocket);
@@ -158,7 +173,20 @@ static ld_status read_file(hid_t file, const char *path, history_data *history, 
     return LD_OK;
 }
 
-ld_status history_read(const char *path, history_data *history, ld_error *error)
+static ld_status read_rocket(hid_t file, const char *path, int number, history_data *history,
+                             ld_error *error)
+{
+    hid_t rocket = open_rocket(file, number);
+    if (rocket < 0)
+        return ld_fail(error, LD_ERR_INPUT, "%s holds no rocket %d", path, number);
+    read_instants(rocket, history);
+    read_place(rocket, number, history);
+    H5Gclose(rocket);
+    return LD_OK;
+}
+
+static ld_status read_file(const char *path, file_reader *read, int rocket, history_data *history,
+                           ld_error *error)
 {
     memset(history, 0, sizeof *history);
     hdf5_quiet quiet = hdf5_quiet_begin();
@@ -167,13 +195,23 @@ ld_status history_read(const char *path, history_data *history, ld_error *error)
     if (file < 0) {
         status = hdf5_failed(error, "read", path);
     } else {
-        status = read_file(file, path, history, error);
+        status = read(file, path, rocket, history, error);
         H5Fclose(file);
     }
     hdf5_quiet_end(&quiet);
     if (status)
         history_free(history);
     return status;
+}
+
+ld_status history_read(const char *path, history_data *history, ld_error *error)
+{
+    return read_file(path, read_launcher, 1, history, error);
+}
+
+ld_status history_read_rocket(const char *path, int rocket, history_data *history, ld_error *error)
+{
+    return read_file(path, read_rocket, rocket, history, error);
 }
 
 void history_free(history_data *history)
@@ -183,9 +221,13 @@ void history_free(history_data *history)
     for (size_t i = 0; i < history->flights; i++)
         history_free(&history->flight[i]);
     free(history->flight);
+    for (size_t i = 0; history->unit && i < history->columns; i++)
+        free(history->unit[i]);
     free(history->name);
+    free(history->unit);
     free(history->value);
     free(history->title);
+    free(history->stopped);
     memset(history, 0, sizeof *history);
 }
 

@@ -58,6 +58,9 @@ typedef struct plot_page {
     double from, to; // [s] from ignition, NaN: what the figure shows by itself
 } plot_page;
 
+// Whether `name` is the pattern, whose one '*' stands for any text; that text becomes the label.
+bool plot_column_matches(const char *name, const char *pattern, char *label, size_t size);
+
 // Whether a run has a column that the figure shows.
 bool plot_figure_has_columns(const plot_figure *figure, const history_data *run);
 

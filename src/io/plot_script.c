@@ -78,8 +78,7 @@ static bool several(const plot_drawing *drawing)
 
 // ---- curves ----
 
-// Whether `name` is the pattern, whose one '*' stands for any text; that text becomes the label.
-static bool matches(const char *name, const char *pattern, char *label, size_t size)
+bool plot_column_matches(const char *name, const char *pattern, char *label, size_t size)
 {
     const char *star = strchr(pattern, '*');
     if (!star)
@@ -103,7 +102,7 @@ bool plot_figure_has_columns(const plot_figure *figure, const history_data *run)
          panel < figure->panel + PLOT_PANELS && panel->title; panel++)
         for (const plot_curve *curve = panel->curve; curve->column; curve++)
             for (size_t i = 0; i < run->columns; i++)
-                if (matches(run->name[i], curve->column, unused, sizeof unused))
+                if (plot_column_matches(run->name[i], curve->column, unused, sizeof unused))
                     return true;
     return false;
 }
@@ -128,7 +127,8 @@ static int find_in_source(plot_drawing *drawing, const plot_curve *wanted,
     for (size_t i = 0; i < history->columns && drawing->count < MOST_CURVES; i++) {
         found_curve *curve = &drawing->curve[drawing->count];
         snprintf(curve->label, sizeof curve->label, "%s", wanted->label);
-        if (!matches(history->name[i], wanted->column, curve->label, sizeof curve->label))
+        if (!plot_column_matches(history->name[i], wanted->column, curve->label,
+                                 sizeof curve->label))
             continue;
         curve->source = source;
         curve->y = history->value + i * history->rows;
@@ -515,7 +515,8 @@ static bool panel_copy(const plot_panel *panel, const history_data *history, int
     if (!panel->each)
         return copy == 0;
     for (size_t i = 0; i < history->columns; i++)
-        if (matches(history->name[i], panel->curve[0].column, found, sizeof found) && copy-- == 0) {
+        if (plot_column_matches(history->name[i], panel->curve[0].column, found, sizeof found) &&
+            copy-- == 0) {
             const char *percent = strstr(panel->title, "%s");
             snprintf(text[0], sizeof *text, "%.*s%s%s", (int)(percent - panel->title), panel->title,
                      found, percent + 2);

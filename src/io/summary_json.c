@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "io/json_text.h"
 #include "io/numeric_locale.h"
 #include "launchdyn/output.h"
 
@@ -19,49 +20,13 @@ static void json_new_line(json_writer *json)
     json->first = false;
 }
 
-// Length of the UTF-8 sequence at `text` (2 to 4), 0 where it is not a valid one.
-static size_t utf8_length(const unsigned char *text)
-{
-    size_t length = text[0] >= 0xC2 && text[0] < 0xE0   ? 2
-                    : text[0] >= 0xE0 && text[0] < 0xF0 ? 3
-                    : text[0] >= 0xF0 && text[0] < 0xF5 ? 4
-                                                        : 0;
-    for (size_t i = 1; i < length; i++)
-        if ((text[i] & 0xC0) != 0x80)
-            return 0;
-    bool wrong = (text[0] == 0xE0 && text[1] < 0xA0) || (text[0] == 0xED && text[1] > 0x9F) ||
-                 (text[0] == 0xF0 && text[1] < 0x90) || (text[0] == 0xF4 && text[1] > 0x8F);
-    return wrong ? 0 : length;
-}
-
-// A string in quotes; bytes that are not UTF-8 become U+FFFD.
-static void json_string(json_writer *json, const char *text)
-{
-    fputc('"', json->file);
-    for (const unsigned char *letter = (const unsigned char *)text; *letter;) {
-        size_t length = *letter < 0x80 ? 1 : utf8_length(letter);
-        if (*letter == '"' || *letter == '\\')
-            fprintf(json->file, "\\%c", *letter);
-        else if (*letter == '\n')
-            fputs("\\n", json->file);
-        else if (*letter < 0x20)
-            fprintf(json->file, "\\u%04x", *letter);
-        else if (length == 0)
-            fputs("\\ufffd", json->file);
-        else
-            fwrite(letter, 1, length, json->file);
-        letter += length ? length : 1;
-    }
-    fputc('"', json->file);
-}
-
 // The name of a member; NULL in an array.
 static void json_key(json_writer *json, const char *key)
 {
     json_new_line(json);
     if (!key)
         return;
-    json_string(json, key);
+    json_write_text(json->file, key);
     fputs(": ", json->file);
 }
 
@@ -86,16 +51,13 @@ static void json_close(json_writer *json, char bracket)
 static void json_text(json_writer *json, const char *key, const char *text)
 {
     json_key(json, key);
-    json_string(json, text);
+    json_write_text(json->file, text);
 }
 
 static void json_number(json_writer *json, const char *key, double value)
 {
     json_key(json, key);
-    if (isfinite(value))
-        fprintf(json->file, "%.17g", value);
-    else
-        fputs("null", json->file);
+    json_write_number(json->file, value);
 }
 
 static void json_integer(json_writer *json, const char *key, long long value)
@@ -341,7 +303,7 @@ static void write_end(json_writer *json, const ld_summary *summary)
     if (summary->complete)
         fputs("null", json->file);
     else
-        json_string(json, summary->stopped);
+        json_write_text(json->file, summary->stopped);
     json_open(json, "notes", '[');
     for (int i = 0; i < summary->note_count; i++)
         json_text(json, NULL, summary->note[i]);

@@ -1,0 +1,68 @@
+// Small helpers for the page. Text from the results goes in as text, never as HTML.
+
+export function element(tag, properties = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties))
+    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
+    else if (name in node && name !== "list") node[name] = value;
+    else node.setAttribute(name, value);
+  node.append(...children.filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+export function colour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+export function curveColour(index) {
+  return colour(`curve${index % 8}`);
+}
+
+// Hands a text to the user as a file.
+export function download(name, text) {
+  const url = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  const link = element("a", { href: url, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 1000);
+}
+
+// What wants to draw itself again when colours change.
+const painters = [];
+export function onColours(paint) {
+  painters.push(paint);
+}
+
+function setTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+  for (const paint of painters) paint();
+}
+
+// Light or dark as the system says, until the switch is used; light on paper.
+export function themeSwitch() {
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const button = element("button", {
+    id: "theme", type: "button",
+    onclick: () => {
+      setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+      name();
+    },
+  });
+  const name = () => {
+    button.textContent = document.documentElement.dataset.theme === "dark" ? "Light" : "Dark";
+  };
+  const follow = () => {
+    setTheme(dark.matches ? "dark" : "light");
+    name();
+  };
+  dark.addEventListener("change", follow);
+  let before;
+  addEventListener("beforeprint", () => {
+    before = document.documentElement.dataset.theme;
+    setTheme("light");
+  });
+  addEventListener("afterprint", () => setTheme(before));
+  follow();
+  return button;
+}

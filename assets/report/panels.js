@@ -1,0 +1,71 @@
+// What a figure's panels show of a table: curves ready to be drawn.
+import { matching, rowAt } from "./data.js";
+
+const hasValues = (column) => column.value.some((v) => typeof v === "number");
+
+// Value of a column at a time, of the row kept there or before.
+function valueAt(column, t, time) {
+  let row = Math.max(0, rowAt(t, time));
+  while (row > 0 && typeof column.value[row] !== "number") row--;
+  return column.value[row] ?? 0;
+}
+
+function curvesOf(table, panel, zero) {
+  const curves = [];
+  for (const [pattern, label] of panel.curves)
+    for (const [column, text] of matching(table, pattern))
+      if (hasValues(column))
+        curves.push({
+          column, label: text || label || "",
+          shift: panel.since ? valueAt(column, table.t, zero) : 0,
+        });
+  return curves;
+}
+
+// The panels with something to show. One for each curve where the panel says so; its unit and
+// axes are those of the figure.
+export function panelsOf(table, figure, zero) {
+  const shown = [];
+  for (const panel of figure.panels) {
+    const against = panel.x && table.column.get(panel.x.column);
+    const curves = curvesOf(table, panel, zero);
+    if (curves.length === 0 || (panel.x && !against)) continue;
+    const base = { figure, panel, table, zero, against };
+    if (panel.each)
+      for (const curve of curves)
+        shown.push({ ...base, title: panel.title.replace("%s", () => curve.label), curves: [curve] });
+    else shown.push({ ...base, title: panel.title, curves });
+  }
+  return shown;
+}
+
+// Marks for the time axis, in seconds from `zero`.
+export function instantsOf(table, rockets, summary, zero) {
+  const marks = [];
+  rockets.forEach((rocket, i) => {
+    if (table.rocket && table.rocket !== i + 1) return;
+    if (rocket.ignition === null) return;
+    const number = !table.rocket && rockets.length > 1 ? ` ${i + 1}` : "";
+    const t0 = rocket.ignition - zero;
+    marks.push({ name: `ignition${number}`, t: t0 });
+    for (const name of ["release", "front", "middle", "rear"])
+      if (rocket[name] !== null) marks.push({ name: name + number, t: t0 + rocket[name] });
+    const impact = summary?.rockets?.[i]?.flight?.t_impact;
+    if (table.kind === "flight" && typeof impact === "number")
+      marks.push({ name: "impact", t: t0 + impact });
+  });
+  return marks;
+}
+
+// The data of a panel as CSV, in SI: the rows kept by one of its curves.
+export function csvOf(shown) {
+  const { table, curves, zero, against } = shown;
+  const columns = [...(against ? [against] : []), ...curves.map((curve) => curve.column)];
+  const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
+  const lines = [["time [s]", ...columns.map((c) => `${c.name} [${c.unit}]`)].map(quoted).join(",")];
+  table.t.forEach((t, i) => {
+    if (columns.every((c) => c.value[i] === undefined)) return;
+    lines.push([t - zero, ...columns.map((c) => c.value[i] ?? "")].join(","));
+  });
+  return lines.join("\n") + "\n";
+}

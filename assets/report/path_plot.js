@@ -1,0 +1,141 @@
+// One column against another, as a path on a canvas; its points follow the window of time and the
+// cursor of the plots over time.
+import { filled, readable, rowAt } from "./data.js";
+import { colour, curveColour, element, onColours } from "./page.js";
+
+const HEIGHT = 230, LEFT = 74, RIGHT = 14, TOP = 12, BOTTOM = 46;
+
+// Round steps that cut a range into about `count` parts.
+function ticks(low, high, count) {
+  const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].map((f) => f * power).find((s) => s >= raw);
+  const out = [];
+  for (let k = Math.ceil(low / step); k * step <= high; k++) out.push(k * step);
+  return out;
+}
+
+function widened(values) {
+  let low = Infinity, high = -Infinity;
+  for (const v of values) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+  if (!(high >= low)) return [0, 1];
+  const room = (high - low) * 0.05 || Math.abs(high) * 0.1 || 1;
+  return [low - room, high + room];
+}
+
+export function pathPlot(shown, group, marks, host) {
+  const { table, panel, curves, against, zero } = shown;
+  const t = table.t.map((time) => time - zero);
+  const x = filled(against.value, t).map((v) => v * panel.x.factor);
+  const y = filled(curves[0].column.value, t).map((v) => v * panel.factor);
+  const canvas = element("canvas", { tabIndex: 0 });
+  const reading = element("output", { className: "reading" });
+  canvas.setAttribute("role", "figure");
+  canvas.setAttribute("aria-label", `${shown.title}: ${panel.unit} against ${panel.x.label}`);
+  host.append(canvas, reading);
+  let first = 0, last = t.length - 1, pointed = -1, place;
+
+  const measure = () => {
+    const range = [widened(x.subarray(first, last + 1)), widened(y.subarray(first, last + 1))];
+    const w = canvas.clientWidth - LEFT - RIGHT, h = HEIGHT - TOP - BOTTOM;
+    place = {
+      range,
+      x: (v) => LEFT + ((v - range[0][0]) / (range[0][1] - range[0][0])) * w,
+      y: (v) => TOP + h - ((v - range[1][0]) / (range[1][1] - range[1][0])) * h,
+    };
+  };
+
+  const drawAxes = (ctx) => {
+    const right = canvas.clientWidth - RIGHT, bottom = HEIGHT - BOTTOM;
+    ctx.strokeStyle = colour("grid");
+    ctx.fillStyle = colour("ink");
+    ctx.font = "11px sans-serif";
+    ctx.textAlign = "center";
+    ctx.textBaseline = "top";
+    for (const v of ticks(...place.range[0], Math.max(2, (right - LEFT) / 80))) {
+      ctx.strokeRect(place.x(v), TOP, 0, bottom - TOP);
+      ctx.fillText(readable(v), place.x(v), bottom + 5);
+    }
+    ctx.textAlign = "right";
+    ctx.textBaseline = "middle";
+    for (const v of ticks(...place.range[1], 5)) {
+      ctx.strokeRect(LEFT, place.y(v), right - LEFT, 0);
+      ctx.fillText(readable(v), LEFT - 6, place.y(v));
+    }
+    ctx.font = "12px sans-serif";
+    ctx.textAlign = "center";
+    ctx.fillText(panel.x.label, (LEFT + right) / 2, HEIGHT - 12);
+    ctx.save();
+    ctx.translate(12, (TOP + bottom) / 2);
+    ctx.rotate(-Math.PI / 2);
+    ctx.fillText(panel.unit, 0, 0);
+    ctx.restore();
+  };
+
+  const dot = (ctx, row, fill) => {
+    if (row < 0 || !Number.isFinite(x[row]) || !Number.isFinite(y[row])) return;
+    ctx.fillStyle = fill;
+    ctx.beginPath();
+    ctx.arc(place.x(x[row]), place.y(y[row]), 3.5, 0, 7);
+    ctx.fill();
+  };
+
+  const draw = () => {
+    const scale = devicePixelRatio, ctx = canvas.getContext("2d");
+    if (canvas.clientWidth === 0) return;
+    canvas.width = canvas.clientWidth * scale;
+    canvas.height = HEIGHT * scale;
+    ctx.scale(scale, scale);
+    measure();
+    drawAxes(ctx);
+    ctx.beginPath();
+    for (let i = first, pen = false; i <= last; i++) {
+      const has = Number.isFinite(x[i]) && Number.isFinite(y[i]);
+      if (has) ctx[pen ? "lineTo" : "moveTo"](place.x(x[i]), place.y(y[i]));
+      pen = has;
+    }
+    ctx.strokeStyle = curveColour(0);
+    ctx.lineWidth = 1.25;
+    ctx.stroke();
+    for (const mark of marks) {
+      const row = rowAt(t, mark.t);
+      if (row >= first && row <= last) {
+        dot(ctx, row, colour("mark"));
+        ctx.textAlign = "left";
+        if (Number.isFinite(x[row])) ctx.fillText(mark.name, place.x(x[row]) + 6, place.y(y[row]) - 7);
+      }
+    }
+    dot(ctx, pointed, colour("ink"));
+    reading.textContent = pointed < 0 ? " "
+      : `t ${readable(t[pointed])} s   x ${readable(x[pointed])}   y ${readable(y[pointed])}`;
+  };
+
+  // The point of the path nearest to the mouse leads the other plots.
+  canvas.addEventListener("mousemove", (event) => {
+    let best = Infinity, found = -1;
+    for (let i = first; i <= last; i++) {
+      const d = (place.x(x[i]) - event.offsetX) ** 2 + (place.y(y[i]) - event.offsetY) ** 2;
+      if (d < best) { best = d; found = i; }
+    }
+    if (found >= 0) group.pointAt(t[found]);
+  });
+  canvas.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    group.pointAt(t[Math.min(last, Math.max(first, (pointed < 0 ? first : pointed) + step))]);
+  });
+  new ResizeObserver(draw).observe(canvas);
+  onColours(draw);
+  return {
+    window: (min, max) => {
+      first = Math.max(0, rowAt(t, min));
+      last = Math.max(first, rowAt(t, max));
+      draw();
+    },
+    point: (time) => {
+      const row = rowAt(t, time + 1e-9 * Math.abs(time));
+      if (row !== pointed) { pointed = row; draw(); }
+    },
+    extent: [t[0], t[t.length - 1]],
+  };
+}

@@ -1,0 +1,145 @@
+// The report of a run: summary first, then the plots of each table of numbers.
+import { decodeTable, readable } from "./data.js";
+import { download, element, themeSwitch } from "./page.js";
+import { csvOf, instantsOf, panelsOf } from "./panels.js";
+import { pathPlot } from "./path_plot.js";
+import { showSummary } from "./summary.js";
+import { timePlot } from "./time_plot.js";
+
+const host = document.getElementById("report");
+const data = JSON.parse(document.getElementById("data").textContent);
+
+function readSummary() {
+  const node = document.getElementById("summary");
+  if (!node) return null;
+  try {
+    return JSON.parse(node.textContent);
+  } catch {
+    data.notes.push("No summary: summary.json is not complete.");
+    return null;
+  }
+}
+
+// Plots of one table that share the cursor, and of one kind that share the window of time.
+class PlotGroup {
+  constructor(cursorKey, home) {
+    this.cursorKey = cursorKey;
+    this.home = home;
+    this.plots = [];
+    this.followers = this.plots; // what shows the cursor; the table's other groups too
+    this.busy = true;
+  }
+  show(min, max) {
+    this.busy = true;
+    for (const plot of this.plots) plot.window(min, max);
+    this.busy = false;
+  }
+  reset() {
+    this.show(...this.home);
+  }
+  zoomed(min, max) {
+    if (!this.busy && Number.isFinite(min)) this.show(min, max);
+  }
+  pointed(time) {
+    for (const plot of this.followers) plot.point?.(time);
+  }
+  pointAt(time) {
+    const plot = this.followers.find((p) => p.uplot);
+    plot?.uplot.setCursor({ left: plot.uplot.valToPos(time, "x"), top: 1 }, true, true);
+    this.pointed(time);
+  }
+}
+
+const fileName = (shown) =>
+  `${shown.figure.name}-${shown.title}`.replace(/[^\w-]+/g, "-").toLowerCase() + ".csv";
+
+function addPanel(grid, shown, group, marks) {
+  const canvas = element("div", { className: "plot" });
+  const card = element("section", { className: `card panel${shown.panel.wide ? " wide" : ""}` },
+    element("h3", {}, shown.title,
+      element("button", { type: "button", className: "csv", title: "Download these data as CSV",
+        onclick: () => download(fileName(shown), csvOf(shown)) }, "CSV")),
+    canvas);
+  grid.append(card);
+  group.plots.push((shown.panel.x ? pathPlot : timePlot)(shown, group, marks, canvas));
+}
+
+// From a little before the first ignition to the end, or all of it.
+function homeOf(table, vehicle, marks) {
+  const zero = marks.length ? marks[0].t : 0, all = [table.t[0], table.t[table.t.length - 1]];
+  return { all, launch: [Math.max(all[0], zero - 0.005), all[1]] }[vehicle ? "all" : "launch"];
+}
+
+function windowButtons(groups, marks, count) {
+  if (count < 2) return null;
+  const buttons = [];
+  for (let i = 1; i <= count; i++) {
+    const from = marks.find((m) => m.name === `ignition ${i}`), to = marks.find((m) => m.name === `rear ${i}`);
+    if (from && to)
+      buttons.push(element("button", { type: "button",
+        onclick: () => groups.launch.show(from.t - 0.005, to.t + 0.02) }, `Rocket ${i}`));
+  }
+  buttons.push(element("button", { type: "button", onclick: () => groups.launch.reset() }, "All"));
+  return element("p", { className: "windows" }, "Show ", ...buttons);
+}
+
+function showTable(table, index, summary, nav) {
+  const heading = table.kind === "launch" ? "Launch"
+    : data.rockets.length > 1 ? `Flight of rocket ${table.rocket || 1}` : "Flight";
+  const ignition = data.rockets[Math.max(0, table.rocket - 1)]?.ignition ?? 0;
+  const marks = instantsOf(table, data.rockets, summary, ignition);
+  const shifted = { ...table, t: table.t };
+  const home = (vehicle) => homeOf({ t: [table.t[0] - ignition, table.t[table.t.length - 1] - ignition] },
+    vehicle, marks);
+  const groups = {
+    launch: new PlotGroup(`table${index}`, home(table.kind === "flight")),
+    vehicle: new PlotGroup(`table${index}`, home(true)),
+  };
+  const followers = [];
+  groups.launch.followers = groups.vehicle.followers = followers;
+  const id = `table${index}`;
+  host.append(element("h2", { id }, heading));
+  nav.append(element("a", { href: `#${id}` }, heading));
+  const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
+  if (buttons) host.append(buttons);
+  for (const figure of data.figures[table.kind]) {
+    const panels = panelsOf(shifted, figure, ignition);
+    if (panels.length === 0) continue;
+    const grid = element("div", { className: "grid" });
+    host.append(element("section", { className: "figure", id: `${id}-${figure.name}` },
+      element("h3", { className: "heading" }, figure.title), grid));
+    for (const shown of panels) {
+      const group = figure.vehicle ? groups.vehicle : groups.launch;
+      addPanel(grid, shown, group, marks);
+      followers.push(group.plots[group.plots.length - 1]);
+    }
+  }
+  for (const group of Object.values(groups)) group.reset();
+}
+
+function state(summary) {
+  const complete = summary ? summary.complete : data.complete;
+  if (complete) return element("p", { className: "state" }, "The run came to its end.");
+  const why = summary?.stopped || data.stopped || "it was stopped, or its results are not whole";
+  return element("p", { className: "state warning" }, `The run ended early: ${why}`);
+}
+
+const summary = readSummary();
+const nav = element("nav", {}, element("a", { href: "#summary-tables" }, "Summary"));
+host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
+  themeSwitch()));
+host.append(element("h2", { id: "summary-tables" }, "Summary"), state(summary),
+  ...[...data.notes, ...(summary?.notes ?? [])].map((note) =>
+    element("p", { className: "warning" }, String(note))));
+if (summary) host.append(showSummary(summary));
+
+const tables = data.tables.map(decodeTable);
+tables.forEach((table, i) => table.t.length > 0 && showTable(table, i, summary, nav));
+
+const rows = tables.reduce((sum, table) => sum + table.full, 0);
+host.append(element("footer", {}, element("p", {},
+  `launchdyn ${data.version}. Drag over a plot to zoom, double-click to see all; with the keyboard: ` +
+  "Tab to a plot, arrows move the cursor, + and - zoom, Escape shows all. " +
+  `Of ${rows} rows those are here that curves need: none is moved by more than ` +
+  `${readable(data.pixels)} of 4000 pixels, in any phase of the run; values are the results' own, to 7 digits.`)));
+document.documentElement.dataset.ready = "yes";

@@ -1,0 +1,115 @@
+// What summary.json says, as tables.
+import { element } from "./page.js";
+import { readable } from "./data.js";
+
+const DEG = ["deg", 180 / Math.PI], MRAD = ["mrad", 1e3], MM = ["mm", 1e3], KN = ["kN", 1e-3];
+
+// Key of a rocket in summary.json, what it is called, unit and factor.
+const ROCKET = [
+  ["tube", "tube", "", 1],
+  ["t_ignition", "ignition, on the run's clock", "s", 1],
+  ["t_release", "release", "ms", 1e3],
+  ["t_front", "front adaptor leaves", "ms", 1e3],
+  ["t_middle", "middle adaptor leaves", "ms", 1e3],
+  ["t_rear", "rear adaptor leaves", "ms", 1e3],
+  ["muzzle_speed", "speed along the tube as it leaves", "m/s", 1],
+  ["inertial_speed", "speed over ground as it leaves", "m/s", 1],
+  ["spin_rate", "spin", "rad/s", 1],
+  ["pitch", "pitch", ...DEG],
+  ["yaw", "yaw", ...DEG],
+  ["pitch_rate", "pitch rate", "mrad/s", 1e3],
+  ["yaw_rate", "yaw rate", "mrad/s", 1e3],
+  ["tip.y", "tip of the tube, y", ...MM],
+  ["tip.z", "tip of the tube, z", ...MM],
+  ["tip.pitch", "tip of the tube, pitch", ...MRAD],
+  ["tip.yaw", "tip of the tube, yaw", ...MRAD],
+  ["max_contact_force.*", "largest contact force, %s", ...KN],
+  ["max_slot_force", "largest slot force", ...KN],
+  ["flight.apogee", "apogee", "m", 1],
+  ["flight.range", "range", "m", 1],
+  ["flight.drift", "drift", "m", 1],
+  ["flight.time_of_flight", "time of flight", "s", 1],
+  ["flight.impact_speed", "speed at impact", "m/s", 1],
+  ["flight.impact_angle", "angle of impact", ...DEG],
+  ["flight.max_mach", "largest Mach number", "", 1],
+  ["flight.max_angle_of_attack", "largest angle of attack", ...DEG],
+];
+
+const EQUILIBRIUM = [
+  ["lock_force", "force of the lock", "N", 1],
+  ["slot_force", "force of the slot", "N", 1],
+  ["contact_force.*", "contact force, %s", "N", 1],
+  ["tip_sag.y", "sag of the tip, y", ...MM],
+  ["tip_sag.z", "sag of the tip, z", ...MM],
+  ["chassis.y", "height of the chassis", ...MM],
+  ["chassis.pitch", "pitch of the chassis", ...MRAD],
+  ["chassis.roll", "roll of the chassis", ...MRAD],
+  ["azimuth.torque", "azimuth torque", "N m", 1],
+  ["elevation.torque", "elevation torque", "N m", 1],
+  ["residual", "largest acceleration left", "m/s²", 1],
+];
+
+const ENERGY = [
+  ["kinetic", "kinetic energy", "J", 1],
+  ["potential", "potential energy", "J", 1],
+  ["elastic", "elastic energy", "J", 1],
+  ["work.*", "work: %s", "J", 1],
+  ["residual", "missing in the balance", "J", 1],
+  ["residual_relative", "over the largest work", "", 1],
+];
+
+const STATISTICS = [
+  ["steps", "steps", "", 1],
+  ["rhs_evaluations", "evaluations of the equations", "", 1],
+  ["cpu_seconds", "CPU time of the run", "s", 1],
+  ["cpu_seconds_setup", "CPU time of its setting up", "s", 1],
+];
+
+function at(object, path) {
+  return path.split(".").reduce((part, key) => (part == null ? undefined : part[key]), object);
+}
+
+// Rows of the list that some of the objects has, with '*' for every key that is there.
+function rowsOf(objects, list) {
+  const rows = [];
+  for (const [path, label, unit, factor] of list) {
+    const [head, star] = path.split(".*");
+    const keys = star === undefined ? [null] : Object.keys(at(objects[0], head) ?? {});
+    for (const key of keys) {
+      const read = (o) => (key === null ? at(o, path) : at(o, head)?.[key]);
+      const cells = objects.map(read);
+      if (cells.every((cell) => typeof cell !== "number")) continue;
+      rows.push([label.replace("%s", () => key.replaceAll("_", " ")), unit,
+        cells.map((cell) => (typeof cell === "number" ? readable(cell * factor) : "–"))]);
+    }
+  }
+  return rows;
+}
+
+function tableOf(heading, rows, heads) {
+  if (rows.length === 0) return null;
+  const body = rows.map(([label, unit, cells]) =>
+    element("tr", {}, element("th", { scope: "row" }, label),
+      ...cells.map((cell) => element("td", {}, cell)), element("td", { className: "unit" }, unit)));
+  const head = heads && element("tr", {}, element("th", {}, ""),
+    ...heads.map((name) => element("th", { scope: "col" }, name)), element("th", {}, ""));
+  return element("section", { className: "card" }, element("h3", {}, heading),
+    element("div", { className: "scroll" }, element("table", {}, head, ...body)));
+}
+
+function modes(list) {
+  const rows = (list ?? []).map((mode, i) => [String(mode.shape), "",
+    [readable(mode.frequency), readable(100 * mode.damping)]]);
+  return tableOf("Natural frequencies of the tube on its supports", rows, ["Hz", "damping, %"]);
+}
+
+export function showSummary(summary) {
+  const rockets = summary.rockets ?? [];
+  return element("div", { id: "tables" },
+    tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, ROCKET),
+      rockets.length > 1 ? rockets.map((_, i) => String(i + 1)) : null),
+    tableOf("Energy balance at the end", rowsOf([summary.energy ?? {}], ENERGY)),
+    tableOf("Equilibrium at the start", rowsOf([summary.equilibrium ?? {}], EQUILIBRIUM)),
+    modes(summary.modes),
+    tableOf("Computation", rowsOf([summary.statistics ?? {}], STATISTICS)));
+}

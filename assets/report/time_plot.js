@@ -1,0 +1,122 @@
+// Curves over time, by uPlot.
+import uPlot from "uplot";
+import { nearestKept, readable, rowAt } from "./data.js";
+import { colour, curveColour, onColours } from "./page.js";
+
+const HEIGHT = 230, LABEL_GAP = 14;
+
+// Times from `zero` and, for each curve, values in the unit shown, at the rows that some curve needs.
+function alignedData({ table, panel, curves, zero }) {
+  const rows = [];
+  for (let i = 0; i < table.t.length; i++)
+    if (curves.some((curve) => curve.column.value[i] !== undefined)) rows.push(i);
+  return [rows.map((i) => table.t[i] - zero), ...curves.map(({ column, shift }) =>
+    rows.map((i) => {
+      const value = column.value[i];
+      return typeof value === "number" ? (value - shift) * panel.factor : value;
+    }))];
+}
+
+// Lines at the key instants, named at their tops where the name before leaves room.
+function drawInstants(u, marks) {
+  const { ctx, bbox } = u, scale = devicePixelRatio;
+  let free = -Infinity;
+  ctx.save();
+  ctx.font = `${11 * scale}px sans-serif`;
+  ctx.textBaseline = "top";
+  ctx.strokeStyle = ctx.fillStyle = colour("mark");
+  ctx.lineWidth = scale;
+  ctx.setLineDash([4 * scale, 3 * scale]);
+  for (const mark of marks) {
+    const x = Math.round(u.valToPos(mark.t, "x", true));
+    if (x < bbox.left || x > bbox.left + bbox.width) continue;
+    ctx.beginPath();
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.stroke();
+    if (x < free) continue;
+    ctx.save();
+    ctx.translate(x + 2 * scale, bbox.top + 3 * scale);
+    ctx.rotate(Math.PI / 2);
+    ctx.translate(0, -LABEL_GAP * scale);
+    ctx.fillText(mark.name, 0, 0);
+    ctx.restore();
+    free = x + LABEL_GAP * scale;
+  }
+  ctx.restore();
+}
+
+function axis(label, grid) {
+  return {
+    label, labelSize: 18, labelFont: "12px sans-serif", font: "11px sans-serif",
+    stroke: () => colour("ink"), grid: { stroke: () => colour("grid"), width: 1, show: grid },
+    ticks: { stroke: () => colour("grid"), width: 1, size: 4 },
+  };
+}
+
+function options(shown, data, group, marks) {
+  const { panel, curves } = shown;
+  return {
+    width: 600, height: HEIGHT,
+    scales: { x: { time: false }, y: {} },
+    axes: [{ ...axis("time from ignition [s]", true), size: 30 },
+      { ...axis(`[${panel.unit}]`, true), size: 56 }],
+    series: [{ label: "t [s]", value: (u, v) => readable(v) },
+      ...curves.map((curve, i) => ({
+        label: curve.label || shown.title, stroke: () => curveColour(i), width: 1.25,
+        points: { show: false }, value: (u, v) => readable(v),
+      }))],
+    cursor: {
+      sync: { key: group.cursorKey, scales: ["x", null], setSeries: false,
+        filters: { pub: (type) => type === "mousemove" || type === "mouseleave" } },
+      drag: { x: true, y: false },
+      bind: { dblclick: () => () => { group.reset(); return null; } },
+      dataIdx: (u, series, row) => (series === 0 ? row : nearestKept(data[series], row)),
+    },
+    hooks: {
+      draw: [(u) => drawInstants(u, marks)],
+      setScale: [(u, key) => key === "x" && group.zoomed(u.scales.x.min, u.scales.x.max)],
+      setCursor: [(u) => u.cursor.idx !== null && u.cursor.left >= 0 &&
+        group.pointed(u.posToVal(u.cursor.left, "x"))],
+    },
+  };
+}
+
+// Arrows move the cursor from row to row, + and - zoom about it, Escape shows all.
+function listenToKeys(u, data, group) {
+  const point = (row) => u.setCursor(
+    { left: u.valToPos(data[0][row], "x"), top: u.over.clientHeight / 2 }, true, true);
+  const zoom = (factor) => {
+    const { min, max } = u.scales.x;
+    const center = u.cursor.left >= 0 ? u.posToVal(u.cursor.left, "x") : (min + max) / 2;
+    group.show(center + (min - center) * factor, center + (max - center) * factor);
+  };
+  u.root.tabIndex = 0;
+  u.root.addEventListener("keydown", (event) => {
+    const row = u.cursor.idx ?? Math.max(0, rowAt(data[0], u.scales.x.min) + 1);
+    const last = data[0].length - 1, step = event.shiftKey ? 10 : 1;
+    const actions = {
+      ArrowLeft: () => point(Math.max(0, row - step)),
+      ArrowRight: () => point(Math.min(last, row + step)),
+      "+": () => zoom(0.5), "-": () => zoom(2), Escape: () => group.reset(),
+    };
+    if (!actions[event.key]) return;
+    event.preventDefault();
+    actions[event.key]();
+  });
+}
+
+export function timePlot(shown, group, marks, host) {
+  const data = alignedData(shown);
+  const u = new uPlot(options(shown, data, group, marks), data, host);
+  u.root.setAttribute("role", "figure");
+  u.root.setAttribute("aria-label", `${shown.title}, ${shown.panel.unit}, over time`);
+  listenToKeys(u, data, group);
+  new ResizeObserver(() => u.setSize({ width: host.clientWidth, height: HEIGHT })).observe(host);
+  onColours(() => u.redraw(false, true));
+  return {
+    uplot: u,
+    window: (min, max) => u.setScale("x", { min, max }),
+    extent: [data[0][0], data[0][data[0].length - 1]],
+  };
+}

@@ -1,0 +1,35 @@
+/// A run to look at: one HTML file that opens offline in any browser (docs/report.md).
+#ifndef LAUNCHDYN_REPORT_H
+#define LAUNCHDYN_REPORT_H
+
+#include <stddef.h>
+
+#include "launchdyn/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { LD_REPORT_NOTES = 8 };
+
+/// What became of a report.
+typedef struct ld_report {
+    size_t bytes;                    ///< size of the file, at most 2 000 000
+    double pixels;                   ///< of 4000 in the width: what thinning may move a curve by
+    int note_count;                  ///< what is missing or broken in the results,
+    char note[LD_REPORT_NOTES][256]; ///< each in a sentence; the report shows them too
+} ld_report;
+
+/// Writes the report of the run in `folder`, from history.h5 (or the history.h5.part of a run that
+/// was killed) and summary.json; of one of the two, if the other is missing or broken.
+/// @param file   NULL: report.html in the folder
+/// @param report filled; may be NULL
+/// @return LD_OK, LD_ERR_INPUT (neither can be read), LD_ERR_FILE (the report cannot be written; an
+///         earlier one stands) or LD_ERR_MEMORY
+ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

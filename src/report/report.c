@@ -1,0 +1,187 @@
+// From a folder of results to one HTML file.
+#include "launchdyn/report.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "io/numeric_locale.h"
+#include "io/text_file.h"
+#include "report/report_parts.h"
+
+enum { PATH_SIZE = 4096, MOST_SUMMARY = 1 << 20, MOST_BYTES = 2000000 };
+
+// ---- the results ----
+
+static void take_note(ld_report *report, const char *format, ...) LD_PRINTF(2, 3);
+
+static void take_note(ld_report *report, const char *format, ...)
+{
+    va_list arguments;
+    if (report->note_count == LD_REPORT_NOTES)
+        return;
+    va_start(arguments, format);
+    vsnprintf(report->note[report->note_count++], sizeof *report->note, format, arguments);
+    va_end(arguments);
+}
+
+static void join(char *path, const char *folder, const char *name)
+{
+    snprintf(path, PATH_SIZE, "%s/%s", folder, name);
+}
+
+static void read_rockets(report_source *source, const char *path)
+{
+    history_data *next = source->rocket;
+    while (source->rocket_count < REPORT_ROCKETS &&
+           !history_read_rocket(path, source->rocket_count + 1, next, NULL)) {
+        source->rocket_count++;
+        next++;
+    }
+}
+
+static void read_history(report_source *source, const char *folder)
+{
+    char path[PATH_SIZE];
+    ld_error error;
+    join(path, folder, "history.h5");
+    if (access(path, F_OK) != 0) {
+        join(path, folder, "history.h5.part");
+        if (access(path, F_OK) != 0) {
+            take_note(source->report, "There is no history.h5: no plots.");
+            return;
+        }
+        take_note(source->report, "The run did not come to its end: the plots are of "
+                                  "history.h5.part, up to its last block.");
+    }
+    if (history_read(path, &source->history, &error)) {
+        take_note(source->report, "No plots: %s.", error.text);
+        return;
+    }
+    read_rockets(source, path);
+    source->has_history = history_column(&source->history, "t") != NULL;
+    if (!source->has_history)
+        take_note(source->report, "No plots: the history has no column t.");
+    else if (source->history.rows == 0)
+        take_note(source->report, "The history has no rows.");
+}
+
+static void read_summary(report_source *source, const char *folder)
+{
+    char path[PATH_SIZE];
+    ld_error error;
+    join(path, folder, "summary.json");
+    if (text_file_read(path, MOST_SUMMARY, &source->summary, &source->summary_length, &error))
+        take_note(source->report, "No summary: summary.json %s.", error.text);
+}
+
+static void free_source(report_source *source)
+{
+    history_free(&source->history);
+    for (int i = 0; i < source->rocket_count; i++)
+        history_free(&source->rocket[i]);
+    free(source->summary);
+}
+
+// ---- the file ----
+
+// The page in memory, to be freed.
+static ld_status make_page(const report_source *source, const report_detail *detail, char **text,
+                           size_t *length, ld_error *error)
+{
+    char *data = NULL;
+    size_t data_length = 0;
+    FILE *json = open_memstream(&data, &data_length), *page = open_memstream(text, length);
+    ld_status status = json && page ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
+    if (!status)
+        status = report_write_data(json, source, detail, error);
+    bool wrong = json && fclose(json) != 0;
+    if (!status && !wrong)
+        report_write_page(page, source, data, data_length);
+    wrong |= page && fclose(page) != 0;
+    free(data);
+    return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;
+}
+
+// As fine as it fits: all rows in the tube and else a pixel of 4000, then fewer.
+static ld_status make_page_that_fits(report_source *source, char **text, size_t *length,
+                                     ld_error *error)
+{
+    report_detail detail = {.whole_tube = true, .pixel = 1.0 / 4000};
+    for (;;) {
+        ld_status status = make_page(source, &detail, text, length, error);
+        source->report->pixels = detail.pixel * 4000;
+        source->report->bytes = *length;
+        if (status || *length <= MOST_BYTES)
+            return status;
+        free(*text);
+        *text = NULL;
+        if (detail.pixel > 0.1)
+            return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
+                           MOST_BYTES);
+        if (!detail.whole_tube)
+            detail.pixel *= 1.5;
+        detail.whole_tube = false;
+    }
+}
+
+// Under a temporary name beside the report, which then gets its own.
+static ld_status write_file(const char *file, const char *text, size_t length, ld_error *error)
+{
+    char part[PATH_SIZE + 8];
+    snprintf(part, sizeof part, "%s.part", file);
+    FILE *stream = fopen(part, "wb");
+    bool fine = stream && fwrite(text, 1, length, stream) == length;
+    int number = errno;
+    if (stream && fclose(stream) != 0) {
+        number = errno;
+        fine = false;
+    }
+    if (fine && rename(part, file) == 0)
+        return LD_OK;
+    number = fine ? errno : number;
+    if (stream)
+        unlink(part);
+    return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
+}
+
+static ld_status write_report(report_source *source, const char *file, ld_error *error)
+{
+    char *text = NULL;
+    size_t length = 0;
+    locale_t before = numeric_locale_enter();
+    ld_status status = make_page_that_fits(source, &text, &length, error);
+    numeric_locale_leave(before);
+    if (!status)
+        status = write_file(file, text, length, error);
+    free(text);
+    return status;
+}
+
+ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error)
+{
+    ld_report unwanted;
+    char usual[PATH_SIZE];
+    report = report ? report : &unwanted;
+    memset(report, 0, sizeof *report);
+    if (strlen(folder) + 32 > PATH_SIZE || (file && strlen(file) + 8 > PATH_SIZE))
+        return ld_fail(error, LD_ERR_INPUT, "the name of the folder or the report is too long");
+    report_source *source = calloc(1, sizeof *source);
+    if (!source)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    source->report = report;
+    read_history(source, folder);
+    read_summary(source, folder);
+    join(usual, folder, "report.html");
+    ld_status status = LD_OK;
+    if (!source->has_history && !source->summary)
+        status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
+                         report->note[0], report->note[report->note_count - 1]);
+    if (!status)
+        status = write_report(source, file ? file : usual, error);
+    free_source(source);
+    free(source);
+    return status;
+}

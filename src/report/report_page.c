@@ -1,0 +1,178 @@
+// The page of a report: what it shows as JSON, then HTML around that, the style and the script.
+#include <string.h>
+
+#include "io/json_text.h"
+#include "report/report_parts.h"
+
+// ---- JSON ----
+
+static void write_curves(FILE *json, const plot_panel *panel)
+{
+    fputs(",\"curves\":[", json);
+    for (const plot_curve *curve = panel->curve; curve->column; curve++) {
+        fputs(curve == panel->curve ? "[" : ",[", json);
+        json_write_text(json, curve->column);
+        fputc(',', json);
+        json_write_text(json, curve->label);
+        fputc(']', json);
+    }
+    fputc(']', json);
+}
+
+static void write_panel(FILE *json, const plot_panel *panel)
+{
+    fputs("{\"title\":", json);
+    json_write_text(json, panel->title);
+    fputs(",\"unit\":", json);
+    json_write_text(json, panel->y_label);
+    fprintf(json, ",\"factor\":%.17g,\"wide\":%d,\"since\":%d,\"each\":%d", panel->y_factor,
+            panel->wide, panel->since, panel->each);
+    if (panel->x_column) {
+        fprintf(json, ",\"x\":{\"column\":\"%s\",\"factor\":%.17g,\"label\":", panel->x_column,
+                panel->x_factor);
+        json_write_text(json, panel->x_label);
+        fputc('}', json);
+    }
+    write_curves(json, panel);
+    fputc('}', json);
+}
+
+static void write_figures(FILE *json, bool flight)
+{
+    const plot_figure *figure;
+    for (size_t f = 0; (figure = report_figure_at(flight, f)) != NULL; f++) {
+        fprintf(json, "%s\n{\"name\":\"%s\",\"title\":", f ? "," : "", figure->about.name);
+        json_write_text(json, figure->about.description);
+        fprintf(json, ",\"vehicle\":%d,\"panels\":[", figure->vehicle);
+        for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++) {
+            fputs(i ? "," : "", json);
+            write_panel(json, &figure->panel[i]);
+        }
+        fputs("]}", json);
+    }
+}
+
+static void write_rockets(FILE *json, const report_source *source)
+{
+    for (int i = 0; i < source->rocket_count; i++) {
+        const history_data *rocket = &source->rocket[i];
+        const double instant[] = {rocket->t_ignition, rocket->t_release, rocket->t_front,
+                                  rocket->t_middle, rocket->t_rear};
+        static const char *const name[] = {"ignition", "release", "front", "middle", "rear"};
+        fprintf(json, "%s{\"tube\":%d", i ? "," : "", rocket->tube);
+        for (int j = 0; j < 5; j++) {
+            fprintf(json, ",\"%s\":", name[j]);
+            json_write_number(json, instant[j]);
+        }
+        fputc('}', json);
+    }
+}
+
+static ld_status write_tables(FILE *json, const report_source *source, const report_detail *detail,
+                              ld_error *error)
+{
+    ld_status status = LD_OK;
+    bool first = true;
+    if (source->has_history) {
+        status = report_write_table(json, &source->history, 0, detail, error);
+        first = false;
+    }
+    for (int i = 0; i < source->rocket_count && !status; i++) {
+        if (!history_column(&source->rocket[i], "t"))
+            continue;
+        fputs(first ? "" : ",", json);
+        status = report_write_table(json, &source->rocket[i], i + 1, detail, error);
+        first = false;
+    }
+    return status;
+}
+
+static const char *title_of(const report_source *source)
+{
+    const char *title = source->history.title;
+    return title && *title ? title : "A run of launchdyn";
+}
+
+ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,
+                            ld_error *error)
+{
+    fputs("{\"title\":", json);
+    json_write_text(json, title_of(source));
+    fprintf(json, ",\"version\":\"%s\",\"pixels\":%.17g,\"history\":%d,\"complete\":%d", LD_VERSION,
+            detail->pixel * 4000, source->has_history, source->history.complete);
+    fputs(",\"stopped\":", json);
+    json_write_text(json, source->history.stopped ? source->history.stopped : "");
+    fputs(",\"notes\":[", json);
+    for (int i = 0; i < source->report->note_count; i++) {
+        fputs(i ? "," : "", json);
+        json_write_text(json, source->report->note[i]);
+    }
+    fputs("],\"rockets\":[", json);
+    write_rockets(json, source);
+    fputs("],\"tables\":[", json);
+    ld_status status = write_tables(json, source, detail, error);
+    fputs("],\"figures\":{\"launch\":[", json);
+    write_figures(json, false);
+    fputs("],\"flight\":[", json);
+    write_figures(json, true);
+    fputs("]}}", json);
+    return status;
+}
+
+// ---- HTML ----
+
+// Text between tags.
+static void write_text(FILE *page, const char *text)
+{
+    for (; *text; text++)
+        switch (*text) {
+        case '<':
+            fputs("&lt;", page);
+            break;
+        case '>':
+            fputs("&gt;", page);
+            break;
+        case '&':
+            fputs("&amp;", page);
+            break;
+        default:
+            fputc(*text, page);
+        }
+}
+
+// JSON that no text in it can end: '<' stands in its strings only, and may be escaped there.
+static void write_json(FILE *page, const char *name, const char *json, size_t length)
+{
+    fprintf(page, "<script type=\"application/json\" id=\"%s\">", name);
+    const char *end = json + length;
+    while (json < end) {
+        const char *tag = memchr(json, '<', (size_t)(end - json));
+        size_t plain = (size_t)((tag ? tag : end) - json);
+        fwrite(json, 1, plain, page);
+        if (tag)
+            fputs("\\u003c", page);
+        json += plain + (tag != NULL);
+    }
+    fputs("</script>\n", page);
+}
+
+void report_write_page(FILE *page, const report_source *source, const char *data, size_t length)
+{
+    fputs("<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n"
+          "<meta http-equiv=\"Content-Security-Policy\" content=\"",
+          page);
+    fwrite(report_policy, 1, report_policy_size, page);
+    fputs("\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>", page);
+    write_text(page, title_of(source));
+    fputs("</title>\n<style>", page);
+    fwrite(report_style, 1, report_style_size, page);
+    fputs("</style>\n<main id=\"report\"><noscript>This report draws its plots with JavaScript; "
+          "summary.json and history.h5 hold the same numbers.</noscript></main>\n",
+          page);
+    if (source->summary)
+        write_json(page, "summary", source->summary, source->summary_length);
+    write_json(page, "data", data, length);
+    fputs("<script>", page);
+    fwrite(report_script, 1, report_script_size, page);
+    fputs("</script>\n</html>\n", page);
+}

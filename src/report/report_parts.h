@@ -1,0 +1,55 @@
+// The parts of a run's report: figures, tables of numbers, the page around them.
+#ifndef LD_REPORT_REPORT_PARTS_H
+#define LD_REPORT_REPORT_PARTS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "io/history.h"
+#include "io/plot.h"
+#include "launchdyn/report.h"
+#include "launchdyn/status.h"
+
+enum { REPORT_ROCKETS = 64 };
+
+// What was found in a folder of results.
+typedef struct report_source {
+    bool has_history;
+    history_data history; // the launcher's, or that of a flight alone
+    int rocket_count;
+    history_data rocket[REPORT_ROCKETS]; // instants; columns where it has flown on
+    char *summary;                       // text of summary.json, NULL: there is none
+    size_t summary_length;
+    ld_report *report; // takes notes
+} report_source;
+
+// How finely curves are kept.
+typedef struct report_detail {
+    bool whole_tube; // every row while a rocket is in the tube
+    double pixel;    // share of a segment's spans in time and value by which a curve may be moved
+} report_detail;
+
+// Figures of a launch, or of a flight, by index from 0; NULL after the last.
+const plot_figure *report_figure_at(bool flight, size_t index);
+
+// Whether a history is that of a flight.
+bool report_is_flight(const history_data *history);
+
+// Writes one table of numbers as JSON: the columns that figures show, in segments, each column by
+// the rows that it needs. `rocket`: whose flight it is, 0: the launcher.
+ld_status report_write_table(FILE *json, const history_data *history, int rocket,
+                             const report_detail *detail, ld_error *error);
+
+// Writes all that the page shows beside the summary as JSON.
+ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,
+                            ld_error *error);
+
+// Writes the page: `data` is the JSON of report_write_data().
+void report_write_page(FILE *page, const report_source *source, const char *data, size_t length);
+
+// What assets/bundle holds, built in.
+extern const unsigned char report_script[], report_style[], report_policy[];
+extern const size_t report_script_size, report_style_size, report_policy_size;
+
+#endif
