@@ -6,24 +6,22 @@ function bytes(text) {
   return out;
 }
 
-function numbers(text, size) {
-  const b = bytes(text), view = new DataView(b.buffer), count = b.length / size;
-  const out = new Float64Array(count);
-  for (let i = 0; i < count; i++)
-    out[i] = size === 8 ? view.getFloat64(i * 8, true) : view.getFloat32(i * 4, true);
-  return out;
+function floats(text) {
+  const b = bytes(text), view = new DataView(b.buffer);
+  return Float64Array.from({ length: b.length / 4 }, (_, i) => view.getFloat32(i * 4, true));
 }
 
-// Steps of seven bits a byte, from -1.
-function rowsOf(text) {
+// Running sums of steps from `from`, each of seven bits a byte, the lowest first.
+function sums(text, from) {
   const out = [];
-  let row = -1, step = 0, shift = 0;
+  let sum = from, step = 0, weight = 1;
   for (const b of bytes(text)) {
-    step |= (b & 127) << shift;
-    shift += 7;
+    step += (b & 127) * weight;
+    weight *= 128;
     if (b & 128) continue;
-    out.push((row += step));
-    step = shift = 0;
+    out.push((sum += step));
+    step = 0;
+    weight = 1;
   }
   return out;
 }
@@ -31,7 +29,9 @@ function rowsOf(text) {
 // A table with times and, for each column, a value for each time: undefined where the curve needs
 // none there, null where there is none.
 export function decodeTable(table) {
-  const parts = table.segments.map((segment) => ({ ...segment, t: numbers(segment.t, 8) }));
+  const parts = table.segments.map((segment) => ({
+    ...segment, t: sums(segment.t, 0).map((ns) => segment.from + ns * 1e-9),
+  }));
   const t = [], column = new Map();
   let full = 0;
   for (const part of parts) {
@@ -43,8 +43,8 @@ export function decodeTable(table) {
   table.columns.forEach(([name, unit], c) => {
     const value = new Array(t.length).fill(undefined);
     for (const part of parts) {
-      const rows = part.rows[c] === null ? null : rowsOf(part.rows[c]);
-      numbers(part.values[c], 4).forEach((v, i) => {
+      const rows = part.rows[c] === null ? null : sums(part.rows[c], -1);
+      floats(part.values[c]).forEach((v, i) => {
         value[part.first + (rows ? rows[i] : i)] = Number.isFinite(v) ? v : null;
       });
     }
@@ -62,15 +62,6 @@ export function rowAt(t, time) {
     else high = middle;
   }
   return low;
-}
-
-// Nearest row to `row` where the column has a value or a gap.
-export function nearestKept(value, row) {
-  for (let d = 0; d < value.length; d++) {
-    if (row - d >= 0 && value[row - d] !== undefined) return row - d;
-    if (row + d < value.length && value[row + d] !== undefined) return row + d;
-  }
-  return row;
 }
 
 // All rows of a column: straight lines between those that it keeps, NaN in gaps.

@@ -10,8 +10,12 @@ export function element(tag, properties = {}, ...children) {
   return node;
 }
 
+// A colour of the style sheet, as the theme has it now.
+let colours = new Map();
 export function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  if (!colours.has(name))
+    colours.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+  return colours.get(name);
 }
 
 export function curveColour(index) {
@@ -36,6 +40,7 @@ export function onColours(paint) {
 
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
+  colours = new Map();
   for (const paint of painters) paint();
 }
 

@@ -79,6 +79,21 @@ export function pathPlot(shown, group, marks, host) {
     ctx.fill();
   };
 
+  // A name only where the names before leave room.
+  const drawMarks = (ctx) => {
+    const named = [];
+    for (const mark of marks) {
+      const row = rowAt(t, mark.t);
+      if (row < first || row > last || !Number.isFinite(x[row]) || !Number.isFinite(y[row])) continue;
+      dot(ctx, row, colour("mark"));
+      const left = place.x(x[row]) + 6, top = place.y(y[row]) - 7;
+      if (named.some(([l, t0]) => Math.abs(l - left) < 50 && Math.abs(t0 - top) < 12)) continue;
+      named.push([left, top]);
+      ctx.textAlign = left > canvas.clientWidth - 50 ? "right" : "left";
+      ctx.fillText(mark.name, ctx.textAlign === "left" ? left : left - 12, top);
+    }
+  };
+
   const draw = () => {
     const scale = devicePixelRatio, ctx = canvas.getContext("2d");
     if (canvas.clientWidth === 0) return;
@@ -96,14 +111,7 @@ export function pathPlot(shown, group, marks, host) {
     ctx.strokeStyle = curveColour(0);
     ctx.lineWidth = 1.25;
     ctx.stroke();
-    for (const mark of marks) {
-      const row = rowAt(t, mark.t);
-      if (row >= first && row <= last) {
-        dot(ctx, row, colour("mark"));
-        ctx.textAlign = "left";
-        if (Number.isFinite(x[row])) ctx.fillText(mark.name, place.x(x[row]) + 6, place.y(y[row]) - 7);
-      }
-    }
+    drawMarks(ctx);
     dot(ctx, pointed, colour("ink"));
     reading.textContent = pointed < 0 ? " "
       : `t ${readable(t[pointed])} s   x ${readable(x[pointed])}   y ${readable(y[pointed])}`;
@@ -133,7 +141,8 @@ export function pathPlot(shown, group, marks, host) {
       draw();
     },
     point: (time) => {
-      const row = rowAt(t, time + 1e-9 * Math.abs(time));
+      let row = Math.max(0, rowAt(t, time));
+      if (row + 1 < t.length && t[row + 1] - time < time - t[row]) row++;
       if (row !== pointed) { pointed = row; draw(); }
     },
     extent: [t[0], t[t.length - 1]],

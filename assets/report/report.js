@@ -64,10 +64,10 @@ function addPanel(grid, shown, group, marks) {
   group.plots.push((shown.panel.x ? pathPlot : timePlot)(shown, group, marks, canvas));
 }
 
-// From a little before the first ignition to the end, or all of it.
-function homeOf(table, vehicle, marks) {
-  const zero = marks.length ? marks[0].t : 0, all = [table.t[0], table.t[table.t.length - 1]];
-  return { all, launch: [Math.max(all[0], zero - 0.005), all[1]] }[vehicle ? "all" : "launch"];
+// Times from ignition: all of them, or from a little before it on.
+function homeOf(table, ignition, all) {
+  const first = table.t[0] - ignition, last = table.t[table.t.length - 1] - ignition;
+  return [all ? first : Math.max(first, -0.005), last];
 }
 
 function windowButtons(groups, marks, count) {
@@ -88,12 +88,9 @@ function showTable(table, index, summary, nav) {
     : data.rockets.length > 1 ? `Flight of rocket ${table.rocket || 1}` : "Flight";
   const ignition = data.rockets[Math.max(0, table.rocket - 1)]?.ignition ?? 0;
   const marks = instantsOf(table, data.rockets, summary, ignition);
-  const shifted = { ...table, t: table.t };
-  const home = (vehicle) => homeOf({ t: [table.t[0] - ignition, table.t[table.t.length - 1] - ignition] },
-    vehicle, marks);
   const groups = {
-    launch: new PlotGroup(`table${index}`, home(table.kind === "flight")),
-    vehicle: new PlotGroup(`table${index}`, home(true)),
+    launch: new PlotGroup(`table${index}`, homeOf(table, ignition, table.kind === "flight")),
+    vehicle: new PlotGroup(`table${index}`, homeOf(table, ignition, true)),
   };
   const followers = [];
   groups.launch.followers = groups.vehicle.followers = followers;
@@ -103,7 +100,7 @@ function showTable(table, index, summary, nav) {
   const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
   if (buttons) host.append(buttons);
   for (const figure of data.figures[table.kind]) {
-    const panels = panelsOf(shifted, figure, ignition);
+    const panels = panelsOf(table, figure, ignition);
     if (panels.length === 0) continue;
     const grid = element("div", { className: "grid" });
     host.append(element("section", { className: "figure", id: `${id}-${figure.name}` },
@@ -140,6 +137,7 @@ const rows = tables.reduce((sum, table) => sum + table.full, 0);
 host.append(element("footer", {}, element("p", {},
   `launchdyn ${data.version}. Drag over a plot to zoom, double-click to see all; with the keyboard: ` +
   "Tab to a plot, arrows move the cursor, + and - zoom, Escape shows all. " +
-  `Of ${rows} rows those are here that curves need: none is moved by more than ` +
-  `${readable(data.pixels)} of 4000 pixels, in any phase of the run; values are the results' own, to 7 digits.`)));
+  (data.pixels === 0 ? `All ${rows} rows of the results are here, `
+    : `Of ${rows} rows those are here that curves need (none is moved by more than ` +
+      `${readable(data.pixels)} of 4000 pixels, in any phase of the run), `) + "to 7 digits.")));
 document.documentElement.dataset.ready = "yes";

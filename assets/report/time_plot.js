@@ -1,6 +1,6 @@
 // Curves over time, by uPlot.
 import uPlot from "uplot";
-import { nearestKept, readable, rowAt } from "./data.js";
+import { filled, readable, rowAt } from "./data.js";
 import { colour, curveColour, onColours } from "./page.js";
 
 const HEIGHT = 230, LABEL_GAP = 14;
@@ -10,11 +10,10 @@ function alignedData({ table, panel, curves, zero }) {
   const rows = [];
   for (let i = 0; i < table.t.length; i++)
     if (curves.some((curve) => curve.column.value[i] !== undefined)) rows.push(i);
-  return [rows.map((i) => table.t[i] - zero), ...curves.map(({ column, shift }) =>
-    rows.map((i) => {
-      const value = column.value[i];
-      return typeof value === "number" ? (value - shift) * panel.factor : value;
-    }))];
+  return [rows.map((i) => table.t[i] - zero), ...curves.map(({ column, shift }) => {
+    const value = filled(column.value, table.t);
+    return rows.map((i) => (Number.isNaN(value[i]) ? null : (value[i] - shift) * panel.factor));
+  })];
 }
 
 // Lines at the key instants, named at their tops where the name before leaves room.
@@ -24,6 +23,7 @@ function drawInstants(u, marks) {
   ctx.save();
   ctx.font = `${11 * scale}px sans-serif`;
   ctx.textBaseline = "top";
+  ctx.textAlign = "left";
   ctx.strokeStyle = ctx.fillStyle = colour("mark");
   ctx.lineWidth = scale;
   ctx.setLineDash([4 * scale, 3 * scale]);
@@ -54,16 +54,16 @@ function axis(label, grid) {
   };
 }
 
-function options(shown, data, group, marks) {
+function options(shown, group, marks, width) {
   const { panel, curves } = shown;
   return {
-    width: 600, height: HEIGHT,
+    width, height: HEIGHT, pxAlign: 0,
     scales: { x: { time: false }, y: {} },
     axes: [{ ...axis("time from ignition [s]", true), size: 30 },
       { ...axis(`[${panel.unit}]`, true), size: 56 }],
     series: [{ label: "t [s]", value: (u, v) => readable(v) },
       ...curves.map((curve, i) => ({
-        label: curve.label || shown.title, stroke: () => curveColour(i), width: 1.25,
+        label: curve.label || shown.title, stroke: () => curveColour(i), width: 1.25, pxAlign: 0,
         points: { show: false }, value: (u, v) => readable(v),
       }))],
     cursor: {
@@ -71,7 +71,6 @@ function options(shown, data, group, marks) {
         filters: { pub: (type) => type === "mousemove" || type === "mouseleave" } },
       drag: { x: true, y: false },
       bind: { dblclick: () => () => { group.reset(); return null; } },
-      dataIdx: (u, series, row) => (series === 0 ? row : nearestKept(data[series], row)),
     },
     hooks: {
       draw: [(u) => drawInstants(u, marks)],
@@ -108,11 +107,13 @@ function listenToKeys(u, data, group) {
 
 export function timePlot(shown, group, marks, host) {
   const data = alignedData(shown);
-  const u = new uPlot(options(shown, data, group, marks), data, host);
+  const u = new uPlot(options(shown, group, marks, host.clientWidth || 600), data, host);
   u.root.setAttribute("role", "figure");
   u.root.setAttribute("aria-label", `${shown.title}, ${shown.panel.unit}, over time`);
   listenToKeys(u, data, group);
-  new ResizeObserver(() => u.setSize({ width: host.clientWidth, height: HEIGHT })).observe(host);
+  new ResizeObserver(() => {
+    if (host.clientWidth !== u.width) u.setSize({ width: host.clientWidth, height: HEIGHT });
+  }).observe(host);
   onColours(() => u.redraw(false, true));
   return {
     uplot: u,

@@ -11,7 +11,7 @@
 #include "io/text_file.h"
 #include "report/report_parts.h"
 
-enum { PATH_SIZE = 4096, MOST_SUMMARY = 1 << 20, MOST_BYTES = 2000000 };
+enum { PATH_SIZE = 4096, MOST_SUMMARY = 1 << 20 };
 
 // ---- the results ----
 
@@ -61,10 +61,8 @@ static void read_history(report_source *source, const char *folder)
         return;
     }
     read_rockets(source, path);
-    source->has_history = history_column(&source->history, "t") != NULL;
-    if (!source->has_history)
-        take_note(source->report, "No plots: the history has no column t.");
-    else if (source->history.rows == 0)
+    source->has_history = true;
+    if (source->history.rows == 0 && source->history.flights == 0)
         take_note(source->report, "The history has no rows.");
 }
 
@@ -105,25 +103,26 @@ static ld_status make_page(const report_source *source, const report_detail *det
     return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;
 }
 
-// As fine as it fits: all rows in the tube and else a pixel of 4000, then fewer.
+// As fine as it fits: all rows, or all in the tube and else a pixel of 4000, then fewer.
 static ld_status make_page_that_fits(report_source *source, char **text, size_t *length,
                                      ld_error *error)
 {
-    report_detail detail = {.whole_tube = true, .pixel = 1.0 / 4000};
+    report_detail detail = {true, true, 1.0 / 4000};
     for (;;) {
         ld_status status = make_page(source, &detail, text, length, error);
-        source->report->pixels = detail.pixel * 4000;
+        source->report->pixels = detail.whole ? 0 : detail.pixel * 4000;
         source->report->bytes = *length;
-        if (status || *length <= MOST_BYTES)
+        if (status || *length <= REPORT_BYTES)
             return status;
         free(*text);
         *text = NULL;
         if (detail.pixel > 0.1)
             return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
-                           MOST_BYTES);
-        if (!detail.whole_tube)
-            detail.pixel *= 1.5;
-        detail.whole_tube = false;
+                           REPORT_BYTES);
+        if (!detail.whole && !detail.whole_tube)
+            detail.pixel *= 2;
+        detail.whole_tube = detail.whole;
+        detail.whole = false;
     }
 }
 

@@ -1,4 +1,5 @@
-// What the figures of a report show: those of a launch are the standard ones.
+// What the figures of a report show: those of a launch are the standard ones, of a flight there are
+// more, each of one rocket.
 #include "report/report_parts.h"
 
 #define DEGREES 57.29577951308232
@@ -41,8 +42,13 @@ const plot_figure *report_figure_at(bool in_flight, size_t index)
 {
     if (in_flight)
         return index < sizeof flight / sizeof *flight ? &flight[index] : NULL;
-    const ld_figure *about = ld_figure_at(index);
-    return about ? plot_figure_find(about->name) : NULL;
+    const ld_figure *about;
+    for (size_t i = 0; (about = ld_figure_at(i)) != NULL; i++) {
+        const plot_figure *figure = plot_figure_find(about->name);
+        if (figure->time != PLOT_FLIGHT && index-- == 0)
+            return figure;
+    }
+    return NULL;
 }
 
 bool report_is_flight(const history_data *history)

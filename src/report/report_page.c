@@ -43,7 +43,7 @@ static void write_figures(FILE *json, bool flight)
     for (size_t f = 0; (figure = report_figure_at(flight, f)) != NULL; f++) {
         fprintf(json, "%s\n{\"name\":\"%s\",\"title\":", f ? "," : "", figure->about.name);
         json_write_text(json, figure->about.description);
-        fprintf(json, ",\"vehicle\":%d,\"panels\":[", figure->vehicle);
+        fprintf(json, ",\"vehicle\":%d,\"panels\":[", figure->time == PLOT_VEHICLE);
         for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++) {
             fputs(i ? "," : "", json);
             write_panel(json, &figure->panel[i]);
@@ -68,21 +68,19 @@ static void write_rockets(FILE *json, const report_source *source)
     }
 }
 
+// The launcher's table and those of the flights; a flight alone has one only.
 static ld_status write_tables(FILE *json, const report_source *source, const report_detail *detail,
                               ld_error *error)
 {
+    const history_data *history = &source->history;
+    bool launcher = history->columns > 0;
     ld_status status = LD_OK;
-    bool first = true;
-    if (source->has_history) {
-        status = report_write_table(json, &source->history, 0, detail, error);
-        first = false;
-    }
-    for (int i = 0; i < source->rocket_count && !status; i++) {
-        if (!history_column(&source->rocket[i], "t"))
-            continue;
-        fputs(first ? "" : ",", json);
-        status = report_write_table(json, &source->rocket[i], i + 1, detail, error);
-        first = false;
+    if (launcher)
+        status = report_write_table(json, history, 0, detail, error);
+    for (size_t i = 0; i < history->flights && !status && !report_is_flight(history); i++) {
+        fputs(launcher || i > 0 ? "," : "", json);
+        status =
+            report_write_table(json, &history->flight[i], history->flight[i].number, detail, error);
     }
     return status;
 }
@@ -99,7 +97,8 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     fputs("{\"title\":", json);
     json_write_text(json, title_of(source));
     fprintf(json, ",\"version\":\"%s\",\"pixels\":%.17g,\"history\":%d,\"complete\":%d", LD_VERSION,
-            detail->pixel * 4000, source->has_history, source->history.complete);
+            detail->whole ? 0 : detail->pixel * 4000, source->has_history,
+            source->history.complete);
     fputs(",\"stopped\":", json);
     json_write_text(json, source->history.stopped ? source->history.stopped : "");
     fputs(",\"notes\":[", json);

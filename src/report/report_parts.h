@@ -11,14 +11,15 @@
 #include "launchdyn/report.h"
 #include "launchdyn/status.h"
 
-enum { REPORT_ROCKETS = 64 };
+// Data that grow beyond the bytes that a report may have are given up on the way.
+enum { REPORT_ROCKETS = 64, REPORT_BYTES = 2000000 };
 
 // What was found in a folder of results.
 typedef struct report_source {
     bool has_history;
-    history_data history; // the launcher's, or that of a flight alone
+    history_data history; // the launcher's with those of the flights, or of a flight alone
     int rocket_count;
-    history_data rocket[REPORT_ROCKETS]; // instants; columns where it has flown on
+    history_data rocket[REPORT_ROCKETS]; // tube and instants
     char *summary;                       // text of summary.json, NULL: there is none
     size_t summary_length;
     ld_report *report; // takes notes
@@ -26,8 +27,8 @@ typedef struct report_source {
 
 // How finely curves are kept.
 typedef struct report_detail {
-    bool whole_tube; // every row while a rocket is in the tube
-    double pixel;    // share of a segment's spans in time and value by which a curve may be moved
+    bool whole, whole_tube; // every row; every row while a rocket is in the tube
+    double pixel;           // elsewhere a curve is moved by this share of its span, at most
 } report_detail;
 
 // Figures of a launch, or of a flight, by index from 0; NULL after the last.

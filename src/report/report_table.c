@@ -43,13 +43,6 @@ static void base64_integer(base64 *text, uint64_t value, int bytes)
         base64_byte(text, value >> 8 * i & 255);
 }
 
-static void base64_double(base64 *text, double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    base64_integer(text, bits, 8);
-}
-
 static void base64_float(base64 *text, double value)
 {
     float single = (float)value;
@@ -82,9 +75,8 @@ typedef struct thinned {
     const double *t, *phase; // phase may be NULL
     size_t *column;          // [columns] those that are shown
     size_t columns;
-    char *keep;    // [columns][rows of the longest segment]
-    char *any;     // [rows] kept by some column
-    size_t *stack; // of the thinning
+    char *keep; // [columns][rows] of the segment at hand
+    char *any;  // [rows] kept by some column
 } thinned;
 
 static bool is_shown(const char *name, bool flight)
@@ -120,7 +112,7 @@ static segment segment_from(const thinned *table, size_t first)
     static const char *const names[] = {"before", "tube", "after"};
     int phase = phase_at(table, first);
     segment found = {table->phase ? names[phase] : "flight", first, first,
-                     phase == 1 && table->detail->whole_tube};
+                     table->detail->whole || (phase == 1 && table->detail->whole_tube)};
     while (found.last + 1 < table->history->rows && phase_at(table, found.last + 1) == phase)
         found.last++;
     return found;
@@ -137,14 +129,42 @@ static double span_of(const double *values, size_t count)
     return high > low ? high - low : 1;
 }
 
+// Marks the rows from first to last that straight lines between them need to pass all others within
+// `bound`: the lines from a kept row that pass all rows so far form a cone; the row before the one
+// that lies outside is kept, and the next cone begins there.
+static void thin_stretch(const double *t, const double *y, size_t first, size_t last, double bound,
+                         char *keep)
+{
+    double low = -INFINITY, high = INFINITY;
+    size_t anchor = first;
+    keep[first] = keep[last] = 1;
+    for (size_t i = first + 1; i <= last; i++) {
+        double dt = t[i] - t[anchor], dy = y[i] - y[anchor];
+        if (!(dt > 0 && dy >= low * dt && dy <= high * dt)) {
+            anchor = i - 1;
+            keep[anchor] = 1;
+            dt = t[i] - t[anchor];
+            dy = y[i] - y[anchor];
+            low = -INFINITY;
+            high = INFINITY;
+        }
+        if (dt > 0) {
+            low = fmax(low, (dy - bound) / dt);
+            high = fmin(high, (dy + bound) / dt);
+        } else {
+            keep[i] = 1;
+            anchor = i;
+        }
+    }
+}
+
 // Marks the rows that one column needs: each stretch with values is thinned by itself, and the
 // first row without a value keeps the gap.
 static void thin(const thinned *table, const segment *part, const double *y, char *keep)
 {
     size_t rows = part->last - part->first + 1;
     const double *t = table->t + part->first;
-    const double panel = 3000 * table->detail->pixel; // plot_thin() keeps to 1/3000 of its panel
-    double t_span = panel * span_of(t, rows), y_span = panel * span_of(y, rows);
+    double bound = table->detail->pixel * span_of(y, rows);
     memset(keep, part->whole, rows);
     for (size_t first = 0; first < rows && !part->whole; first++) {
         size_t last = first;
@@ -154,18 +174,24 @@ static void thin(const thinned *table, const segment *part, const double *y, cha
         }
         while (last + 1 < rows && isfinite(y[last + 1]))
             last++;
-        plot_thin(t, y, t_span, y_span, first, last, keep, table->stack);
+        thin_stretch(t, y, first, last, bound, keep);
         first = last;
     }
 }
 
-// Times of the rows that some column needs.
+// Times of the rows that some column needs: steps in whole nanoseconds from the segment's first
+// row.
 static void write_times(const thinned *table, const segment *part)
 {
     base64 text = {.file = table->json};
-    for (size_t i = part->first; i <= part->last; i++)
-        if (table->any[i - part->first])
-            base64_double(&text, table->t[i]);
+    long long before = 0;
+    for (size_t i = part->first; i <= part->last; i++) {
+        if (!table->any[i - part->first])
+            continue;
+        long long now = llround((table->t[i] - table->t[part->first]) * 1e9);
+        base64_count(&text, (size_t)(now > before ? now - before : 0));
+        before = now > before ? now : before;
+    }
     base64_flush(&text);
 }
 
@@ -212,7 +238,8 @@ static void write_segment(const thinned *table, const segment *part)
         for (size_t i = 0; i < rows; i++)
             table->any[i] |= keep[i];
     }
-    fprintf(table->json, "{\"name\":\"%s\",\"of\":%zu,\"t\":\"", part->name, rows);
+    fprintf(table->json, "{\"name\":\"%s\",\"of\":%zu,\"from\":%.17g,\"t\":\"", part->name, rows,
+            table->t[part->first]);
     write_times(table, part);
     fputs("\",\"rows\":[", table->json);
     for (size_t c = 0; c < table->columns; c++) {
@@ -220,7 +247,7 @@ static void write_segment(const thinned *table, const segment *part)
         write_rows(table, rows, table->keep + c * table->history->rows);
     }
     fputs("],\"values\":[", table->json);
-    for (size_t c = 0; c < table->columns; c++) {
+    for (size_t c = 0; c < table->columns && ftell(table->json) <= REPORT_BYTES; c++) {
         fputs(c ? "," : "", table->json);
         write_values(table, part, values_of(table, c) + part->first,
                      table->keep + c * table->history->rows);
@@ -246,7 +273,8 @@ static void write_table(thinned *table, int rocket)
         fputc(']', table->json);
     }
     fputs("],\"segments\":[", table->json);
-    for (size_t first = 0; first < history->rows;) {
+    for (size_t first = 0;
+         table->t && first < history->rows && ftell(table->json) <= REPORT_BYTES;) {
         segment part = segment_from(table, first);
         fputs(first ? ",\n" : "\n", table->json);
         write_segment(table, &part);
@@ -267,13 +295,11 @@ ld_status report_write_table(FILE *json, const history_data *history, int rocket
     table.column = malloc((history->columns + 1) * sizeof *table.column);
     table.keep = malloc(history->columns * rows + 1);
     table.any = malloc(rows + 1);
-    table.stack = malloc((2 * rows + 8) * sizeof *table.stack);
-    bool fine = table.column && table.keep && table.any && table.stack;
+    bool fine = table.column && table.keep && table.any;
     if (fine)
         write_table(&table, rocket);
     free(table.column);
     free(table.keep);
     free(table.any);
-    free(table.stack);
     return fine ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
 }

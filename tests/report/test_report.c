@@ -1,0 +1,392 @@
+// The report of a run: its numbers are those of the results, its size is bounded, what it leaves
+// out would not be seen, no text of a scenario becomes part of its code.
+#include "support/check.h"
+
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "report/report_parts.h"
+#include "support/made_launch.h"
+
+static char folder[64];
+
+static const char *in(const char *name)
+{
+    static char path[4][128];
+    static int next;
+    char *chosen = path[next++ % 4];
+    snprintf(chosen, sizeof *path, "%s/%s", folder, name);
+    return chosen;
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/launchdyn-report-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+// Results of a made-up run in the folder; `name` of the third adaptor and title as they are given.
+static void make_results(size_t rows, const char *title, const char *name)
+{
+    static ld_model model;
+    static ld_summary summary;
+    static char kept[128];
+    ld_output *output = NULL;
+    made_model(&model);
+    made_summary(&summary, 1);
+    snprintf(kept, sizeof kept, "%s", title);
+    model.title = kept;
+    snprintf(model.rocket.adaptor[2].name, LD_MAX_NAME, "%s", name);
+    assert_int_equal(ld_output_open(folder, &model, false, &output, NULL), LD_OK);
+    assert_int_equal(made_run(ld_output_sink(output), rows, NULL), LD_OK);
+    assert_int_equal(ld_output_finish(output, &summary, NULL), LD_OK);
+}
+
+static char *read_all(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    char *text = calloc(1, 4 << 20);
+    assert_in_range(fread(text, 1, (4 << 20) - 1, file), 1, REPORT_BYTES);
+    fclose(file);
+    return text;
+}
+
+static char *write_report(ld_report *report)
+{
+    ld_error error = {0};
+    if (ld_report_write(folder, NULL, report, &error))
+        fail_msg("%s", error.text);
+    return read_all(in("report.html"));
+}
+
+// ---- reading a table back ----
+
+static size_t decode(const char *text, unsigned char *bytes)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    size_t count = 0;
+    unsigned bits = 0, held = 0;
+    for (; *text != '"' && *text != '='; text++) {
+        bits = bits << 6 | (unsigned)(strchr(letters, *text) - letters);
+        held += 6;
+        if (held >= 8)
+            bytes[count++] = (unsigned char)(bits >> (held -= 8));
+    }
+    return count;
+}
+
+// Running sums of the steps.
+static size_t decode_sums(const char *text, long long sum, long long *sums)
+{
+    unsigned char *bytes = malloc(4 << 20);
+    size_t length = decode(text, bytes), count = 0;
+    long long step = 0;
+    for (size_t i = 0, shift = 0; i < length; i++) {
+        step |= (long long)(bytes[i] & 127) << shift;
+        shift += 7;
+        if (bytes[i] & 128)
+            continue;
+        sums[count++] = sum += step;
+        step = 0;
+        shift = 0;
+    }
+    free(bytes);
+    return count;
+}
+
+static size_t decode_floats(const char *text, float *values)
+{
+    unsigned char *bytes = malloc(4 << 20);
+    size_t count = decode(text, bytes) / 4;
+    memcpy(values, bytes, 4 * count); // little-endian, as the machines that run these tests are
+    free(bytes);
+    return count;
+}
+
+// Item `index` of the list under `key`.
+static const char *item(const char *json, const char *key, int index)
+{
+    const char *place = strstr(json, key);
+    assert_non_null(place);
+    for (place += strlen(key); index > 0; index--)
+        place = strchr(place, ',') + 1;
+    return *place == '"' ? place + 1 : NULL; // null: all rows
+}
+
+static int index_of_column(const char *json, const char *name)
+{
+    char wanted[80];
+    int index = 0;
+    snprintf(wanted, sizeof wanted, "[\"%s\",", name);
+    const char *list = strstr(json, "\"columns\":["), *place = strstr(list, wanted);
+    assert_non_null(place);
+    for (list += 11; (list = strchr(list, '[')) != NULL && list < place; list++)
+        index++;
+    return index;
+}
+
+// A column of one segment: times from its first row and values. Returns how many rows it keeps.
+static size_t read_column(const char *json, const char *part, const char *name, double *t,
+                          float *value)
+{
+    char key[32];
+    static long long at[1 << 18], row[1 << 18];
+    snprintf(key, sizeof key, "{\"name\":\"%s\"", part);
+    const char *text = strstr(json, key);
+    assert_non_null(text);
+    int column = index_of_column(json, name);
+    decode_sums(item(text, "\"t\":", 0), 0, at);
+    const char *rows = item(text, "\"rows\":[", column);
+    if (rows)
+        decode_sums(rows, -1, row);
+    size_t count = decode_floats(item(text, "\"values\":[", column), value);
+    for (size_t i = 0; i < count; i++)
+        t[i] = (double)at[rows ? (size_t)row[i] : i] * 1e-9;
+    return count;
+}
+
+static double times[1 << 18];
+static float values[1 << 18];
+
+// ---- tests ----
+
+static void test_numbers_are_those_of_the_results(void **state)
+{
+    (void)state;
+    ld_report report;
+    make_results(1605, "Made up", "front");
+    char *page = write_report(&report);
+    static const struct {
+        const char *name;
+        int column;
+    } checked[] = {{"tip.y", 33}, {"tip.yaw", 36}, {"rocket.s", 41}};
+    for (int c = 0; c < 3; c++) {
+        double row[MADE_COLUMNS], worst = 0, worst_t = 0;
+        size_t count = read_column(page, "tube", checked[c].name, times, values);
+        assert_int_equal(count, 1605);
+        for (size_t i = 0; i < count; i++) {
+            made_row(i, row);
+            double expected = (float)row[checked[c].column];
+            worst = fmax(worst, isnan(expected) ? !isnan(values[i]) : fabs(values[i] - expected));
+            worst_t = fmax(worst_t, fabs(times[i] - row[0]));
+        }
+        printf("    %s\n", checked[c].name);
+        CHECK_BELOW("value less that of the results, in single precision", worst, 0);
+        CHECK_BELOW("time less that of the results [s]", worst_t, 0.51e-9);
+    }
+    CHECK_WITHIN("pixels that a curve may be moved by", report.pixels, 0, 0);
+    CHECK_WITHIN("bytes of the page", (double)strlen(page), (double)report.bytes,
+                 (double)report.bytes);
+    assert_int_equal(report.note_count, 0);
+    assert_non_null(strstr(page, "\"muzzle_speed\": 37.700000000000003"));
+    assert_non_null(strstr(page, "\"release\":0.0033335999999999999"));
+    free(page);
+}
+
+static int count_of(const char *text, const char *part)
+{
+    int count = 0;
+    for (; (text = strstr(text, part)) != NULL; text++)
+        count++;
+    return count;
+}
+
+// Neither a title nor a name ends the text that it stands in, or begins a tag.
+static void test_no_text_becomes_code(void **state)
+{
+    (void)state;
+    make_results(10,
+                 "</title></script><script>alert(1)</script><!-- & \" <img src=x onerror=alert(2)>",
+                 "</script><svg onload=alert(3)>");
+    char *page = write_report(NULL);
+    CHECK_WITHIN("script tags: summary, data, code", count_of(page, "<script"), 3, 3);
+    CHECK_WITHIN("ends of script tags", count_of(page, "</script"), 3, 3);
+    CHECK_WITHIN("tags from the title and the name",
+                 count_of(page, "<img") + count_of(page, "<svg") + count_of(page, "<!--"), 0, 0);
+    assert_non_null(strstr(page, "<title>&lt;/title&gt;&lt;/script&gt;&lt;script&gt;alert(1)"));
+    assert_non_null(strstr(page, "\\u003csvg onload=alert(3)>"));
+    assert_non_null(strstr(page, "content=\"default-src 'none'; script-src 'sha256-"));
+    free(page);
+}
+
+// Largest distance of a function from the kept rows of a segment, as a share of its span 2.
+static double farthest(size_t count, double (*function)(double t), double from, double step,
+                       size_t rows)
+{
+    double worst = 0;
+    for (size_t i = 0, k = 0; i < rows; i++) {
+        double t = (double)i * step, y = function(from + t);
+        while (k + 2 < count && t > times[k + 1] + 1e-9)
+            k++;
+        double share = (t - times[k]) / (times[k + 1] - times[k]);
+        worst = fmax(worst, fabs(values[k] + share * (values[k + 1] - values[k]) - y));
+    }
+    return worst / 2;
+}
+
+static double wave(double t)
+{
+    return sin(10 * t);
+}
+
+// A peak one row wide in the lead-in, on a wave.
+static double with_peak(double t)
+{
+    return fabs(t - 1.234) < 1e-6 ? 1 : 0.25 * sin(3 * t) - 0.75;
+}
+
+// 5 s of lead-in and 60 s after the tube at 1 ms, 0.2 s in the tube at 0.1 ms.
+static void test_thinning(void **state)
+{
+    (void)state;
+    enum { BEFORE = 5000, TUBE = 2000, AFTER = 60000, ROWS = BEFORE + TUBE + AFTER };
+    char *name[] = {"t", "phase", "tip.y", "tip.z"}, *unit[] = {"s", "1", "m", "m"};
+    double *value = malloc(sizeof *value * 4 * ROWS);
+    for (int i = 0; i < ROWS; i++) {
+        int part = i < BEFORE ? 0 : i < BEFORE + TUBE ? 2 : 3;
+        double t = part == 0   ? 1e-3 * i
+                   : part == 2 ? 5 + 1e-4 * (i - BEFORE)
+                               : 5.2 + 1e-3 * (i - BEFORE - TUBE);
+        value[i] = t;
+        value[ROWS + i] = part;
+        value[2 * ROWS + i] = wave(t);
+        value[3 * ROWS + i] = with_peak(t);
+    }
+    history_data history = {.rows = ROWS, .columns = 4, .name = name, .unit = unit, .value = value};
+    char *json = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&json, &length);
+    report_detail detail = {false, true, 1.0 / 4000};
+    assert_int_equal(report_write_table(stream, &history, 0, &detail, NULL), LD_OK);
+    fclose(stream);
+
+    const double pixel = 1.0 / 4000 + 1e-7; // single precision beside it
+    size_t count = read_column(json, "before", "tip.y", times, values);
+    CHECK_BELOW("lead-in: wave off by, share of its span", farthest(count, wave, 0, 1e-3, BEFORE),
+                pixel);
+    CHECK_WITHIN("lead-in: rows kept of 5000", (double)count, 550, 750);
+    count = read_column(json, "before", "tip.z", times, values);
+    CHECK_BELOW("lead-in: peak off by, share of the span",
+                farthest(count, with_peak, 0, 1e-3, BEFORE), pixel);
+    CHECK_WITHIN("lead-in: rows kept of 5000", (double)count, 50, 200);
+    CHECK_WITHIN("tube: rows kept of 2000",
+                 (double)read_column(json, "tube", "tip.y", times, values), TUBE, TUBE);
+    count = read_column(json, "after", "tip.y", times, values);
+    CHECK_BELOW("after: wave off by, share of its span", farthest(count, wave, 5.2, 1e-3, AFTER),
+                pixel);
+    free(json);
+    free(value);
+}
+
+// Ten seconds at 0.1 ms of 112 columns: too many rows, so curves are kept more coarsely.
+static void test_size_is_bounded(void **state)
+{
+    (void)state;
+    ld_report report;
+    make_results(100000, "Long", "front");
+    clock_t before = clock();
+    free(write_report(&report));
+    CHECK_WITHIN("CPU time of a report of 100 000 rows [s]",
+                 (double)(clock() - before) / CLOCKS_PER_SEC, 0, 10);
+    CHECK_WITHIN("bytes", (double)report.bytes, 500e3, 2e6);
+    CHECK_WITHIN("pixels of 4000", report.pixels, 1, 4);
+}
+
+static void expect_note(const ld_report *report, const char *text)
+{
+    for (int i = 0; i < report->note_count; i++) {
+        printf("    %s\n", report->note[i]);
+        if (strstr(report->note[i], text))
+            return;
+    }
+    fail_msg("no note says \"%s\"", text);
+}
+
+static int run(const char *format)
+{
+    char command[256];
+    snprintf(command, sizeof command, format, folder);
+    return system(command);
+}
+
+static void test_what_is_missing_is_said(void **state)
+{
+    (void)state;
+    ld_report report;
+    ld_error error = {0};
+    assert_int_equal(ld_report_write(in("none"), NULL, &report, &error), LD_ERR_INPUT);
+    printf("    %s\n", error.text);
+    assert_non_null(strstr(error.text, "no results in "));
+    assert_non_null(strstr(error.text, "There is no history.h5"));
+
+    make_results(1605, "Whole", "front");
+    assert_int_equal(run("cd %s && mv summary.json away"), 0);
+    char *page = write_report(&report);
+    expect_note(&report, "No summary: summary.json cannot be read: No such file");
+    assert_non_null(strstr(page, "No summary: summary.json cannot be read"));
+    assert_non_null(strstr(page, "\"tip.y\""));
+    free(page);
+
+    assert_int_equal(run("cd %s && mv away summary.json && truncate -s 100000 history.h5"), 0);
+    page = write_report(&report);
+    expect_note(&report, "No plots: cannot read ");
+    assert_non_null(strstr(page, "\"tables\":[]"));
+    assert_non_null(strstr(page, "\"muzzle_speed\""));
+    free(page);
+
+    assert_int_equal(run("cd %s && rm history.h5"), 0);
+    free(write_report(&report));
+    expect_note(&report, "There is no history.h5");
+    assert_int_equal(ld_report_write(folder, in("none/x.html"), &report, &error), LD_ERR_FILE);
+    assert_non_null(strstr(error.text, "No such file or directory"));
+}
+
+// What a killed run leaves.
+static void test_part_of_a_run(void **state)
+{
+    (void)state;
+    history_hdf5 *history;
+    double row[MADE_COLUMNS];
+    assert_int_equal(history_hdf5_create(in("history.h5.part"), "Killed", &history, NULL), LD_OK);
+    assert_int_equal(history_hdf5_begin(history, made_columns(), MADE_COLUMNS, NULL), LD_OK);
+    for (size_t i = 0; i < 1500; i++) {
+        made_row(i, row);
+        assert_int_equal(history_hdf5_row(history, row, NULL), LD_OK);
+    }
+    assert_int_equal(run("cp %1$s/history.h5.part %1$s/kept"), 0);
+    assert_int_equal(history_hdf5_close(history, NULL, NULL), LD_OK);
+    assert_int_equal(run("mv %1$s/kept %1$s/history.h5.part"), 0);
+    ld_report report;
+    char *page = write_report(&report);
+    expect_note(&report, "The run did not come to its end");
+    CHECK_WITHIN("rows of the whole blocks",
+                 (double)read_column(page, "tube", "tip.y", times, values), 1024, 1024);
+    free(page);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_numbers_are_those_of_the_results),
+        TEST(test_no_text_becomes_code),
+        TEST(test_thinning),
+        TEST(test_size_is_bounded),
+        TEST(test_what_is_missing_is_said),
+        TEST(test_part_of_a_run),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
