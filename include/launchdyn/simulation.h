@@ -211,7 +211,8 @@ typedef struct ld_run_options {
 ld_status ld_simulation_run(ld_simulation *simulation, const ld_run_options *options,
                             ld_summary *summary, ld_error *error);
 
-/// Natural frequencies of tube and tail on their supports (base held), ascending.
+/// Natural frequencies of tube and tail on their supports (base held), ascending; none of a flight
+/// alone.
 /// @return the number written to `modes` (at most `capacity`)
 int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity);
 
@@ -220,7 +221,7 @@ int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, in
 /// Coulomb friction: modes by ascending frequency, and the eigenvalues with damping by ascending
 /// modulus. Those that lock and slot leave at zero, and a vehicle's neutral directions, are left
 /// out.
-/// @return LD_OK, LD_ERR_NUMERIC or LD_ERR_MEMORY
+/// @return LD_OK, LD_ERR_INPUT (a flight alone), LD_ERR_NUMERIC or LD_ERR_MEMORY
 ld_status ld_simulation_system_modes(ld_simulation *simulation, ld_mode *modes, int capacity,
                                      int *count, ld_pole *poles, int pole_capacity, int *pole_count,
                                      ld_error *error);
