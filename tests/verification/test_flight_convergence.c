@@ -62,10 +62,10 @@ static void test_tolerance(void **state)
 static void test_hand_off(void **state)
 {
     (void)state;
-    const char *const sets[] = {"rocket.aerodynamics={reference_diameter: 164 mm, fin_cant: 1 deg, "
-                                "table: reference-aero.csv}",
-                                "run.end=landing", "environment.wind={speed: 3 m/s}",
-                                "run.flight_tolerance=1e-11"};
+    const char *const sets[] = {
+        ("rocket.aerodynamics={reference_diameter: 164 mm, fin_cant: 1 deg, "
+         "table: reference-aero.csv}"),
+        "run.end=landing", "environment.wind={speed: 3 m/s}", "run.flight_tolerance=1e-11"};
     ld_model launch = read_model("unbalanced.yaml", sets, 4);
     ld_rocket_summary flown = summary_of_run(&launch).rocket[0];
     ld_model alone = read_model("unbalanced.yaml", sets, 4);
