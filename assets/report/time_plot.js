@@ -46,6 +46,14 @@ function drawInstants(u, marks) {
   ctx.restore();
 }
 
+// Something to see even where all values are the same.
+function roomAround(u, low, high) {
+  if (low === null) return [null, null];
+  if (high - low > 1e-12 * Math.abs(high)) return uPlot.rangeNum(low, high, 0.1, true);
+  const room = Math.abs(high) * 0.1 || 1;
+  return [low - room, high + room];
+}
+
 function axis(label, grid) {
   return {
     label, labelSize: 18, labelFont: "12px sans-serif", font: "11px sans-serif",
@@ -58,7 +66,7 @@ function options(shown, group, marks, width) {
   const { panel, curves } = shown;
   return {
     width, height: HEIGHT, pxAlign: 0,
-    scales: { x: { time: false }, y: {} },
+    scales: { x: { time: false }, y: { range: roomAround } },
     axes: [{ ...axis("time from ignition [s]", true), size: 30 },
       { ...axis(`[${panel.unit}]`, true), size: 56 }],
     series: [{ label: "t [s]", value: (u, v) => readable(v) },
