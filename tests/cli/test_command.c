@@ -104,6 +104,8 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn run", 2, "launchdyn: run wants FILE; see launchdyn run --help\n");
     expect_complaint("launchdyn run a b", 2, "launchdyn: run wants FILE");
     expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv needs --out DIR\n");
+    expect_complaint("launchdyn run examples/fixed.yaml --report", 2, "--report needs --out DIR\n");
+    expect_complaint("launchdyn report x", 2, "no results in x: There is no history.h5");
     expect_complaint("launchdyn plot x", 2, "plot wants -o FILE.svg");
     expect_complaint("launchdyn plot x --what tipp -o x.svg", 2, "did you mean tip?");
     expect_complaint("launchdyn plot x -o x.svg", 2, "no results in x");
@@ -130,6 +132,19 @@ static void test_run_writes_results(void **state)
     CHECK_WITHIN("lines of history.csv, 0.16 s at 0.1 ms", atof(shell.out), 1580, 1620);
     assert_int_equal(run("launchdyn plot a/b -o a/b/x.svg && rsvg-convert a/b/x.svg >/dev/null"),
                      0);
+}
+
+static void test_report(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn run examples/fixed.yaml --out a --report --quiet; ls a"), 0);
+    assert_string_equal(shell.out, "history.h5\nreport.html\nsummary.json\n");
+    assert_int_equal(run("launchdyn report a -o b.html && cmp a/report.html b.html"), 0);
+    expect_in(shell.out, "b.html: ");
+    assert_int_equal(run("rm a/summary.json; launchdyn report a"), 0);
+    assert_string_equal(shell.err, "launchdyn: No summary: summary.json cannot be read: "
+                                   "No such file or directory.\n");
+    expect_complaint("launchdyn report a -o none/b.html", 1, "none/b.html: No such file");
 }
 
 static void test_table_alone_writes_nothing(void **state)
@@ -349,6 +364,7 @@ int main(void)
         TEST(test_help_and_version),
         TEST(test_wrong_words),
         TEST(test_run_writes_results),
+        TEST(test_report),
         TEST(test_table_alone_writes_nothing),
         TEST(test_set_overrides),
         TEST(test_bad_input_leaves_nothing),
