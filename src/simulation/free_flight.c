@@ -449,6 +449,10 @@ static void note(flight_run *run)
                         "the rocket flies backwards or tumbles: its angle of attack passed 90 deg "
                         "at t = %.4f s and reached %.1f deg",
                         run->t_tumbling, run->tilted / degree);
+    if (run->landed && run->phase.burning)
+        simulation_note(run->summary,
+                        "the rocket hit the ground at t = %.4f s while its motor was burning",
+                        run->steps.t);
 }
 
 ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],

@@ -146,6 +146,20 @@ static void same_as_a_flight_alone(void **state)
     ld_model_free(&model);
 }
 
+// Fired downwards the rocket reaches the ground while its motor burns; the run says so.
+static void into_the_ground(void **state)
+{
+    (void)state;
+    const char *const sets[] = {"run.lead_in=0 s", "platform.elevation.stabiliser.command=-10 deg"};
+    ld_model model = read_example("reference.yaml", sets, 2);
+    ld_summary summary = run(&model, NULL);
+    assert_int_equal(summary.note_count, 1);
+    printf("    %s\n", summary.note[0]);
+    assert_non_null(strstr(summary.note[0], "hit the ground"));
+    CHECK_BELOW("mass centre's height at the end [m]", summary.rocket[0].final.center[1], 1e-9);
+    ld_model_free(&model);
+}
+
 // ---- one tube in place of another ----
 
 // Momentum and angular momentum about I's origin of vehicle (without wheels), tube and, if it is in
@@ -293,6 +307,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_jumps),
         cmocka_unit_test(same_as_a_flight_alone),
+        cmocka_unit_test(into_the_ground),
         cmocka_unit_test(momentum_is_kept),
         cmocka_unit_test(second_equals_a_single_launch),
         cmocka_unit_test(overlapping_launches_are_refused),
