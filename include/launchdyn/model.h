@@ -588,6 +588,8 @@ typedef struct ld_model {
     ld_flight flight; ///< of a flight alone
     int firing_count;
     ld_firing firing[LD_MAX_FIRINGS];
+    const ld_rocket *salvo; ///< [firing_count] rocket of each firing where they differ in numbers,
+                            ///< not owned; NULL: each is `rocket`
     ld_run_settings run;
     ld_scatter scatter; ///< for studies
 } ld_model;

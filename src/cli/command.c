@@ -94,6 +94,24 @@ static ld_status read_model(const char *file, char **sets, ld_model *model)
     return status;
 }
 
+int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
+                    void *data)
+{
+    ld_model model;
+    if (read_model(file, sets, &model))
+        return EXIT_INPUT;
+    int code = work(&model, data);
+    ld_model_free(&model);
+    return code;
+}
+
+void command_free_sets(char **sets)
+{
+    for (char **set = sets; set && *set; set++)
+        free(*set);
+    free(sets);
+}
+
 int command_on_model(const command *self, int argc, const char **argv,
                      const struct poptOption *options, char ***sets,
                      int (*work)(const ld_model *model, void *data), void *data)
@@ -101,16 +119,9 @@ int command_on_model(const command *self, int argc, const char **argv,
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, 1, &code)) {
-        ld_model model;
-        code = EXIT_INPUT;
-        if (!read_model(line.word[0], *sets, &model)) {
-            code = work(&model, data);
-            ld_model_free(&model);
-        }
+        code = command_on_file(line.word[0], *sets, work, data);
         command_line_end(&line);
     }
-    for (char **set = *sets; set && *set; set++)
-        free(*set);
-    free(*sets);
+    command_free_sets(*sets);
     return code;
 }

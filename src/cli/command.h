@@ -23,6 +23,8 @@ struct command {
 };
 
 int command_run(const command *self, int argc, const char **argv);
+int command_study(const command *self, int argc, const char **argv);
+void command_study_help(void);
 int command_check(const command *self, int argc, const char **argv);
 int command_modes(const command *self, int argc, const char **argv);
 int command_plot(const command *self, int argc, const char **argv);
@@ -76,5 +78,10 @@ int command_write_report(const char *folder, const char *file, bool quiet);
 int command_on_model(const command *self, int argc, const char **argv,
                      const struct poptOption *options, char ***sets,
                      int (*work)(const ld_model *model, void *data), void *data);
+
+// The parts of it: `work` on the model of the file with its overrides, and the end of these.
+int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
+                    void *data);
+void command_free_sets(char **sets);
 
 #endif

@@ -53,6 +53,28 @@ bool progress_share(void *self, double share)
     return stop_signal == 0;
 }
 
+bool progress_go_on(void *self)
+{
+    (void)self;
+    return stop_signal == 0;
+}
+
+// "1234 of 5000 samples, 3 failed, 83.1 /s, 45 s left"
+void progress_samples(void *self, const ld_study_counts *counts)
+{
+    run_progress *progress = self;
+    double time = now();
+    if (!progress->shown || time - progress->latest < 0.2)
+        return;
+    progress->latest = time;
+    progress->drawn = true;
+    double rate = (double)counts->now / (time - progress->start);
+    fprintf(stderr, "\r%lld of %lld samples, %lld failed, %.3g /s, %.0f s left     ",
+            (long long)counts->done, (long long)counts->samples, (long long)counts->failed, rate,
+            (double)(counts->samples - counts->done) / rate);
+    fflush(stderr);
+}
+
 void progress_end(run_progress *progress)
 {
     if (progress->drawn)

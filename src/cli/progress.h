@@ -4,6 +4,8 @@
 
 #include <stdbool.h>
 
+#include "launchdyn/study.h"
+
 typedef struct run_progress {
     bool shown;           // draw a line at all
     bool drawn;           // there is one on the terminal
@@ -15,6 +17,10 @@ void progress_start(run_progress *progress, bool quiet);
 
 // For ld_run_options.progress: false once a stop was asked for.
 bool progress_share(void *self, double share);
+
+// The same for ld_study_options: how many samples are done; whether to go on.
+void progress_samples(void *self, const ld_study_counts *counts);
+bool progress_go_on(void *self);
 
 // Takes the line away.
 void progress_end(run_progress *progress);

@@ -4,14 +4,9 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
+#include "cli/run.h"
 #include "launchdyn/output.h"
 #include "launchdyn/simulation.h"
-
-typedef struct run_wishes {
-    char **sets;
-    char *folder; // NULL: print the table only
-    int csv, report, quiet;
-} run_wishes;
 
 // A run that ended early for reasons of its own leaves results up to there.
 static bool leaves_results(ld_status status)
@@ -55,7 +50,7 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
     return written;
 }
 
-static int run_model(const ld_model *model, void *data)
+int run_model(const ld_model *model, void *data)
 {
     const run_wishes *wishes = data;
     static ld_summary summary;

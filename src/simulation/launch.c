@@ -31,10 +31,15 @@ static ld_status create_launch(ld_simulation *self, ld_error *error)
     double stretch[2];
     road_under(model, stretch);
     ld_status status = launcher_build(&self->launcher, model, stretch[0], stretch[1], error);
-    if (!status)
-        status = motor_build(&self->motor, &model->rocket, error);
+    int count = model->salvo ? model->firing_count : 1;
+    for (int i = 0; i < count && !status; i++) {
+        status = motor_build(&self->motor_of[i], model->salvo ? &model->salvo[i] : &model->rocket,
+                             error);
+        self->motor_count += !status;
+    }
     if (status)
         return status;
+    simulation_select_rocket(self, 0);
     self->t_ignition = model->firing[0].at;
     history_build(self);
     self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
@@ -50,6 +55,10 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
     memset(self, 0, sizeof *self);
     self->model = model;
+    if (model->salvo) {
+        self->own = *model;
+        self->model = &self->own;
+    }
     ld_status status = model->base.kind == LD_BASE_NONE ? flight_alone_create(self, error)
                                                         : create_launch(self, error);
     if (status) {
@@ -67,8 +76,19 @@ void ld_simulation_free(ld_simulation *self)
         return;
     launcher_free(&self->launcher);
     flight_free(&self->flight);
-    motor_free(&self->motor);
+    for (int i = 0; i < self->motor_count; i++)
+        motor_free(&self->motor_of[i]);
     free(self);
+}
+
+void simulation_select_rocket(ld_simulation *self, int i)
+{
+    bool differ = self->model->salvo != NULL;
+    self->motor = self->motor_of[differ ? i : 0];
+    if (!differ)
+        return;
+    self->own.rocket = self->model->salvo[i];
+    launching_set_rocket(&self->launcher.launching);
 }
 
 // ---- a run ----
@@ -156,6 +176,7 @@ static void set_up_rocket(launch_run *run, int i)
     ld_simulation *self = run->self;
     const ld_firing *firing = &self->model->firing[i];
     self->current = i;
+    simulation_select_rocket(self, i);
     self->t_ignition = firing->at;
     self->phase = simulation_start_phase(self);
     self->piece = -1;
@@ -727,6 +748,7 @@ static ld_status fly(launch_run *run, int i)
     ld_simulation *self = run->self;
     ld_rocket_summary *rocket = &run->summary->rocket[i];
     flight_free(&self->flight);
+    simulation_select_rocket(self, i);
     ld_status status = flight_build(&self->flight, self->model, i, run->error);
     if (status)
         return status;

@@ -11,8 +11,11 @@
 enum { LD_MAX_COLUMNS = 1024 };
 
 struct ld_simulation {
-    const ld_model *model;
-    motor motor;
+    const ld_model *model; // `own` where the rockets of a salvo differ
+    ld_model own;          // with the current rocket
+    motor motor;           // the current one, of these:
+    motor motor_of[LD_MAX_FIRINGS];
+    int motor_count;
     launcher_system launcher;
     flight_system flight;
 
@@ -47,6 +50,9 @@ void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 
 ld_status flight_alone_create(ld_simulation *self, ld_error *error);
 ld_status flight_alone_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,
                            ld_error *error);
+
+// The rocket of firing i takes the place of the one before.
+void simulation_select_rocket(ld_simulation *self, int i);
 
 // Thrust and mass at time t, and the base there at state y.
 void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input);

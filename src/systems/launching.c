@@ -110,7 +110,7 @@ static void build_rigid_part(launching_system *self)
     self->jx = tube->j - tube->cpcp + tail->inertia[0];
 }
 
-static void build_rocket(launching_system *self)
+void launching_set_rocket(launching_system *self)
 {
     const ld_rocket *rocket = &self->model->rocket;
     const ld_slot *slot = &self->model->tubes.slot;
@@ -147,7 +147,7 @@ ld_status launching_build(launching_system *self, const ld_model *model, ld_erro
     lay_out(&self->layout, 2 * self->tube.nb + self->tube.nt + self->tube.na);
     build_supports(self);
     build_rigid_part(self);
-    build_rocket(self);
+    launching_set_rocket(self);
 #if defined(__x86_64__)
     // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
     self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");

@@ -147,6 +147,8 @@ typedef enum launching_outcome {
 } launching_outcome;
 
 ld_status launching_build(launching_system *self, const ld_model *model, ld_error *error);
+// Takes the numbers of the rocket from the model again.
+void launching_set_rocket(launching_system *self);
 void launching_free(launching_system *self);
 
 // Accelerations by the reduced form in its fast layout (formulation.md, section 5).

@@ -67,6 +67,15 @@ static bool listed(const int *list, int count, int number)
     return false;
 }
 
+// The rocket in tube `number`.
+static const ld_rocket *rocket_in(const ld_model *model, int number)
+{
+    for (int i = 0; model->salvo && i < model->firing_count; i++)
+        if (model->firing[i].tube == number)
+            return &model->salvo[i];
+    return &model->rocket;
+}
+
 // The elevation platform's frame and every tube but the launching one, full rockets in those that
 // are neither empty nor fired.
 static ld_status gather_elevation(gathered_mass *all, const ld_model *model, int launching,
@@ -74,11 +83,6 @@ static ld_status gather_elevation(gathered_mass *all, const ld_model *model, int
 {
     const ld_turret *frame = &model->platform.elevation;
     const ld_tubes *tubes = &model->tubes;
-    motor rocket;
-    ld_status status = motor_build(&rocket, &model->rocket, error);
-    if (status)
-        return status;
-    const rocket_mass *full = &rocket.full;
     *all = (gathered_mass){0};
     gather(all, frame->mass, v3_from(frame->center),
            m3_diagonal(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
@@ -89,11 +93,16 @@ static ld_status gather_elevation(gathered_mass *all, const ld_model *model, int
         gather_tube(all, tubes, at);
         if (listed(fired, fired_count, number) || listed(tubes->empty, tubes->empty_count, number))
             continue;
-        v3 c = v3_add(at, full->c);
-        c.x += model->rocket.start_at;
-        gather(all, full->m, c, full->J);
+        const ld_rocket *rocket = rocket_in(model, number);
+        motor thruster;
+        ld_status status = motor_build(&thruster, rocket, error);
+        if (status)
+            return status;
+        v3 c = v3_add(at, thruster.full.c);
+        c.x += rocket->start_at;
+        gather(all, thruster.full.m, c, thruster.full.J);
+        motor_free(&thruster);
     }
-    motor_free(&rocket);
     return LD_OK;
 }
 

@@ -1,0 +1,64 @@
+/// Studies: many samples of a scenario whose numbers are scattered, kept in a folder.
+#ifndef LAUNCHDYN_STUDY_H
+#define LAUNCHDYN_STUDY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// How far a study is.
+typedef struct ld_study_counts {
+    int64_t samples; ///< that the scenario asks for
+    int64_t done;    ///< that are kept, failed ones included
+    int64_t failed;
+    int64_t now; ///< of `done`, those of this run
+} ld_study_counts;
+
+/// What the caller wants; every member may be NULL or 0.
+typedef struct ld_study_options {
+    int threads; ///< samples that run side by side; 0: one
+    void *self;
+    /// Called after each sample, never twice at once.
+    void (*progress)(void *self, const ld_study_counts *counts);
+    /// Called often, from all threads at once; false stops the study, which keeps what it has.
+    bool (*go_on)(void *self);
+} ld_study_options;
+
+/// Runs the samples of `model` that the folder does not hold yet and keeps each as soon as it is
+/// done, in DIR/study.db. A sample that cannot run is kept with its reason. Results are the same to
+/// the bit for any number of threads and any interruption.
+/// @param counts filled in any case
+/// @return LD_OK; LD_ERR_INPUT (no scatter; the folder holds another scenario's study, or another
+///         program works on it), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_INTERRUPTED
+ld_status ld_study_run(const ld_model *model, const char *folder, const ld_study_options *options,
+                       ld_study_counts *counts, ld_error *error);
+
+/// Prints counts, failures and statistics of what the folder holds, also while a study runs.
+ld_status ld_study_show(const char *folder, FILE *stream, ld_error *error);
+
+/// Writes a line for each rocket with its factors and results, in full precision.
+ld_status ld_study_export(const char *folder, const char *file, ld_error *error);
+
+/// One sample by itself.
+typedef struct ld_sample ld_sample;
+
+/// The model of sample `number` (from 1) of a study; `model` must outlive it.
+/// @return LD_OK, LD_ERR_INPUT (no scatter, no such sample, or its values make no possible model),
+///         LD_ERR_MEMORY
+ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **sample,
+                           ld_error *error);
+const ld_model *ld_sample_model(const ld_sample *sample);
+void ld_sample_free(ld_sample *sample);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,128 @@
+// launchdyn study: many samples of a scattered scenario, kept in a folder; what is in such a
+// folder.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/run.h"
+#include "launchdyn/scenario.h"
+#include "launchdyn/study.h"
+
+typedef struct study_wishes {
+    run_wishes run; // overrides, folder, quiet
+    int threads;
+    int only; // sample, 0: all
+    char *file;
+} study_wishes;
+
+void command_study_help(void)
+{
+    puts("\nlaunchdyn study FILE --out DIR runs what DIR does not hold yet: the same command goes "
+         "on\n"
+         "after an interruption. launchdyn study show DIR prints statistics, also meanwhile;\n"
+         "launchdyn study export DIR --csv FILE writes a line for each rocket.");
+}
+
+static int run_all(const ld_model *model, const study_wishes *wishes)
+{
+    run_progress progress;
+    ld_study_counts counts;
+    ld_error error;
+    progress_start(&progress, wishes->run.quiet != 0);
+    ld_study_options options = {.threads = wishes->threads,
+                                .self = &progress,
+                                .progress = progress_samples,
+                                .go_on = progress_go_on};
+    ld_status status = ld_study_run(model, wishes->run.folder, &options, &counts, &error);
+    progress_end(&progress);
+    if (status == LD_ERR_INTERRUPTED) {
+        command_fail(status, &error);
+        return 128 + progress_signal();
+    }
+    if (!status && !wishes->run.quiet)
+        status = ld_study_show(wishes->run.folder, stdout, &error);
+    return status ? command_fail(status, &error) : 0;
+}
+
+// One sample with its whole history, in a folder of its own.
+static int run_one(const ld_model *model, study_wishes *wishes)
+{
+    ld_sample *sample = NULL;
+    ld_error error;
+    char folder[4096];
+    ld_status status = ld_sample_create(model, wishes->only, &sample, &error);
+    if (status)
+        return command_fail(status, &error);
+    run_wishes run = wishes->run;
+    snprintf(folder, sizeof folder, "%s/sample-%d", run.folder ? run.folder : "", wishes->only);
+    run.folder = run.folder ? folder : NULL;
+    int code = run_model(ld_sample_model(sample), &run);
+    ld_sample_free(sample);
+    return code;
+}
+
+static int study_model(const ld_model *model, void *data)
+{
+    study_wishes *wishes = data;
+    if (wishes->only)
+        return run_one(model, wishes);
+    if (wishes->run.folder)
+        return run_all(model, wishes);
+    command_complain("study wants --out DIR, the folder that keeps it");
+    return EXIT_INPUT;
+}
+
+static int finish(ld_status status, const ld_error *error)
+{
+    return status ? command_fail(status, error) : 0;
+}
+
+static int study_folder(const char *verb, const char *folder, const study_wishes *wishes)
+{
+    ld_error error;
+    if (strcmp(verb, "show") == 0)
+        return finish(ld_study_show(folder, stdout, &error), &error);
+    if (strcmp(verb, "export") == 0 && wishes->file)
+        return finish(ld_study_export(folder, wishes->file, &error), &error);
+    if (strcmp(verb, "export") == 0)
+        command_complain("study export wants --csv FILE");
+    else
+        command_complain("study knows show DIR and export DIR, not %s", verb);
+    return EXIT_INPUT;
+}
+
+int command_study(const command *self, int argc, const char **argv)
+{
+    study_wishes wishes = {.threads = 1};
+    const struct poptOption options[] = {
+        COMMAND_SETS(&wishes.run.sets),
+        {"out", 'o', POPT_ARG_STRING, &wishes.run.folder, 0, "The folder that keeps the study",
+         "DIR"},
+        {"jobs", 'j', POPT_ARG_INT, &wishes.threads, 0, "Samples that run side by side (1)", "N"},
+        {"only", '\0', POPT_ARG_INT, &wishes.only, 0,
+         "Run sample N alone, with its history in DIR/sample-N", "N"},
+        {"csv", '\0', POPT_ARG_STRING, &wishes.file, 0, "Of export: the table to write", "FILE"},
+        {"quiet", 'q', POPT_ARG_NONE, &wishes.run.quiet, 0, "Print nothing but errors", NULL},
+        COMMAND_HELP,
+        COMMAND_END};
+    command_line line;
+    int code = 0;
+    if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
+        const char *file = line.word[0];
+        if (line.count == 2) {
+            code = study_folder(file, line.word[1], &wishes);
+        } else if (line.count > 2) {
+            command_complain("study wants %s; see launchdyn study --help", self->arguments);
+            code = EXIT_INPUT;
+        } else {
+            code = command_on_file(file, wishes.run.sets, study_model, &wishes);
+        }
+        command_line_end(&line);
+    }
+    command_free_sets(wishes.run.sets);
+    free(wishes.run.folder);
+    free(wishes.file);
+    return code;
+}

@@ -1,0 +1,54 @@
+#include "studies/results.h"
+
+#include <math.h>
+
+#define OF(member) offsetof(ld_rocket_summary, member)
+
+const study_result study_results[STUDY_RESULTS + 1] = {
+    {"t_ignition", "s", OF(t_ignition)},
+    {"t_release", "s", OF(t_release)},
+    {"t_front", "s", OF(t_front)},
+    {"t_middle", "s", OF(t_middle)},
+    {"t_rear", "s", OF(t_rear)},
+    {"muzzle_speed", "m/s", OF(muzzle_speed)},
+    {"inertial_speed", "m/s", OF(inertial_speed)},
+    {"spin_rate", "rad/s", OF(spin_rate)},
+    {"pitch", "rad", OF(pitch)},
+    {"yaw", "rad", OF(yaw)},
+    {"pitch_rate", "rad/s", OF(pitch_rate)},
+    {"yaw_rate", "rad/s", OF(yaw_rate)},
+    {"exit.x", "m", OF(exit.position[0])},
+    {"exit.y", "m", OF(exit.position[1])},
+    {"exit.z", "m", OF(exit.position[2])},
+    {"exit.vx", "m/s", OF(exit.velocity[0])},
+    {"exit.vy", "m/s", OF(exit.velocity[1])},
+    {"exit.vz", "m/s", OF(exit.velocity[2])},
+    {"tip.y", "m", OF(tip.y)},
+    {"tip.z", "m", OF(tip.z)},
+    {"tip.pitch", "rad", OF(tip.pitch)},
+    {"tip.yaw", "rad", OF(tip.yaw)},
+    {"tip.vy", "m/s", OF(tip.vy)},
+    {"tip.vz", "m/s", OF(tip.vz)},
+    {"tip.pitch_rate", "rad/s", OF(tip.pitch_rate)},
+    {"tip.yaw_rate", "rad/s", OF(tip.yaw_rate)},
+    {"apogee", "m", OF(flight.apogee)},
+    {"downrange", "m", OF(flight.downrange)},
+    {"drift", "m", OF(flight.drift)},
+    {"range", "m", OF(flight.range)},
+    {"t_impact", "s", OF(flight.t_impact)},
+    {"time_of_flight", "s", OF(flight.time_of_flight)},
+    {"impact_speed", "m/s", OF(flight.impact_speed)},
+    {"impact_angle", "rad", OF(flight.impact_angle)},
+    {"max_mach", "", OF(flight.max_mach)},
+    {"max_angle_of_attack", "rad", OF(flight.max_angle_of_attack)},
+    {NULL, NULL, 0},
+};
+
+double study_result_of(const ld_rocket_summary *rocket, const study_result *result)
+{
+    // flight results are there only where it has flown
+    bool in_flight = result->offset >= offsetof(ld_rocket_summary, flight);
+    if (in_flight && !rocket->flown)
+        return NAN;
+    return *(const double *)((const char *)rocket + result->offset);
+}

@@ -1,0 +1,20 @@
+// What a study keeps of each rocket.
+#ifndef LD_STUDIES_RESULTS_H
+#define LD_STUDIES_RESULTS_H
+
+#include <stddef.h>
+
+#include "launchdyn/simulation.h"
+
+typedef struct study_result {
+    const char *name; // of its column
+    const char *unit; // SI
+    size_t offset;    // of the double in ld_rocket_summary
+} study_result;
+
+extern const study_result study_results[]; // ends with a NULL name
+enum { STUDY_RESULTS = 36 };
+
+double study_result_of(const ld_rocket_summary *rocket, const study_result *result);
+
+#endif

@@ -1,0 +1,93 @@
+#include "studies/sample.h"
+
+#include <stdlib.h>
+
+#include "studies/draw.h"
+
+ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error *error)
+{
+    const ld_scatter *scatter = &nominal->scatter;
+    char why[384];
+    *self = (study_sampler){.nominal = nominal, .factor_count = scatter->factor_count};
+    size_t count = (size_t)scatter->factor_count + 1;
+    self->place = calloc(count, sizeof *self->place);
+    self->nominal_value = calloc(count, sizeof *self->nominal_value);
+    if (!self->place || !self->nominal_value) {
+        sampler_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's factors");
+    }
+    for (int i = 0; i < scatter->factor_count; i++) {
+        const char *path = scatter->factor[i].path;
+        if (!field_locate(nominal, path, &self->place[i], why, sizeof why)) {
+            sampler_free(self);
+            return ld_fail(error, LD_ERR_INPUT, "scatter.factors.%s: %s", path, why);
+        }
+        self->nominal_value[i] = field_get(nominal, &self->place[i]);
+    }
+    return LD_OK;
+}
+
+void sampler_free(study_sampler *self)
+{
+    free(self->place);
+    free(self->nominal_value);
+    *self = (study_sampler){0};
+}
+
+study_sample *sample_create(const study_sampler *sampler)
+{
+    study_sample *self = calloc(1, sizeof *self);
+    if (!self)
+        return NULL;
+    size_t rows = 1 + (size_t)sampler->nominal->firing_count;
+    self->value = calloc(rows * (size_t)sampler->factor_count + 1, sizeof(double));
+    if (!self->value) {
+        free(self);
+        return NULL;
+    }
+    return self;
+}
+
+void sample_free(study_sample *self)
+{
+    if (self)
+        free(self->value);
+    free(self);
+}
+
+// Draws the values of rocket `rocket` (from 1; 0: those of the sample) into the model.
+static void draw_row(study_sample *self, const study_sampler *sampler, int64_t number, int rocket)
+{
+    const ld_scatter *scatter = &sampler->nominal->scatter;
+    double *row = self->value + (size_t)rocket * (size_t)sampler->factor_count;
+    for (int i = 0; i < sampler->factor_count; i++) {
+        const ld_factor *factor = &scatter->factor[i];
+        row[i] = NAN;
+        if (factor->per_rocket != (rocket > 0))
+            continue;
+        double u = draw_uniform(scatter, factor, number, rocket);
+        row[i] = draw_value(factor, &sampler->place[i], sampler->nominal_value[i], u);
+        field_set(&self->model, &sampler->place[i], row[i]);
+    }
+}
+
+ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t number,
+                      ld_error *error)
+{
+    int rockets = sampler->nominal->firing_count;
+    self->model = *sampler->nominal;
+    draw_row(self, sampler, number, 0);
+    ld_rocket shared = self->model.rocket;
+    ld_status status = LD_OK;
+    for (int i = 1; i <= rockets; i++) {
+        self->model.rocket = shared;
+        draw_row(self, sampler, number, i);
+        ld_model_complete(&self->model);
+        if (!status)
+            status = ld_model_check(&self->model, error);
+        self->salvo[i - 1] = self->model.rocket;
+    }
+    self->model.rocket = rockets > 1 ? shared : self->salvo[0];
+    self->model.salvo = rockets > 1 ? self->salvo : NULL;
+    return status;
+}

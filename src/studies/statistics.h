@@ -1,0 +1,43 @@
+// Statistics of values that come in groups: the rockets of one sample are not independent, so that
+// intervals count groups, not values.
+#ifndef LD_STUDIES_STATISTICS_H
+#define LD_STUDIES_STATISTICS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct estimate {
+    double value;
+    double low, high; // 95 % interval; NaN where none can be stated
+} estimate;
+
+enum { STATISTICS_QUANTILES = 3 };
+extern const double statistics_level[STATISTICS_QUANTILES]; // 5 %, 50 %, 95 %
+
+typedef struct group_statistics {
+    size_t count;       // values
+    size_t groups;      // independent ones
+    estimate mean;      // interval: Student's t over the means of groups
+    estimate deviation; // of all values; interval: jackknife of its logarithm over groups
+    double skewness;
+    double least, greatest;
+    // interval of order statistics, by the binomial distribution; only where each value is a group
+    estimate quantile[STATISTICS_QUANTILES];
+} group_statistics;
+
+// Of `count` values (no NaN) in the order of their groups, where `group` rises: the result does not
+// depend on how they came about. Sorts `value`.
+void statistics_of(double *value, const int64_t *group, size_t count, group_statistics *result);
+
+// Ellipse of two columns of values: semi-axes of one standard deviation along the main axes, and
+// the angle [rad] of the long one from the first towards the second.
+typedef struct covariance_ellipse {
+    double mean[2];
+    double semi_axis[2];
+    double angle;
+} covariance_ellipse;
+
+void covariance_ellipse_of(const double *x, const double *y, size_t count,
+                           covariance_ellipse *result);
+
+#endif

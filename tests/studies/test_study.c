@@ -1,0 +1,375 @@
+// Studies: the same results whatever the number of threads and the interruptions; what is kept.
+#include "support/check.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "launchdyn/scenario.h"
+#include "launchdyn/simulation.h"
+#include "launchdyn/study.h"
+
+static char scratch[64];
+
+static int make_scratch(void **state)
+{
+    (void)state;
+    snprintf(scratch, sizeof scratch, "/tmp/launchdyn-study-XXXXXX");
+    return mkdtemp(scratch) == NULL;
+}
+
+static int remove_scratch(void **state)
+{
+    char command[96];
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf %s", scratch);
+    return system(command);
+}
+
+static const char *folder(const char *name)
+{
+    static char path[4][128];
+    static int next;
+    next = (next + 1) % 4;
+    snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
+    return path[next];
+}
+
+static ld_model read_text(const char *text)
+{
+    ld_model model;
+    ld_messages messages;
+    ld_status status = ld_scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
+                                             NULL, 0, &model, &messages);
+    ld_messages_print(&messages, stdout);
+    assert_int_equal(status, LD_OK);
+    return model;
+}
+
+#define LAUNCH                                                                                     \
+    "include: fixed.yaml\n"                                                                        \
+    "scatter:\n"                                                                                   \
+    "  seed: 3\n"                                                                                  \
+    "  samples: 24\n"                                                                              \
+    "  factors:\n"                                                                                 \
+    "    rocket.mass_error: {normal: 0.2 kg}\n"                                                    \
+    "    base.elevation: {normal: 1 deg}\n"
+static const char launch[] = LAUNCH;
+
+static char *export(const char *name)
+{
+    ld_error error;
+    char csv[128], *text = calloc(1, 1 << 20);
+    snprintf(csv, sizeof csv, "%s.csv", folder(name));
+    assert_int_equal(ld_study_export(folder(name), csv, &error), LD_OK);
+    FILE *stream = fopen(csv, "r");
+    assert_non_null(stream);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 20) - 1, stream) > 0);
+    fclose(stream);
+    return text;
+}
+
+static ld_study_counts run(const ld_model *model, const char *name, int threads)
+{
+    ld_error error = {0};
+    ld_study_counts counts;
+    ld_study_options options = {.threads = threads};
+    ld_status status = ld_study_run(model, folder(name), &options, &counts, &error);
+    if (status)
+        fail_msg("%s", error.text);
+    return counts;
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    ld_model model = read_text(launch);
+    ld_study_counts counts = run(&model, "one", 1);
+    assert_true(counts.done == 24 && counts.now == 24 && counts.failed == 0);
+    run(&model, "three", 3);
+    char *one = export("one"), *three = export("three");
+    assert_string_equal(one, three);
+    counts = run(&model, "one", 2);
+    assert_true(counts.done == 24 && counts.now == 0);
+    free(one);
+    free(three);
+    ld_model_free(&model);
+}
+
+static bool three_more(void *self)
+{
+    return atomic_load((atomic_int *)self) < 3;
+}
+
+static void count(void *self, const ld_study_counts *counts)
+{
+    (void)counts;
+    atomic_fetch_add((atomic_int *)self, 1);
+}
+
+// Stopped on request again and again.
+static void test_stopped(void **state)
+{
+    (void)state;
+    ld_model model = read_text(launch);
+    ld_error error;
+    ld_study_counts counts = {0};
+    ld_status status = LD_ERR_INTERRUPTED;
+    int runs = 0;
+    for (; status == LD_ERR_INTERRUPTED && runs < 30; runs++) {
+        atomic_int done = 0;
+        ld_study_options options = {2, &done, count, three_more};
+        int64_t before = counts.done;
+        status = ld_study_run(&model, folder("stopped"), &options, &counts, &error);
+        assert_true(counts.done >= before + counts.now);
+    }
+    assert_int_equal(status, LD_OK);
+    CHECK_WITHIN("runs that it took", runs, 6, 9);
+    char *one = export("one"), *stopped = export("stopped");
+    assert_string_equal(one, stopped);
+    free(one);
+    free(stopped);
+    ld_model_free(&model);
+}
+
+// Killed at any instant: what is kept stays, and the rest comes out the same.
+static void test_killed(void **state)
+{
+    (void)state;
+    enum { KILLS = 20 };
+    ld_model model = read_text(launch);
+    int64_t kept = 0;
+    for (int i = 0; i < KILLS; i++) {
+        ld_error error;
+        ld_study_counts counts;
+        pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) {
+            ld_study_options options = {.threads = 2};
+            ld_study_run(&model, folder("killed"), &options, &counts, &error);
+            _exit(0);
+        }
+        usleep((useconds_t)(2000 + 7919 * i % 41000));
+        kill(child, SIGKILL);
+        waitpid(child, NULL, 0);
+        ld_study_options none = {.threads = 1, .go_on = three_more, .self = &(atomic_int){3}};
+        ld_study_run(&model, folder("killed"), &none, &counts, &error);
+        assert_true(counts.done >= kept && counts.now == 0);
+        kept = counts.done;
+    }
+    printf("    %lld of 24 samples kept after %d kills\n", (long long)kept, KILLS);
+    run(&model, "killed", 2);
+    char *one = export("one"), *killed = export("killed");
+    assert_string_equal(one, killed);
+    free(one);
+    free(killed);
+    ld_model_free(&model);
+}
+
+static void expect_refusal(const ld_model *model, const char *name, const char *part)
+{
+    ld_error error = {0};
+    ld_study_counts counts;
+    assert_int_equal(ld_study_run(model, folder(name), NULL, &counts, &error), LD_ERR_INPUT);
+    if (!strstr(error.text, part))
+        fail_msg("\"%s\" is not about \"%s\"", error.text, part);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    ld_model model = read_text(launch), other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
+    ld_model more = read_text(launch), plain = read_text("include: fixed.yaml\n");
+    expect_refusal(&other, "one", "mass: 61 kg");
+    expect_refusal(&plain, "plain", "no scatter");
+    // more samples of the plan `random` are the same study
+    more.scatter.samples = 26;
+    ld_study_counts counts = run(&more, "one", 2);
+    assert_true(counts.done == 26 && counts.now == 2);
+    run(&more, "more", 1);
+    char *one = export("one"), *again = export("more");
+    assert_string_equal(one, again);
+    free(one);
+    free(again);
+    // two at once
+    int ready[2];
+    char word;
+    assert_int_equal(pipe(ready), 0);
+    more.scatter.samples = 1000000;
+    pid_t child = fork();
+    if (child == 0) {
+        ld_error error;
+        ld_study_options options = {.threads = 1};
+        if (write(ready[1], "!", 1) == 1)
+            ld_study_run(&more, folder("one"), &options, &counts, &error);
+        _exit(0);
+    }
+    assert_int_equal(read(ready[0], &word, 1), 1);
+    usleep(100000);
+    expect_refusal(&model, "one", "another launchdyn");
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    // a folder that cannot be made
+    ld_error error;
+    assert_int_equal(ld_study_run(&model, "/proc/study", NULL, &counts, &error), LD_ERR_FILE);
+    assert_int_equal(ld_study_show(folder("nothing"), stdout, &error), LD_ERR_INPUT);
+    ld_model_free(&model);
+    ld_model_free(&other);
+    ld_model_free(&more);
+    ld_model_free(&plain);
+}
+
+// The text of column `name` of the line of sample `number`, rocket `rocket`.
+static void cell(const char *csv, const char *name, int number, int rocket, char text[64])
+{
+    int column = 0;
+    size_t length = strlen(name);
+    const char *at = csv;
+    while (strncmp(at, name, length) != 0 || (at[length] != ',' && at[length] != '\n')) {
+        at += strcspn(at, ",\n");
+        assert_true(*at++ == ',');
+        column++;
+    }
+    char begin[32];
+    snprintf(begin, sizeof begin, "\n%d,%d,", number, rocket);
+    at = strstr(csv, begin);
+    assert_non_null(at);
+    for (at++; column > 0; column--)
+        at += strcspn(at, ",") + 1;
+    snprintf(text, 64, "%.*s", (int)strcspn(at, ",\n"), at);
+}
+
+static void test_one_sample_alone(void **state)
+{
+    (void)state;
+    ld_model model = read_text(launch);
+    ld_sample *sample;
+    ld_simulation *simulation;
+    ld_error error;
+    static ld_summary summary;
+    char *csv = export("three"), kept[64], alone[64];
+    assert_int_equal(ld_sample_create(&model, 17, &sample, &error), LD_OK);
+    assert_int_equal(ld_simulation_create(ld_sample_model(sample), &simulation, &error), LD_OK);
+    assert_int_equal(ld_simulation_run(simulation, NULL, &summary, &error), LD_OK);
+    cell(csv, "muzzle_speed", 17, 1, kept);
+    snprintf(alone, sizeof alone, "%.17g", summary.rocket[0].muzzle_speed);
+    assert_string_equal(alone, kept);
+    cell(csv, "rocket.mass_error", 17, 1, kept);
+    snprintf(alone, sizeof alone, "%.17g", ld_sample_model(sample)->rocket.mass_error);
+    assert_string_equal(alone, kept);
+    assert_int_equal(ld_sample_create(&model, 25, &sample, &error), LD_ERR_INPUT);
+    free(csv);
+    ld_simulation_free(simulation);
+    ld_model_free(&model);
+}
+
+// Samples that cannot run are kept with what was the matter, and the study goes on.
+static void test_failures(void **state)
+{
+    (void)state;
+    ld_model model =
+        read_text("include: fixed.yaml\nscatter:\n  samples: 20\n  factors:\n"
+                  "    rocket.lock.release_force: {discrete: [5 kN, 500 kN], weights: [3, 1]}\n"
+                  "    rocket.mass: {normal: 60 kg}\n");
+    ld_study_counts counts = run(&model, "failures", 2);
+    char *csv = export("failures"), *shown = NULL, status[64], value[64];
+    int launches = 0, inputs = 0;
+    size_t length;
+    for (int i = 1; i <= 20; i++) {
+        cell(csv, "status", i, 1, status);
+        cell(csv, "rocket.mass", i, 1, value);
+        bool impossible = atof(value) < 20; // less than its propellant
+        cell(csv, "rocket.lock.release_force", i, 1, value);
+        bool held = atof(value) > 1e5;
+        launches += strcmp(status, "launch") == 0;
+        inputs += strcmp(status, "input") == 0;
+        assert_string_equal(status, impossible ? "input" : held ? "launch" : "ok");
+    }
+    assert_true(launches > 0 && inputs > 0);
+    assert_true(counts.done == 20 && counts.failed == launches + inputs);
+    FILE *stream = open_memstream(&shown, &length);
+    ld_error error;
+    assert_int_equal(ld_study_show(folder("failures"), stream, &error), LD_OK);
+    fclose(stream);
+    assert_non_null(strstr(shown, "the lock never let go"));
+    free(csv);
+    free(shown);
+    ld_model_free(&model);
+}
+
+// On a base that stands still the second rocket leaves as it would alone, with its own numbers.
+static void test_rockets_of_a_salvo(void **state)
+{
+    (void)state;
+#define SALVO                                                                                      \
+    "include: fixed.yaml\nfiring: [{tube: 8, at: 0 s}, {tube: 9, at: 1 s}]\nrun: {tolerance: "     \
+    "1e-8}\nscatter:\n"                                                                            \
+    "  samples: 1\n  factors:\n"                                                                   \
+    "    rocket.mass_error: {normal: 1 kg}\n    rocket.motor.thrust_scale: {normal: 5 %}\n"        \
+    "    rocket.adaptors.rear.clearance: {uniform: 0.2 0.4 mm}\n"                                  \
+    "    rocket.motor.misalignment.z: {normal: 2 mrad}\n"
+    ld_model model = read_text(SALVO);
+    ld_sample *sample;
+    ld_simulation *simulation;
+    ld_error error;
+    static ld_summary salvo, alone;
+    assert_int_equal(ld_sample_create(&model, 1, &sample, &error), LD_OK);
+    const ld_model *drawn = ld_sample_model(sample);
+    assert_int_equal(ld_simulation_create(drawn, &simulation, &error), LD_OK);
+    assert_int_equal(ld_simulation_run(simulation, NULL, &salvo, &error), LD_OK);
+    ld_simulation_free(simulation);
+
+    ld_model second = *drawn;
+    second.rocket = drawn->salvo[1];
+    second.salvo = NULL;
+    second.firing_count = 1;
+    second.firing[0] = (ld_firing){.tube = 9, .at = 0};
+    second.run.lead_in = 0.2;
+    assert_int_equal(ld_simulation_create(&second, &simulation, &error), LD_OK);
+    assert_int_equal(ld_simulation_run(simulation, NULL, &alone, &error), LD_OK);
+    ld_simulation_free(simulation);
+    const ld_rocket_summary *a = &alone.rocket[0], *b = &salvo.rocket[1], *c = &salvo.rocket[0];
+    CHECK_BELOW("t_rear in the salvo and alone [s]", a->t_rear - b->t_rear, 1e-9);
+    CHECK_BELOW("muzzle speed [m/s]", a->muzzle_speed - b->muzzle_speed, 1e-6);
+    CHECK_BELOW("yaw rate [rad/s]", a->yaw_rate - b->yaw_rate, 1e-6);
+    CHECK_WITHIN("t_rear of the first rocket differs [s]", fabs(c->t_rear - b->t_rear), 1e-4, 0.1);
+    ld_sample_free(sample);
+    ld_model_free(&model);
+}
+
+// Flights alone: the size of what is kept.
+static void test_size(void **state)
+{
+    (void)state;
+    ld_model model = read_text("include: flight.yaml\nrun: {flight_tolerance: 1e-4}\nscatter:\n"
+                               "  samples: 400\n  plan: lhs\n  replicates: 4\n  factors:\n"
+                               "    rocket.mass_error: {normal: 0.2 kg}\n"
+                               "    rocket.motor.thrust_scale: {normal: 1 %}\n"
+                               "    rocket.motor.misalignment.y: {normal: 0.5 mrad}\n"
+                               "    rocket.aerodynamics.ca_scale: {normal: 2 %}\n"
+                               "    environment.temperature_offset: {normal: 5 K}\n");
+    run(&model, "flight", 2);
+    struct stat file;
+    assert_int_equal(stat(folder("flight/study.db"), &file), 0);
+    CHECK_WITHIN("bytes a sample", (double)file.st_size / 400, 100, 1000);
+    ld_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_killed),
+        cmocka_unit_test(test_one_sample_alone),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_rockets_of_a_salvo),
+        cmocka_unit_test(test_size),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}
