@@ -174,11 +174,13 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
             return false;
         if (!field_has_form(f, field_form(w.block, w.base)))
             return refuse(&w, "%s does not belong to this scenario", place->path);
-        if (is_scalar(f) && w.block->fields[0].offset != offsetof(ld_scatter, seed))
+        if (is_scalar(f))
             return take_number(&w, f);
-        bool inside = f->kind == FIELD_BLOCK  ? enter_block(&w, f)
-                      : f->kind == FIELD_LIST ? enter_list(&w, f)
-                                              : refuse(&w, "%s is no number", place->path);
+        bool study = w.block == &scenario_block && strcmp(f->name, "scatter") == 0;
+        bool inside = study                    ? refuse(&w, "the study itself is not scattered")
+                      : f->kind == FIELD_BLOCK ? enter_block(&w, f)
+                      : f->kind == FIELD_LIST  ? enter_list(&w, f)
+                                               : refuse(&w, "%s is no number", place->path);
         if (!inside)
             return false;
     }

@@ -46,9 +46,9 @@ const study_result study_results[STUDY_RESULTS + 1] = {
 
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result)
 {
-    // flight results are there only where it has flown
-    bool in_flight = result->offset >= offsetof(ld_rocket_summary, flight);
-    if (in_flight && !rocket->flown)
+    // the state at the exit is there only where it has left, flight results where it has flown
+    bool in_flight = result->offset >= OF(flight), at_exit = result->offset >= OF(exit);
+    if (in_flight ? !rocket->flown : at_exit && isnan(rocket->t_rear))
         return NAN;
     return *(const double *)((const char *)rocket + result->offset);
 }

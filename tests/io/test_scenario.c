@@ -24,6 +24,7 @@ static const char *const examples[] = {"fixed.yaml",
                                        "ship.yaml",
                                        "aircraft.yaml",
                                        "flight.yaml",
+                                       "salvo.yaml",
                                        "marching/stationary.yaml"};
 enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 
