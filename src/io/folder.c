@@ -9,6 +9,7 @@
 ld_status folder_make(char *path, size_t *there, ld_error *error)
 {
     bool made = false;
+    *there = 0;
     for (size_t end = 1;; end++) {
         char letter = path[end];
         if (letter && letter != '/')
@@ -33,7 +34,6 @@ void folder_remove(char *path, size_t there)
     for (size_t end = strlen(path); end > there; end--)
         if (!path[end] || path[end] == '/') {
             path[end] = '\0';
-            if (rmdir(path) != 0)
-                return;
+            rmdir(path); // not where others have put something there
         }
 }

@@ -6,8 +6,8 @@
 
 #include "launchdyn/status.h"
 
-// Makes the folder, parents first; *there becomes the length of the part that was there before, and
-// stays as it is where nothing had to be made.
+// Makes the folder, parents first; *there becomes the length of the part that was there before, all
+// of it where nothing had to be made.
 ld_status folder_make(char *path, size_t *there, ld_error *error);
 
 // Removes what folder_make() made, as far as it is empty.

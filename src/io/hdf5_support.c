@@ -7,6 +7,9 @@
 hdf5_quiet hdf5_quiet_begin(void)
 {
     hdf5_quiet quiet;
+    // before its first work: what a full disk leaves open is not closed again at the program's end,
+    // where the library crashes on it; what is to be kept has been closed by hand
+    H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     return quiet;

@@ -123,7 +123,6 @@ static ld_status set_paths(ld_output *output, const char *folder, ld_error *erro
     }
     if (!fine)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
-    output->made_from = strlen(folder);
     return LD_OK;
 }
 

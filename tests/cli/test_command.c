@@ -260,6 +260,16 @@ static void test_interrupted(void **state)
     stop_by(SIGTERM);
 }
 
+// A history that cannot be written: one message, nothing left, no crash on the way out.
+static void test_full_disk(void **state)
+{
+    (void)state;
+    run("trap '' XFSZ; ulimit -f 300; launchdyn run examples/fixed.yaml --out full >table.txt");
+    assert_int_equal(shell.code, 1);
+    expect_in(shell.err, "launchdyn: cannot write full/history.h5.part: File too large\n");
+    assert_int_not_equal(run("ls full"), 0);
+}
+
 static void test_modes_table(void **state)
 {
     (void)state;
@@ -371,6 +381,7 @@ int main(void)
         TEST(test_places_that_cannot_be_written),
         TEST(test_a_launch_that_cannot_happen),
         TEST(test_interrupted),
+        TEST(test_full_disk),
         TEST(test_modes_table),
         TEST(test_road),
         TEST(test_wind),
