@@ -8,34 +8,21 @@
 
 #include "io/plot.h"
 #include "support/made_launch.h"
+#include "support/scratch.h"
 
 enum { FLIGHTS = 2, ROWS = 1500, COLUMNS = 6 };
 
 static const double degree = 0.017453292519943295;
-static char folder[64];
-
-static const char *in(const char *name)
-{
-    static char path[4][128];
-    static int next;
-    char *chosen = path[next++ % 4];
-    snprintf(chosen, sizeof *path, "%s/%s", folder, name);
-    return chosen;
-}
-
 static int set_up(void **state)
 {
     (void)state;
-    strcpy(folder, "/tmp/launchdyn-flights-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make();
 }
 
 static int tear_down(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove();
 }
 
 static const ld_column columns[] = {

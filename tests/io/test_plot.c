@@ -7,17 +7,7 @@
 
 #include "io/plot.h"
 #include "support/made_launch.h"
-
-static char folder[64];
-
-static const char *in(const char *name)
-{
-    static char path[4][128];
-    static int next;
-    char *chosen = path[next++ % 4];
-    snprintf(chosen, sizeof *path, "%s/%s", folder, name);
-    return chosen;
-}
+#include "support/scratch.h"
 
 // A made-up run of 160 ms in `folder`/run.
 static int set_up(void **state)
@@ -26,8 +16,7 @@ static int set_up(void **state)
     static ld_model model;
     static ld_summary summary;
     ld_output *output = NULL;
-    strcpy(folder, "/tmp/launchdyn-plot-XXXXXX");
-    if (!mkdtemp(folder))
+    if (scratch_make())
         return -1;
     made_model(&model);
     made_summary(&summary, 1);
@@ -38,9 +27,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove();
 }
 
 static int run(const char *format, const char *path)

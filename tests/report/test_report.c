@@ -8,31 +8,18 @@
 
 #include "report/report_parts.h"
 #include "support/made_launch.h"
-
-static char folder[64];
-
-static const char *in(const char *name)
-{
-    static char path[4][128];
-    static int next;
-    char *chosen = path[next++ % 4];
-    snprintf(chosen, sizeof *path, "%s/%s", folder, name);
-    return chosen;
-}
+#include "support/scratch.h"
 
 static int set_up(void **state)
 {
     (void)state;
-    strcpy(folder, "/tmp/launchdyn-report-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make();
 }
 
 static int tear_down(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
+    return scratch_remove();
 }
 
 // Results of a made-up run in the folder; `name` of the third adaptor and title as they are given.
