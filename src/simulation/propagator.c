@@ -8,12 +8,18 @@
 
 // ---- the equations ----
 
-void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input)
+// Thrust and mass at time t.
+static void burn(const ld_simulation *self, double t, launching_input *input)
 {
     double tau = t - self->t_ignition;
+    input->thrust = motor_thrust(&self->motor, self->piece, tau);
+    motor_mass(&self->motor, self->piece, tau, &input->mass);
+}
+
+void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input)
+{
     launcher_place(&self->launcher, t, y, input);
-    input->launching.thrust = motor_thrust(&self->motor, self->piece, tau);
-    motor_mass(&self->motor, self->piece, tau, &input->launching.mass);
+    burn(self, t, &input->launching);
     memcpy(input->rest, self->rest, sizeof input->rest);
     input->held = false;
     input->formulation = self->model->run.formulation;
@@ -234,15 +240,10 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     const launcher_system *launcher = &simulation->launcher;
     launching_input input;
     launching_output *out = &simulation->latest.out.launching;
-    double tau = t - simulation->t_ignition;
     go_on(&self->tube, t - self->t, &input.base);
-    input.thrust = motor_thrust(&simulation->motor, simulation->piece, tau);
-    motor_mass(&simulation->motor, simulation->piece, tau, &input.mass);
-    launching_outcome outcome =
-        simulation->model->run.formulation == LD_FORMULATION_OVERALL
-            ? launching_evaluate_general(&launcher->launching, LD_FORMULATION_OVERALL, &input,
-                                         &simulation->phase, y, out)
-            : launching_evaluate(&launcher->launching, &input, &simulation->phase, y, out);
+    burn(simulation, t, &input);
+    launching_outcome outcome = launcher_evaluate_tube(launcher, simulation->model->run.formulation,
+                                                       &input, &simulation->phase, y, out);
     note_outcome(simulation, t, y, outcome);
     simulation->latest.t = NAN; // not one of the whole
     if (outcome)

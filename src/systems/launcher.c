@@ -89,17 +89,22 @@ int launcher_evaluate_vehicle(const launcher_system *self, const launcher_input 
     return outcome;
 }
 
+launching_outcome launcher_evaluate_tube(const launcher_system *self, ld_formulation formulation,
+                                         const launching_input *input, const launching_phase *phase,
+                                         const double *state, launching_output *output)
+{
+    if (formulation == LD_FORMULATION_OVERALL)
+        return launching_evaluate_general(&self->launching, formulation, input, phase, state,
+                                          output);
+    return launching_evaluate(&self->launching, input, phase, state, output);
+}
+
 launching_outcome launcher_evaluate(const launcher_system *self, const launcher_input *input,
                                     const launching_phase *phase, const double *state,
                                     launcher_output *output)
 {
-    launching_outcome outcome;
-    if (input->formulation == LD_FORMULATION_OVERALL)
-        outcome = launching_evaluate_general(&self->launching, LD_FORMULATION_OVERALL,
-                                             &input->launching, phase, state, &output->launching);
-    else
-        outcome = launching_evaluate(&self->launching, &input->launching, phase, state,
-                                     &output->launching);
+    launching_outcome outcome = launcher_evaluate_tube(self, input->formulation, &input->launching,
+                                                       phase, state, &output->launching);
     if (outcome || !self->vehicle)
         return outcome;
     return launcher_evaluate_vehicle(self, input, phase, state, output) ? LAUNCHING_NOT_FINITE

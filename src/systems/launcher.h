@@ -64,6 +64,11 @@ launching_outcome launcher_evaluate(const launcher_system *self, const launcher_
                                     const launching_phase *phase, const double *state,
                                     launcher_output *output);
 
+// The launching subsystem alone, by the fast reduced form or the overall one.
+launching_outcome launcher_evaluate_tube(const launcher_system *self, ld_formulation formulation,
+                                         const launching_input *input, const launching_phase *phase,
+                                         const double *state, launching_output *output);
+
 // Orientating and marching subsystem alone, under the wrench of the tube that stands in
 // output->launching (base_force, base_moment). 0, or other where they have no solution.
 int launcher_evaluate_vehicle(const launcher_system *self, const launcher_input *input,
