@@ -1,0 +1,134 @@
+// What the tests of reports in a browser share: runs, Chromium led by playwright-core, checks. Run by
+// the script `browser` beside it, which says where everything is.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const { LD_BROWSER, LD_MODULES, LD_COMMAND, LD_EXAMPLES, LD_SCREENSHOTS } = process.env;
+const { chromium } = createRequire(join(LD_MODULES, "package.json"))("playwright-core");
+
+// A scratch folder, gone at the end.
+export const folder = mkdtempSync(join(tmpdir(), "launchdyn-browser-"));
+
+// ---- checks ----
+
+let wrong = 0;
+
+export function check(what, fine, measured = "") {
+  console.log(`    ${fine ? "ok   " : "WRONG"} ${what} ${measured}`);
+  wrong += !fine;
+}
+
+// Whether two numbers differ by no more than a share of the larger.
+export const near = (a, b, share) => Math.abs(a - b) <= share * Math.max(Math.abs(a), Math.abs(b)) + 1e-12;
+
+// ---- runs ----
+
+export function launchdyn(...words) {
+  return execFileSync(LD_COMMAND, words, { encoding: "utf8" });
+}
+
+export const example = (name) => join(LD_EXAMPLES, name);
+
+// A table of text as columns: name to values.
+export function readCsv(file) {
+  const [head, ...rows] = readFileSync(file, "utf8").trim().split("\n");
+  const table = rows.map((row) => row.split(",").map(Number));
+  return new Map(head.split(",").map((title, i) => [title.replace(/ \[.*/, ""), table.map((row) => row[i])]));
+}
+
+// A run of an example with its report and its history.
+export function runOf(name, ...options) {
+  const out = join(folder, name);
+  launchdyn("run", example(name), "--out", out, "--csv", "--report", "--quiet", ...options);
+  return { out, file: join(out, "report.html"), column: readCsv(join(out, "history.csv")) };
+}
+
+// Index of the row next to a time.
+export const rowNear = (times, time) =>
+  times.reduce((best, t, i) => (Math.abs(t - time) < Math.abs(times[best] - time) ? i : best), 0);
+
+// ---- the browser ----
+
+// Runs a test with Chromium, WebGL by its software renderer; ends the program with its outcome.
+export async function inBrowser(test, ...more) {
+  const browser = await chromium.launch({
+    executablePath: LD_BROWSER,
+    args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader", ...more],
+  });
+  try {
+    await test(browser);
+  } finally {
+    await browser.close();
+  }
+  process.exitCode = wrong > 0 ? 1 : 0;
+}
+process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
+
+// Opens a report and waits until it says that it is ready. `before` is code that runs in the page
+// before any of its own.
+export async function open(browser, file, { width = 1200, dark = false, before } = {}) {
+  const context = await browser.newContext(
+    { viewport: { width, height: 900 }, colorScheme: dark ? "dark" : "light" });
+  const page = await context.newPage();
+  page.errors = [];
+  page.requests = [];
+  page.on("pageerror", (error) => page.errors.push(error.message));
+  page.on("console", (message) => {
+    if (["error", "assert"].includes(message.type())) page.errors.push(message.text());
+  });
+  page.on("request", (request) => page.requests.push(request.url()));
+  if (before) await page.addInitScript(before);
+  await page.goto(`file://${file}`);
+  await page.waitForFunction(() => document.documentElement.dataset.ready === "yes");
+  return page;
+}
+
+// No errors so far, and no request but that for the file itself.
+export function checkSilence(page, file) {
+  check("no errors", page.errors.length === 0, page.errors.join("; ").slice(0, 300));
+  check("no request but the file", page.requests.every((url) => url === `file://${file}`), page.requests);
+}
+
+// Waits until what was asked for is drawn.
+export const drawn = (page) =>
+  page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
+
+// A picture of the window, where pictures are wanted.
+export async function picture(page, name) {
+  if (LD_SCREENSHOTS) await page.screenshot({ path: join(LD_SCREENSHOTS, name) });
+}
+
+// How many points of each 2-D canvas have the colour of a curve, with the text of its panel.
+export function curvePoints(page, canvases = ".plot canvas") {
+  return page.evaluate((selector) => {
+    const style = getComputedStyle(document.documentElement);
+    const curves = [0, 1, 2, 3, 5].map((i) => style.getPropertyValue(`--curve${i}`).trim()
+      .match(/[0-9a-f]{2}/g).map((text) => parseInt(text, 16)));
+    return [...document.querySelectorAll(selector)].map((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4)
+        count += data[i + 3] > 60 && curves.some(([r, g, b]) =>
+          Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 40);
+      return { count, text: canvas.closest(".panel").textContent.slice(0, 60) };
+    });
+  }, canvases);
+}
+
+export async function checkNoneEmpty(page) {
+  const points = await curvePoints(page);
+  const empty = points.filter(({ count }) => count < 50).map(({ text }) => text);
+  check(`none of ${points.length} plots is empty`, points.length > 0 && empty.length === 0, empty);
+}
+
+// The page's style: nothing wider than its window, and the paper's colour.
+export async function checkFits(page) {
+  const [wide, room] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  check("nothing is wider than the window", wide <= room, `${wide} of ${room}`);
+}
+
+export const paper = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
