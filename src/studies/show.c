@@ -7,103 +7,23 @@
 #include "io/numeric_locale.h"
 #include "studies/statistics.h"
 #include "studies/store.h"
-
-// ---- columns out of the database
-
-// Values of one or two results of all rockets of the samples that went well.
-typedef struct values {
-    size_t count, capacity;
-    double *value[2];
-    int64_t *group;
-} values;
-
-static void values_free(values *self)
-{
-    free(self->value[0]);
-    free(self->value[1]);
-    free(self->group);
-    *self = (values){0};
-}
-
-static bool values_reserve(values *self)
-{
-    if (self->count < self->capacity)
-        return true;
-    size_t capacity = self->capacity ? 2 * self->capacity : 1024;
-    double *first = realloc(self->value[0], capacity * sizeof *first);
-    self->value[0] = first ? first : self->value[0];
-    double *second = realloc(self->value[1], capacity * sizeof *second);
-    self->value[1] = second ? second : self->value[1];
-    int64_t *group = realloc(self->group, capacity * sizeof *group);
-    self->group = group ? group : self->group;
-    self->capacity = first && second && group ? capacity : self->capacity;
-    return first && second && group;
-}
-
-// Samples of one hypercube are one group: it is the replicates that are independent.
-static int64_t samples_per_group(study_store *self)
-{
-    char *text = store_text(self, "strata");
-    int64_t strata = text ? atoll(text) : 1;
-    free(text);
-    return strata > 0 ? strata : 1;
-}
-
-// Reads the results of these names, rows in which both are there.
-static ld_status read_values(study_store *self, const char *first, const char *second, values *all,
-                             ld_error *error)
-{
-    char text[512];
-    int64_t strata = samples_per_group(self);
-    snprintf(text, sizeof text,
-             "SELECT rocket.sample, rocket.\"%s\", rocket.\"%s\" FROM rocket JOIN sample USING "
-             "(sample) WHERE sample.status = 'ok' ORDER BY rocket.sample, rocket.rocket",
-             first, second);
-    sqlite3_stmt *select = store_prepare(self, text, error);
-    if (!select)
-        return LD_ERR_FILE;
-    int result;
-    all->count = 0;
-    while ((result = sqlite3_step(select)) == SQLITE_ROW) {
-        if (sqlite3_column_type(select, 1) == SQLITE_NULL ||
-            sqlite3_column_type(select, 2) == SQLITE_NULL)
-            continue;
-        if (!values_reserve(all)) {
-            sqlite3_finalize(select);
-            return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's values");
-        }
-        all->group[all->count] = (sqlite3_column_int64(select, 0) - 1) / strata;
-        all->value[0][all->count] = sqlite3_column_double(select, 1);
-        all->value[1][all->count] = sqlite3_column_double(select, 2);
-        all->count++;
-    }
-    sqlite3_finalize(select);
-    return result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
-}
+#include "studies/study_data.h"
 
 // ---- show
 
-static ld_status print_counts(study_store *self, FILE *stream, ld_error *error)
+static ld_status print_counts(const study_data *data, const study_point *point, FILE *stream,
+                              ld_error *error)
 {
-    ld_study_counts counts;
-    ld_status status = store_count(self, &counts, error);
-    if (status)
-        return status;
-    fprintf(stream, "%" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n", counts.done,
-            counts.samples, counts.failed);
-    sqlite3_stmt *select = store_prepare(
-        self,
-        "SELECT count(*), min(sample), status, reason FROM sample WHERE status != 'ok' GROUP BY "
-        "status, substr(reason, 1, 40) ORDER BY count(*) DESC, min(sample) LIMIT 20",
-        error);
-    if (!select)
-        return LD_ERR_FILE;
-    while (sqlite3_step(select) == SQLITE_ROW)
-        fprintf(stream, "  %lld failed (%s), the first of them %lld: %s\n",
-                (long long)sqlite3_column_int64(select, 0), sqlite3_column_text(select, 2),
-                (long long)sqlite3_column_int64(select, 1), sqlite3_column_text(select, 3));
-    sqlite3_finalize(select);
-    return LD_OK;
+    enum { MOST = 20 };
+    study_failure failure[MOST];
+    int count;
+    ld_status status = study_data_failures(data, point, failure, MOST, &count, error);
+    fprintf(stream, "%" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n", point->done,
+            point->asked, point->failed);
+    for (int i = 0; i < count && !status; i++)
+        fprintf(stream, "  %" PRId64 " failed (%s), the first of them %" PRId64 ": %s\n",
+                failure[i].count, failure[i].status, failure[i].first, failure[i].reason);
+    return status;
 }
 
 static void print_estimate(FILE *stream, estimate e)
@@ -116,7 +36,7 @@ static void print_estimate(FILE *stream, estimate e)
     fprintf(stream, "  %-38s", text);
 }
 
-static void print_statistics(FILE *stream, const study_result *r, const group_statistics *s)
+static void print_statistics(FILE *stream, const study_column *r, const group_statistics *s)
 {
     char name[64];
     snprintf(name, sizeof name, "%s%s%s%s", r->name, r->unit[0] ? " [" : "", r->unit,
@@ -130,17 +50,19 @@ static void print_statistics(FILE *stream, const study_result *r, const group_st
     fputc('\n', stream);
 }
 
-static ld_status print_results(study_store *self, FILE *stream, values *all, ld_error *error)
+static ld_status print_results(const study_data *data, const study_point *point, FILE *stream,
+                               study_values *values, ld_error *error)
 {
     bool first = true;
-    for (const study_result *r = study_results; r->name; r++) {
+    for (int i = 0; i < data->result_count; i++) {
         group_statistics statistics;
-        ld_status status = read_values(self, r->name, r->name, all, error);
+        const study_column *column = &data->column[i];
+        ld_status status = study_data_read(data, point, &column, 1, values, error);
         if (status)
             return status;
-        if (all->count == 0)
+        if (values->count == 0)
             continue;
-        statistics_of(all->value[0], all->group, all->count, &statistics);
+        statistics_of(values->value[0], values->group, values->count, &statistics);
         if (first)
             fprintf(
                 stream,
@@ -149,12 +71,13 @@ static ld_status print_results(study_store *self, FILE *stream, values *all, ld_
                 statistics.count, statistics.groups, "", "mean", "standard deviation", "skewness",
                 "5 %", "median", "95 %");
         first = false;
-        print_statistics(stream, r, &statistics);
+        print_statistics(stream, column, &statistics);
     }
     return LD_OK;
 }
 
-static ld_status print_ellipses(study_store *self, FILE *stream, values *all, ld_error *error)
+static ld_status print_ellipses(const study_data *data, const study_point *point, FILE *stream,
+                                study_values *values, ld_error *error)
 {
     static const char *const pairs[][3] = {
         {"downrange", "drift", "m"}, {"pitch", "yaw", "rad"}, {"pitch_rate", "yaw_rate", "rad/s"}};
@@ -162,12 +85,17 @@ static ld_status print_ellipses(study_store *self, FILE *stream, values *all, ld
     const double radius = 2.4477468306808161;
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         covariance_ellipse e;
-        ld_status status = read_values(self, pairs[i][0], pairs[i][1], all, error);
+        const char *nearest;
+        const study_column *pair[] = {study_data_find(data, pairs[i][0], &nearest),
+                                      study_data_find(data, pairs[i][1], &nearest)};
+        if (!pair[0] || !pair[1])
+            continue;
+        ld_status status = study_data_read(data, point, pair, 2, values, error);
         if (status)
             return status;
-        if (all->count < 3)
+        if (values->count < 3)
             continue;
-        covariance_ellipse_of(all->value[0], all->value[1], all->count, &e);
+        covariance_ellipse_of(values->value[0], values->value[1], values->count, &e);
         fprintf(stream,
                 "\n%s and %s: centre %.6g, %.6g %s; semi-axes of one deviation %.5g, %.5g %s, of "
                 "95 %% %.5g, %.5g %s; the long one %.4g deg from %s towards %s",
@@ -179,22 +107,40 @@ static ld_status print_ellipses(study_store *self, FILE *stream, values *all, ld
     return LD_OK;
 }
 
+// "speed: 15 km/h, interval: 0.5 s"
+static void print_heading(const study_data *data, const study_point *point, FILE *stream)
+{
+    if (data->swept_count == 0)
+        return;
+    fprintf(stream, "\n%" PRId64 ".", point->number);
+    for (int k = 0; k < data->swept_count; k++)
+        fprintf(stream, "%s %s: %s", k ? "," : "", data->swept[k], point->text[k]);
+    fputs("\n", stream);
+}
+
+static ld_status print_point(const study_data *data, const study_point *point, FILE *stream,
+                             study_values *values, ld_error *error)
+{
+    print_heading(data, point, stream);
+    ld_status status = print_counts(data, point, stream, error);
+    if (!status)
+        status = print_results(data, point, stream, values, error);
+    return status ? status : print_ellipses(data, point, stream, values, error);
+}
+
 ld_status ld_study_show(const char *folder, FILE *stream, ld_error *error)
 {
-    study_store store;
-    values all = {0};
-    ld_status status = store_open_to_read(&store, folder, error);
+    study_data data;
+    study_values values = {0};
+    ld_status status = study_data_open(folder, &data, error);
     if (status)
         return status;
     locale_t before = numeric_locale_enter();
-    status = print_counts(&store, stream, error);
-    if (!status)
-        status = print_results(&store, stream, &all, error);
-    if (!status)
-        status = print_ellipses(&store, stream, &all, error);
+    for (int i = 0; i < data.point_count && !status; i++)
+        status = print_point(&data, &data.point[i], stream, &values, error);
     numeric_locale_leave(before);
-    values_free(&all);
-    store_close(&store);
+    study_values_free(&values);
+    study_data_close(&data);
     return status;
 }
 

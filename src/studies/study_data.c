@@ -1,0 +1,406 @@
+#include "studies/study_data.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/suggestion.h"
+#include "launchdyn/scenario.h"
+#include "model/field.h"
+#include "studies/store.h"
+
+typedef struct study_reader {
+    study_store store;
+    bool has_points; // samples belong to points of a sweep
+    study_column *column;
+    const char **swept;
+    study_point *point;
+    const char **point_text; // [point_count][swept_count]
+    char **text;             // all that is freed at the end
+    int texts, text_capacity;
+} study_reader;
+
+static ld_status no_memory(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
+}
+
+// Keeps a text, which may be NULL, until the end; NULL: no memory.
+static const char *keep(study_reader *self, char *text)
+{
+    if (self->texts == self->text_capacity) {
+        int capacity = self->text_capacity ? 2 * self->text_capacity : 64;
+        char **list = realloc(self->text, (size_t)capacity * sizeof *list);
+        if (!list) {
+            free(text);
+            return NULL;
+        }
+        self->text = list;
+        self->text_capacity = capacity;
+    }
+    self->text[self->texts++] = text;
+    return text;
+}
+
+static const char *column_text(study_reader *self, sqlite3_stmt *row, int column)
+{
+    const char *text = (const char *)sqlite3_column_text(row, column);
+    return keep(self, strdup(text ? text : ""));
+}
+
+// ---- columns
+
+// Columns of bookkeeping, of the tables `sample` and `rocket`.
+static bool is_key(const char *name)
+{
+    static const char *const keys[] = {"sample", "point", "status", "reason", "rocket", "tube"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strcmp(name, keys[i]) == 0)
+            return true;
+    return false;
+}
+
+static const study_result *result_named(const char *name)
+{
+    for (const study_result *r = study_results; r->name; r++)
+        if (strcmp(r->name, name) == 0)
+            return r;
+    return NULL;
+}
+
+// Adds the columns of a table: first its results, then its factors, are counted.
+static ld_status list_table(study_data *data, const char *table, bool factors, ld_error *error)
+{
+    study_reader *self = data->reader;
+    char query[64];
+    snprintf(query, sizeof query, "PRAGMA table_info(%s)", table);
+    sqlite3_stmt *row = store_prepare(&self->store, query, error);
+    if (!row)
+        return LD_ERR_FILE;
+    ld_status status = LD_OK;
+    while (!status && sqlite3_step(row) == SQLITE_ROW) {
+        const char *name = (const char *)sqlite3_column_text(row, 1);
+        const study_result *result = result_named(name);
+        self->has_points |= strcmp(name, "point") == 0;
+        if (is_key(name) || factors != !result)
+            continue;
+        size_t size = ((size_t)data->column_count + 1) * sizeof *self->column;
+        study_column *column = realloc(self->column, size);
+        self->column = column ? column : self->column;
+        const char *kept = column ? column_text(self, row, 1) : NULL;
+        if (!kept)
+            status = no_memory(error);
+        else
+            column[data->column_count++] = (study_column){kept, result ? result->unit : "", !result,
+                                                          strcmp(table, "rocket") == 0};
+    }
+    sqlite3_finalize(row);
+    data->column = self->column;
+    return status;
+}
+
+// Units of the factors and the title, from the scenario itself; without them where it cannot be
+// read.
+static ld_status read_scenario(study_data *data, ld_error *error)
+{
+    study_reader *self = data->reader;
+    ld_model model;
+    ld_messages messages;
+    char why[384];
+    ld_status status = ld_scenario_read_text(data->scenario, strlen(data->scenario), "study", ".",
+                                             NULL, 0, &model, &messages);
+    if (status) {
+        ld_messages_free(&messages);
+        return LD_OK;
+    }
+    for (int i = data->result_count; i < data->column_count; i++) {
+        field_place place;
+        if (field_locate(&model, data->column[i].name, &place, why, sizeof why) && place.row->unit)
+            self->column[i].unit = place.row->unit;
+    }
+    data->title = keep(self, strdup(model.title ? model.title : ""));
+    ld_model_free(&model);
+    return data->title ? LD_OK : no_memory(error);
+}
+
+static ld_status list_columns(study_data *data, ld_error *error)
+{
+    ld_status status = list_table(data, "rocket", false, error);
+    data->result_count = data->column_count;
+    if (!status)
+        status = list_table(data, "sample", true, error);
+    if (!status)
+        status = list_table(data, "rocket", true, error);
+    return status ? status : read_scenario(data, error);
+}
+
+// ---- points
+
+static ld_status make_points(study_data *data, int points, ld_error *error)
+{
+    study_reader *self = data->reader;
+    size_t swept = (size_t)data->swept_count, count = (size_t)points;
+    self->point = calloc(count + 1, sizeof *self->point);
+    self->point_text = calloc(count * swept + 1, sizeof *self->point_text);
+    self->swept = calloc(swept + 1, sizeof *self->swept);
+    if (!self->point || !self->point_text || !self->swept)
+        return no_memory(error);
+    for (int i = 0; i < points; i++)
+        self->point[i] = (study_point){.number = i + 1, .text = self->point_text + i * swept};
+    data->point = self->point;
+    data->swept = self->swept;
+    data->point_count = points;
+    return LD_OK;
+}
+
+// The points as the table `point` has them: a number and a text for each swept key.
+static ld_status list_swept(study_data *data, ld_error *error)
+{
+    study_reader *self = data->reader;
+    sqlite3_stmt *row = store_prepare(&self->store, "SELECT count(*) FROM point", error);
+    if (!row)
+        return LD_ERR_FILE;
+    int points = sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int(row, 0) : 0;
+    sqlite3_finalize(row);
+    row = store_prepare(&self->store, "SELECT * FROM point ORDER BY point", error);
+    if (!row)
+        return LD_ERR_FILE;
+    data->swept_count = sqlite3_column_count(row) - 1;
+    ld_status status = make_points(data, points, error);
+    for (int k = 0; k < data->swept_count && !status; k++)
+        if (!(self->swept[k] = keep(self, strdup(sqlite3_column_name(row, k + 1)))))
+            status = no_memory(error);
+    for (int i = 0; i < data->point_count && !status && sqlite3_step(row) == SQLITE_ROW; i++) {
+        self->point[i].number = sqlite3_column_int64(row, 0);
+        for (int k = 0; k < data->swept_count && !status; k++)
+            if (!(self->point_text[i * data->swept_count + k] = column_text(self, row, k + 1)))
+                status = no_memory(error);
+    }
+    sqlite3_finalize(row);
+    return status;
+}
+
+static ld_status count_samples(study_data *data, ld_error *error)
+{
+    study_reader *self = data->reader;
+    char query[160], *samples = store_text(&self->store, "samples");
+    int64_t asked = samples ? atoll(samples) : 0;
+    free(samples);
+    for (int i = 0; i < data->point_count; i++)
+        self->point[i].asked = asked;
+    snprintf(query, sizeof query,
+             "SELECT %s, count(*), count(*) FILTER (WHERE status != 'ok') FROM sample GROUP BY 1",
+             self->has_points ? "point" : "1");
+    sqlite3_stmt *row = store_prepare(&self->store, query, error);
+    if (!row)
+        return LD_ERR_FILE;
+    while (sqlite3_step(row) == SQLITE_ROW)
+        for (int i = 0; i < data->point_count; i++)
+            if (self->point[i].number == sqlite3_column_int64(row, 0)) {
+                self->point[i].done = sqlite3_column_int64(row, 1);
+                self->point[i].failed = sqlite3_column_int64(row, 2);
+            }
+    sqlite3_finalize(row);
+    return LD_OK;
+}
+
+static ld_status list_points(study_data *data, ld_error *error)
+{
+    ld_status status =
+        data->reader->has_points ? list_swept(data, error) : make_points(data, 1, error);
+    return status ? status : count_samples(data, error);
+}
+
+// ---- opening
+
+static ld_status read_texts(study_data *data, ld_error *error)
+{
+    study_reader *self = data->reader;
+    char *strata = store_text(&self->store, "strata");
+    data->strata = strata ? atoll(strata) : 1;
+    data->strata = data->strata > 0 ? data->strata : 1;
+    free(strata);
+    data->title = "";
+    data->scenario = keep(self, store_text(&self->store, "scenario"));
+    data->version = keep(self, store_text(&self->store, "version"));
+    if (!data->scenario || !data->version)
+        return ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->store.path);
+    return LD_OK;
+}
+
+ld_status study_data_open(const char *folder, study_data *data, ld_error *error)
+{
+    *data = (study_data){.reader = calloc(1, sizeof(study_reader))};
+    if (!data->reader)
+        return no_memory(error);
+    ld_status status = store_open_to_read(&data->reader->store, folder, error);
+    if (status) {
+        free(data->reader);
+        data->reader = NULL;
+        return status;
+    }
+    status = read_texts(data, error);
+    if (!status)
+        status = list_columns(data, error);
+    if (!status)
+        status = list_points(data, error);
+    if (status)
+        study_data_close(data);
+    return status;
+}
+
+void study_data_close(study_data *data)
+{
+    study_reader *self = data->reader;
+    if (!self)
+        return;
+    for (int i = 0; i < self->texts; i++)
+        free(self->text[i]);
+    free(self->text);
+    free(self->column);
+    free(self->swept);
+    free(self->point);
+    free(self->point_text);
+    store_close(&self->store);
+    free(self);
+    *data = (study_data){0};
+}
+
+const study_column *study_data_find(const study_data *data, const char *name, const char **nearest)
+{
+    name_suggestion suggestion = suggestion_begin(name);
+    for (int i = 0; i < data->column_count; i++) {
+        if (strcmp(data->column[i].name, name) == 0)
+            return &data->column[i];
+        suggestion_offer(&suggestion, data->column[i].name);
+    }
+    *nearest = suggestion.name;
+    return NULL;
+}
+
+// ---- failures
+
+ld_status study_data_failures(const study_data *data, const study_point *point,
+                              study_failure *failure, int capacity, int *count, ld_error *error)
+{
+    study_reader *self = data->reader;
+    char query[320];
+    *count = 0;
+    snprintf(query, sizeof query,
+             "SELECT count(*), min(sample), status, reason FROM sample WHERE status != 'ok' AND %s "
+             "= ? GROUP BY status, substr(reason, 1, 40) ORDER BY count(*) DESC, min(sample)",
+             self->has_points ? "point" : "1");
+    sqlite3_stmt *row = store_prepare(&self->store, query, error);
+    if (!row)
+        return LD_ERR_FILE;
+    sqlite3_bind_int64(row, 1, point->number);
+    while (*count < capacity && sqlite3_step(row) == SQLITE_ROW) {
+        study_failure *f = &failure[(*count)++];
+        f->count = sqlite3_column_int64(row, 0);
+        f->first = sqlite3_column_int64(row, 1);
+        snprintf(f->status, sizeof f->status, "%s", sqlite3_column_text(row, 2));
+        snprintf(f->reason, sizeof f->reason, "%s", sqlite3_column_text(row, 3));
+    }
+    sqlite3_finalize(row);
+    return LD_OK;
+}
+
+// ---- values
+
+void study_values_free(study_values *values)
+{
+    free(values->sample);
+    free(values->group);
+    free(values->rocket);
+    for (int i = 0; i < values->columns; i++)
+        free(values->value[i]);
+    free(values->value);
+    *values = (study_values){0};
+}
+
+static bool resize(void **array, size_t count, size_t size)
+{
+    void *larger = realloc(*array, count * size);
+    if (larger)
+        *array = larger;
+    return larger;
+}
+
+// Makes room for so many rows of so many columns.
+static bool reserve(study_values *self, int columns, size_t capacity)
+{
+    if (columns > self->columns) {
+        if (!resize((void **)&self->value, (size_t)columns, sizeof *self->value))
+            return false;
+        while (self->columns < columns)
+            self->value[self->columns++] = NULL;
+    }
+    bool good = resize((void **)&self->sample, capacity, sizeof *self->sample) &&
+                resize((void **)&self->group, capacity, sizeof *self->group) &&
+                resize((void **)&self->rocket, capacity, sizeof *self->rocket);
+    for (int i = 0; i < self->columns && good; i++)
+        good = resize((void **)&self->value[i], capacity, sizeof(double));
+    self->capacity = good ? capacity : self->capacity;
+    return good;
+}
+
+static void append(const study_data *data, sqlite3_stmt *row, int columns, study_values *values)
+{
+    size_t at = values->count;
+    for (int i = 0; i < columns; i++) {
+        if (sqlite3_column_type(row, 2 + i) == SQLITE_NULL)
+            return;
+        values->value[i][at] = sqlite3_column_double(row, 2 + i);
+    }
+    values->sample[at] = sqlite3_column_int64(row, 0);
+    // samples of one hypercube have numbers that follow each other
+    values->group[at] = (values->sample[at] - 1) / data->strata;
+    values->rocket[at] = sqlite3_column_int(row, 1);
+    values->count++;
+}
+
+static sqlite3_stmt *select_values(study_reader *self, const study_column *const *column,
+                                   int columns, ld_error *error)
+{
+    char *query = NULL;
+    size_t length;
+    FILE *text = open_memstream(&query, &length);
+    if (!text) {
+        no_memory(error);
+        return NULL;
+    }
+    fputs("SELECT rocket.sample, rocket.rocket", text);
+    for (int i = 0; i < columns; i++)
+        fprintf(text, ", %s.\"%s\"", column[i]->per_rocket ? "rocket" : "sample", column[i]->name);
+    fprintf(text,
+            " FROM sample JOIN rocket USING (sample) WHERE sample.status = 'ok' AND %s = ? "
+            "ORDER BY sample.sample, rocket.rocket",
+            self->has_points ? "sample.point" : "1");
+    fclose(text);
+    sqlite3_stmt *row = store_prepare(&self->store, query, error);
+    free(query);
+    return row;
+}
+
+ld_status study_data_read(const study_data *data, const study_point *point,
+                          const study_column *const *column, int columns, study_values *values,
+                          ld_error *error)
+{
+    study_reader *self = data->reader;
+    int result = SQLITE_DONE;
+    sqlite3_stmt *row = select_values(self, column, columns, error);
+    if (!row)
+        return LD_ERR_FILE;
+    sqlite3_bind_int64(row, 1, point->number);
+    values->count = 0;
+    bool room = reserve(values, columns, values->capacity ? values->capacity : 1024);
+    while (room && (result = sqlite3_step(row)) == SQLITE_ROW) {
+        if (values->count == values->capacity)
+            room = reserve(values, columns, 2 * values->capacity);
+        if (room)
+            append(data, row, columns, values);
+    }
+    sqlite3_finalize(row);
+    if (!room)
+        return no_memory(error);
+    return result == SQLITE_DONE ? LD_OK : store_fail(&self->store, "read", error);
+}

@@ -1,0 +1,73 @@
+// What a study's folder holds, for those who read it (show, export, report, `until`): its points,
+// columns, counts and failures, and columns of values. A snapshot: what a running study adds later
+// is not seen.
+#ifndef LD_STUDIES_STUDY_DATA_H
+#define LD_STUDIES_STUDY_DATA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "launchdyn/status.h"
+
+// A number of each rocket, or of each sample.
+typedef struct study_column {
+    const char *name; // a result's name (studies/results.h) or a factor's path
+    const char *unit; // SI; "" without, or of a factor that this version does not know
+    bool factor;      // drawn; else a result
+    bool per_rocket;  // else one for all rockets of a sample
+} study_column;
+
+// A point of the sweep; a study without one has a single point.
+typedef struct study_point {
+    int64_t number;          // from 1
+    const char *const *text; // [swept_count] value of each swept key, as in the scenario
+    int64_t asked;           // samples; of all, `done` are kept, of which `failed`
+    int64_t done, failed;
+} study_point;
+
+typedef struct study_data {
+    struct study_reader *reader;
+    const char *title, *scenario, *version; // the scenario as text in SI, launchdyn's version
+    int64_t strata; // samples of one Latin hypercube: they are one group; 1: random
+    int column_count, result_count, swept_count, point_count;
+    const study_column *column; // [column_count] results first, then factors
+    const char *const *swept;   // [swept_count] paths of the swept keys
+    const study_point *point;   // [point_count]
+} study_data;
+
+// @return LD_OK, LD_ERR_INPUT (no study there), LD_ERR_FILE, LD_ERR_MEMORY
+ld_status study_data_open(const char *folder, study_data *data, ld_error *error);
+void study_data_close(study_data *data);
+
+// The column of that name; else NULL, with *nearest the name that may be meant, or NULL.
+const study_column *study_data_find(const study_data *data, const char *name, const char **nearest);
+
+// Samples of a point that failed in the same way.
+typedef struct study_failure {
+    int64_t count, first; // how many, number of the first
+    char status[16];      // `input`, `launch`, `numeric`
+    char reason[384];     // of the first
+} study_failure;
+
+// Fills up to `capacity`, the most frequent first; *count becomes how many.
+ld_status study_data_failures(const study_data *data, const study_point *point,
+                              study_failure *failure, int capacity, int *count, ld_error *error);
+
+// Columns of the rockets of a point's samples that went well, in order of (sample, rocket).
+typedef struct study_values {
+    size_t count, capacity;
+    int columns;             // for which there is room
+    int64_t *sample, *group; // [count] group: number of the independent unit, rises
+    int *rocket;             // [count] from 1, in the order of firing
+    double **value;          // [columns][count] in the order in which they were asked for
+} study_values;
+
+// Reads some columns; rockets that lack one of the values are left out. `values` is used again from
+// call to call; zeros at first, to be freed.
+ld_status study_data_read(const study_data *data, const study_point *point,
+                          const study_column *const *column, int columns, study_values *values,
+                          ld_error *error);
+void study_values_free(study_values *values);
+
+#endif

@@ -1,0 +1,172 @@
+// Reading a study's folder: databases written here by hand, with and without points of a sweep.
+// link: -lsqlite3
+#include "support/check.h"
+#include "support/scratch.h"
+
+#include <sqlite3.h>
+#include <sys/stat.h>
+
+#include "studies/study_data.h"
+
+static void write_database(const char *name, const char *text)
+{
+    char path[256];
+    char *problem = NULL;
+    sqlite3 *database;
+    assert_int_equal(mkdir(in(name), 0777), 0);
+    snprintf(path, sizeof path, "%s/study.db", in(name));
+    assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
+    sqlite3_exec(database, text, NULL, NULL, &problem);
+    if (problem)
+        fail_msg("%s", problem);
+    sqlite3_close(database);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return scratch_make();
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return scratch_remove();
+}
+
+#define STUDY(strata)                                                                              \
+    "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT);"                                      \
+    "INSERT INTO study VALUES ('format', '1'), ('version', '0.1'), ('samples', '6'),"              \
+    "  ('strata', '" strata "'), ('scenario', 'include: fixed.yaml');"
+
+static study_data open_data(const char *name)
+{
+    study_data data;
+    ld_error error;
+    if (study_data_open(in(name), &data, &error))
+        fail_msg("%s", error.text);
+    return data;
+}
+
+static const study_column *column(const study_data *data, const char *name)
+{
+    const char *nearest;
+    const study_column *found = study_data_find(data, name, &nearest);
+    assert_non_null(found);
+    return found;
+}
+
+// Hypercubes of two samples with two rockets; sample 3 failed, one value is not there.
+static void test_values(void **state)
+{
+    (void)state;
+    write_database("values",
+                   STUDY("2") //
+                   "CREATE TABLE sample (sample INTEGER PRIMARY KEY, status TEXT, reason TEXT,"
+                   "  \"base.elevation\" REAL);"
+                   "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
+                   "  \"rocket.mass_error\" REAL, t_rear REAL, muzzle_speed REAL,"
+                   "  PRIMARY KEY (sample, rocket)) WITHOUT ROWID;"
+                   "INSERT INTO sample VALUES (4, 'ok', NULL, 0.4), (1, 'ok', NULL, 0.1),"
+                   "  (3, 'launch', 'the lock held', 0.3), (2, 'ok', NULL, 0.2);"
+                   "INSERT INTO rocket VALUES (4, 2, 8, 42, 1.42, 36), (4, 1, 7, 41, 1.41, 37),"
+                   "  (1, 1, 7, 11, 1.11, 38), (1, 2, 8, 12, 1.12, 39),"
+                   "  (2, 1, 7, 21, NULL, 40), (2, 2, 8, 22, 1.22, 41),"
+                   "  (3, 1, 7, 31, NULL, NULL), (3, 2, 8, 32, NULL, NULL);");
+    study_data data = open_data("values");
+    assert_true(data.column_count == 4 && data.result_count == 2 && data.swept_count == 0);
+    assert_true(data.point_count == 1 && data.strata == 2);
+    assert_true(data.point[0].asked == 6 && data.point[0].done == 4 && data.point[0].failed == 1);
+    const study_column *speed = column(&data, "muzzle_speed"), *mass, *elevation;
+    assert_true(!speed->factor && speed->per_rocket && strcmp(speed->unit, "m/s") == 0);
+    mass = column(&data, "rocket.mass_error");
+    elevation = column(&data, "base.elevation");
+    assert_true(mass->factor && mass->per_rocket && elevation->factor && !elevation->per_rocket);
+    const char *nearest;
+    assert_null(study_data_find(&data, "muzle_speed", &nearest));
+    assert_string_equal(nearest, "muzzle_speed");
+
+    const study_column *three[] = {mass, column(&data, "t_rear"), elevation};
+    study_values values = {0};
+    ld_error error;
+    assert_int_equal(study_data_read(&data, data.point, &speed, 1, &values, &error), LD_OK);
+    assert_int_equal(values.count, 6);
+    assert_int_equal(study_data_read(&data, data.point, three, 3, &values, &error), LD_OK);
+    assert_int_equal(values.count, 5);
+    const int64_t sample[] = {1, 1, 2, 4, 4}, group[] = {0, 0, 0, 1, 1};
+    const double of_rocket[] = {11, 12, 22, 41, 42};
+    for (int i = 0; i < 5; i++) {
+        assert_true(values.sample[i] == sample[i] && values.group[i] == group[i]);
+        assert_true(values.rocket[i] == (int)of_rocket[i] % 10);
+        assert_true(values.value[0][i] == of_rocket[i]);
+        assert_true(fabs(values.value[1][i] - 1 - of_rocket[i] / 100) < 1e-15);
+        assert_true(fabs(values.value[2][i] - (double)sample[i] / 10) < 1e-15);
+    }
+    study_values_free(&values);
+
+    study_failure failure[2];
+    int count;
+    assert_int_equal(study_data_failures(&data, data.point, failure, 2, &count, &error), LD_OK);
+    assert_true(count == 1 && failure[0].count == 1 && failure[0].first == 3);
+    assert_string_equal(failure[0].status, "launch");
+    assert_string_equal(failure[0].reason, "the lock held");
+    study_data_close(&data);
+}
+
+// Two points of a sweep over a speed and an order of firing.
+static void test_points(void **state)
+{
+    (void)state;
+    write_database("points",
+                   STUDY("1") //
+                   "CREATE TABLE point (point INTEGER PRIMARY KEY, \"base.speed\" TEXT,"
+                   "  \"firing.order\" TEXT);"
+                   "INSERT INTO point VALUES (2, '15 km/h', '[1, 2]'), (1, '0 km/h', '[2, 1]');"
+                   "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT,"
+                   "  reason TEXT);"
+                   "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
+                   "  t_rear REAL, PRIMARY KEY (sample, rocket)) WITHOUT ROWID;"
+                   "INSERT INTO sample VALUES (1, 1, 'ok', NULL), (7, 2, 'ok', NULL),"
+                   "  (2, 1, 'input', 'too light'), (8, 2, 'ok', NULL);"
+                   "INSERT INTO rocket VALUES (1, 1, 1, 0.1), (7, 1, 1, 0.7), (8, 1, 1, 0.8);");
+    study_data data = open_data("points");
+    assert_true(data.point_count == 2 && data.swept_count == 2 && data.column_count == 1);
+    assert_string_equal(data.swept[1], "firing.order");
+    assert_string_equal(data.point[0].text[0], "0 km/h");
+    assert_string_equal(data.point[1].text[1], "[1, 2]");
+    assert_true(data.point[0].done == 2 && data.point[0].failed == 1);
+    assert_true(data.point[1].done == 2 && data.point[1].failed == 0);
+    const study_column *rear = column(&data, "t_rear");
+    study_values values = {0};
+    ld_error error;
+    assert_int_equal(study_data_read(&data, &data.point[1], &rear, 1, &values, &error), LD_OK);
+    assert_true(values.count == 2 && values.sample[0] == 7 && values.value[0][1] == 0.8);
+    study_values_free(&values);
+    study_failure failure[2];
+    int count;
+    assert_int_equal(study_data_failures(&data, &data.point[1], failure, 2, &count, &error), LD_OK);
+    assert_int_equal(count, 0);
+    study_data_close(&data);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    study_data data;
+    ld_error error;
+    assert_int_equal(study_data_open(in("nothing"), &data, &error), LD_ERR_INPUT);
+    study_data_close(&data);
+    write_database("empty", "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT);");
+    assert_int_equal(study_data_open(in("empty"), &data, &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "holds no study"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_points),
+        cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
