@@ -25,12 +25,12 @@ static void road_under(const ld_model *model, double x[2])
     x[1] = front + speed * (model->firing[model->firing_count - 1].at + end) + 1;
 }
 
-static ld_status create_launch(ld_simulation *self, ld_error *error)
+static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_error *error)
 {
     const ld_model *model = self->model;
     double stretch[2];
     road_under(model, stretch);
-    ld_status status = launcher_build(&self->launcher, model, stretch[0], stretch[1], error);
+    ld_status status = launcher_build(&self->launcher, model, kept, stretch[0], stretch[1], error);
     int count = model->salvo ? model->firing_count : 1;
     for (int i = 0; i < count && !status; i++) {
         status = motor_build(&self->motor_of[i], model->salvo ? &model->salvo[i] : &model->rocket,
@@ -42,29 +42,56 @@ static ld_status create_launch(ld_simulation *self, ld_error *error)
     simulation_select_rocket(self, 0);
     self->t_ignition = model->firing[0].at;
     history_build(self);
-    self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
     return LD_OK;
 }
 
-ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
+static void release(ld_simulation *self)
 {
-    clock_t start = clock();
-    // its lanes want their alignment
-    ld_simulation *self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
-    if (!self)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
+    launcher_free(&self->launcher);
+    flight_free(&self->flight);
+    for (int i = 0; i < self->motor_count; i++)
+        motor_free(&self->motor_of[i]);
     memset(self, 0, sizeof *self);
+}
+
+ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)
+{
+    ld_simulation *self = *simulation;
+    launching_tube kept = {0};
+    if (self) {
+        kept = launching_take_tube(&self->launcher.launching);
+        release(self);
+    } else {
+        // its lanes want their alignment
+        self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
+        if (!self)
+            return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
+        memset(self, 0, sizeof *self);
+        *simulation = self;
+    }
     self->model = model;
     if (model->salvo) {
         self->own = *model;
         self->model = &self->own;
     }
     ld_status status = model->base.kind == LD_BASE_NONE ? flight_alone_create(self, error)
-                                                        : create_launch(self, error);
+                                                        : create_launch(self, &kept, error);
+    launching_tube_free(&kept);
+    if (status)
+        release(self);
+    return status;
+}
+
+ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
+{
+    clock_t start = clock();
+    ld_simulation *self = NULL;
+    ld_status status = simulation_renew(&self, model, error);
     if (status) {
         ld_simulation_free(self);
         return status;
     }
+    self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
     self->cpu_seconds_setup = (double)(clock() - start) / CLOCKS_PER_SEC;
     *out = self;
     return LD_OK;
@@ -72,12 +99,8 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
 
 void ld_simulation_free(ld_simulation *self)
 {
-    if (!self)
-        return;
-    launcher_free(&self->launcher);
-    flight_free(&self->flight);
-    for (int i = 0; i < self->motor_count; i++)
-        motor_free(&self->motor_of[i]);
+    if (self)
+        release(self);
     free(self);
 }
 

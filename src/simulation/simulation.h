@@ -43,6 +43,11 @@ struct ld_simulation {
     ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
 };
 
+// Makes *simulation (NULL: a new one) that of `model`, as ld_simulation_create does but without the
+// modes for the summary. What was found once of an equal tube is used again: the results are the
+// same to the bit. After a failure it is empty, to be renewed or freed.
+ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error);
+
 // Adds a remark that the user should see.
 void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
 

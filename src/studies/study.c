@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "launchdyn/study.h"
+#include "simulation/simulation.h"
 #include "studies/store.h"
 
 typedef struct study {
@@ -28,16 +29,13 @@ static bool may_go_on(void *self, double share)
     return !all->stopped && (!all->options->go_on || all->options->go_on(all->options->self));
 }
 
-static ld_status run_sample(study *self, const study_sample *sample, ld_summary *summary,
-                            ld_error *error)
+// `simulation`: that of the sample before, NULL for the first.
+static ld_status run_sample(study *self, ld_simulation **simulation, const study_sample *sample,
+                            ld_summary *summary, ld_error *error)
 {
-    ld_simulation *simulation = NULL;
     ld_run_options options = {.self = self, .progress = may_go_on};
-    ld_status status = ld_simulation_create(&sample->model, &simulation, error);
-    if (!status)
-        status = ld_simulation_run(simulation, &options, summary, error);
-    ld_simulation_free(simulation);
-    return status;
+    ld_status status = simulation_renew(simulation, &sample->model, error);
+    return status ? status : ld_simulation_run(*simulation, &options, summary, error);
 }
 
 // ---- what the threads share
@@ -93,13 +91,14 @@ static void *work(void *argument)
     study *self = argument;
     ld_summary *summary = calloc(1, sizeof *summary);
     study_sample *sample = sample_create(&self->sampler);
+    ld_simulation *simulation = NULL;
     ld_error error = {LD_ERR_MEMORY, "no memory for a sample"};
     ld_status outcome = summary && sample ? LD_OK : LD_ERR_MEMORY;
     for (int64_t number; outcome != LD_ERR_MEMORY && (number = next_sample(self));) {
         outcome = sample_draw(sample, &self->sampler, number, &error);
         bool possible = !outcome;
         if (possible)
-            outcome = run_sample(self, sample, summary, &error);
+            outcome = run_sample(self, &simulation, sample, summary, &error);
         if (outcome == LD_ERR_INTERRUPTED)
             break;
         if (outcome != LD_ERR_MEMORY)
@@ -111,6 +110,7 @@ static void *work(void *argument)
         stop(self, outcome, &error);
         pthread_mutex_unlock(&self->mutex);
     }
+    ld_simulation_free(simulation);
     sample_free(sample);
     free(summary);
     return NULL;

@@ -23,11 +23,11 @@ static ld_status build_orientating(launcher_system *self, ld_error *error)
     return LD_OK;
 }
 
-ld_status launcher_build(launcher_system *self, const ld_model *model, double x0, double x1,
-                         ld_error *error)
+ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
+                         double x0, double x1, ld_error *error)
 {
     *self = (launcher_system){.model = model, .vehicle = model->base.kind == LD_BASE_VEHICLE};
-    ld_status status = launching_build(&self->launching, model, error);
+    ld_status status = launching_build(&self->launching, model, kept, error);
     if (!status && !self->vehicle)
         status = base_motion_build(&self->motion, &model->base, error);
     if (!status && self->vehicle)

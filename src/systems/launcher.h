@@ -47,9 +47,9 @@ typedef struct launcher_output {
 } launcher_output;
 
 // Builds the launcher, for the first rocket of the model's firing; a road is tabulated from x0 to
-// x1 [m].
-ld_status launcher_build(launcher_system *self, const ld_model *model, double x0, double x1,
-                         ld_error *error);
+// x1 [m]. `kept` as for launching_build.
+ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
+                         double x0, double x1, ld_error *error);
 void launcher_free(launcher_system *self);
 
 // Takes the tube of firing i as the flexible one, the others with the platform.

@@ -1,5 +1,6 @@
 #include "systems/launching.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -128,12 +129,38 @@ void launching_set_rocket(launching_system *self)
     self->slot_friction = slot->friction;
 }
 
-ld_status launching_build(launching_system *self, const ld_model *model, ld_error *error)
+// Modes and coefficients follow from what ld_tubes holds from its length to its supports.
+static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
-    memset(self, 0, sizeof *self);
-    self->model = model;
-    self->gravity = model->gravity;
-    ld_status status = flexible_tube_build(&self->tube, &model->tubes, error);
+    size_t from = offsetof(ld_tubes, length), to = offsetof(ld_tubes, slot);
+    return memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
+}
+
+launching_tube launching_take_tube(launching_system *self)
+{
+    launching_tube tube = {self->tubes, self->tube, self->packed};
+    self->tube = (flexible_tube){0};
+    self->packed = NULL;
+    return tube;
+}
+
+void launching_tube_free(launching_tube *self)
+{
+    flexible_tube_free(&self->tube);
+    free(self->packed);
+    self->packed = NULL;
+}
+
+static void use_tube(launching_system *self, launching_tube *kept)
+{
+    self->tube = kept->tube;
+    self->packed = kept->packed;
+    *kept = (launching_tube){0};
+}
+
+static ld_status build_tube(launching_system *self, ld_error *error)
+{
+    ld_status status = flexible_tube_build(&self->tube, &self->tubes, error);
     if (status)
         return status;
     size_t count = (size_t)self->tube.element_count;
@@ -144,6 +171,23 @@ ld_status launching_build(launching_system *self, const ld_model *model, ld_erro
     }
     for (size_t i = 0; i < count; i++)
         pack_element(&self->tube, &self->tube.element[i], &self->packed[i]);
+    return LD_OK;
+}
+
+ld_status launching_build(launching_system *self, const ld_model *model, launching_tube *kept,
+                          ld_error *error)
+{
+    memset(self, 0, sizeof *self);
+    self->model = model;
+    self->tubes = model->tubes;
+    self->gravity = model->gravity;
+    ld_status status = LD_OK;
+    if (kept && kept->packed && same_tube(&kept->tubes, &self->tubes))
+        use_tube(self, kept);
+    else
+        status = build_tube(self, error);
+    if (status)
+        return status;
     lay_out(&self->layout, 2 * self->tube.nb + self->tube.nt + self->tube.na);
     build_supports(self);
     build_rigid_part(self);

@@ -50,6 +50,7 @@ typedef struct launching_support {
 
 typedef struct launching_system {
     const ld_model *model;
+    ld_tubes tubes; // what the tube was built of
     flexible_tube tube;
     launching_layout layout;
     double gravity; // [m/s2] along -y of I
@@ -146,7 +147,21 @@ typedef enum launching_outcome {
     LAUNCHING_NOT_FINITE, // NaN or infinity
 } launching_outcome;
 
-ld_status launching_build(launching_system *self, const ld_model *model, ld_error *error);
+// What is found once from the tube's numbers, taken from one system to be used by the next.
+typedef struct launching_tube {
+    ld_tubes tubes;
+    flexible_tube tube;
+    packed_element *packed;
+} launching_tube;
+
+// Takes it from a system that is used no more.
+launching_tube launching_take_tube(launching_system *self);
+void launching_tube_free(launching_tube *self);
+
+// Builds the system; with what was kept (or NULL) where the tube is the same to the bit, which it
+// then owns.
+ld_status launching_build(launching_system *self, const ld_model *model, launching_tube *kept,
+                          ld_error *error);
 // Takes the numbers of the rocket from the model again.
 void launching_set_rocket(launching_system *self);
 void launching_free(launching_system *self);

@@ -9,7 +9,7 @@ launching_system *launching_system_of(const ld_model *model)
 {
     launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
     ld_error error;
-    assert_int_equal(launching_build(system, model, &error), LD_OK);
+    assert_int_equal(launching_build(system, model, NULL, &error), LD_OK);
     return system;
 }
 

@@ -60,7 +60,7 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
     launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
     dense_launch dense;
     ld_error error;
-    assert_int_equal(launching_build(system, model, &error), LD_OK);
+    assert_int_equal(launching_build(system, model, NULL, &error), LD_OK);
     dense_launch_create(&dense, model, &system->tube);
     uint64_t seed = 20261121;
     agreement worst = {0};
@@ -189,7 +189,7 @@ static void wide_instructions_give_the_same_bits(void **state)
     ld_error error;
     launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
     reference_model(&model);
-    assert_int_equal(launching_build(system, &model, &error), LD_OK);
+    assert_int_equal(launching_build(system, &model, NULL, &error), LD_OK);
     if (!system->wide_instructions)
         printf("    this processor has none: nothing to compare\n");
     uint64_t seed = 7;

@@ -58,7 +58,7 @@ static void set_up(flight *f, bool damped)
     memset(f, 0, sizeof *f);
     fill_model(&f->model, damped);
     f->system = aligned_alloc(64, (sizeof *f->system + 63) / 64 * 64);
-    if (launcher_build(f->system, &f->model, 0, 1, &error))
+    if (launcher_build(f->system, &f->model, NULL, 0, 1, &error))
         fail_msg("%s", error.text);
     dense_vehicle_create(&f->vehicle, &f->model, 8, NULL, 0);
     dense_launch_create(&f->launch, &f->model, &f->system->launching.tube);
