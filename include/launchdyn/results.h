@@ -1,4 +1,4 @@
-/// What a run hands out: columns with names and units, and rows of numbers.
+/// What a run hands out: what does not change in it, columns with names and units, rows of numbers.
 #ifndef LAUNCHDYN_RESULTS_H
 #define LAUNCHDYN_RESULTS_H
 
@@ -17,9 +17,19 @@ typedef struct ld_column {
     const char *description; ///< one line, with frame
 } ld_column;
 
-/// Where rows go. `begin` is called once, before the first row; after the launcher's rows `flight`
-/// once for each rocket that flies on, before the rows of its flight. All return an error status to
-/// stop the run. The run never frees or keeps `values`.
+/// Numbers of a launcher that do not change in a run: places, sizes, shapes of modes.
+typedef struct ld_array {
+    const char *name;        ///< e.g. "tube.station"
+    const char *unit;        ///< SI, e.g. "m"
+    const char *description; ///< one line, with frame
+    size_t rows, columns;
+    const double *value; ///< [rows][columns]
+} ld_array;
+
+/// Where rows go. `geometry`, of a launcher, then `begin` are called once, before the first row;
+/// after the launcher's rows `flight` once for each rocket that flies on, before the rows of its
+/// flight. All return an error status to stop the run. The run never frees or keeps `values`; it
+/// frees what `geometry` is given.
 typedef struct ld_sink {
     void *self;
     ld_status (*begin)(void *self, const ld_column *columns, size_t count, ld_error *error);
@@ -28,6 +38,8 @@ typedef struct ld_sink {
     /// no rows of flights are wanted.
     ld_status (*flight)(void *self, int rocket, const ld_column *columns, size_t count,
                         ld_error *error);
+    /// What is drawn of the launcher (docs/results.md); NULL: not wanted.
+    ld_status (*geometry)(void *self, const ld_array *arrays, size_t count, ld_error *error);
 } ld_sink;
 
 #ifdef __cplusplus

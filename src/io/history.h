@@ -15,6 +15,9 @@ typedef struct history_hdf5 history_hdf5;
 // Creates the file at `path`; `title` becomes an attribute.
 ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 **history,
                               ld_error *error);
+// What does not change in the run: group geometry, one array each. Before the columns.
+ld_status history_hdf5_geometry(history_hdf5 *history, const ld_array *arrays, size_t count,
+                                ld_error *error);
 ld_status history_hdf5_begin(history_hdf5 *history, const ld_column *columns, size_t count,
                              ld_error *error);
 // The rows that follow are of the flight of rocket number `rocket`: group rockets/N/flight.
@@ -34,6 +37,13 @@ ld_status history_csv_row(history_csv *history, const double *values, size_t cou
                           ld_error *error);
 ld_status history_csv_close(history_csv *history, ld_error *error);
 
+// One array of the geometry, read back.
+typedef struct history_array {
+    char *name;
+    size_t rows, columns;
+    double *value; // [rows][columns]
+} history_array;
+
 // A history read back from history.h5, whole. Of the flight of a rocket: its rows and its ignition.
 typedef struct history_data {
     char *title;
@@ -47,6 +57,8 @@ typedef struct history_data {
     int tube, number; // of a flight: its tube (0: none) and its place in the firing order
     struct history_data *flight; // [flights] in the order of firing
     size_t flights;
+    history_array *geometry; // [arrays]; none where the file holds none
+    size_t arrays;
     int complete;  // 0: the run ended early, or was killed
     char *stopped; // why it ended early, "" or NULL where nothing is known
 } history_data;
@@ -58,6 +70,9 @@ ld_status history_read(const char *path, history_data *history, ld_error *error)
 ld_status history_read_rocket(const char *path, int rocket, history_data *history, ld_error *error);
 
 void history_free(history_data *history);
+
+// The array of the geometry with this name, or NULL.
+const history_array *history_array_named(const history_data *history, const char *name);
 
 // The values of column `name`, or NULL.
 const double *history_column(const history_data *history, const char *name);

@@ -91,6 +91,48 @@ ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 
     return status;
 }
 
+// One array of doubles of fixed size with its unit and description.
+static bool write_array(hid_t group, const ld_array *array)
+{
+    hsize_t size[2] = {array->rows, array->columns};
+    hid_t space = H5Screate_simple(2, size, NULL);
+    hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(properties, false);
+    hid_t dataset = H5Dcreate2(group, array->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
+                               properties, H5P_DEFAULT);
+    bool fine =
+        dataset >= 0 &&
+        H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->value) >= 0 &&
+        hdf5_write_text(dataset, "unit", array->unit) &&
+        hdf5_write_text(dataset, "description", array->description);
+    if (dataset >= 0)
+        H5Dclose(dataset);
+    H5Pclose(properties);
+    H5Sclose(space);
+    return fine;
+}
+
+static bool write_geometry(hid_t file, const ld_array *arrays, size_t count)
+{
+    hid_t group = create_group(file, "geometry");
+    bool fine = group >= 0;
+    for (size_t i = 0; fine && i < count; i++)
+        fine = write_array(group, &arrays[i]);
+    if (group >= 0)
+        H5Gclose(group);
+    return fine;
+}
+
+ld_status history_hdf5_geometry(history_hdf5 *history, const ld_array *arrays, size_t count,
+                                ld_error *error)
+{
+    hdf5_quiet quiet = hdf5_quiet_begin();
+    ld_status status =
+        write_geometry(history->file, arrays, count) ? LD_OK : failed(history, error);
+    hdf5_quiet_end(&quiet);
+    return status;
+}
+
 // One extendible array of doubles with its unit and description.
 static hid_t create_column(hid_t group, const ld_column *column, hid_t space, hid_t properties)
 {

@@ -109,6 +109,52 @@ static bool read_table(hid_t file, const char *name, history_data *history)
     return fine;
 }
 
+// Rows and columns of an array and its numbers.
+static bool read_array(hid_t dataset, history_array *array)
+{
+    hsize_t size[2] = {0, 0};
+    hid_t space = H5Dget_space(dataset);
+    bool fine = space >= 0 && H5Sget_simple_extent_ndims(space) == 2;
+    if (fine)
+        H5Sget_simple_extent_dims(space, size, NULL);
+    H5Sclose(space);
+    fine = fine && size[0] < 1 << 20 && size[1] < 1 << 10;
+    array->rows = (size_t)size[0];
+    array->columns = (size_t)size[1];
+    array->value = fine ? malloc((array->rows * array->columns + 1) * sizeof *array->value) : NULL;
+    return array->value &&
+           H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->value) >= 0;
+}
+
+static bool read_arrays(hid_t group, history_data *history)
+{
+    H5G_info_t info = {0};
+    bool fine = H5Gget_info(group, &info) >= 0;
+    history->geometry = calloc((size_t)info.nlinks + 1, sizeof *history->geometry);
+    fine = fine && history->geometry;
+    for (hsize_t i = 0; fine && i < info.nlinks; i++) {
+        history_array *array = &history->geometry[history->arrays++];
+        array->name = read_name(group, i);
+        hid_t dataset = array->name ? H5Dopen2(group, array->name, H5P_DEFAULT) : -1;
+        fine = dataset >= 0 && read_array(dataset, array);
+        if (dataset >= 0)
+            H5Dclose(dataset);
+    }
+    return fine;
+}
+
+// None where the file is of a flight alone, or of a version that wrote none.
+static bool read_geometry(hid_t file, history_data *history)
+{
+    if (H5Lexists(file, "geometry", H5P_DEFAULT) <= 0)
+        return true;
+    hid_t group = H5Gopen2(file, "geometry", H5P_DEFAULT);
+    bool fine = group >= 0 && read_arrays(group, history);
+    if (group >= 0)
+        H5Gclose(group);
+    return fine;
+}
+
 // Group rockets/N, or -1.
 static hid_t open_rocket(hid_t file, int number)
 {
@@ -166,7 +212,8 @@ static ld_status read_launcher(hid_t file, const char *path, int number, history
     read_instants(rocket, history);
     if (rocket >= 0)
         H5Gclose(rocket);
-    if (!read_table(file, "history", history) || !read_flights(file, history))
+    if (!read_table(file, "history", history) || !read_flights(file, history) ||
+        !read_geometry(file, history))
         return hdf5_failed(error, "read", path);
     if (history->columns == 0 && history->flights == 0)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no history", path);
@@ -221,6 +268,11 @@ void history_free(history_data *history)
     for (size_t i = 0; i < history->flights; i++)
         history_free(&history->flight[i]);
     free(history->flight);
+    for (size_t i = 0; i < history->arrays; i++) {
+        free(history->geometry[i].name);
+        free(history->geometry[i].value);
+    }
+    free(history->geometry);
     for (size_t i = 0; history->unit && i < history->columns; i++)
         free(history->unit[i]);
     free(history->name);
@@ -229,6 +281,14 @@ void history_free(history_data *history)
     free(history->title);
     free(history->stopped);
     memset(history, 0, sizeof *history);
+}
+
+const history_array *history_array_named(const history_data *history, const char *name)
+{
+    for (size_t i = 0; i < history->arrays; i++)
+        if (strcmp(history->geometry[i].name, name) == 0)
+            return &history->geometry[i];
+    return NULL;
 }
 
 const double *history_column(const history_data *history, const char *name)

@@ -42,6 +42,12 @@ static ld_status begin_line(ld_output *output, int rocket, const ld_column *colu
     return status ? status : kml_flight(output->map, rocket, columns, count, error);
 }
 
+static ld_status geometry(void *self, const ld_array *arrays, size_t count, ld_error *error)
+{
+    ld_output *output = self;
+    return history_hdf5_geometry(output->hdf5, arrays, count, error);
+}
+
 static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
 {
     ld_output *output = self;
@@ -145,7 +151,8 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
     if (!opened)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
     opened->model = model;
-    opened->sink = (ld_sink){.self = opened, .begin = begin, .row = row, .flight = flight};
+    opened->sink = (ld_sink){
+        .self = opened, .begin = begin, .row = row, .flight = flight, .geometry = geometry};
     ld_status status = set_paths(opened, folder, error);
     if (!status)
         status = folder_make(opened->folder, &opened->made_from, error);

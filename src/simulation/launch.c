@@ -707,6 +707,8 @@ static ld_status begin(launch_run *run)
     const ld_sink *sink = run->options ? run->options->sink : NULL;
     double before = cpu_now();
     if (!status && sink)
+        status = simulation_geometry(self, sink, run->error);
+    if (!status && sink)
         status = sink->begin(sink->self, self->column, (size_t)self->column_count, run->error);
     run->cpu_output += cpu_now() - before;
     if (status)

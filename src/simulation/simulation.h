@@ -113,6 +113,9 @@ typedef struct linear_system {
 // speed; lock closed, no Coulomb friction.
 ld_status simulation_linearise(ld_simulation *self, linear_system *system, ld_error *error);
 
+// Hands places, sizes and mode shapes of the launcher to the sink, where it wants them.
+ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error);
+
 // History: column names once, then a row of values.
 void history_build(ld_simulation *self);
 void history_row(const ld_simulation *self, double t, const double *y, double energy_start,

@@ -52,8 +52,7 @@ static void gather_tube(gathered_mass *all, const ld_tubes *tubes, v3 at)
            m3_diagonal(J[0], J[1], J[2]));
 }
 
-// Rear end of tube `number` (from 1) in elevation platform axes.
-static v3 tube_place(const ld_layout *layout, int number)
+v3 orientating_tube_place(const ld_layout *layout, int number)
 {
     int row = (number - 1) / layout->columns, column = (number - 1) % layout->columns;
     return v3_add(v3_from(layout->first), v3_make(0, row * layout->pitch, column * layout->pitch));
@@ -87,7 +86,7 @@ static ld_status gather_elevation(gathered_mass *all, const ld_model *model, int
     gather(all, frame->mass, v3_from(frame->center),
            m3_diagonal(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
     for (int number = 1; number <= tubes->layout.rows * tubes->layout.columns; number++) {
-        v3 at = tube_place(&tubes->layout, number);
+        v3 at = orientating_tube_place(&tubes->layout, number);
         if (number == launching)
             continue;
         gather_tube(all, tubes, at);
@@ -152,7 +151,7 @@ ld_status orientating_build(orientating_system *self, const ld_model *model, int
     chain[CHASSIS].hinge = LD_HINGE_FREE;
     hang(&chain[AZIMUTH], azimuth->hinge_at, v3_make(0, 1, 0));
     hang(&chain[ELEVATION], given->elevation.hinge_at, v3_make(0, 0, 1));
-    self->tube_at = tube_place(&model->tubes.layout, launching);
+    self->tube_at = orientating_tube_place(&model->tubes.layout, launching);
     self->elevation_mass = elevation.mass;
     self->elevation_center = center;
     self->mass = given->chassis_mass + azimuth->mass + elevation.mass;

@@ -80,6 +80,9 @@ typedef struct orientating_output {
     double loss; // overall form: largest difference from the reduced sweep, relative
 } orientating_output;
 
+// Rear end [m] of tube `number` (from 1), undeformed, in elevation-platform axes.
+v3 orientating_tube_place(const ld_layout *layout, int number);
+
 // Tube number `launching` is left out of the elevation platform's inertia; tubes listed in
 // `fired` [count] have no rocket any more.
 ld_status orientating_build(orientating_system *self, const ld_model *model, int launching,

@@ -1,0 +1,179 @@
+// What a launcher looks like: places, sizes and mode shapes, for whoever draws its motion.
+#include <math.h>
+#include <stdlib.h>
+
+#include "simulation/simulation.h"
+
+enum { MOST_ARRAYS = 24 };
+
+// Arrays under way; their values lie one after the other in `value`.
+typedef struct geometry {
+    ld_array array[MOST_ARRAYS];
+    size_t count;
+    double *value;
+    size_t used;
+} geometry;
+
+// Room for one more array, to be filled row by row; one without numbers is left out.
+static double *add(geometry *all, const char *name, const char *unit, size_t rows, size_t columns,
+                   const char *description)
+{
+    double *value = all->value + all->used;
+    if (rows * columns > 0)
+        all->array[all->count++] = (ld_array){name, unit, description, rows, columns, value};
+    all->used += rows * columns;
+    return value;
+}
+
+static void add_row(geometry *all, const char *name, const char *unit, int count,
+                    const double *values, const char *description)
+{
+    double *to = add(all, name, unit, 1, (size_t)count, description);
+    for (int i = 0; i < count; i++)
+        to[i] = values[i];
+}
+
+// ---- tube ----
+
+// Value or slope of the shapes at node `node`: coefficients of the element that begins there, or
+// at the end of the last one.
+static void bending_at(const flexible_tube *tube, int node, int derivative, double *to)
+{
+    bool last = node == tube->element_count;
+    const tube_element *element = &tube->element[last ? node - 1 : node];
+    double xi = last ? element->x1 - element->x0 : 0;
+    for (int i = 0; i < tube->nb; i++) {
+        double b[4] = {element->b[0][i], element->b[1][i], element->b[2][i], element->b[3][i]};
+        to[i] = derivative ? b[1] + xi * (2 * b[2] + xi * 3 * b[3])
+                           : b[0] + xi * (b[1] + xi * (b[2] + xi * b[3]));
+    }
+}
+
+static void add_shapes(geometry *all, const flexible_tube *tube)
+{
+    int nodes = tube->element_count + 1;
+    size_t rows = (size_t)nodes, nb = (size_t)tube->nb;
+    double *station = add(all, "tube.station", "m", rows, 1, "nodes of the finite elements");
+    double *b =
+        add(all, "tube.bending", "kg-0.5", rows, nb,
+            "bending modes at the stations: y and z of the axis in R over q; cubic between");
+    double *slope = add(all, "tube.bending_slope", "kg-0.5.m-1", rows, nb, "their slopes");
+    double *torsion = add(all, "tube.torsion", "kg-0.5.m-1", rows, (size_t)tube->nt,
+                          "torsion modes: rotation about x over q; linear between");
+    double *axial = add(all, "tube.axial", "kg-0.5", rows, (size_t)tube->na,
+                        "axial modes: x over q; linear between");
+    for (int k = 0; k < nodes; k++) {
+        bool last = k == tube->element_count;
+        const tube_element *element = &tube->element[last ? k - 1 : k];
+        double xi = last ? element->x1 - element->x0 : 0;
+        station[k] = element->x0 + xi;
+        bending_at(tube, k, 0, b + k * tube->nb);
+        bending_at(tube, k, 1, slope + k * tube->nb);
+        for (int i = 0; i < tube->nt; i++)
+            torsion[k * tube->nt + i] = element->tau[0][i] + xi * element->tau[1][i];
+        for (int i = 0; i < tube->na; i++)
+            axial[k * tube->na + i] = element->a[0][i] + xi * element->a[1][i];
+    }
+}
+
+static void add_tube(geometry *all, const ld_tubes *tubes)
+{
+    double *section = add(all, "tube.section", "m", (size_t)tubes->section_count, 3,
+                          "sections: station where each begins, inner and outer radius");
+    for (int i = 0; i < tubes->section_count; i++) {
+        const ld_section *from = &tubes->section[i];
+        double bore = from->bore_radius;
+        section[3 * i] = from->from;
+        section[3 * i + 1] = bore;
+        section[3 * i + 2] = from->form == LD_SECTION_ANNULUS ? from->outer_radius
+                             : from->form == LD_SECTION_AREA
+                                 ? sqrt(bore * bore + from->area / 3.14159265358979323846)
+                                 : NAN;
+    }
+    double *support =
+        add(all, "tube.support", "m", (size_t)tubes->support_count, 1, "stations of the supports");
+    for (int i = 0; i < tubes->support_count; i++)
+        support[i] = tubes->support[i].at;
+}
+
+static void add_layout(geometry *all, const ld_tubes *tubes)
+{
+    int count = tubes->layout.rows * tubes->layout.columns;
+    double *place = add(all, "tubes.rear_end", "m", (size_t)count, 3,
+                        "rear end of each tube, undeformed, axes of the elevation platform");
+    for (int i = 0; i < count; i++)
+        v3_store(place + 3 * i, orientating_tube_place(&tubes->layout, i + 1));
+    double *empty = add(all, "tubes.empty", "1", (size_t)tubes->empty_count, 1,
+                        "numbers of the tubes without a rocket from the start");
+    for (int i = 0; i < tubes->empty_count; i++)
+        empty[i] = tubes->empty[i];
+}
+
+// ---- rocket, base ----
+
+static void add_rocket(geometry *all, const ld_model *model)
+{
+    const ld_rocket *rocket = &model->rocket;
+    int count = rocket->adaptor_count, firings = model->salvo ? model->firing_count : 1;
+    double *at = add(all, "rocket.adaptor", "m", (size_t)count, 1,
+                     "centres of the adaptors on the axis, from the rear one's");
+    double *clearance = add(all, "rocket.clearance", "m", (size_t)firings, (size_t)count,
+                            "radial clearance of each adaptor, by firing where rockets differ");
+    for (int i = 0; i < count; i++)
+        at[i] = rocket->adaptor[i].at;
+    for (int i = 0; i < firings * count; i++)
+        clearance[i] =
+            (model->salvo ? &model->salvo[i / count] : rocket)->adaptor[i % count].clearance;
+    double center[2] = {rocket->full.center[0], rocket->empty.center[0]};
+    add_row(all, "rocket.center", "m", 2, center, "x of the mass centre in B, full and empty");
+    if (rocket->aerodynamics.present)
+        add_row(all, "rocket.diameter", "m", 1, &rocket->aerodynamics.reference_diameter,
+                "reference diameter of the aerodynamics");
+}
+
+static void add_base(geometry *all, const ld_model *model)
+{
+    const ld_vehicle *vehicle = &model->base.vehicle;
+    if (model->base.kind != LD_BASE_VEHICLE) {
+        double mount[2] = {model->base.azimuth, model->base.elevation};
+        add_row(all, "base.mount", "rad", 2, mount, "tube against the base: azimuth, elevation");
+        return;
+    }
+    add_row(all, "azimuth.hinge", "m", 3, model->platform.azimuth.hinge_at,
+            "hinge of the azimuth platform, axes of the chassis, from its mass centre");
+    add_row(all, "elevation.hinge", "m", 3, model->platform.elevation.hinge_at,
+            "hinge of the elevation platform, axes of the azimuth platform, from its hinge");
+    double *mount = add(all, "wheel.mount", "m", (size_t)vehicle->wheel_count, 3,
+                        "wheel centres with unloaded suspension, axes of the chassis");
+    for (int i = 0; i < 3 * vehicle->wheel_count; i++)
+        mount[i] = vehicle->wheel[i / 3].mount[i % 3];
+    add_row(all, "wheel.radius", "m", 1, &vehicle->tyre.radius, "radius of the tyres");
+}
+
+// Numbers that the arrays hold, at most.
+static size_t room_for(const ld_simulation *self)
+{
+    const flexible_tube *tube = &self->launcher.launching.tube;
+    size_t nodes = (size_t)tube->element_count + 1;
+    return nodes * (size_t)(1 + 2 * tube->nb + tube->nt + tube->na) + 3 * LD_MAX_SECTIONS +
+           LD_MAX_SUPPORTS + 4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS +
+           3 * LD_MAX_WHEELS + 16;
+}
+
+ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error)
+{
+    geometry all = {.value = NULL};
+    if (!sink->geometry)
+        return LD_OK;
+    all.value = malloc(room_for(self) * sizeof *all.value);
+    if (!all.value)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the geometry");
+    add_shapes(&all, &self->launcher.launching.tube);
+    add_tube(&all, &self->model->tubes);
+    add_layout(&all, &self->model->tubes);
+    add_rocket(&all, self->model);
+    add_base(&all, self->model);
+    ld_status status = sink->geometry(sink->self, all.array, all.count, error);
+    free(all.value);
+    return status;
+}

@@ -1,0 +1,261 @@
+// What history.h5 holds of a launcher's geometry is enough to draw it: with the rows of the history
+// it gives the tip and the adaptors' places in the tube, which the history has too.
+#include "support/check.h"
+
+#include <stdlib.h>
+
+#include "io/history.h"
+#include "launchdyn/output.h"
+#include "launchdyn/scenario.h"
+#include "math/quaternion.h"
+#include "math/rotation_vector.h"
+#include "support/scratch.h"
+
+enum { MOST_MODES = 64 };
+
+static int set_up(void **state)
+{
+    (void)state;
+    return scratch_make();
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    return scratch_remove();
+}
+
+static void run_example(const char *name, const char *const *sets, size_t count, history_data *read)
+{
+    char path[256];
+    ld_error error = {0};
+    ld_messages messages;
+    ld_model model;
+    ld_output *output = NULL;
+    ld_simulation *simulation = NULL;
+    static ld_summary summary;
+    snprintf(path, sizeof path, "%s/examples/%s", LD_SOURCE_DIR, name);
+    if (ld_scenario_read(path, sets, count, &model, &messages) ||
+        ld_simulation_create(&model, &simulation, &error) ||
+        ld_output_open(folder, &model, false, &output, &error) ||
+        ld_simulation_run(simulation, &(ld_run_options){.sink = ld_output_sink(output)}, &summary,
+                          &error) ||
+        ld_output_finish(output, &summary, &error) || history_read(in("history.h5"), read, &error))
+        fail_msg("%s", error.text);
+    ld_simulation_free(simulation);
+    ld_model_free(&model);
+}
+
+static double at(const history_data *read, const char *name, size_t row)
+{
+    const double *column = history_column(read, name);
+    assert_non_null(column);
+    return column[row];
+}
+
+static const history_array *array(const history_data *read, const char *name)
+{
+    const history_array *found = history_array_named(read, name);
+    if (!found)
+        fail_msg("no array %s", name);
+    return found;
+}
+
+// Point and section frame of the tube's axis at station x, in R, from shapes by cubics between the
+// stations (beyond the ends straight on).
+typedef struct section {
+    v3 P;
+    m3 A;
+} section;
+
+static section section_at(const history_data *read, size_t row, double x)
+{
+    const history_array *station = array(read, "tube.station"), *b = array(read, "tube.bending"),
+                        *d = array(read, "tube.bending_slope"), *t = array(read, "tube.torsion");
+    const double *s = station->value;
+    size_t k = 0, nb = b->columns;
+    while (k + 2 < station->rows && x > s[k + 1])
+        k++;
+    double h = s[k + 1] - s[k], xi = fmin(1, fmax(0, (x - s[k]) / h)), beyond = x - s[k] - xi * h;
+    double H[4] = {1 + xi * xi * (2 * xi - 3), h * xi * (1 + xi * (xi - 2)), xi * xi * (3 - 2 * xi),
+                   h * xi * xi * (xi - 1)};
+    double dH[4] = {6 * xi * (xi - 1) / h, 1 + xi * (3 * xi - 4), 6 * xi * (1 - xi) / h,
+                    xi * (3 * xi - 2)};
+    double u[2] = {0, 0}, slope[2] = {0, 0}, twist = 0;
+    for (size_t i = 0; i < 2 * nb; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "q%zu", i + 1);
+        double q = at(read, name, row);
+        size_t at0 = k * nb + i % nb, at1 = at0 + nb;
+        u[i / nb] += q * (H[0] * b->value[at0] + H[1] * d->value[at0] + H[2] * b->value[at1] +
+                          H[3] * d->value[at1]);
+        slope[i / nb] += q * (dH[0] * b->value[at0] + dH[1] * d->value[at0] +
+                              dH[2] * b->value[at1] + dH[3] * d->value[at1]);
+    }
+    for (size_t i = 0; i < t->columns; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "q%zu", 2 * nb + i + 1);
+        twist += at(read, name, row) * ((1 - xi) * t->value[k * t->columns + i] +
+                                        xi * t->value[(k + 1) * t->columns + i]);
+    }
+    section found = {.A = rv_exp(v3_make(twist, -slope[1], slope[0]))};
+    found.P = v3_add(v3_make(x - beyond, u[0], u[1]), v3_scale(beyond, m3_column(found.A, 0)));
+    return found;
+}
+
+static m3 about(int axis, double angle)
+{
+    return rv_exp(v3_make(axis == 0 ? angle : 0, axis == 1 ? angle : 0, axis == 2 ? angle : 0));
+}
+
+// Undeformed tube's frame against I: the base's pose, then where the tube is mounted on it.
+static m3 tube_axes(const history_data *read, size_t row)
+{
+    m3 A =
+        m3_mul(m3_mul(about(1, at(read, "base.yaw", row)), about(2, at(read, "base.pitch", row))),
+               about(0, at(read, "base.roll", row)));
+    const history_array *mount = history_array_named(read, "base.mount");
+    return mount ? m3_mul(A, m3_mul(about(1, mount->value[0]), about(2, mount->value[1]))) : A;
+}
+
+static v3 vector(const history_data *read, const char *x, const char *y, const char *z, size_t row)
+{
+    return v3_make(at(read, x, row), at(read, y, row), at(read, z, row));
+}
+
+// How far the tip of the history is from the tip of the shapes [m].
+static double tip_error(const history_data *read, size_t row)
+{
+    const history_array *station = array(read, "tube.station");
+    double length = station->value[station->rows - 1];
+    quat q = {at(read, "tube.q0", row), at(read, "tube.q1", row), at(read, "tube.q2", row),
+              at(read, "tube.q3", row)};
+    v3 tip = v3_add(vector(read, "tube.x", "tube.y", "tube.z", row),
+                    m3_apply(q_matrix(q), section_at(read, row, length).P));
+    v3 offset = m3_apply_transposed(tube_axes(read, row),
+                                    v3_sub(tip, vector(read, "base.x", "base.y", "base.z", row)));
+    return hypot(offset.y - at(read, "tip.y", row), offset.z - at(read, "tip.z", row));
+}
+
+// How far adaptor i's offset in the history is from that of rocket and shapes [m]; 0 where it has
+// left.
+static double adaptor_error(const history_data *read, size_t row, size_t i, const char *name)
+{
+    char y_name[64], z_name[64];
+    snprintf(y_name, sizeof y_name, "contact.%s.y", name);
+    snprintf(z_name, sizeof z_name, "contact.%s.z", name);
+    if (isnan(at(read, y_name, row)))
+        return 0;
+    double s = at(read, "rocket.s", row), l = array(read, "rocket.adaptor")->value[i];
+    section S = section_at(read, row, s);
+    m3 A_SB = m3_mul(
+        m3_mul(about(2, at(read, "rocket.psi", row)), about(1, at(read, "rocket.theta", row))),
+        about(0, at(read, "rocket.gamma", row)));
+    v3 in_S = v3_add(v3_make(0, at(read, "rocket.y", row), at(read, "rocket.z", row)),
+                     m3_apply(A_SB, v3_make(l, 0, 0)));
+    v3 C = v3_add(S.P, m3_apply(S.A, in_S));
+    double foot = s + l;
+    v3 offset = {0, 0, 0};
+    for (int step = 0; step < 20; step++, foot += offset.x) {
+        section at_foot = section_at(read, row, foot);
+        offset = m3_apply_transposed(at_foot.A, v3_sub(C, at_foot.P));
+    }
+    return hypot(offset.y - at(read, y_name, row), offset.z - at(read, z_name, row));
+}
+
+static void check_run(const history_data *read)
+{
+    static const char *const adaptor[] = {"rear", "middle", "front"};
+    double tip = 0, contact = 0, span = 0;
+    for (size_t row = 0; row < read->rows; row += 7) {
+        tip = fmax(tip, tip_error(read, row));
+        span = fmax(span, hypot(at(read, "tip.y", row), at(read, "tip.z", row)));
+        for (size_t i = 0; i < 3; i++)
+            contact = fmax(contact, adaptor_error(read, row, i, adaptor[i]));
+    }
+    CHECK_WITHIN("largest offset of the tip [m]", span, 1e-4, 0.1);
+    CHECK_BELOW("tip from the shapes less tip of the history [m]", tip, 1e-14);
+    CHECK_BELOW("adaptors from the shapes less those of the history [m]", contact, 1e-14);
+}
+
+static void test_fixed(void **state)
+{
+    (void)state;
+    history_data read;
+    run_example("fixed.yaml", NULL, 0, &read);
+    check_run(&read);
+    assert_null(history_array_named(&read, "wheel.mount"));
+    history_free(&read);
+}
+
+static void test_ship(void **state)
+{
+    (void)state;
+    const char *sets[] = {"run.lead_in=0.1 s"};
+    history_data read;
+    run_example("ship.yaml", sets, 1, &read);
+    check_run(&read);
+    history_free(&read);
+}
+
+// The launching tube's rear end is where chassis, hinges and layout put it; wheels hang where their
+// travel says.
+static void test_vehicle(void **state)
+{
+    (void)state;
+    const char *sets[] = {"run.lead_in=0.2 s", "run.end=tip"};
+    history_data read;
+    run_example("reference.yaml", sets, 2, &read);
+    check_run(&read);
+    const history_array *places = array(&read, "tubes.rear_end");
+    assert_int_equal(places->rows, 18);
+    double place = 0, wheel = 0;
+    for (size_t row = 0; row < read.rows; row += 7) {
+        m3 A_C = m3_mul(m3_mul(about(1, at(&read, "chassis.yaw", row)),
+                               about(2, at(&read, "chassis.pitch", row))),
+                        about(0, at(&read, "chassis.roll", row)));
+        v3 r_C = vector(&read, "chassis.x", "chassis.y", "chassis.z", row);
+        m3 A_A = m3_mul(A_C, about(1, at(&read, "azimuth.angle", row)));
+        m3 A_E = m3_mul(A_A, about(2, at(&read, "elevation.angle", row)));
+        v3 azimuth = v3_add(r_C, m3_apply(A_C, v3_from(array(&read, "azimuth.hinge")->value)));
+        v3 elevation =
+            v3_add(azimuth, m3_apply(A_A, v3_from(array(&read, "elevation.hinge")->value)));
+        v3 rear = v3_add(elevation, m3_apply(A_E, v3_from(places->value + 3 * 7)));
+        place =
+            fmax(place, v3_norm(v3_sub(rear, vector(&read, "base.x", "base.y", "base.z", row))));
+        v3 mount = v3_from(array(&read, "wheel.mount")->value);
+        v3 hanging =
+            m3_apply_transposed(A_C, v3_sub(vector(&read, "wheel.front-left.x",
+                                                   "wheel.front-left.y", "wheel.front-left.z", row),
+                                            r_C));
+        wheel = fmax(wheel, fabs(hanging.y - mount.y - at(&read, "wheel.front-left.travel", row)));
+    }
+    CHECK_BELOW("tube 8 from hinges and layout less that of the history [m]", place, 1e-14);
+    CHECK_BELOW("wheel from mount and travel less that of the history [m]", wheel, 1e-14);
+    history_free(&read);
+}
+
+// A history without geometry, as earlier versions wrote it, is read too.
+static void test_without(void **state)
+{
+    (void)state;
+    history_hdf5 *history;
+    history_data read;
+    const ld_column t = {"t", "s", "time"};
+    assert_int_equal(history_hdf5_create(in("old.h5"), "Old", &history, NULL), LD_OK);
+    assert_int_equal(history_hdf5_begin(history, &t, 1, NULL), LD_OK);
+    assert_int_equal(history_hdf5_close(history, NULL, NULL), LD_OK);
+    assert_int_equal(history_read(in("old.h5"), &read, NULL), LD_OK);
+    CHECK_WITHIN("arrays of a history without geometry", (double)read.arrays, 0, 0);
+    assert_null(history_array_named(&read, "tube.station"));
+    history_free(&read);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {TEST(test_fixed), TEST(test_ship), TEST(test_vehicle),
+                                       TEST(test_without)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
