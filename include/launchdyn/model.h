@@ -35,6 +35,9 @@ enum {
     LD_MAX_NAME = 64,
     LD_MAX_PATH = 128,
     LD_MAX_CHOICES = 32,
+    LD_MAX_UNTIL = 16,
+    LD_MAX_CORRELATED = 16,
+    LD_MAX_POINTS = 10000,
 };
 
 /// A numeric table, row by row, `rows` x `columns`, owned by its model. Empty: rows = 0.
@@ -519,6 +522,16 @@ typedef struct ld_firing {
     double at; ///< [s] on the run's clock
 } ld_firing;
 
+/// The firings as an order of tubes at one interval; where it is present, ld_model_complete() makes
+/// the list of firings from it.
+typedef struct ld_firing_order {
+    bool present;
+    int tube_count;
+    int tube[LD_MAX_FIRINGS]; ///< numbers from 1
+    double start;             ///< [s] first ignition, on the run's clock
+    double interval;          ///< [s] from one ignition to the next
+} ld_firing_order;
+
 typedef enum ld_start { LD_START_EQUILIBRIUM, LD_START_UNDEFORMED } ld_start;
 typedef enum ld_formulation { LD_FORMULATION_REDUCED, LD_FORMULATION_OVERALL } ld_formulation;
 typedef enum ld_run_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING } ld_run_end;
@@ -564,18 +577,49 @@ typedef struct ld_factor {
     bool per_rocket;               ///< drawn for every rocket (keys of the rocket only)
 } ld_factor;
 
+/// Factors whose normal scores are correlated (Gaussian copula): of normal factors the matrix is
+/// that of their own correlations.
+typedef struct ld_correlated {
+    int count;
+    int factor[LD_MAX_CORRELATED];                       ///< numbers from 0 in ld_scatter.factor
+    double matrix[LD_MAX_CORRELATED][LD_MAX_CORRELATED]; ///< symmetric, 1 on the diagonal
+} ld_correlated;
+
+typedef enum ld_statistic { LD_STATISTIC_MEAN, LD_STATISTIC_DEVIATION } ld_statistic;
+
+/// How well a statistic of a result must be known for a study to stop before its last sample.
+typedef struct ld_until {
+    char result[LD_MAX_NAME]; ///< name of the result's column, e.g. "t_rear"
+    ld_statistic statistic;
+    double half_width; ///< of the 95 % interval, in SI or, where relative, as a share of the
+                       ///< statistic's magnitude
+    bool relative;
+} ld_until;
+
 typedef enum ld_plan { LD_PLAN_RANDOM, LD_PLAN_LHS } ld_plan;
 
 /// What a study scatters, and how often it runs.
 typedef struct ld_scatter {
     bool present;
     int seed;
-    int samples; ///< runs, each of all rockets of the firing
+    int samples; ///< runs, each of all rockets of the firing; with `until`, at most
     ld_plan plan;
     int replicates; ///< independent Latin hypercubes, of samples/replicates each
     int factor_count;
     ld_factor *factor; ///< owned by the model
+    int correlated_count;
+    ld_correlated *correlated;    ///< groups of factors, owned by the model
+    int until_count;              ///< 0: all samples are run
+    ld_until until[LD_MAX_UNTIL]; ///< all of which must hold
 } ld_scatter;
+
+/// One key of the scenario that a study varies: a sweep is the product of its axes, the first
+/// varying most slowly.
+typedef struct ld_sweep_axis {
+    char path[LD_MAX_PATH]; ///< list members by name, else by number from 1
+    int count;
+    char **value; ///< [count] as written, in one line of YAML
+} ld_sweep_axis;
 
 typedef struct ld_model {
     char *title;
@@ -588,10 +632,14 @@ typedef struct ld_model {
     ld_flight flight; ///< of a flight alone
     int firing_count;
     ld_firing firing[LD_MAX_FIRINGS];
+    ld_firing_order firing_order;
     const ld_rocket *salvo; ///< [firing_count] rocket of each firing where they differ in numbers,
                             ///< not owned; NULL: each is `rocket`
     ld_run_settings run;
     ld_scatter scatter; ///< for studies
+    int sweep_count;
+    ld_sweep_axis *sweep; ///< for studies, owned by the model; its points are read by
+                          ///< ld_scenario_read_point()
 } ld_model;
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
@@ -599,13 +647,13 @@ typedef struct ld_model {
 void ld_model_init(ld_model *model);
 
 /// Computes what follows from the rest: the stiffnesses and masses of sections that are given by
-/// radii or areas; where it is NaN, rocket.propellant = full.mass - empty.mass and run.stuck_time =
-/// end of the thrust table + 1 s; of a flight alone, what its rocket lacks: a motor (absent), empty
-/// values (as the full ones), the mass centre (0), and the end at the tip (landing). The scenario
-/// reader has done it already.
+/// radii or areas; the firings of an order of tubes; where it is NaN, rocket.propellant = full.mass
+/// - empty.mass and run.stuck_time = end of the thrust table + 1 s; of a flight alone, what its
+/// rocket lacks: a motor (absent), empty values (as the full ones), the mass centre (0), and the
+/// end at the tip (landing). The scenario reader has done it already.
 void ld_model_complete(ld_model *model);
 
-/// Frees the title, the tables and the factors of `model` and resets it to the defaults.
+/// Frees the title, the tables and what `model` owns for studies, and resets it to the defaults.
 void ld_model_free(ld_model *model);
 
 /// Checks that the values of `model` fit together and are finite and in range; for models filled by

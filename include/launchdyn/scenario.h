@@ -31,7 +31,8 @@ void ld_messages_free(ld_messages *messages);
 /// Prints `file:line:column: error: path: text`, a line each (with the source line and a caret).
 void ld_messages_print(const ld_messages *messages, FILE *stream);
 
-/// Reads and checks a scenario file. All errors of the file come in one pass.
+/// Reads and checks a scenario file: of one with a sweep the values that it gives besides, the
+/// nominal ones, and each swept value by itself. All errors of the file come in one pass.
 /// @param path     file name; "-" is standard input
 /// @param sets     `count` texts "path=value" that override the file (as of --set)
 /// @param model    filled on success (free with ld_model_free()); untouched on failure
@@ -45,6 +46,23 @@ ld_status ld_scenario_read(const char *path, const char *const *sets, size_t cou
 ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
                                 const char *folder, const char *const *sets, size_t count,
                                 ld_model *model, ld_messages *messages);
+
+/// Number of points of the model's sweep: the product of its axes' counts, 1 without.
+int ld_scenario_points(const ld_model *model);
+
+/// The number (from 0) of the value that axis `axis` (from 0) has at point `point` (from 1): the
+/// first axis varies most slowly.
+int ld_scenario_value(const ld_model *model, int point, int axis);
+
+/// Reads the scenario with the values of point `point` (from 1 to ld_scenario_points()) of its
+/// sweep in place of the nominal ones; 0: the nominal ones. A value's place in messages is that in
+/// the sweep. An override of a swept key takes its axis away; other overrides are laid over the
+/// point. The model keeps the axes, and everything else may differ between points.
+ld_status ld_scenario_read_point(const char *path, const char *const *sets, size_t count, int point,
+                                 ld_model *model, ld_messages *messages);
+ld_status ld_scenario_read_text_point(const char *text, size_t length, const char *name,
+                                      const char *folder, const char *const *sets, size_t count,
+                                      int point, ld_model *model, ld_messages *messages);
 
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again.
 void ld_model_print(const ld_model *model, FILE *stream);

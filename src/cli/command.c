@@ -79,14 +79,14 @@ void command_line_end(command_line *line)
     poptFreeContext(line->context);
 }
 
-// Reads the scenario; prints what is wrong with it.
-static ld_status read_model(const char *file, char **sets, ld_model *model)
+ld_status command_read(const char *file, char **sets, int point, ld_model *model)
 {
     ld_messages messages = {0};
     size_t count = 0;
     while (sets && sets[count])
         count++;
-    ld_status status = ld_scenario_read(file, (const char *const *)sets, count, model, &messages);
+    ld_status status =
+        ld_scenario_read_point(file, (const char *const *)sets, count, point, model, &messages);
     if (status) {
         ld_messages_print(&messages, stderr);
         ld_messages_free(&messages);
@@ -98,7 +98,7 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
                     void *data)
 {
     ld_model model;
-    if (read_model(file, sets, &model))
+    if (command_read(file, sets, 0, &model))
         return EXIT_INPUT;
     int code = work(&model, data);
     ld_model_free(&model);

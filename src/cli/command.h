@@ -79,7 +79,10 @@ int command_on_model(const command *self, int argc, const char **argv,
                      const struct poptOption *options, char ***sets,
                      int (*work)(const ld_model *model, void *data), void *data);
 
-// The parts of it: `work` on the model of the file with its overrides, and the end of these.
+// The parts of it: the model of the file with its overrides at a point of its sweep (0: the nominal
+// one), after messages LD_ERR_INPUT or another; `work` on the nominal one; the end of the
+// overrides.
+ld_status command_read(const char *file, char **sets, int point, ld_model *model);
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
 void command_free_sets(char **sets);

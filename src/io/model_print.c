@@ -1,7 +1,8 @@
 // A model as a scenario in SI units: every key, in the order of the tables.
 #include <locale.h>
 
-#include "launchdyn/scenario.h"
+#include "io/scenario_reader.h"
+#include "io/study_results.h"
 #include "model/field.h"
 
 #include <string.h>
@@ -16,8 +17,7 @@ static void print_number(FILE *stream, const double *values, int count, const ch
     fprintf(stream, "%s%s", unit[0] ? " " : "", unit);
 }
 
-// A YAML string in double quotes.
-static void print_text(FILE *stream, const char *text)
+void scenario_print_text(FILE *stream, const char *text)
 {
     fputc('"', stream);
     for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
@@ -97,7 +97,7 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
         print_selection(stream, f, base);
         return;
     default: // FIELD_TEXT; the others have no place on a line
-        print_text(stream, *(char *const *)field_at_const(base, f));
+        scenario_print_text(stream, *(char *const *)field_at_const(base, f));
         return;
     }
 }
@@ -113,6 +113,8 @@ static bool is_given(const field_row *f, const void *base, int form)
         return *(char *const *)field_at_const(base, f) != NULL;
     if (f->kind == FIELD_TABLE)
         return ((const ld_table *)field_at_const(base, f))->rows > 0;
+    if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP)
+        return field_switch(base, f) > 0;
     return true;
 }
 
@@ -218,6 +220,62 @@ static void print_factors(FILE *stream, const field_row *f, const ld_scatter *sc
     }
 }
 
+static void print_correlated(FILE *stream, const ld_scatter *scatter, int depth)
+{
+    fputc('\n', stream);
+    for (int g = 0; g < scatter->correlated_count; g++) {
+        const ld_correlated *group = &scatter->correlated[g];
+        fprintf(stream, "%*s- {factors: [", depth * 2, "");
+        for (int i = 0; i < group->count; i++)
+            fprintf(stream, "%s%s", i ? ", " : "", scatter->factor[group->factor[i]].path);
+        fprintf(stream, "], matrix: [");
+        for (int i = 0; i < group->count; i++) {
+            fprintf(stream, i ? ", [" : "[");
+            for (int k = 0; k < group->count; k++) {
+                fprintf(stream, k ? ", " : "");
+                print_number(stream, &group->matrix[i][k], 1, "");
+            }
+            fprintf(stream, "]");
+        }
+        fprintf(stream, "]}\n");
+    }
+}
+
+// The number of hundredths that reads back as `share`.
+static double percent(double share)
+{
+    double near = share * 100, low = nextafter(near, 0), high = nextafter(near, INFINITY);
+    if (near / 100 == share)
+        return near;
+    return low / 100 == share ? low : high;
+}
+
+static void print_until(FILE *stream, const ld_scatter *scatter, int depth)
+{
+    fputc('\n', stream);
+    for (int i = 0; i < scatter->until_count; i++) {
+        const ld_until *until = &scatter->until[i];
+        const study_result *result = study_result_named(until->result);
+        double value = until->relative ? percent(until->half_width) : until->half_width;
+        fprintf(stream, "%*s%s.%s: ", depth * 2, "", until->result,
+                until->statistic == LD_STATISTIC_MEAN ? "mean" : "deviation");
+        print_number(stream, &value, 1, until->relative ? "%" : result ? result->unit : "");
+        fputc('\n', stream);
+    }
+}
+
+static void print_sweep(FILE *stream, const ld_model *model, int depth)
+{
+    fputc('\n', stream);
+    for (int i = 0; i < model->sweep_count; i++) {
+        const ld_sweep_axis *axis = &model->sweep[i];
+        fprintf(stream, "%*s%s: [", depth * 2, "", axis->path);
+        for (int k = 0; k < axis->count; k++)
+            fprintf(stream, "%s%s", k ? ", " : "", axis->value[k]);
+        fprintf(stream, "]\n");
+    }
+}
+
 static void print_block(FILE *stream, const field_block *block, const void *base, int depth);
 
 static void print_field(FILE *stream, const field_row *f, const void *base, int depth)
@@ -228,10 +286,19 @@ static void print_field(FILE *stream, const field_row *f, const void *base, int 
         fprintf(stream, "%s%s\n", word[0] ? " " : "", word);
         if (!word[0])
             print_block(stream, f->block, field_at_const(base, f), depth + 1);
+    } else if (f->kind == FIELD_LIST && f->alternative && field_switch(base, f->alternative)) {
+        fputc('\n', stream);
+        print_block(stream, f->alternative->block, field_at_const(base, f->alternative), depth + 1);
     } else if (f->kind == FIELD_LIST) {
         print_list(stream, f, base, depth + 1);
     } else if (f->kind == FIELD_FACTORS) {
         print_factors(stream, f, base, depth + 1);
+    } else if (f->kind == FIELD_CORRELATED) {
+        print_correlated(stream, base, depth + 1);
+    } else if (f->kind == FIELD_UNTIL) {
+        print_until(stream, base, depth + 1);
+    } else if (f->kind == FIELD_SWEEP) {
+        print_sweep(stream, base, depth + 1);
     } else if (f->kind == FIELD_TABLE) {
         print_table(stream, f, field_at_const(base, f), depth + 1);
     } else {

@@ -105,58 +105,27 @@ static tree_node *load(scenario_reader *reader, const text_source *source, const
 
 // ---- overrides
 
-static bool is_path_character(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-}
-
 // The mapping {key: {key: ... value}} of a text "key.key...=value"; NULL after a message.
 static tree_node *parse_override(scenario_reader *reader, const text_source *source)
 {
     const char *text = source->text, *equals = strchr(text, '=');
-    int line = source->first_line;
-    tree_node *root = tree_new(reader, NODE_MAP, (text_place){source, line, 1}), *map = root;
-    int depth = 0;
-    for (const char *begin = text; map && equals; depth++) {
-        const char *end = begin;
-        while (is_path_character(*end))
-            end++;
-        text_place at = {source, line, (int)(begin - text) + 1};
-        if (end == begin || (*end != '.' && *end != '=') || depth >= READER_MAX_DEPTH) {
-            reader_refuse(reader, (text_place){source, line, (int)(end - text) + 1}, "",
-                          "not a path of keys joined by dots, such as rocket.mass");
-            return NULL;
-        }
-        bool last = end == equals;
-        const char *value = equals + 1;
-        tree_node *inner;
-        if (!last) {
-            inner = tree_new(reader, NODE_MAP, at);
-        } else if (value[strspn(value, " \t")] == '\0') {
-            inner = tree_new(reader, NODE_SCALAR, at);
-            if (inner) {
-                inner->plain = true;
-                inner->text = "";
-            }
-        } else {
-            inner = tree_parse(reader, source, value, strlen(value), (int)(value - text) + 1);
-        }
-        if (!inner)
-            return NULL;
-        inner->key = pool_text(reader, begin, (size_t)(end - begin));
-        inner->key_at = at;
-        if (!inner->key)
-            return NULL;
-        tree_append(map, inner);
-        if (last)
-            return root;
-        map = inner;
-        begin = end + 1;
+    text_place begin = {source, source->first_line, 1};
+    if (!equals) {
+        reader_refuse(reader, begin, "", "expected path=value");
+        return NULL;
     }
-    if (root && !equals)
-        reader_refuse(reader, (text_place){source, line, 1}, "", "expected path=value");
-    return NULL;
+    const char *path = pool_text(reader, text, (size_t)(equals - text)), *value = equals + 1;
+    tree_node *node;
+    if (value[strspn(value, " \t")] == '\0') {
+        node = tree_new(reader, NODE_SCALAR, begin);
+        if (node) {
+            node->plain = true;
+            node->text = "";
+        }
+    } else {
+        node = tree_parse(reader, source, value, strlen(value), (int)(value - text) + 1);
+    }
+    return path && node ? tree_at_path(reader, path, begin, node) : NULL;
 }
 
 static tree_node *apply_override(scenario_reader *reader, tree_node *root, const char *text,
@@ -173,27 +142,83 @@ static tree_node *apply_override(scenario_reader *reader, tree_node *root, const
 
 // ---- the whole
 
-static void read_source(scenario_reader *reader, const text_source *source, const char *const *sets,
-                        size_t count, ld_model *model)
+// What stands on the command line, and which point of the sweep is wanted (from 1; 0: none).
+typedef struct scenario_request {
+    const char *const *set;
+    size_t count;
+    int point;
+} scenario_request;
+
+static tree_node *apply_overrides(scenario_reader *reader, tree_node *root, const char *folder,
+                                  const scenario_request *request)
+{
+    for (size_t i = 0; i < request->count; i++)
+        root = apply_override(reader, root, request->set[i], folder, (int)i + 1);
+    return root;
+}
+
+// Reads each value of each axis by itself, only for messages about its key: whether values of
+// several go together is seen when their point is read.
+static void check_values(scenario_reader *reader, const tree_node *file,
+                         const scenario_sweep *sweep, const char *folder,
+                         const scenario_request *request)
+{
+    for (int i = 0; i < sweep->count; i++)
+        for (int k = 0; k < sweep->axis[i].list->count && !reader->no_memory; k++) {
+            ld_model model;
+            memory_pool before = pool_mark(reader);
+            size_t messages = reader->messages->count;
+            ld_model_init(&model);
+            tree_node *root = tree_copy(reader, file);
+            root = root ? sweep_lay(reader, root, &sweep->axis[i], k) : NULL;
+            if (root)
+                root = apply_overrides(reader, root, folder, request);
+            if (root && !reader->no_memory)
+                scenario_fill_values(reader, root, &model);
+            ld_model_free(&model);
+            reader_keep_messages(reader, messages, sweep->axis[i].path);
+            pool_return(reader, before);
+        }
+}
+
+static void read_source(scenario_reader *reader, const text_source *source,
+                        const scenario_request *request, ld_model *model)
 {
     char *real_name = realpath(source->name, NULL);
-    open_file file = {NULL, real_name ? real_name : source->name, 0};
-    tree_node *root = load(reader, source, &file);
+    open_file open = {NULL, real_name ? real_name : source->name, 0};
+    tree_node *file = load(reader, source, &open);
     free(real_name);
+    tree_node *root = file ? tree_copy(reader, file) : NULL;
     if (!root)
         return;
-    for (size_t i = 0; i < count; i++)
-        root = apply_override(reader, root, sets[i], source->folder, (int)i + 1);
-    if (reader->no_memory)
+    root = apply_overrides(reader, root, source->folder, request);
+    scenario_sweep sweep = sweep_find(reader, root, request->set, request->count);
+    sweep_fill(reader, &sweep, model);
+    if (request->point > ld_scenario_points(model)) {
+        reader_refuse(reader, root->at, "sweep", "there is no point %d: they go from 1 to %d",
+                      request->point, ld_scenario_points(model));
         return;
-    scenario_fill(reader, root, model);
+    }
+    if (request->point > 0) {
+        // overrides come last: they have the last word
+        root = tree_copy(reader, file);
+        for (int i = 0; i < sweep.count && root; i++)
+            root = sweep_lay(reader, root, &sweep.axis[i],
+                             ld_scenario_value(model, request->point, i));
+        root = root ? apply_overrides(reader, root, source->folder, request) : NULL;
+    }
+    if (root && !reader->no_memory)
+        scenario_fill(reader, root, model);
+    if (request->point == 0)
+        check_values(reader, file, &sweep, source->folder, request);
 }
 
 // udunits keeps the state of its parser in global variables.
 static pthread_mutex_t one_reader = PTHREAD_MUTEX_INITIALIZER;
 
-static ld_status read_scenario(const char *file, text_source *source, const char *const *sets,
-                               size_t count, ld_model *model, ld_messages *messages)
+static ld_status read_scenario(const char *file, text_source *source,
+                               const scenario_request *request, ld_model *model,
+                               ld_messages *messages)
 {
     scenario_reader reader = {.messages = messages};
     ld_model fresh;
@@ -205,6 +230,9 @@ static ld_status read_scenario(const char *file, text_source *source, const char
     reader.units = units_open();
     if (!plain || !reader.units) {
         reader.no_memory = true;
+    } else if (file && strcmp(file, "-") == 0 && request->point > 0) {
+        reader_refuse(&reader, (text_place){&(text_source){.name = "<stdin>"}, 0, 0}, "sweep",
+                      "its points are read one by one: give a file, not standard input");
     } else if (file) {
         struct text_source unread = {.name = strcmp(file, "-") == 0 ? "<stdin>" : file};
         source = reader_open(&reader, (text_place){&unread, 0, 0}, "", file);
@@ -213,7 +241,7 @@ static ld_status read_scenario(const char *file, text_source *source, const char
             source->name = unread.name;
     }
     if (source && !reader.no_memory)
-        read_source(&reader, source, sets, count, &fresh);
+        read_source(&reader, source, request, &fresh);
     pthread_mutex_unlock(&one_reader);
     reader_finish_messages(&reader);
     if (reader.no_memory)
@@ -234,7 +262,7 @@ static ld_status read_scenario(const char *file, text_source *source, const char
 ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count, ld_model *model,
                            ld_messages *messages)
 {
-    return read_scenario(path, NULL, sets, count, model, messages);
+    return read_scenario(path, NULL, &(scenario_request){sets, count, 0}, model, messages);
 }
 
 ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
@@ -242,5 +270,19 @@ ld_status ld_scenario_read_text(const char *text, size_t length, const char *nam
                                 ld_model *model, ld_messages *messages)
 {
     text_source source = {name, text, length, folder, 1};
-    return read_scenario(NULL, &source, sets, count, model, messages);
+    return read_scenario(NULL, &source, &(scenario_request){sets, count, 0}, model, messages);
+}
+
+ld_status ld_scenario_read_point(const char *path, const char *const *sets, size_t count, int point,
+                                 ld_model *model, ld_messages *messages)
+{
+    return read_scenario(path, NULL, &(scenario_request){sets, count, point}, model, messages);
+}
+
+ld_status ld_scenario_read_text_point(const char *text, size_t length, const char *name,
+                                      const char *folder, const char *const *sets, size_t count,
+                                      int point, ld_model *model, ld_messages *messages)
+{
+    text_source source = {name, text, length, folder, 1};
+    return read_scenario(NULL, &source, &(scenario_request){sets, count, point}, model, messages);
 }

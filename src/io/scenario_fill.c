@@ -8,7 +8,7 @@
 #include "io/scenario_reader.h"
 #include "model/field.h"
 
-enum { PATH = 512 };
+enum { PATH = READER_MAX_PATH };
 
 // Appends to a path; what is too long is cut.
 static void extend(char path[PATH], const char *more)
@@ -402,7 +402,7 @@ static void read_integers(scenario_reader *reader, const field_row *f, const tre
     int *values = field_at(base, f), number = 0;
     field_row one = *f;
     one.kind = FIELD_INTEGER;
-    if (list->kind != NODE_LIST || list->count > f->count) {
+    if (list->kind != NODE_LIST || list->count < f->least || list->count > f->count) {
         refuse_value(reader, f, list, path);
         return;
     }
@@ -492,13 +492,20 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
         read_block_field(reader, f, value, base, path);
         break;
     case FIELD_LIST:
-        read_list(reader, f, value, base, path);
+        if (tree_is_alternative(f, value))
+            read_block_field(reader, f->alternative, value, base, path);
+        else
+            read_list(reader, f, value, base, path);
         break;
     case FIELD_TABLE:
         read_table(reader, f, value, base, path);
         break;
     case FIELD_FACTORS:
-        break; // they are about all the rest: scenario_fill_factors()
+    case FIELD_CORRELATED:
+    case FIELD_UNTIL:
+        break; // they are about all the rest: scenario_fill_scatter()
+    case FIELD_SWEEP:
+        break; // see sweep_find()
     case FIELD_LATER:
         reader_refuse(reader, value->key_at, path, "not simulated yet");
         break;
@@ -662,9 +669,8 @@ static void refuse_rule(void *self, const char *path, const char *text)
                       full_path, "%s", text);
 }
 
-void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model)
+void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model)
 {
-    rule_context context = {.reader = reader, .root = root};
     if (root->kind != NODE_MAP) {
         reader_refuse(reader, root->at, "",
                       "a scenario is a block of keys, beginning with "
@@ -673,7 +679,15 @@ void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *mod
     }
     read_block(reader, &scenario_block, root, model, "");
     ld_model_complete(model);
-    scenario_fill_factors(reader, root, model);
+    scenario_fill_scatter(reader, root, model);
+}
+
+void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model)
+{
+    rule_context context = {.reader = reader, .root = root};
+    scenario_fill_values(reader, root, model);
+    if (root->kind != NODE_MAP)
+        return;
     context.messages = reader->messages->count;
     model_check_rules(model, refuse_rule, &context);
 }

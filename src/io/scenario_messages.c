@@ -4,15 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void free_message(ld_message *message)
+{
+    free(message->file);
+    free(message->path);
+    free(message->text);
+    free(message->source);
+}
+
 void ld_messages_free(ld_messages *messages)
 {
-    for (size_t i = 0; i < messages->count; i++) {
-        ld_message *m = &messages->item[i];
-        free(m->file);
-        free(m->path);
-        free(m->text);
-        free(m->source);
-    }
+    for (size_t i = 0; i < messages->count; i++)
+        free_message(&messages->item[i]);
     free(messages->item);
     *messages = (ld_messages){0};
 }
@@ -145,6 +148,30 @@ bool reader_has_refused(const scenario_reader *reader, size_t count, const char 
             return true;
     }
     return false;
+}
+
+static bool is_same(const ld_message *a, const ld_message *b)
+{
+    return a->line == b->line && a->column == b->column && strcmp(a->file, b->file) == 0 &&
+           strcmp(a->path, b->path) == 0 && strcmp(a->text, b->text) == 0;
+}
+
+void reader_keep_messages(scenario_reader *reader, size_t count, const char *path)
+{
+    ld_messages *messages = reader->messages;
+    size_t kept = count;
+    for (size_t i = count; i < messages->count && !reader->no_memory; i++) {
+        ld_message *m = &messages->item[i];
+        bool wanted = is_at_or_below(m->path, path) || is_at_or_below(path, m->path);
+        for (size_t k = 0; wanted && k < kept; k++)
+            wanted = !is_same(m, &messages->item[k]);
+        if (wanted)
+            messages->item[kept++] = *m;
+        else
+            free_message(m);
+    }
+    if (!reader->no_memory)
+        messages->count = kept;
 }
 
 const char *reader_quote(const char *text, char buffer[64])

@@ -13,6 +13,7 @@
 enum {
     READER_MAX_DEPTH = 32,             // of nested lists and mappings
     READER_MAX_KEYS = 256,             // of one mapping
+    READER_MAX_PATH = 512,             //
     READER_MAX_NODES = 200000,         // of one scenario
     READER_MAX_MESSAGES = 100,         //
     READER_MAX_INCLUDES = 8,           // one inside the other
@@ -52,7 +53,8 @@ typedef struct tree_node {
 } tree_node;
 
 typedef struct memory_pool {
-    struct pool_chunk *chunk;
+    struct pool_chunk *chunk; // the newest
+    size_t used;              // of it, where this is a mark
 } memory_pool;
 
 typedef struct scenario_reader {
@@ -67,6 +69,9 @@ typedef struct scenario_reader {
 // Memory that lives as long as the reader; NULL (and no_memory) without.
 void *pool_take(scenario_reader *reader, size_t size);
 char *pool_text(scenario_reader *reader, const char *text, size_t length);
+// What has been taken so far, and the return of all that was taken since.
+memory_pool pool_mark(const scenario_reader *reader);
+void pool_return(scenario_reader *reader, memory_pool mark);
 void pool_free(scenario_reader *reader);
 
 // Adds a message about the key `path` at `place`.
@@ -75,6 +80,10 @@ void reader_refuse(scenario_reader *reader, text_place place, const char *path, 
 // Whether one of the first `count` messages is about `path`, a key below it or a
 // block around it.
 bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path);
+
+// Of the messages after the first `count`, keeps those about `path`, a key below it or a block
+// around it that do not stand there already.
+void reader_keep_messages(scenario_reader *reader, size_t count, const char *path);
 
 // Puts the messages into the order of the text.
 void reader_finish_messages(scenario_reader *reader);
@@ -95,18 +104,55 @@ tree_node *tree_entry(const tree_node *list, const char *name);
 tree_node *tree_merge(scenario_reader *reader, tree_node *under, tree_node *over, const char *path);
 tree_node *tree_new(scenario_reader *reader, node_kind kind, text_place at);
 void tree_append(tree_node *parent, tree_node *member);
+// A copy with all that is below.
+tree_node *tree_copy(scenario_reader *reader, const tree_node *node);
+// The path of the node that `path` leads to from `root`, list members by name where they have one;
+// what is not there stays as it stands.
+void tree_path(const tree_node *root, const char *path, char full_path[READER_MAX_PATH]);
+// {key: {key: ... value}} of the path "key.key" whose first character is at `at`; NULL after a
+// message.
+tree_node *tree_at_path(scenario_reader *reader, const char *path, text_place at, tree_node *value);
 void tree_remove(tree_node *parent, tree_node *member);
+// Whether the node is the block that may stand in place of the list `f` (NULL: no key).
+struct field_row;
+bool tree_is_alternative(const struct field_row *f, const tree_node *node);
 // Whether there is no value: nothing, ~ or null.
 bool tree_is_empty(const tree_node *node);
 
-// Reads the tree into `model` (initialised), each value against its table, then checks the rules.
+// Reads the tree into `model` (initialised), each value against its table; then checks the rules.
+void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model);
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
 
-// Reads the distributions of scatter.factors, once the rest of the model is known.
-void scenario_fill_factors(scenario_reader *reader, const tree_node *root, ld_model *model);
+// Reads what scatter says about other keys, once the rest of the model is known.
+void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_model *model);
+// Its groups of correlated factors, and the statistics of its stopping rule.
+void fill_correlated(scenario_reader *reader, const tree_node *list, ld_model *model);
+void fill_until(scenario_reader *reader, const tree_node *map, ld_scatter *scatter);
+
+// A text in double quotes.
+void scenario_print_text(FILE *stream, const char *text);
+
+// A key that is swept: its values, and its path in full.
+typedef struct scenario_axis {
+    const tree_node *list; // of values; its key is the path as written
+    char path[LD_MAX_PATH];
+} scenario_axis;
+
+typedef struct scenario_sweep {
+    int count;
+    scenario_axis *axis;
+} scenario_sweep;
+
+// Finds the axes of root's `sweep`, less those with the path of one of the overrides.
+scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const char *const *sets,
+                          size_t count);
+// Lays the value with that number (from 0) of an axis on `root`, which it returns.
+tree_node *sweep_lay(scenario_reader *reader, tree_node *root, const scenario_axis *axis,
+                     int number);
+// Puts the axes into the model, with their values as text.
+void sweep_fill(scenario_reader *reader, const scenario_sweep *sweep, ld_model *model);
 
 // Reads a value of `f`, "15 km/h" or "0 0 1 m", in SI into `values`; false after a message.
-struct field_row;
 bool quantity_read(scenario_reader *reader, const struct field_row *f, text_place place,
                    const char *path, const char *text, double *values, int count);
 

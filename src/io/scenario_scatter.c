@@ -274,14 +274,9 @@ static void refuse_double(scenario_reader *reader, const tree_node *node, const 
         }
 }
 
-void scenario_fill_factors(scenario_reader *reader, const tree_node *root, ld_model *model)
+static void fill_factors(scenario_reader *reader, const tree_node *factors, ld_model *model)
 {
-    const tree_node *block = tree_member(root, "scatter");
-    const tree_node *factors =
-        block && block->kind == NODE_MAP ? tree_member(block, "factors") : NULL;
     ld_scatter *scatter = &model->scatter;
-    if (!factors)
-        return;
     if (factors->kind != NODE_MAP || factors->count == 0) {
         reader_refuse(reader, factors->key_at, "scatter.factors",
                       "expected paths with their distributions, such as "
@@ -298,4 +293,20 @@ void scenario_fill_factors(scenario_reader *reader, const tree_node *root, ld_mo
         refuse_double(reader, node, scatter, scatter->factor_count);
         scatter->factor_count++;
     }
+}
+
+void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_model *model)
+{
+    const tree_node *block = tree_member(root, "scatter");
+    if (!block || block->kind != NODE_MAP)
+        return;
+    const tree_node *factors = tree_member(block, "factors");
+    const tree_node *correlated = tree_member(block, "correlated");
+    const tree_node *until = tree_member(block, "until");
+    if (factors)
+        fill_factors(reader, factors, model);
+    if (correlated && factors)
+        fill_correlated(reader, correlated, model);
+    if (until)
+        fill_until(reader, until, &model->scatter);
 }

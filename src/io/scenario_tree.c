@@ -2,6 +2,8 @@
 // value.
 #include "io/scenario_reader.h"
 
+#include "model/field.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,13 +47,26 @@ char *pool_text(scenario_reader *reader, const char *text, size_t length)
     return copy;
 }
 
-void pool_free(scenario_reader *reader)
+memory_pool pool_mark(const scenario_reader *reader)
 {
-    while (reader->pool.chunk) {
+    struct pool_chunk *chunk = reader->pool.chunk;
+    return (memory_pool){chunk, chunk ? chunk->used : 0};
+}
+
+void pool_return(scenario_reader *reader, memory_pool mark)
+{
+    while (reader->pool.chunk != mark.chunk) {
         struct pool_chunk *next = reader->pool.chunk->next;
         free(reader->pool.chunk);
         reader->pool.chunk = next;
     }
+    if (mark.chunk)
+        mark.chunk->used = mark.used;
+}
+
+void pool_free(scenario_reader *reader)
+{
+    pool_return(reader, (memory_pool){0});
 }
 
 // ---- nodes
@@ -95,6 +110,23 @@ tree_node *tree_entry(const tree_node *list, const char *name)
             return entry;
     }
     return NULL;
+}
+
+tree_node *tree_copy(scenario_reader *reader, const tree_node *node)
+{
+    tree_node *copy = pool_take(reader, sizeof *copy);
+    if (!copy)
+        return NULL;
+    *copy = *node;
+    copy->first = copy->last = NULL;
+    copy->count = 0;
+    for (const tree_node *member = node->first; member; member = member->next) {
+        tree_node *inner = tree_copy(reader, member);
+        if (!inner)
+            return NULL;
+        tree_append(copy, inner);
+    }
+    return copy;
 }
 
 bool tree_is_empty(const tree_node *node)
@@ -351,6 +383,69 @@ tree_node *tree_parse(scenario_reader *reader, const text_source *source, const 
     return b.failed ? NULL : root;
 }
 
+// ---- paths
+
+static bool is_path_character(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+}
+
+tree_node *tree_at_path(scenario_reader *reader, const char *path, text_place at, tree_node *value)
+{
+    tree_node *root = tree_new(reader, NODE_MAP, at), *map = root;
+    const char *begin = path;
+    for (int depth = 0; map; depth++) {
+        const char *end = begin;
+        while (is_path_character(*end))
+            end++;
+        text_place here = {at.source, at.line, at.column + (int)(begin - path)};
+        if (end == begin || (*end && *end != '.') || depth >= READER_MAX_DEPTH) {
+            here.column += (int)(end - begin);
+            reader_refuse(reader, here, "",
+                          "not a path of keys joined by dots, such as rocket.mass");
+            return NULL;
+        }
+        tree_node *inner = *end ? tree_new(reader, NODE_MAP, here) : value;
+        if (!inner)
+            return NULL;
+        inner->key = pool_text(reader, begin, (size_t)(end - begin));
+        inner->key_at = here;
+        if (!inner->key)
+            return NULL;
+        tree_append(map, inner);
+        if (!*end)
+            return root;
+        map = inner;
+        begin = end + 1;
+    }
+    return NULL;
+}
+
+void tree_path(const tree_node *root, const char *path, char full_path[READER_MAX_PATH])
+{
+    const tree_node *node = root;
+    size_t length = 0;
+    while (*path && length < READER_MAX_PATH - 1) {
+        char key[256];
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(path, "."), path);
+        path += strcspn(path, ".");
+        path += *path == '.';
+        bool list = node && node->kind == NODE_LIST;
+        node = !node                    ? NULL
+               : node->kind == NODE_MAP ? tree_member(node, key)
+               : list                   ? tree_entry(node, key)
+                                        : NULL;
+        const tree_node *name =
+            list && node && node->kind == NODE_MAP ? tree_member(node, "name") : NULL;
+        bool named = name && name->kind == NODE_SCALAR && name->text[0];
+        snprintf(full_path + length, READER_MAX_PATH - length, "%s%s", length ? "." : "",
+                 named ? name->text : key);
+        length = strlen(full_path);
+    }
+    full_path[length] = '\0';
+}
+
 // ---- merging
 
 static void replace_member(tree_node *parent, tree_node *old, tree_node *fresh)
@@ -420,13 +515,24 @@ static void merge_entries(scenario_reader *reader, tree_node *list, tree_node *o
     }
 }
 
+bool tree_is_alternative(const struct field_row *f, const tree_node *map)
+{
+    if (!f || !f->alternative || map->kind != NODE_MAP)
+        return false;
+    for (const tree_node *member = map->first; member; member = member->next)
+        if (field_find(f->alternative->block, member->key))
+            return true;
+    return false;
+}
+
 tree_node *tree_merge(scenario_reader *reader, tree_node *under, tree_node *over, const char *path)
 {
     if (under->kind == NODE_MAP && over->kind == NODE_MAP) {
         merge_maps(reader, under, over, path);
         return under;
     }
-    if (under->kind == NODE_LIST && over->kind == NODE_MAP) {
+    if (under->kind == NODE_LIST && over->kind == NODE_MAP &&
+        !tree_is_alternative(field_find(&scenario_block, path), over)) {
         merge_entries(reader, under, over, path);
         return under;
     }

@@ -1,6 +1,7 @@
 // Checks of a model that was filled by hand: every value against its table, then the rules.
 #include "model/field.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -66,8 +67,8 @@ static void check_integers(model_checker *checker, const char *path, const field
 {
     int count = field_switch(base, f);
     char text[96];
-    if (count < 0 || count > f->count) {
-        snprintf(text, sizeof text, "%d numbers, not 0 to %d", count, f->count);
+    if (count < f->least || count > f->count) {
+        snprintf(text, sizeof text, "%d numbers, not %d to %d", count, f->least, f->count);
         refuse(checker, path, text);
         return;
     }
@@ -129,6 +130,52 @@ static void check_factors(model_checker *checker, const ld_scatter *scatter)
     }
 }
 
+static void check_correlated(model_checker *checker, const ld_scatter *scatter)
+{
+    char path[48], why[384];
+    for (int i = 0; i < scatter->correlated_count; i++) {
+        const ld_correlated *group = &scatter->correlated[i];
+        bool known = group->count >= 2 && group->count <= LD_MAX_CORRELATED;
+        for (int k = 0; known && k < group->count; k++)
+            known = group->factor[k] >= 0 && group->factor[k] < scatter->factor_count;
+        snprintf(path, sizeof path, "scatter.correlated.%d", i + 1);
+        if (!known)
+            refuse(checker, path, "not from two of the scatter's factors to as many as fit");
+        else if (!correlated_is_possible(scatter, group, why, sizeof why))
+            refuse(checker, path, why);
+    }
+}
+
+static void check_until(model_checker *checker, const ld_scatter *scatter)
+{
+    char path[48];
+    if (scatter->until_count < 0 || scatter->until_count > LD_MAX_UNTIL) {
+        refuse(checker, "scatter.until", "more statistics than fit");
+        return;
+    }
+    for (int i = 0; i < scatter->until_count; i++) {
+        const ld_until *until = &scatter->until[i];
+        bool good =
+            until->half_width > 0 && isfinite(until->half_width) &&
+            memchr(until->result, '\0', LD_MAX_NAME) &&
+            (until->statistic == LD_STATISTIC_MEAN || until->statistic == LD_STATISTIC_DEVIATION);
+        snprintf(path, sizeof path, "scatter.until.%d", i + 1);
+        if (!good)
+            refuse(checker, path, "no statistic with a half width > 0");
+    }
+}
+
+static void check_sweep(model_checker *checker, const ld_model *model)
+{
+    int64_t points = 1;
+    for (int i = 0; i < model->sweep_count && points <= LD_MAX_POINTS; i++) {
+        int count = model->sweep[i].count;
+        points *= count > LD_MAX_POINTS ? LD_MAX_POINTS + 1 : count;
+    }
+    if (points < 1 || points > LD_MAX_POINTS)
+        refuse(checker, "sweep", "has no points, or more than are allowed");
+}
+
 static void check_field(model_checker *checker, const char *path, const field_row *f,
                         const void *base)
 {
@@ -153,7 +200,10 @@ static void check_field(model_checker *checker, const char *path, const field_ro
             check_block(checker, path, f->block, field_at_const(base, f));
         break;
     case FIELD_LIST:
-        check_list(checker, path, f, base);
+        if (f->alternative && field_switch(base, f->alternative))
+            check_block(checker, path, f->alternative->block, field_at_const(base, f->alternative));
+        else
+            check_list(checker, path, f, base);
         break;
     case FIELD_TABLE:
         check_table(checker, path, f, field_at_const(base, f));
@@ -164,6 +214,15 @@ static void check_field(model_checker *checker, const char *path, const field_ro
         break;
     case FIELD_FACTORS:
         check_factors(checker, base);
+        break;
+    case FIELD_CORRELATED:
+        check_correlated(checker, base);
+        break;
+    case FIELD_UNTIL:
+        check_until(checker, base);
+        break;
+    case FIELD_SWEEP:
+        check_sweep(checker, base);
         break;
     case FIELD_TEXT:
     case FIELD_SELECTION:

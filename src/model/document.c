@@ -104,6 +104,8 @@ static void write_block(FILE *stream, const field_block *block, const char *path
             continue;
         path_below(full_path, sizeof full_path, f, path);
         write_block(stream, f->block, full_path);
+        if (f->alternative)
+            write_block(stream, f->alternative->block, f->alternative->name);
     }
 }
 

@@ -105,6 +105,8 @@ static void initialise(const field_row *f, void *base)
             field_set_switch(base, f, f->words[0].value);
     } else if (f->offset == FIELD_NOWHERE) {
         return;
+    } else if (f->alternative) {
+        initialise(f->alternative, base);
     } else if (f->kind == FIELD_NUMBER) {
         for (int i = 0; i < f->count; i++)
             ((double *)field_at(base, f))[i] = f->initials ? f->initials[i] : f->initial;
@@ -120,6 +122,16 @@ void field_initialise(const field_block *block, void *base)
         initialise(f, base);
 }
 
+static void release_sweep(ld_sweep_axis *axis, int count)
+{
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < axis[i].count; k++)
+            free(axis[i].value[k]);
+        free(axis[i].value);
+    }
+    free(axis);
+}
+
 void field_release(const field_block *block, void *base)
 {
     for (const field_row *f = block->fields; f->name; f++) {
@@ -131,6 +143,10 @@ void field_release(const field_block *block, void *base)
             free(((ld_table *)field_at(base, f))->data);
         } else if (f->kind == FIELD_FACTORS) {
             free(*(ld_factor **)field_at(base, f));
+        } else if (f->kind == FIELD_CORRELATED) {
+            free(*(ld_correlated **)field_at(base, f));
+        } else if (f->kind == FIELD_SWEEP) {
+            release_sweep(*(ld_sweep_axis **)field_at(base, f), field_switch(base, f));
         }
     }
 }
@@ -252,8 +268,12 @@ void field_expectation(const field_row *field, char *text, size_t size)
         snprintf(text, size, "a whole number from %g to %.9g", field->range.low, field->range.high);
         return;
     case FIELD_INTEGERS:
-        snprintf(text, size, "a list of at most %d whole numbers from %g to %g", field->count,
-                 field->range.low, field->range.high);
+        if (field->least > 0)
+            snprintf(text, size, "a list of %d to %d", field->least, field->count);
+        else
+            snprintf(text, size, "a list of at most %d", field->count);
+        append(text, size, " whole numbers ");
+        field_range_text(field, text + strlen(text), size - strlen(text));
         return;
     case FIELD_SELECTION:
         snprintf(text, size, "all or a list of names");
@@ -287,12 +307,24 @@ void field_expectation(const field_row *field, char *text, size_t size)
             snprintf(text, size, "a list of %d block%s", field->count, field->count > 1 ? "s" : "");
         else
             snprintf(text, size, "a list of %d to %d blocks", field->least, field->count);
+        if (field->alternative)
+            append(text, size, ", or a block of keys");
         return;
     case FIELD_TABLE:
         table_expectation(field->table, text, size);
         return;
     case FIELD_FACTORS:
         snprintf(text, size, "a block of paths, each with its distribution");
+        return;
+    case FIELD_CORRELATED:
+        snprintf(text, size, "a list of blocks, each with the keys factors and matrix");
+        return;
+    case FIELD_UNTIL:
+        snprintf(text, size, "a block of at most %d statistics, each with its half width",
+                 field->count);
+        return;
+    case FIELD_SWEEP:
+        snprintf(text, size, "a block of paths, each with a list of values");
         return;
     case FIELD_LATER:
         snprintf(text, size, "nothing yet");

@@ -12,20 +12,23 @@
 #include "launchdyn/model.h"
 
 typedef enum field_kind {
-    FIELD_NUMBER,    // `count` doubles with one unit
-    FIELD_INTEGER,   // int
-    FIELD_INTEGERS,  // array of int, their number at `other`
-    FIELD_WORD,      // char[LD_MAX_NAME], a name
-    FIELD_TEXT,      // char *, owned by the model
-    FIELD_CHOICE,    // enum: one of `words`
-    FIELD_BLOCK,     // keys of `block`
-    FIELD_LIST,      // array of structs described by `block`, their number at `other`
-    FIELD_SELECTION, // some entries of a list read before, by their names or `all`: the bool at
-                     // `mark` of each entry, whose name stands first in it
-    FIELD_TABLE,     // ld_table
-    FIELD_FACTORS,   // ld_factor *, owned by the model, their number at `other`: distributions by
-                     // path
-    FIELD_LATER,     // a key of the language that is not simulated yet
+    FIELD_NUMBER,     // `count` doubles with one unit
+    FIELD_INTEGER,    // int
+    FIELD_INTEGERS,   // array of int, their number at `other`
+    FIELD_WORD,       // char[LD_MAX_NAME], a name
+    FIELD_TEXT,       // char *, owned by the model
+    FIELD_CHOICE,     // enum: one of `words`
+    FIELD_BLOCK,      // keys of `block`
+    FIELD_LIST,       // array of structs described by `block`, their number at `other`
+    FIELD_SELECTION,  // some entries of a list read before, by their names or `all`: the bool at
+                      // `mark` of each entry, whose name stands first in it
+    FIELD_TABLE,      // ld_table
+    FIELD_FACTORS,    // ld_factor *, owned by the model, their number at `other`: distributions by
+                      // path
+    FIELD_CORRELATED, // ld_correlated *, owned by the model, their number at `other`
+    FIELD_UNTIL,      // array of ld_until, their number at `other`
+    FIELD_SWEEP,      // ld_sweep_axis *, owned by the model, their number at `other`
+    FIELD_LATER,      // a key of the language that is not simulated yet
 } field_kind;
 
 // Numbers between `low` and `high`, the ends belonging to it unless open.
@@ -71,7 +74,7 @@ typedef struct field_row {
     size_t stride;           // list, selection: size of one entry
     size_t mark;             // selection: place of the mark in an entry
     int count;               // number: how many; list, integers: most entries
-    int least;               // list: fewest entries
+    int least;               // list, integers: fewest entries
     const char *unit;        // SI, "" without
     double initial;          // default in SI; NaN: none
     const double *initials;  // number: default of each, where they differ
@@ -80,6 +83,8 @@ typedef struct field_row {
     field_range range;
     const field_word *words;
     const struct field_block *block;
+    const struct field_row *alternative; // list: the block that may stand in its place, whose
+                                         // switch says whether it does; or NULL
     const table_format *table;
     unsigned forms; // bit f: the key goes with form f of its block; 0: with every form
     const char *doc;
@@ -151,6 +156,13 @@ void field_set(ld_model *model, const field_place *place, double value);
 // not.
 bool factor_is_possible(const ld_model *model, const ld_factor *factor, const field_place *place,
                         char *why, size_t size);
+// Whether the factors of a group can be correlated as it says; false: `why` says why not.
+bool correlated_is_possible(const ld_scatter *scatter, const ld_correlated *group, char *why,
+                            size_t size);
+// Lower triangular factor L with L L' = matrix, both count x count by rows of LD_MAX_CORRELATED
+// (Cholesky); false: the matrix is not positive definite.
+bool correlated_factorise(const ld_correlated *group,
+                          double lower[LD_MAX_CORRELATED][LD_MAX_CORRELATED]);
 // Whether the rockets of one sample may differ in it.
 bool factor_may_be_per_rocket(const ld_factor *factor);
 

@@ -57,8 +57,19 @@ static void complete_flight(ld_model *model)
         model->run.end = LD_END_LANDING;
 }
 
+static void complete_firing(ld_model *model)
+{
+    const ld_firing_order *order = &model->firing_order;
+    if (!order->present)
+        return;
+    model->firing_count = order->tube_count;
+    for (int i = 0; i < order->tube_count; i++)
+        model->firing[i] = (ld_firing){order->tube[i], order->start + i * order->interval};
+}
+
 void ld_model_complete(ld_model *model)
 {
+    complete_firing(model);
     ld_tubes *tubes = &model->tubes;
     ld_rocket *rocket = &model->rocket;
     const ld_table *thrust = &rocket->motor.thrust;

@@ -108,8 +108,21 @@ static const char *entry_name(const field_row *f, const void *entry)
     return name && name->kind == FIELD_WORD ? field_at_const(entry, name) : NULL;
 }
 
+static bool enter_block(walk *w, const field_row *f)
+{
+    const char *word = f->words ? word_in_place(f, field_switch(w->base, f)) : NULL;
+    if (word)
+        return refuse(w, "%s is %s in this scenario", w->place->path, word);
+    w->place->offset += f->offset;
+    w->block = f->block;
+    w->base = field_at_const(w->base, f);
+    return true;
+}
+
 static bool enter_list(walk *w, const field_row *f)
 {
+    if (f->alternative && field_switch(w->base, f->alternative))
+        return enter_block(w, f->alternative);
     int count = field_switch(w->base, f), chosen = -1;
     if (!next_key(w))
         return refuse(w, "%s is a list: name one of its members%s", w->place->path,
@@ -134,17 +147,6 @@ static bool enter_list(walk *w, const field_row *f)
     w->block = f->block;
     w->base = entry;
     return extend(w, name ? name : number);
-}
-
-static bool enter_block(walk *w, const field_row *f)
-{
-    const char *word = f->words ? word_in_place(f, field_switch(w->base, f)) : NULL;
-    if (word)
-        return refuse(w, "%s is %s in this scenario", w->place->path, word);
-    w->place->offset += f->offset;
-    w->block = f->block;
-    w->base = field_at_const(w->base, f);
-    return true;
 }
 
 // The key that an unknown one probably means, or NULL.
@@ -176,7 +178,8 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
             return refuse(&w, "%s does not belong to this scenario", place->path);
         if (is_scalar(f))
             return take_number(&w, f);
-        bool study = w.block == &scenario_block && strcmp(f->name, "scatter") == 0;
+        bool study = w.block == &scenario_block &&
+                     (strcmp(f->name, "scatter") == 0 || strcmp(f->name, "sweep") == 0);
         bool inside = study                    ? refuse(&w, "the study itself is not scattered")
                       : f->kind == FIELD_BLOCK ? enter_block(&w, f)
                       : f->kind == FIELD_LIST  ? enter_list(&w, f)
@@ -231,5 +234,66 @@ bool factor_is_possible(const ld_model *model, const ld_factor *factor, const fi
         text = "a lognormal distribution needs a value > 0 in the scenario";
     if (text)
         snprintf(why, size, "%s", text);
+    return !text;
+}
+
+bool correlated_factorise(const ld_correlated *group,
+                          double lower[LD_MAX_CORRELATED][LD_MAX_CORRELATED])
+{
+    for (int i = 0; i < group->count; i++)
+        for (int k = 0; k <= i; k++) {
+            double rest = group->matrix[i][k];
+            for (int j = 0; j < k; j++)
+                rest -= lower[i][j] * lower[k][j];
+            // the least pivot is far above rounding errors
+            if (i == k && rest < 1e-10)
+                return false;
+            lower[i][k] = i == k ? sqrt(rest) : rest / lower[k][k];
+        }
+    return true;
+}
+
+// Whether the matrix has 1 on its diagonal, is symmetric and between -1 and 1.
+static const char *wrong_with_matrix(const ld_correlated *group)
+{
+    for (int i = 0; i < group->count; i++)
+        for (int k = 0; k <= i; k++) {
+            double c = group->matrix[i][k];
+            if (i == k && c != 1)
+                return "its diagonal must be 1";
+            if (c != group->matrix[k][i])
+                return "must be symmetric";
+            if (!(fabs(c) <= 1))
+                return "holds what is no number from -1 to 1";
+        }
+    double lower[LD_MAX_CORRELATED][LD_MAX_CORRELATED];
+    return correlated_factorise(group, lower) ? NULL : "is not positive definite";
+}
+
+bool correlated_is_possible(const ld_scatter *scatter, const ld_correlated *group, char *why,
+                            size_t size)
+{
+    const ld_factor *factor = scatter->factor, *first = &factor[group->factor[0]];
+    for (int i = 0; i < group->count; i++) {
+        const ld_factor *own = &factor[group->factor[i]];
+        bool again = false;
+        for (const ld_correlated *g = scatter->correlated; g <= group; g++)
+            for (int k = 0; k < (g == group ? i : g->count); k++)
+                again = again || g->factor[k] == group->factor[i];
+        const char *text = again ? "is in a group already"
+                           : own->distribution == LD_EACH_SAMPLE
+                               ? "is a seed, which depends on nothing"
+                           : own->per_rocket != first->per_rocket
+                               ? "is not drawn as the first of its group, for every rocket or for "
+                                 "the sample"
+                               : NULL;
+        if (text) {
+            snprintf(why, size, "%s %s", own->path, text);
+            return false;
+        }
+    }
+    const char *text = wrong_with_matrix(group);
+    if (text)
+        snprintf(why, size, "the matrix %s", text);
     return !text;
 }

@@ -79,21 +79,24 @@ static void derived_rules(const rule_set *rules)
 static void firing_rule(const rule_set *rules, int i, int count)
 {
     const ld_tubes *tubes = &rules->model->tubes;
+    bool order = rules->model->firing_order.present;
+    const char *path = order ? "firing.order.#" : "firing.#.tube";
     int tube = rules->model->firing[i].tube;
     if (tube > count)
-        broken(rules, "firing.#.tube", i + 1, "%d; the layout has tubes 1 to %d", tube, count);
+        broken(rules, path, i + 1, "%d; the layout has tubes 1 to %d", tube, count);
     for (int k = 0; k < tubes->empty_count; k++)
         if (tubes->empty[k] == tube) {
-            broken(rules, "firing.#.tube", i + 1, "%d has no rocket: tubes.empty lists it", tube);
+            broken(rules, path, i + 1, "%d has no rocket: tubes.empty lists it", tube);
             return;
         }
     const ld_firing *firing = rules->model->firing;
     if (i > 0 && firing[i].at <= firing[i - 1].at)
-        broken(rules, "firing.#.at", i + 1, "%g s does not come after the firing before, at %g s",
-               firing[i].at, firing[i - 1].at);
+        broken(rules, order ? "firing.interval" : "firing.#.at", i + 1,
+               "%g s does not come after the firing before, at %g s", firing[i].at,
+               firing[i - 1].at);
     for (int k = 0; k < i; k++)
         if (firing[k].tube == tube)
-            broken(rules, "firing.#.tube", i + 1, "%d has fired already, as entry %d", tube, k + 1);
+            broken(rules, path, i + 1, "%d has fired already, as entry %d", tube, k + 1);
 }
 
 static void layout_rules(const rule_set *rules)
@@ -432,6 +435,9 @@ static void scatter_rules(const rule_set *rules)
         scatter->samples % scatter->replicates != 0)
         broken(rules, "scatter.replicates", 0, "%d samples are no multiple of %d replicates",
                scatter->samples, scatter->replicates);
+    if (scatter->until_count > 0 && scatter->plan == LD_PLAN_LHS && scatter->replicates < 2)
+        broken(rules, "scatter.until", 0,
+               "one hypercube states no interval; give replicates, or the plan random");
 }
 
 void model_check_rules(const ld_model *model, rule_report *report, void *self)

@@ -906,6 +906,20 @@ static const field_row firing_fields[] = {
     {0}};
 static const field_block firing_block = {.fields = firing_fields};
 
+static const field_row order_fields[] = {
+    {"order", INTEGERS(ld_firing_order, tube, tube_count, 1, 10000, LD_MAX_FIRINGS), .least = 1,
+     .required = true, .doc = "numbers of the tubes, in the order of firing"},
+    {"start", NUMBER(ld_firing_order, start, "s"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "first ignition, counted from the end of the lead-in"},
+    {"interval", NUMBER(ld_firing_order, interval, "s"), ABOVE_TO(0, 10000), REQUIRED,
+     .doc = "from one ignition to the next"},
+    {0}};
+static const field_block order_block = {.fields = order_fields};
+static const field_word given_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row firing_order = {"firing", BLOCK(ld_model, firing_order, order_block),
+                                       SWITCH(ld_model, firing_order.present, given_words),
+                                       .other_is_bool = true};
+
 #define OUTPUT_STEP(member) NUMBER(ld_run_settings, member, "s"), .range = {1e-6, 100, 0, 0}
 static const field_row output_step_fields[] = {
     {"lead_in", OUTPUT_STEP(output_step_lead_in), DEFAULT(5e-3),
@@ -972,12 +986,18 @@ static const field_row scatter_fields[] = {
     {"factors", .kind = FIELD_FACTORS, .offset = offsetof(ld_scatter, factor),
      .other = offsetof(ld_scatter, factor_count), .required = true,
      .doc = "what is scattered: any number of the scenario by its path"},
+    {"correlated", .kind = FIELD_CORRELATED, .offset = offsetof(ld_scatter, correlated),
+     .other = offsetof(ld_scatter, correlated_count), .initial_doc = "none",
+     .doc = "groups of factors that depend on one another"},
+    {"until", .kind = FIELD_UNTIL, .offset = offsetof(ld_scatter, until),
+     .other = offsetof(ld_scatter, until_count), .count = LD_MAX_UNTIL,
+     .initial_doc = "all samples",
+     .doc = "how well the mean or the deviation of results must be known for no more samples"},
     {0}};
 static const field_block scatter_block = {.fields = scatter_fields,
                                           .form = plan_words,
                                           .form_offset = offsetof(ld_scatter, plan),
                                           .form_key = "plan"};
-static const field_word scatter_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 
 // ---- the whole
 
@@ -995,17 +1015,20 @@ static const field_row scenario_fields[] = {
     {"tubes", BLOCK(ld_model, tubes, tubes_block), .required = true, IN_TUBE,
      .doc = "launch tubes, all alike"},
     {"rocket", SAME_STRUCT(rocket_block), .required = true, .doc = "the rocket"},
-    {"firing", LIST(ld_model, firing, firing_count, firing_block, 1, LD_MAX_FIRINGS), IN_TUBE,
-     .initial_doc = "tube 1 at 0 s", .doc = "which tube fires when, one after the other"},
+    {"firing", LIST(ld_model, firing, firing_count, firing_block, 1, LD_MAX_FIRINGS),
+     .alternative = &firing_order, IN_TUBE, .initial_doc = "tube 1 at 0 s",
+     .doc = "which tube fires when, one after the other"},
     {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
      .doc = "how it is simulated"},
     {"flight", BLOCK(ld_model, flight, flight_block), .required = true, .forms = IN_FLIGHT,
      .doc = "flight alone, in place of base, platform, tubes, firing and what the rocket has for "
             "the tube"},
     {"scatter", BLOCK(ld_model, scatter, scatter_block), .initial_doc = "none",
-     SWITCH(ld_model, scatter.present, scatter_words), .other_is_bool = true,
+     SWITCH(ld_model, scatter.present, given_words), .other_is_bool = true,
      .doc = "random factors of a study (Scatter, above)"},
-    {"sweep", LATER, .doc = "sweeps for studies"},
+    {"sweep", .kind = FIELD_SWEEP, .offset = offsetof(ld_model, sweep),
+     .other = offsetof(ld_model, sweep_count), .initial_doc = "none",
+     .doc = "keys that a study varies, over all combinations of their values (Sweep, above)"},
     {0}};
 const field_block scenario_block = {.fields = scenario_fields,
                                     .form = kind_words,

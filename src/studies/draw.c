@@ -26,7 +26,9 @@ int64_t draw_permuted(const uint64_t key[2], uint64_t first, uint64_t second, in
     return (int64_t)x;
 }
 
-double draw_uniform(const ld_scatter *scatter, const ld_factor *factor, int64_t sample, int rocket)
+// The factor's number by itself, as if it were in no group.
+static double draw_alone(const ld_scatter *scatter, const ld_factor *factor, int64_t sample,
+                         int rocket)
 {
     uint64_t seed = (uint64_t)scatter->seed, stream = random_stream(factor->path);
     double u = random_uniform(seed, stream, (uint64_t)sample, (uint64_t)rocket, 0);
@@ -36,6 +38,32 @@ double draw_uniform(const ld_scatter *scatter, const ld_factor *factor, int64_t 
     int64_t stratum = draw_permuted((uint64_t[]){seed, stream}, (uint64_t)(i / strata),
                                     (uint64_t)rocket, strata, i % strata);
     return ((double)stratum + u) / (double)strata;
+}
+
+// The number of member `member` of a group: that of the normal score sum_k L_ik z_k, z_k those of
+// the first members by themselves (Gaussian copula).
+static double draw_in_group(const ld_scatter *scatter, const ld_correlated *group, int member,
+                            int64_t sample, int rocket)
+{
+    double lower[LD_MAX_CORRELATED][LD_MAX_CORRELATED], score = 0;
+    if (!correlated_factorise(group, lower))
+        return NAN;
+    for (int k = 0; k <= member; k++) {
+        const ld_factor *factor = &scatter->factor[group->factor[k]];
+        score += lower[member][k] * normal_quantile(draw_alone(scatter, factor, sample, rocket));
+    }
+    return fmin(normal_cumulative(score), 1 - 0x1p-53);
+}
+
+double draw_uniform(const ld_scatter *scatter, const ld_factor *factor, int64_t sample, int rocket)
+{
+    for (int g = 0; g < scatter->correlated_count; g++) {
+        const ld_correlated *group = &scatter->correlated[g];
+        for (int member = 1; member < group->count; member++)
+            if (&scatter->factor[group->factor[member]] == factor)
+                return draw_in_group(scatter, group, member, sample, rocket);
+    }
+    return draw_alone(scatter, factor, sample, rocket);
 }
 
 // Normal with mean 0 and deviation 1, kept between a and b; on the side where tails are accurate.

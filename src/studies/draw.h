@@ -7,7 +7,9 @@
 
 #include "model/field.h"
 
-// The number in (0, 1) for sample `sample` (from 1) and rocket `rocket` (from 1; 0: of the sample).
+// The number in (0, 1) for sample `sample` (from 1) and rocket `rocket` (from 1; 0: of the sample),
+// `factor` being one of scatter->factor. The first member of a correlated group has the number that
+// it would have by itself.
 double draw_uniform(const ld_scatter *scatter, const ld_factor *factor, int64_t sample, int rocket);
 
 // What the factor's distribution makes of `u` in (0, 1); place and nominal value of the number.

@@ -9,8 +9,8 @@
 
 #include <sqlite3.h>
 
+#include "io/study_results.h"
 #include "launchdyn/study.h"
-#include "studies/results.h"
 #include "studies/sample.h"
 
 typedef struct study_store {

@@ -12,6 +12,17 @@ static inline bool same_table(const ld_table *a, const ld_table *b)
            (a->rows == 0 || memcmp(a->data, b->data, a->rows * a->columns * sizeof(double)) == 0);
 }
 
+static inline bool same_axes(const ld_sweep_axis *a, const ld_sweep_axis *b, int count)
+{
+    bool same = true;
+    for (int i = 0; i < count; i++) {
+        same &= strcmp(a[i].path, b[i].path) == 0 && a[i].count == b[i].count;
+        for (int k = 0; k < a[i].count && same; k++)
+            same &= strcmp(a[i].value[k], b[i].value[k]) == 0;
+    }
+    return same;
+}
+
 // Whether the tables of the block are the same; forgets them.
 static inline bool same_tables(const field_block *block, void *a, void *b)
 {
@@ -28,6 +39,17 @@ static inline bool same_tables(const field_block *block, void *a, void *b)
             int count = field_switch(a, f);
             same &= count == field_switch(b, f) &&
                     (count == 0 || memcmp(*x, *y, (size_t)count * sizeof **x) == 0);
+            *x = *y = NULL;
+        } else if (f->kind == FIELD_CORRELATED) {
+            ld_correlated **x = field_at(a, f), **y = field_at(b, f);
+            int count = field_switch(a, f);
+            same &= count == field_switch(b, f) &&
+                    (count == 0 || memcmp(*x, *y, (size_t)count * sizeof **x) == 0);
+            *x = *y = NULL;
+        } else if (f->kind == FIELD_SWEEP) {
+            ld_sweep_axis **x = field_at(a, f), **y = field_at(b, f);
+            int count = field_switch(a, f);
+            same &= count == field_switch(b, f) && same_axes(*x, *y, count);
             *x = *y = NULL;
         }
     }

@@ -1,6 +1,7 @@
-#include "studies/results.h"
+#include "io/study_results.h"
 
 #include <math.h>
+#include <string.h>
 
 #define OF(member) offsetof(ld_rocket_summary, member)
 
@@ -43,6 +44,14 @@ const study_result study_results[STUDY_RESULTS + 1] = {
     {"max_angle_of_attack", "rad", OF(flight.max_angle_of_attack)},
     {NULL, NULL, 0},
 };
+
+const study_result *study_result_named(const char *name)
+{
+    for (const study_result *r = study_results; r->name; r++)
+        if (strcmp(r->name, name) == 0)
+            return r;
+    return NULL;
+}
 
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result)
 {

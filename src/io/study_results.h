@@ -1,6 +1,6 @@
 // What a study keeps of each rocket.
-#ifndef LD_STUDIES_RESULTS_H
-#define LD_STUDIES_RESULTS_H
+#ifndef LD_IO_STUDY_RESULTS_H
+#define LD_IO_STUDY_RESULTS_H
 
 #include <stddef.h>
 
@@ -14,6 +14,9 @@ typedef struct study_result {
 
 extern const study_result study_results[]; // ends with a NULL name
 enum { STUDY_RESULTS = 36 };
+
+// The result with that name, or NULL.
+const study_result *study_result_named(const char *name);
 
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result);
 

@@ -1,0 +1,213 @@
+// Sweeps: lists of values for keys of the scenario. A value is laid on the scenario as an override
+// is, so that its place in the file and all messages about it are those of any other value.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/scenario_reader.h"
+#include "model/field.h"
+
+static void refuse(scenario_reader *reader, text_place place, const char *key, const char *format,
+                   const char *detail)
+{
+    char path[READER_MAX_PATH];
+    snprintf(path, sizeof path, "sweep.%s", key);
+    reader_refuse(reader, place, path, format, detail);
+}
+
+// Whether one of the paths is the other, or a key below it.
+static bool overlap(const char *a, const char *b)
+{
+    size_t length = strlen(a) < strlen(b) ? strlen(a) : strlen(b);
+    return strncmp(a, b, length) == 0 && (!a[length] || a[length] == '.') &&
+           (!b[length] || b[length] == '.');
+}
+
+static bool is_overridden(const tree_node *root, const char *path, const char *const *sets,
+                          size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char set[READER_MAX_PATH], full_path[READER_MAX_PATH];
+        snprintf(set, sizeof set, "%.*s", (int)strcspn(sets[i], "="), sets[i]);
+        tree_path(root, set, full_path);
+        if (strcmp(full_path, path) == 0)
+            return true;
+    }
+    return false;
+}
+
+// Whether `list` is an axis beside those before it.
+static bool is_axis(scenario_reader *reader, const scenario_sweep *before, const tree_node *list,
+                    const char *path)
+{
+    static const char *const own[] = {"launchdyn", "include", "scatter", "sweep"};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (overlap(path, own[i])) {
+            refuse(reader, list->key_at, list->key, "the study itself is not swept%s", "");
+            return false;
+        }
+    for (int i = 0; i < before->count; i++)
+        if (overlap(path, before->axis[i].path)) {
+            refuse(reader, list->key_at, list->key,
+                   strcmp(path, before->axis[i].path) == 0 ? "is the same as %s, which stands above"
+                                                           : "goes over %s, which stands above",
+                   before->axis[i].path);
+            return false;
+        }
+    if (list->kind != NODE_LIST || list->count == 0) {
+        refuse(reader, tree_is_empty(list) ? list->key_at : list->at, list->key,
+               "expected a list of values, such as [0 km/h, 15 km/h]%s", "");
+        return false;
+    }
+    if (strlen(path) >= LD_MAX_PATH) {
+        refuse(reader, list->key_at, list->key, "the path is too long%s", "");
+        return false;
+    }
+    return true;
+}
+
+// The scenario that says nothing but value `number` (from 0) of the list; NULL after a message.
+static tree_node *scenario_with(scenario_reader *reader, const tree_node *list, int number)
+{
+    const tree_node *value = list->first;
+    while (number-- > 0)
+        value = value->next;
+    tree_node *copy = tree_copy(reader, value);
+    return copy ? tree_at_path(reader, list->key, list->key_at, copy) : NULL;
+}
+
+scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const char *const *sets,
+                          size_t count)
+{
+    const tree_node *block = root->kind == NODE_MAP ? tree_member(root, "sweep") : NULL;
+    scenario_sweep sweep = {0};
+    long points = 1;
+    if (!block)
+        return sweep;
+    if (block->kind != NODE_MAP || block->count == 0) {
+        reader_refuse(reader, block->key_at, "sweep",
+                      "expected paths with lists of values, such as "
+                      "base.speed: [0 km/h, 15 km/h]");
+        return sweep;
+    }
+    sweep.axis = pool_take(reader, (size_t)block->count * sizeof *sweep.axis);
+    for (const tree_node *list = block->first; list && sweep.axis; list = list->next) {
+        char path[READER_MAX_PATH];
+        tree_path(root, list->key, path);
+        if (is_overridden(root, path, sets, count) || !is_axis(reader, &sweep, list, path) ||
+            !scenario_with(reader, list, 0))
+            continue;
+        scenario_axis *axis = &sweep.axis[sweep.count++];
+        axis->list = list;
+        snprintf(axis->path, sizeof axis->path, "%.*s", LD_MAX_PATH - 1, path);
+        points = points > LD_MAX_POINTS ? points : points * list->count;
+    }
+    if (points > LD_MAX_POINTS) {
+        reader_refuse(reader, block->key_at, "sweep", "has more than %d points", LD_MAX_POINTS);
+        sweep.count = 0;
+    }
+    return sweep;
+}
+
+tree_node *sweep_lay(scenario_reader *reader, tree_node *root, const scenario_axis *axis,
+                     int number)
+{
+    tree_node *over = scenario_with(reader, axis->list, number);
+    return over ? tree_merge(reader, root, over, "") : root;
+}
+
+// ---- values as text
+
+// Whether a scalar can stand in a list without quotes, and means the same there.
+static bool is_bare(const tree_node *scalar)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    static const char others[] = "0123456789+-._ /%*^()";
+    const char *text = scalar->text;
+    size_t length = strlen(text), good = 0;
+    while (text[good] && (strchr(letters, text[good]) || strchr(others, text[good])))
+        good++;
+    tree_node plain = *scalar;
+    plain.plain = true;
+    return length > 0 && good == length && !strchr("._ /%*^()", text[0]) &&
+           (text[0] != '-' || (length > 1 && text[1] != ' ')) && text[length - 1] != ' ' &&
+           (scalar->plain || !tree_is_empty(&plain));
+}
+
+static void write_scalar(FILE *stream, const tree_node *scalar)
+{
+    if (tree_is_empty(scalar))
+        fputc('~', stream);
+    else if (is_bare(scalar))
+        fputs(scalar->text, stream);
+    else
+        scenario_print_text(stream, scalar->text);
+}
+
+static void write_value(FILE *stream, const tree_node *node)
+{
+    if (node->kind == NODE_SCALAR) {
+        write_scalar(stream, node);
+        return;
+    }
+    bool map = node->kind == NODE_MAP;
+    fputc(map ? '{' : '[', stream);
+    for (const tree_node *member = node->first; member; member = member->next) {
+        if (map) {
+            const tree_node key = {.kind = NODE_SCALAR, .text = member->key};
+            write_scalar(stream, &key);
+            fputs(": ", stream);
+        }
+        write_value(stream, member);
+        fputs(member->next ? ", " : "", stream);
+    }
+    fputc(map ? '}' : ']', stream);
+}
+
+static char *value_text(const tree_node *value)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return NULL;
+    write_value(stream, value);
+    return fclose(stream) == 0 ? text : NULL;
+}
+
+void sweep_fill(scenario_reader *reader, const scenario_sweep *sweep, ld_model *model)
+{
+    if (sweep->count == 0)
+        return;
+    model->sweep = calloc((size_t)sweep->count, sizeof *model->sweep);
+    reader->no_memory = reader->no_memory || !model->sweep;
+    for (int i = 0; i < sweep->count && !reader->no_memory; i++) {
+        const tree_node *list = sweep->axis[i].list;
+        ld_sweep_axis *axis = &model->sweep[model->sweep_count++];
+        memcpy(axis->path, sweep->axis[i].path, sizeof axis->path);
+        axis->value = calloc((size_t)list->count, sizeof *axis->value);
+        reader->no_memory = !axis->value;
+        for (const tree_node *value = list->first; value && !reader->no_memory;
+             value = value->next) {
+            axis->value[axis->count] = value_text(value);
+            reader->no_memory = !axis->value[axis->count];
+            axis->count += !reader->no_memory;
+        }
+    }
+}
+
+int ld_scenario_points(const ld_model *model)
+{
+    int points = 1;
+    for (int i = 0; i < model->sweep_count; i++)
+        points *= model->sweep[i].count;
+    return points;
+}
+
+int ld_scenario_value(const ld_model *model, int point, int axis)
+{
+    int rest = point - 1;
+    for (int i = model->sweep_count - 1; i > axis; i--)
+        rest /= model->sweep[i].count;
+    return rest % model->sweep[axis].count;
+}
