@@ -62,7 +62,8 @@ static ld_status print_results(const study_data *data, const study_point *point,
             return status;
         if (values->count == 0)
             continue;
-        statistics_of(values->value[0], values->group, values->count, &statistics);
+        if (statistics_of(values->value[0], values->group, values->count, &statistics))
+            return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
         if (first)
             fprintf(
                 stream,

@@ -1,9 +1,10 @@
 #include "studies/statistics.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/random.h"
 #include "math/distributions.h"
 
 const double statistics_level[STATISTICS_QUANTILES] = {0.05, 0.5, 0.95};
@@ -19,68 +20,116 @@ static double mean_of(const double *value, size_t count)
     return mean + rest / (double)count;
 }
 
-// Sums over one group of the differences from the mean and of their squares.
+// ---- groups
+
+// Sums over one group of the differences from the mean of all and of their squares.
 typedef struct group_sums {
-    size_t count;
-    double first, second;
+    double count, first, second;
 } group_sums;
 
-// The sums of the group that begins at `from`; moves `from` to the next one.
-static group_sums next_group(const double *value, const int64_t *group, size_t count, double mean,
-                             size_t *from)
+typedef struct grouped {
+    const double *value;
+    const int64_t *group;
+    size_t count, groups;
+    group_sums all;
+    group_sums *of; // [groups]
+} grouped;
+
+static void add(group_sums *sums, group_sums more)
 {
-    group_sums sums = {0};
-    int64_t this = group[*from];
-    for (; *from < count && group[*from] == this; ++*from) {
-        double d = value[*from] - mean;
-        sums.count++;
-        sums.first += d;
-        sums.second += d * d;
-    }
-    return sums;
+    sums->count += more.count;
+    sums->first += more.first;
+    sums->second += more.second;
 }
 
-static double variance(double count, double first, double second)
+static ld_status sum_groups(grouped *self, double mean)
 {
-    return (second - first * first / count) / (count - 1);
+    self->of = calloc(self->groups, sizeof *self->of);
+    if (!self->of)
+        return LD_ERR_MEMORY;
+    for (size_t i = 0, g = 0; i < self->count; i++) {
+        double d = self->value[i] - mean;
+        g += i > 0 && self->group[i] != self->group[i - 1];
+        add(&self->of[g], (group_sums){1, d, d * d});
+    }
+    for (size_t g = 0; g < self->groups; g++)
+        add(&self->all, self->of[g]);
+    return LD_OK;
+}
+
+static double variance(group_sums sums)
+{
+    return (sums.second - sums.first * sums.first / sums.count) / (sums.count - 1);
 }
 
 static const double confidence = 0.95;
 
-// Half the width of the interval of the mean: deviation of the groups' means.
-static void mean_interval(const double *value, const int64_t *group, size_t count,
-                          group_statistics *result)
+static double student(const grouped *self)
 {
-    double first = 0, second = 0, n = (double)result->groups;
-    for (size_t i = 0; i < count;) {
-        group_sums sums = next_group(value, group, count, result->mean.value, &i);
-        double d = sums.first / (double)sums.count;
-        first += d;
-        second += d * d;
-    }
-    double t = student_quantile(0.5 + confidence / 2, n - 1);
-    double half = t * sqrt(variance(n, first, second) / n);
-    result->mean.low = result->mean.value - half;
-    result->mean.high = result->mean.value + half;
+    return student_quantile(0.5 + confidence / 2, (double)self->groups - 1);
 }
 
-// Jackknife: the logarithm of the deviation without each group in turn.
-static void deviation_interval(const double *value, const int64_t *group, size_t count,
-                               double second, group_statistics *result)
+// ---- mean
+
+// Variance of the mean of all values: that of a ratio of sums over groups.
+static double variance_of_mean(const grouped *self)
 {
-    double n = (double)count, groups = (double)result->groups, sum = 0, squares = 0;
-    double all = log(result->deviation.value);
-    for (size_t i = 0; i < count;) {
-        group_sums sums = next_group(value, group, count, result->mean.value, &i);
-        double left = n - (double)sums.count;
-        double d = 0.5 * log(variance(left, -sums.first, second - sums.second)) - all;
+    double squares = 0, g = (double)self->groups, n = self->all.count;
+    for (size_t i = 0; i < self->groups; i++)
+        squares += self->of[i].first * self->of[i].first;
+    return g / (g - 1) * squares / (n * n);
+}
+
+static void mean_interval(const grouped *self, estimate *mean)
+{
+    double half = student(self) * sqrt(variance_of_mean(self));
+    mean->low = mean->value - half;
+    mean->high = mean->value + half;
+}
+
+// ---- standard deviation
+
+// Standard error of the logarithm of the variance: jackknife over groups.
+static double jackknife_error(const grouped *self)
+{
+    double g = (double)self->groups, sum = 0, squares = 0, all = log(variance(self->all));
+    for (size_t i = 0; i < self->groups; i++) {
+        group_sums rest = self->all, of = self->of[i];
+        add(&rest, (group_sums){-of.count, -of.first, -of.second});
+        double d = log(variance(rest)) - all;
         sum += d;
         squares += d * d;
     }
-    double spread = sqrt((groups - 1) / groups * (squares - sum * sum / groups));
-    double t = student_quantile(0.5 + confidence / 2, groups - 1);
-    result->deviation.low = exp(all - t * spread);
-    result->deviation.high = exp(all + t * spread);
+    return sqrt((g - 1) / g * (squares - sum * sum / g));
+}
+
+// The same to first order, of the groups of these numbers.
+static double linear_error(const grouped *self, const uint32_t *number, group_sums sums)
+{
+    double g = (double)self->groups, mean = sums.first / sums.count, squares = 0;
+    double second = sums.second / sums.count - mean * mean;
+    for (size_t i = 0; i < self->groups; i++) {
+        group_sums of = self->of[number[i]];
+        double d = of.second - mean * (2 * of.first - of.count * mean) - of.count * second;
+        squares += d * d;
+    }
+    return sqrt(g / (g - 1) * squares) / (sums.count * second);
+}
+
+// Draws as many groups as there are, with replacement; the numbers depend on `resample` alone.
+static group_sums draw_groups(const grouped *self, uint64_t resample, uint32_t *number)
+{
+    static const uint64_t key[2] = {0x626f6f7473747261, 0x70}; // "bootstrap"
+    group_sums sums = {0};
+    uint64_t words[4];
+    for (size_t i = 0; i < self->groups; i++) {
+        if (i % 8 == 0)
+            random_block(key, (uint64_t[]){resample, i / 8, 0, 0}, words);
+        uint64_t half = i % 2 ? words[i / 2 % 4] >> 32 : words[i / 2 % 4] & 0xffffffff;
+        number[i] = (uint32_t)(half * self->groups >> 32);
+        add(&sums, self->of[number[i]]);
+    }
+    return sums;
 }
 
 static int by_value(const void *left, const void *right)
@@ -89,68 +138,159 @@ static int by_value(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-// The greatest k with P(X <= k - 1) <= p, X binomial with n and q.
-static long order_below(long n, double q, double p)
+// Fewer groups: resamples are degenerate; more: Student's t does as well.
+enum { RESAMPLES = 999, FEWEST = 8, MOST = 1000 };
+
+// Quantiles of the studentised logarithm of the variance, t[0] < 0 < t[1] (Efron and Tibshirani, An
+// introduction to the bootstrap, 1993, section 12.5).
+static void bootstrap_quantiles(const grouped *self, double t[2])
 {
-    long low = 0, high = n;
-    while (low < high) {
-        long middle = (low + high + 1) / 2;
-        if (binomial_cumulative(middle - 1, n, q) <= p)
-            low = middle;
-        else
-            high = middle - 1;
+    double ratio[RESAMPLES], all = log(variance(self->all));
+    uint32_t number[MOST];
+    for (uint64_t b = 0; b < RESAMPLES; b++) {
+        group_sums sums = draw_groups(self, b, number);
+        double error = linear_error(self, number, sums);
+        ratio[b] = error > 0 ? (log(variance(sums)) - all) / error : 0;
     }
-    return low;
+    qsort(ratio, RESAMPLES, sizeof *ratio, by_value);
+    int beyond = (int)((RESAMPLES + 1) * (1 - confidence) / 2);
+    t[0] = ratio[beyond - 1];
+    t[1] = ratio[RESAMPLES - beyond];
 }
 
-// Quantile of sorted values, linear between them (Hyndman and Fan's definition 7).
-static estimate quantile_of(const double *sorted, size_t count, double q, bool independent)
+static void deviation_interval(const grouped *self, estimate *deviation)
 {
-    double at = q * (double)(count - 1);
+    double error = jackknife_error(self), t[2] = {-student(self), student(self)};
+    if (self->groups >= FEWEST && self->groups <= MOST)
+        bootstrap_quantiles(self, t);
+    deviation->low = deviation->value * exp(-0.5 * t[1] * error);
+    deviation->high = deviation->value * exp(-0.5 * t[0] * error);
+}
+
+// ---- quantiles
+
+// Value at the place `at`, from 0, among sorted ones, linear between them.
+static double value_at(const double *sorted, size_t count, double at)
+{
     size_t i = (size_t)at, next = i + 1 < count ? i + 1 : i;
-    estimate result = {sorted[i] + (at - (double)i) * (sorted[next] - sorted[i]), NAN, NAN};
-    long n = (long)count, low = order_below(n, q, (1 - confidence) / 2);
-    long high = n - order_below(n, 1 - q, (1 - confidence) / 2) + 1;
-    if (independent && low >= 1 && high <= n) {
-        result.low = sorted[low - 1];
-        result.high = sorted[high - 1];
+    return sorted[i] + (at - (double)i) * (sorted[next] - sorted[i]);
+}
+
+// The t at which the order statistic t (n + 1) of n independent values, as a real number, lies
+// below their distribution's quantile q with this probability (Hutson, J. Appl. Statist. 26, 1999).
+static double fractional_order(double n, double q, double probability)
+{
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; i++) {
+        double t = 0.5 * (low + high);
+        if (beta_cumulative((n + 1) * t, (n + 1) * (1 - t), q) > probability)
+            low = t;
+        else
+            high = t;
+    }
+    return 0.5 * (low + high);
+}
+
+// How many independent values would tell the share of those up to `limit` as well as these groups
+// do (Korn and Graubard, Survey Methodology 24, 1998).
+static double effective_number(const grouped *self, double limit)
+{
+    double n = (double)self->count, g = (double)self->groups, below = 0, squares = 0;
+    if (self->groups == self->count)
+        return n;
+    for (size_t i = 0; i < self->count; i++)
+        below += self->value[i] <= limit;
+    double share = below / n;
+    for (size_t i = 0, k = 0; k < self->groups; k++) {
+        double d = -share * self->of[k].count;
+        for (size_t end = i + (size_t)self->of[k].count; i < end; i++)
+            d += self->value[i] <= limit;
+        squares += d * d;
+    }
+    // a group's number of values is whole: known no better than to a half
+    double simple = share * (1 - share) / n;
+    double of_share = fmax(g / (g - 1) * squares / (n * n), fmin(simple, g / (4 * n * n)));
+    double t = student_quantile(0.5 + confidence / 2, n - 1) / student(self);
+    return fmax(1, simple / of_share * n * t * t);
+}
+
+// No interval where its ends would lie beyond the least or greatest of `reach` independent values.
+static estimate quantile_of(const grouped *self, const double *sorted, double q, double reach)
+{
+    double n = (double)self->count, tail = (1 - confidence) / 2;
+    estimate result = {value_at(sorted, self->count, q * (n - 1)), NAN, NAN};
+    double low = fractional_order(reach, q, 1 - tail), high = fractional_order(reach, q, tail);
+    if (low * (reach + 1) < 1 || (1 - high) * (reach + 1) < 1)
+        return result;
+    double number = effective_number(self, result.value);
+    double from = fractional_order(number, q, 1 - tail) * (n + 1) - 1;
+    double to = fractional_order(number, q, tail) * (n + 1) - 1;
+    if (from >= 0 && to <= n - 1) {
+        result.low = value_at(sorted, self->count, from);
+        result.high = value_at(sorted, self->count, to);
     }
     return result;
 }
 
-void statistics_of(double *value, const int64_t *group, size_t count, group_statistics *result)
+static ld_status quantiles(const grouped *self, double reach, group_statistics *result)
 {
-    double n = (double)count, first = 0, second = 0, third = 0;
-    *result = (group_statistics){.count = count};
-    result->mean = result->deviation = (estimate){NAN, NAN, NAN};
-    result->skewness = result->least = result->greatest = NAN;
+    double *sorted = malloc(self->count * sizeof *sorted);
+    if (!sorted)
+        return LD_ERR_MEMORY;
+    memcpy(sorted, self->value, self->count * sizeof *sorted);
+    qsort(sorted, self->count, sizeof *sorted, by_value);
+    result->least = sorted[0];
+    result->greatest = sorted[self->count - 1];
     for (int k = 0; k < STATISTICS_QUANTILES; k++)
-        result->quantile[k] = (estimate){NAN, NAN, NAN};
-    if (count == 0)
-        return;
-    for (size_t i = 0; i < count; i++)
-        result->groups += i == 0 || group[i] != group[i - 1];
-    double mean = result->mean.value = mean_of(value, count);
-    for (size_t i = 0; i < count; i++) {
-        double d = value[i] - mean;
-        first += d;
-        second += d * d;
+        result->quantile[k] = quantile_of(self, sorted, statistics_level[k], reach);
+    free(sorted);
+    return LD_OK;
+}
+
+// ---- all of them
+
+static double skewness(const grouped *self, double mean)
+{
+    double n = self->all.count, third = 0, rest = self->all.first / n;
+    for (size_t i = 0; i < self->count; i++) {
+        double d = self->value[i] - mean - rest;
         third += d * d * d;
     }
-    double squares = variance(n, first, second);
-    result->deviation.value = count > 1 ? sqrt(fmax(0, squares)) : NAN;
-    if (count > 2 && second > 0)
-        result->skewness = third / n / pow(second / n, 1.5) * sqrt(n * (n - 1)) / (n - 2);
-    if (result->groups > 1)
-        mean_interval(value, group, count, result);
-    if (result->groups > 2 && squares > 0)
-        deviation_interval(value, group, count, second, result);
-    qsort(value, count, sizeof *value, by_value);
-    result->least = value[0];
-    result->greatest = value[count - 1];
+    if (n < 3 || !(self->all.second > 0))
+        return NAN;
+    return third / n / pow(self->all.second / n, 1.5) * sqrt(n * (n - 1)) / (n - 2);
+}
+
+ld_status statistics_of(const double *value, const int64_t *group, size_t count,
+                        group_statistics *result)
+{
+    static const estimate none = {NAN, NAN, NAN};
+    *result = (group_statistics){.count = count, .mean = none, .deviation = none};
+    result->skewness = result->least = result->greatest = NAN;
     for (int k = 0; k < STATISTICS_QUANTILES; k++)
-        result->quantile[k] =
-            quantile_of(value, count, statistics_level[k], result->groups == count);
+        result->quantile[k] = none;
+    if (count == 0)
+        return LD_OK;
+    grouped self = {.value = value, .group = group, .count = count};
+    for (size_t i = 0; i < count; i++)
+        self.groups += i == 0 || group[i] != group[i - 1];
+    result->groups = self.groups;
+    result->mean.value = mean_of(value, count);
+    ld_status status = sum_groups(&self, result->mean.value);
+    if (status)
+        return status;
+    result->skewness = skewness(&self, result->mean.value);
+    double squares = count > 1 ? fmax(0, variance(self.all)) : NAN, reach = 0;
+    result->deviation.value = sqrt(squares);
+    if (self.groups > 1) {
+        mean_interval(&self, &result->mean);
+        reach = squares / variance_of_mean(&self);
+    }
+    if (self.groups > 2 && squares > 0)
+        deviation_interval(&self, &result->deviation);
+    status = quantiles(&self, reach, result);
+    free(self.of);
+    return status;
 }
 
 void covariance_ellipse_of(const double *x, const double *y, size_t count,

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "launchdyn/status.h"
+
 typedef struct estimate {
     double value;
     double low, high; // 95 % interval; NaN where none can be stated
@@ -17,17 +19,18 @@ extern const double statistics_level[STATISTICS_QUANTILES]; // 5 %, 50 %, 95 %
 typedef struct group_statistics {
     size_t count;       // values
     size_t groups;      // independent ones
-    estimate mean;      // interval: Student's t over the means of groups
-    estimate deviation; // of all values; interval: jackknife of its logarithm over groups
+    estimate mean;      // interval: Student's t over groups
+    estimate deviation; // of all values; interval: studentised bootstrap over groups
     double skewness;
     double least, greatest;
-    // interval of order statistics, by the binomial distribution; only where each value is a group
-    estimate quantile[STATISTICS_QUANTILES];
+    estimate quantile[STATISTICS_QUANTILES]; // interval: order statistics of the effective number
 } group_statistics;
 
 // Of `count` values (no NaN) in the order of their groups, where `group` rises: the result does not
-// depend on how they came about. Sorts `value`.
-void statistics_of(double *value, const int64_t *group, size_t count, group_statistics *result);
+// depend on how they came about, to the bit.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status statistics_of(const double *value, const int64_t *group, size_t count,
+                        group_statistics *result);
 
 // Ellipse of two columns of values: semi-axes of one standard deviation along the main axes, and
 // the angle [rad] of the long one from the first towards the second.

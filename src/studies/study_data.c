@@ -186,7 +186,7 @@ static ld_status count_samples(study_data *data, ld_error *error)
     int64_t asked = samples ? atoll(samples) : 0;
     free(samples);
     for (int i = 0; i < data->point_count; i++)
-        self->point[i].asked = asked;
+        self->point[i].asked = asked / data->point_count;
     snprintf(query, sizeof query,
              "SELECT %s, count(*), count(*) FILTER (WHERE status != 'ok') FROM sample GROUP BY 1",
              self->has_points ? "point" : "1");
@@ -352,8 +352,8 @@ static void append(const study_data *data, sqlite3_stmt *row, int columns, study
         values->value[i][at] = sqlite3_column_double(row, 2 + i);
     }
     values->sample[at] = sqlite3_column_int64(row, 0);
-    // samples of one hypercube have numbers that follow each other
-    values->group[at] = (values->sample[at] - 1) / data->strata;
+    // the numbers of samples go round the points; those of one hypercube follow each other
+    values->group[at] = (values->sample[at] - 1) / data->point_count / data->strata;
     values->rocket[at] = sqlite3_column_int(row, 1);
     values->count++;
 }

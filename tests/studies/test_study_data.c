@@ -6,6 +6,9 @@
 #include <sqlite3.h>
 #include <sys/stat.h>
 
+#include "base/random.h"
+#include "studies/draw.h"
+#include "studies/statistics.h"
 #include "studies/study_data.h"
 
 static void write_database(const char *name, const char *text)
@@ -126,27 +129,84 @@ static void test_points(void **state)
                    "  reason TEXT);"
                    "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
                    "  t_rear REAL, PRIMARY KEY (sample, rocket)) WITHOUT ROWID;"
-                   "INSERT INTO sample VALUES (1, 1, 'ok', NULL), (7, 2, 'ok', NULL),"
-                   "  (2, 1, 'input', 'too light'), (8, 2, 'ok', NULL);"
-                   "INSERT INTO rocket VALUES (1, 1, 1, 0.1), (7, 1, 1, 0.7), (8, 1, 1, 0.8);");
+                   "INSERT INTO sample VALUES (1, 1, 'ok', NULL), (4, 2, 'ok', NULL),"
+                   "  (3, 1, 'input', 'too light'), (6, 2, 'ok', NULL);"
+                   "INSERT INTO rocket VALUES (1, 1, 1, 0.1), (4, 1, 1, 0.4), (6, 1, 1, 0.6);");
     study_data data = open_data("points");
     assert_true(data.point_count == 2 && data.swept_count == 2 && data.column_count == 1);
     assert_string_equal(data.swept[1], "firing.order");
     assert_string_equal(data.point[0].text[0], "0 km/h");
     assert_string_equal(data.point[1].text[1], "[1, 2]");
-    assert_true(data.point[0].done == 2 && data.point[0].failed == 1);
+    assert_true(data.point[0].asked == 3 && data.point[0].done == 2 && data.point[0].failed == 1);
     assert_true(data.point[1].done == 2 && data.point[1].failed == 0);
     const study_column *rear = column(&data, "t_rear");
     study_values values = {0};
     ld_error error;
     assert_int_equal(study_data_read(&data, &data.point[1], &rear, 1, &values, &error), LD_OK);
-    assert_true(values.count == 2 && values.sample[0] == 7 && values.value[0][1] == 0.8);
+    assert_true(values.count == 2 && values.sample[0] == 4 && values.value[0][1] == 0.6);
+    assert_true(values.group[0] == 1 && values.group[1] == 2);
     study_values_free(&values);
     study_failure failure[2];
     int count;
     assert_int_equal(study_data_failures(&data, &data.point[1], failure, 2, &count, &error), LD_OK);
     assert_int_equal(count, 0);
     study_data_close(&data);
+}
+
+// Rows of 40 samples with 3 rockets, put in in the order of a permutation.
+static void write_permuted(const char *name, uint64_t permutation)
+{
+    enum { SAMPLES = 40, ROCKETS = 3 };
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    assert_non_null(stream);
+    fputs(STUDY("1") "CREATE TABLE sample (sample INTEGER PRIMARY KEY, status TEXT, reason TEXT);"
+                     "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
+                     "  t_rear REAL, PRIMARY KEY (sample, rocket)) WITHOUT ROWID;",
+          stream);
+    for (int64_t i = 0; i < SAMPLES * ROCKETS; i++) {
+        uint64_t key[] = {permutation, 1};
+        int64_t j = draw_permuted(key, 0, 0, SAMPLES * ROCKETS, i), sample = j / ROCKETS + 1;
+        double value =
+            random_uniform(7, 1, (uint64_t)j, 0, 0) + random_uniform(7, 2, (uint64_t)sample, 0, 0);
+        fprintf(stream, "INSERT OR IGNORE INTO sample VALUES (%d, 'ok', NULL);", (int)sample);
+        fprintf(stream, "INSERT INTO rocket VALUES (%d, %d, 1, %.17g);", (int)sample,
+                (int)(j % ROCKETS) + 1, value);
+    }
+    assert_int_equal(fclose(stream), 0);
+    write_database(name, text);
+    free(text);
+}
+
+static group_statistics statistics_in(const char *name)
+{
+    study_data data = open_data(name);
+    const study_column *rear = column(&data, "t_rear");
+    study_values values = {0};
+    group_statistics result;
+    ld_error error;
+    assert_int_equal(study_data_read(&data, data.point, &rear, 1, &values, &error), LD_OK);
+    assert_int_equal(statistics_of(values.value[0], values.group, values.count, &result), LD_OK);
+    study_values_free(&values);
+    study_data_close(&data);
+    return result;
+}
+
+// The order in which samples came does not show, to the bit.
+static void test_order(void **state)
+{
+    (void)state;
+    write_permuted("first", 1);
+    group_statistics first = statistics_in("first");
+    assert_true(first.count == 120 && first.groups == 40 && !isnan(first.quantile[1].low));
+    for (uint64_t i = 2; i < 5; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "order-%d", (int)i);
+        write_permuted(name, i);
+        group_statistics again = statistics_in(name);
+        assert_memory_equal(&first, &again, sizeof first);
+    }
 }
 
 static void test_refusals(void **state)
@@ -166,6 +226,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
         cmocka_unit_test(test_points),
+        cmocka_unit_test(test_order),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
