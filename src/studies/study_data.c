@@ -6,6 +6,7 @@
 #include "base/suggestion.h"
 #include "launchdyn/scenario.h"
 #include "model/field.h"
+#include "studies/statistics.h"
 #include "studies/store.h"
 
 typedef struct study_reader {
@@ -373,7 +374,7 @@ static sqlite3_stmt *select_values(study_reader *self, const study_column *const
         fprintf(text, ", %s.\"%s\"", column[i]->per_rocket ? "rocket" : "sample", column[i]->name);
     fprintf(text,
             " FROM sample JOIN rocket USING (sample) WHERE sample.status = 'ok' AND %s = ? "
-            "ORDER BY sample.sample, rocket.rocket",
+            "AND sample.sample <= ? ORDER BY sample.sample, rocket.rocket",
             self->has_points ? "sample.point" : "1");
     fclose(text);
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
@@ -381,9 +382,10 @@ static sqlite3_stmt *select_values(study_reader *self, const study_column *const
     return row;
 }
 
-ld_status study_data_read(const study_data *data, const study_point *point,
-                          const study_column *const *column, int columns, study_values *values,
-                          ld_error *error)
+// Of the samples numbered up to `last`.
+static ld_status read_up_to(const study_data *data, const study_point *point, int64_t last,
+                            const study_column *const *column, int columns, study_values *values,
+                            ld_error *error)
 {
     study_reader *self = data->reader;
     int result = SQLITE_DONE;
@@ -391,6 +393,7 @@ ld_status study_data_read(const study_data *data, const study_point *point,
     if (!row)
         return LD_ERR_FILE;
     sqlite3_bind_int64(row, 1, point->number);
+    sqlite3_bind_int64(row, 2, last);
     values->count = 0;
     bool room = reserve(values, columns, values->capacity ? values->capacity : 1024);
     while (room && (result = sqlite3_step(row)) == SQLITE_ROW) {
@@ -403,4 +406,42 @@ ld_status study_data_read(const study_data *data, const study_point *point,
     if (!room)
         return no_memory(error);
     return result == SQLITE_DONE ? LD_OK : store_fail(&self->store, "read", error);
+}
+
+ld_status study_data_read(const study_data *data, const study_point *point,
+                          const study_column *const *column, int columns, study_values *values,
+                          ld_error *error)
+{
+    return read_up_to(data, point, INT64_MAX, column, columns, values, error);
+}
+
+// ---- stopping rules
+
+static double half_width(const group_statistics *of, ld_statistic statistic, bool relative)
+{
+    const estimate *e = statistic == LD_STATISTIC_MEAN ? &of->mean : &of->deviation;
+    double half = 0.5 * (e->high - e->low);
+    if (of->groups > 2 && of->least == of->greatest)
+        return 0;
+    return isnan(half) ? INFINITY : relative ? half / fabs(e->value) : half;
+}
+
+ld_status study_data_half_width(const study_data *data, const study_column *result,
+                                ld_statistic statistic, bool relative, int64_t last, double *half,
+                                ld_error *error)
+{
+    study_values values = {0};
+    ld_status status = LD_OK;
+    *half = 0;
+    for (int i = 0; i < data->point_count && !status; i++) {
+        group_statistics of;
+        status = read_up_to(data, &data->point[i], last > 0 ? last : INT64_MAX, &result, 1, &values,
+                            error);
+        if (!status && statistics_of(values.value[0], values.group, values.count, &of))
+            status = no_memory(error);
+        if (!status)
+            *half = fmax(*half, half_width(&of, statistic, relative));
+    }
+    study_values_free(&values);
+    return status;
 }

@@ -209,6 +209,42 @@ static void test_order(void **state)
     }
 }
 
+static double half_width(const study_data *data, ld_statistic statistic, bool relative,
+                         int64_t last)
+{
+    double half;
+    ld_error error;
+    assert_int_equal(study_data_half_width(data, column(data, "t_rear"), statistic, relative, last,
+                                           &half, &error),
+                     LD_OK);
+    return half;
+}
+
+// What stopping rules ask for, against the statistics themselves.
+static void test_half_width(void **state)
+{
+    (void)state;
+    group_statistics s = statistics_in("first");
+    study_data data = open_data("first");
+    double mean = half_width(&data, LD_STATISTIC_MEAN, false, 0);
+    CHECK_BELOW("of the mean", mean - 0.5 * (s.mean.high - s.mean.low), 1e-15);
+    CHECK_BELOW("relative", half_width(&data, LD_STATISTIC_MEAN, true, 0) - mean / s.mean.value,
+                1e-15);
+    CHECK_BELOW("of the deviation",
+                half_width(&data, LD_STATISTIC_DEVIATION, false, 0) -
+                    0.5 * (s.deviation.high - s.deviation.low),
+                1e-15);
+    // twice the width with some quarter of the samples; none with one
+    CHECK_WITHIN("of the first ten samples", half_width(&data, LD_STATISTIC_MEAN, false, 10) / mean,
+                 1.5, 3);
+    assert_true(isinf(half_width(&data, LD_STATISTIC_MEAN, false, 1)));
+    study_data_close(&data);
+    // the widest of the points: one has but one sample that went well
+    data = open_data("points");
+    assert_true(isinf(half_width(&data, LD_STATISTIC_MEAN, false, 0)));
+    study_data_close(&data);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -224,9 +260,8 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_values),   cmocka_unit_test(test_points),
+        cmocka_unit_test(test_order),    cmocka_unit_test(test_half_width),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
