@@ -24,6 +24,9 @@ typedef struct ld_study_counts {
 /// What the caller wants; every member may be NULL or 0.
 typedef struct ld_study_options {
     int threads; ///< samples that run side by side; 0: one
+    /// Runs only the samples shard, shard + shards, shard + 2 shards, ... into a database of its
+    /// own in the folder, for ld_study_merge(); 1 to shards, 0 of 0: all samples.
+    int shard, shards;
     void *self;
     /// Called after each sample, never twice at once.
     void (*progress)(void *self, const ld_study_counts *counts);
@@ -39,6 +42,12 @@ typedef struct ld_study_options {
 ///         program works on it), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_INTERRUPTED
 ld_status ld_study_run(const ld_model *model, const char *folder, const ld_study_options *options,
                        ld_study_counts *counts, ld_error *error);
+
+/// Joins what shards have kept in the folder into its study.db and prints what is still missing.
+/// Harmless however often, and while shards run; ld_study_run() without a shard then runs the rest.
+/// @return LD_OK; LD_ERR_INPUT (no shards, or of different studies, or another program works on
+///         study.db), LD_ERR_FILE, LD_ERR_MEMORY
+ld_status ld_study_merge(const char *folder, FILE *stream, ld_error *error);
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs.
 ld_status ld_study_show(const char *folder, FILE *stream, ld_error *error);

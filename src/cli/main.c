@@ -10,7 +10,7 @@ static int command_version(const command *self, int argc, const char **argv);
 
 static const command commands[] = {
     {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run},
-    {"study", "FILE | show DIR | export DIR",
+    {"study", "FILE | show DIR | export DIR | merge DIR",
      "Run the samples of a scattered scenario, or show what a study has found", command_study_help,
      command_study},
     {"check", "FILE", "Check a scenario file and print what was understood, in SI", NULL,

@@ -14,6 +14,7 @@ typedef struct study_wishes {
     run_wishes run; // overrides, folder, quiet
     int threads;
     int only; // sample, 0: all
+    int shard, shards;
     char *file;
 } study_wishes;
 
@@ -22,7 +23,10 @@ void command_study_help(void)
     puts("\nlaunchdyn study FILE --out DIR runs what DIR does not hold yet: the same command goes "
          "on\n"
          "after an interruption. launchdyn study show DIR prints statistics, also meanwhile;\n"
-         "launchdyn study export DIR --csv FILE writes a line for each rocket.");
+         "launchdyn study export DIR --csv FILE writes a line for each rocket.\n"
+         "\n"
+         "Jobs on several machines that share DIR take --shard 1/N to N/N, in any order;\n"
+         "launchdyn study merge DIR then joins what they have kept.");
 }
 
 static int run_all(const ld_model *model, const study_wishes *wishes)
@@ -32,6 +36,8 @@ static int run_all(const ld_model *model, const study_wishes *wishes)
     ld_error error;
     progress_start(&progress, wishes->run.quiet != 0);
     ld_study_options options = {.threads = wishes->threads,
+                                .shard = wishes->shard,
+                                .shards = wishes->shards,
                                 .self = &progress,
                                 .progress = progress_samples,
                                 .go_on = progress_go_on};
@@ -41,7 +47,13 @@ static int run_all(const ld_model *model, const study_wishes *wishes)
         command_fail(status, &error);
         return 128 + progress_signal();
     }
-    if (!status && !wishes->run.quiet)
+    if (!status && !wishes->run.quiet && wishes->shards)
+        printf(
+            "shard %d of %d: %lld samples, %lld failed; when all shards are done: launchdyn study "
+            "merge %s\n",
+            wishes->shard, wishes->shards, (long long)counts.done, (long long)counts.failed,
+            wishes->run.folder);
+    else if (!status && !wishes->run.quiet)
         status = ld_study_show(wishes->run.folder, stdout, &error);
     return status ? command_fail(status, &error) : 0;
 }
@@ -84,18 +96,33 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
     ld_error error;
     if (strcmp(verb, "show") == 0)
         return finish(ld_study_show(folder, stdout, &error), &error);
+    if (strcmp(verb, "merge") == 0)
+        return finish(ld_study_merge(folder, stdout, &error), &error);
     if (strcmp(verb, "export") == 0 && wishes->file)
         return finish(ld_study_export(folder, wishes->file, &error), &error);
     if (strcmp(verb, "export") == 0)
         command_complain("study export wants --csv FILE");
     else
-        command_complain("study knows show DIR and export DIR, not %s", verb);
+        command_complain("study knows show DIR, export DIR and merge DIR, not %s", verb);
     return EXIT_INPUT;
+}
+
+// "3/64"
+static bool read_shard(const char *text, study_wishes *wishes)
+{
+    int length = 0;
+    if (sscanf(text, "%d/%d%n", &wishes->shard, &wishes->shards, &length) == 2 && length > 0 &&
+        text[length] == '\0' && wishes->shards >= 1 && wishes->shard >= 1 &&
+        wishes->shard <= wishes->shards)
+        return true;
+    command_complain("--shard wants I/N, from 1/N to N/N, not %s", text);
+    return false;
 }
 
 int command_study(const command *self, int argc, const char **argv)
 {
     study_wishes wishes = {.threads = 1};
+    char *shard = NULL;
     const struct poptOption options[] = {
         COMMAND_SETS(&wishes.run.sets),
         {"out", 'o', POPT_ARG_STRING, &wishes.run.folder, 0, "The folder that keeps the study",
@@ -103,6 +130,8 @@ int command_study(const command *self, int argc, const char **argv)
         {"jobs", 'j', POPT_ARG_INT, &wishes.threads, 0, "Samples that run side by side (1)", "N"},
         {"only", '\0', POPT_ARG_INT, &wishes.only, 0,
          "Run sample N alone, with its history in DIR/sample-N", "N"},
+        {"shard", '\0', POPT_ARG_STRING, &shard, 0,
+         "Run only the I-th of N parts of the study, for merge DIR", "I/N"},
         {"csv", '\0', POPT_ARG_STRING, &wishes.file, 0, "Of export: the table to write", "FILE"},
         {"quiet", 'q', POPT_ARG_NONE, &wishes.run.quiet, 0, "Print nothing but errors", NULL},
         COMMAND_HELP,
@@ -111,7 +140,9 @@ int command_study(const command *self, int argc, const char **argv)
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
         const char *file = line.word[0];
-        if (line.count == 2) {
+        if (shard && !read_shard(shard, &wishes)) {
+            code = EXIT_INPUT;
+        } else if (line.count == 2) {
             code = study_folder(file, line.word[1], &wishes);
         } else if (line.count > 2) {
             command_complain("study wants %s; see launchdyn study --help", self->arguments);
@@ -124,5 +155,6 @@ int command_study(const command *self, int argc, const char **argv)
     command_free_sets(wishes.run.sets);
     free(wishes.run.folder);
     free(wishes.file);
+    free(shard);
     return code;
 }

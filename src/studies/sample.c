@@ -34,13 +34,25 @@ void sampler_free(study_sampler *self)
     *self = (study_sampler){0};
 }
 
-study_sample *sample_create(const study_sampler *sampler)
+void sampler_values(const study_sampler *self, int64_t number, int rocket, double *row)
+{
+    const ld_scatter *scatter = &self->nominal->scatter;
+    for (int i = 0; i < self->factor_count; i++) {
+        const ld_factor *factor = &scatter->factor[i];
+        row[i] = NAN;
+        if (factor->per_rocket != (rocket > 0))
+            continue;
+        double u = draw_uniform(scatter, factor, number, rocket);
+        row[i] = draw_value(factor, &self->place[i], self->nominal_value[i], u);
+    }
+}
+
+study_sample *sample_create(int factor_count)
 {
     study_sample *self = calloc(1, sizeof *self);
     if (!self)
         return NULL;
-    size_t rows = 1 + (size_t)sampler->nominal->firing_count;
-    self->value = calloc(rows * (size_t)sampler->factor_count + 1, sizeof(double));
+    self->value = calloc((size_t)factor_count + 1, sizeof(double));
     if (!self->value) {
         free(self);
         return NULL;
@@ -58,17 +70,10 @@ void sample_free(study_sample *self)
 // Draws the values of rocket `rocket` (from 1; 0: those of the sample) into the model.
 static void draw_row(study_sample *self, const study_sampler *sampler, int64_t number, int rocket)
 {
-    const ld_scatter *scatter = &sampler->nominal->scatter;
-    double *row = self->value + (size_t)rocket * (size_t)sampler->factor_count;
-    for (int i = 0; i < sampler->factor_count; i++) {
-        const ld_factor *factor = &scatter->factor[i];
-        row[i] = NAN;
-        if (factor->per_rocket != (rocket > 0))
-            continue;
-        double u = draw_uniform(scatter, factor, number, rocket);
-        row[i] = draw_value(factor, &sampler->place[i], sampler->nominal_value[i], u);
-        field_set(&self->model, &sampler->place[i], row[i]);
-    }
+    sampler_values(sampler, number, rocket, self->value);
+    for (int i = 0; i < sampler->factor_count; i++)
+        if (sampler->nominal->scatter.factor[i].per_rocket == (rocket > 0))
+            field_set(&self->model, &sampler->place[i], self->value[i]);
 }
 
 ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t number,

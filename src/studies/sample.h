@@ -17,18 +17,21 @@ typedef struct study_sampler {
 ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error *error);
 void sampler_free(study_sampler *self);
 
+// The values of sample `number` that are drawn once (rocket 0) or for rocket `rocket`, from 1;
+// those of other factors are NaN. row [factors]
+void sampler_values(const study_sampler *self, int64_t number, int rocket, double *row);
+
 typedef struct study_sample {
     ld_model model; // its tables are the nominal model's
     ld_rocket salvo[LD_MAX_FIRINGS];
-    double *value; // [1 + firings][factors]: row 0 the sample's, then each rocket's; others NaN
+    double *value; // [factors] drawn last
 } study_sample;
 
-study_sample *sample_create(const study_sampler *sampler);
+study_sample *sample_create(int factor_count);
 void sample_free(study_sample *self);
 
 // Fills the sample with the values that belong to its number, from 1.
-// @return LD_OK, or LD_ERR_INPUT where they make no possible model (the values are there all the
-//         same)
+// @return LD_OK, or LD_ERR_INPUT where they make no possible model
 ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t number,
                       ld_error *error);
 

@@ -192,7 +192,7 @@ static ld_status export(study_store *self, const char *file, ld_error *error)
     if (!text)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the table");
     fputs("SELECT sample.sample, rocket.rocket, rocket.tube, sample.status", text);
-    list_columns(self, text, "sample", 3);
+    list_columns(self, text, "sample", 4);
     list_columns(self, text, "rocket", 3);
     fputs(" FROM sample JOIN rocket USING (sample) ORDER BY sample.sample, rocket.rocket", text);
     fclose(text);

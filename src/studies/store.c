@@ -13,7 +13,7 @@
 #include "io/folder.h"
 #include "launchdyn/scenario.h"
 
-#define FORMAT "1"
+#define FORMAT "2"
 
 ld_status store_fail(const study_store *self, const char *what, ld_error *error)
 {
@@ -29,11 +29,37 @@ sqlite3_stmt *store_prepare(study_store *self, const char *text, ld_error *error
     return statement;
 }
 
-static ld_status execute(study_store *self, const char *text, ld_error *error)
+ld_status store_execute(study_store *self, const char *text, ld_error *error)
 {
     if (sqlite3_exec(self->database, text, NULL, NULL, NULL) != SQLITE_OK)
         return store_fail(self, "write", error);
     return LD_OK;
+}
+
+// "INSERT INTO table VALUES (?, ?, ...)"
+static sqlite3_stmt *prepare_insert(study_store *self, const char *table, int columns,
+                                    ld_error *error)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return NULL;
+    fprintf(stream, "INSERT INTO %s VALUES (", table);
+    for (int i = 0; i < columns; i++)
+        fputs(i ? ", ?" : "?", stream);
+    fputs(")", stream);
+    fclose(stream);
+    sqlite3_stmt *statement = store_prepare(self, text, error);
+    free(text);
+    return statement;
+}
+
+static bool step(sqlite3_stmt *statement)
+{
+    int result = sqlite3_step(statement);
+    sqlite3_reset(statement);
+    return result == SQLITE_DONE;
 }
 
 // ---- what is written once
@@ -54,34 +80,38 @@ static char *identity_of(const ld_model *model)
     return fclose(stream) == 0 ? text : NULL;
 }
 
-static bool is_of_rocket(const ld_model *model, int factor)
+static bool is_of_rocket(const study_store *self, int factor)
 {
-    return model->scatter.factor[factor].per_rocket;
+    return self->plan->model->scatter.factor[factor].per_rocket;
 }
 
 static ld_status make_tables(study_store *self, ld_error *error)
 {
-    const ld_model *model = self->model;
+    const ld_scatter *scatter = &self->plan->model->scatter;
     char *text = NULL;
     size_t length;
     FILE *stream = open_memstream(&text, &length);
     if (!stream)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
     fputs("CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-          "CREATE TABLE sample (sample INTEGER PRIMARY KEY, status TEXT NOT NULL, reason TEXT",
+          "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER NOT NULL, "
+          "status TEXT NOT NULL, reason TEXT",
           stream);
-    for (int i = 0; i < model->scatter.factor_count; i++)
-        if (!is_of_rocket(model, i))
-            fprintf(stream, ", \"%s\" REAL", model->scatter.factor[i].path);
+    for (int i = 0; i < scatter->factor_count; i++)
+        if (!is_of_rocket(self, i))
+            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
+    fputs("); CREATE TABLE point (point INTEGER PRIMARY KEY", stream);
+    for (int i = 0; i < self->plan->model->sweep_count; i++)
+        fprintf(stream, ", \"%s\" TEXT NOT NULL", self->plan->model->sweep[i].path);
     fputs("); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER",
           stream);
-    for (int i = 0; i < model->scatter.factor_count; i++)
-        if (is_of_rocket(model, i))
-            fprintf(stream, ", \"%s\" REAL", model->scatter.factor[i].path);
+    for (int i = 0; i < scatter->factor_count; i++)
+        if (is_of_rocket(self, i))
+            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
     for (const study_result *r = study_results; r->name; r++)
         fprintf(stream, ", \"%s\" REAL", r->name);
     fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID;", stream);
-    ld_status status = fclose(stream) == 0 ? execute(self, text, error) : LD_ERR_MEMORY;
+    ld_status status = fclose(stream) == 0 ? store_execute(self, text, error) : LD_ERR_MEMORY;
     free(text);
     return status;
 }
@@ -112,11 +142,30 @@ char *store_text(study_store *self, const char *name)
     return value;
 }
 
+static ld_status put_points(study_store *self, ld_error *error)
+{
+    const ld_model *model = self->plan->model;
+    sqlite3_stmt *insert = prepare_insert(self, "point", 1 + model->sweep_count, error);
+    bool good = insert != NULL;
+    for (int point = 1; point <= self->plan->points && good; point++) {
+        sqlite3_bind_int(insert, 1, point);
+        for (int i = 0; i < model->sweep_count; i++)
+            sqlite3_bind_text(insert, 2 + i,
+                              model->sweep[i].value[ld_scenario_value(model, point, i)], -1,
+                              SQLITE_STATIC);
+        good = step(insert);
+    }
+    sqlite3_finalize(insert);
+    return good ? LD_OK : store_fail(self, "write", error);
+}
+
 static ld_status fill_new(study_store *self, const char *identity, ld_error *error)
 {
     char hash[32];
     snprintf(hash, sizeof hash, "%016" PRIx64, random_stream(identity));
     ld_status status = make_tables(self, error);
+    if (!status)
+        status = put_points(self, error);
     if (!status)
         status = set_text(self, "format", FORMAT, error);
     if (!status)
@@ -143,8 +192,12 @@ static void first_difference(const char *before, const char *now, char line[96])
 static ld_status compare(study_store *self, const char *identity, ld_error *error)
 {
     char *before = store_text(self, "scenario"), *version = store_text(self, "version"), line[96];
+    char *format = store_text(self, "format");
     ld_status status = LD_OK;
-    if (!before || !version) {
+    if (format && strcmp(format, FORMAT) != 0) {
+        status =
+            ld_fail(error, LD_ERR_INPUT, "%s is of another format; use another folder", self->path);
+    } else if (!before || !version || !format) {
         status = ld_fail(error, LD_ERR_FILE, "%s holds no study", self->path);
     } else if (strcmp(before, identity) != 0) {
         first_difference(before, identity, line);
@@ -159,107 +212,138 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
     }
     free(before);
     free(version);
+    free(format);
     return status;
 }
 
-static ld_status begin_or_compare(study_store *self, ld_error *error)
+static ld_status set_number(study_store *self, const char *name, int64_t value, ld_error *error)
 {
-    char *identity = identity_of(self->model), *format, samples[32];
-    if (!identity)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the scenario's text");
-    ld_status status = execute(self, "BEGIN IMMEDIATE", error);
+    char text[32];
+    snprintf(text, sizeof text, "%" PRId64, value);
+    return set_text(self, name, text, error);
+}
+
+static ld_status begin_or_compare(study_store *self, const char *identity, ld_error *error)
+{
+    const ld_scatter *scatter = &self->plan->model->scatter;
     sqlite3_stmt *tables =
-        status ? NULL
-               : store_prepare(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", error);
-    if (!status && !tables)
-        status = LD_ERR_FILE;
-    bool there = tables && sqlite3_step(tables) == SQLITE_ROW;
+        store_prepare(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", error);
+    if (!tables)
+        return LD_ERR_FILE;
+    bool there = sqlite3_step(tables) == SQLITE_ROW;
     sqlite3_finalize(tables);
-    format = there ? store_text(self, "format") : NULL;
-    if (!status && there && (!format || strcmp(format, FORMAT) != 0))
-        status =
-            ld_fail(error, LD_ERR_INPUT, "%s is of another format; use another folder", self->path);
+    ld_status status = there ? compare(self, identity, error) : fill_new(self, identity, error);
     if (!status)
-        status = there ? compare(self, identity, error) : fill_new(self, identity, error);
-    snprintf(samples, sizeof samples, "%d", self->model->scatter.samples);
+        status = set_number(self, "samples", plan_draws(self->plan), error);
+    int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;
     if (!status)
-        status = set_text(self, "samples", samples, error);
-    const ld_scatter *scatter = &self->model->scatter;
-    bool lhs = scatter->plan == LD_PLAN_LHS;
-    snprintf(samples, sizeof samples, "%d", lhs ? scatter->samples / scatter->replicates : 1);
-    if (!status)
-        status = set_text(self, "strata", samples, error);
-    if (!status)
-        status = execute(self, "COMMIT", error);
-    free(format);
-    free(identity);
+        status = set_number(self, "strata", strata, error);
     return status;
 }
 
 // ---- opening
 
-static ld_status take_lock(study_store *self, const char *folder, ld_error *error)
+enum { PATIENCE = 10000 }; // [ms] with another who reads or writes
+
+ld_status store_lock(const char *path, int *lock, ld_error *error)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/study.lock", folder);
-    self->lock = open(path, O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-    if (self->lock < 0)
-        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-    if (flock(self->lock, LOCK_EX | LOCK_NB) != 0)
-        return ld_fail(error, LD_ERR_INPUT, "another launchdyn works on the study in %s", folder);
-    return LD_OK;
+    char name[4096];
+    snprintf(name, sizeof name, "%.*s.lock", (int)(strlen(path) - strlen(".db")), path);
+    *lock = open(name, O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+    if (*lock < 0)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", name, strerror(errno));
+    if (flock(*lock, LOCK_EX | LOCK_NB) == 0)
+        return LD_OK;
+    ld_status status =
+        errno == EWOULDBLOCK
+            ? ld_fail(error, LD_ERR_INPUT, "another launchdyn works on %s", path)
+            : ld_fail(error, LD_ERR_FILE, "cannot lock %s: %s", name, strerror(errno));
+    close(*lock);
+    *lock = -1;
+    return status;
 }
 
-// "INSERT INTO table VALUES (?, ?, ...)"
-static sqlite3_stmt *prepare_insert(study_store *self, const char *table, int columns,
-                                    ld_error *error)
+// "shard-03-of-64"
+static void name_file(char *path, size_t size, const char *folder, int shard, int shards)
 {
-    char *text = NULL;
-    size_t length;
-    FILE *stream = open_memstream(&text, &length);
-    if (!stream)
-        return NULL;
-    fprintf(stream, "INSERT INTO %s VALUES (", table);
-    for (int i = 0; i < columns; i++)
-        fputs(i ? ", ?" : "?", stream);
-    fputs(")", stream);
-    fclose(stream);
-    sqlite3_stmt *statement = store_prepare(self, text, error);
-    free(text);
-    return statement;
+    int digits = snprintf(NULL, 0, "%d", shards);
+    if (shards > 0)
+        snprintf(path, size, "%s/shard-%0*d-of-%d.db", folder, digits, shard, shards);
+    else
+        snprintf(path, size, "%s/study.db", folder);
 }
 
 static ld_status prepare_all(study_store *self, ld_error *error)
 {
-    int of_rocket = 0, factors = self->model->scatter.factor_count;
+    int of_rocket = 0, factors = self->plan->model->scatter.factor_count;
     for (int i = 0; i < factors; i++)
-        of_rocket += is_of_rocket(self->model, i);
-    self->insert_sample = prepare_insert(self, "sample", 3 + factors - of_rocket, error);
+        of_rocket += is_of_rocket(self, i);
+    self->row = calloc((size_t)factors + 1, sizeof *self->row);
+    if (!self->row)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's factors");
+    self->begin = store_prepare(self, "BEGIN IMMEDIATE", error);
+    self->commit = store_prepare(self, "COMMIT", error);
+    self->insert_sample = prepare_insert(self, "sample", 4 + factors - of_rocket, error);
     self->insert_rocket = prepare_insert(self, "rocket", 3 + of_rocket + STUDY_RESULTS, error);
     self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
-    return self->insert_sample && self->insert_rocket && self->find ? LD_OK : LD_ERR_FILE;
+    bool all =
+        self->begin && self->commit && self->insert_sample && self->insert_rocket && self->find;
+    return all ? LD_OK : LD_ERR_FILE;
 }
 
-ld_status store_open(study_store *self, const char *folder, const ld_model *model, ld_error *error)
+static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
 {
-    char made[4096];
-    size_t there = 0;
-    *self = (study_store){.model = model, .lock = -1};
-    snprintf(made, sizeof made, "%s", folder);
-    snprintf(self->path, sizeof self->path, "%s/study.db", folder);
-    if (strlen(folder) + 16 > sizeof made)
+    if (sqlite3_open(self->path, &self->database) != SQLITE_OK)
+        return store_fail(self, "open", error);
+    sqlite3_busy_timeout(self->database, PATIENCE);
+    self->journal = journal;
+    return store_execute(self,
+                         journal == STORE_AHEAD
+                             ? "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL"
+                             : "PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = NORMAL",
+                         error);
+}
+
+static ld_status open_locked(study_store *self, const char *folder, int shard, int shards,
+                             store_journal journal, ld_error *error)
+{
+    if (strlen(folder) + 64 > sizeof self->path)
         return ld_fail(error, LD_ERR_FILE, "the name of the folder is too long");
+    name_file(self->path, sizeof self->path, folder, shard, shards);
+    ld_status status = store_lock(self->path, &self->lock, error);
+    return status ? status : open_database(self, journal, error);
+}
+
+ld_status store_open(study_store *self, const char *folder, int shard, int shards,
+                     const study_plan *plan, store_journal journal, ld_error *error)
+{
+    char made[4096], *identity = NULL;
+    size_t there = 0;
+    *self = (study_store){.plan = plan, .lock = -1};
+    snprintf(made, sizeof made, "%s", folder);
     ld_status status = folder_make(made, &there, error);
     if (!status)
-        status = take_lock(self, folder, error);
-    if (!status && sqlite3_open(self->path, &self->database) != SQLITE_OK)
-        status = store_fail(self, "open", error);
+        status = open_locked(self, folder, shard, shards, journal, error);
+    if (!status && !(identity = identity_of(plan->model)))
+        status = ld_fail(error, LD_ERR_MEMORY, "no memory for the scenario's text");
     if (!status)
-        status = execute(self, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL", error);
+        status = store_execute(self, "BEGIN IMMEDIATE", error);
     if (!status)
-        status = begin_or_compare(self, error);
+        status = begin_or_compare(self, identity, error);
+    if (!status)
+        status = store_execute(self, "COMMIT", error);
     if (!status)
         status = prepare_all(self, error);
+    free(identity);
+    if (status)
+        store_close(self);
+    return status;
+}
+
+ld_status store_open_to_merge(study_store *self, const char *folder, ld_error *error)
+{
+    *self = (study_store){.lock = -1};
+    ld_status status = open_locked(self, folder, 0, 0, STORE_ROLLBACK, error);
     if (status)
         store_close(self);
     return status;
@@ -275,6 +359,7 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
     // a database in WAL mode wants its side files, which a reader may have to make
     ld_status status = LD_OK;
     if (sqlite3_open_v2(self->path, &self->database, SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK ||
+        sqlite3_busy_timeout(self->database, PATIENCE) != SQLITE_OK ||
         sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM study", NULL,
                      NULL, NULL) != SQLITE_OK)
         status = store_fail(self, "read", error);
@@ -285,9 +370,14 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
 
 void store_close(study_store *self)
 {
+    free(self->row);
+    sqlite3_finalize(self->begin);
+    sqlite3_finalize(self->commit);
     sqlite3_finalize(self->insert_sample);
     sqlite3_finalize(self->insert_rocket);
     sqlite3_finalize(self->find);
+    if (self->journal == STORE_ROLLBACK) // takes the empty journal away
+        sqlite3_exec(self->database, "PRAGMA journal_mode = DELETE", NULL, NULL, NULL);
     sqlite3_close(self->database);
     if (self->lock >= 0)
         close(self->lock);
@@ -298,17 +388,19 @@ void store_close(study_store *self)
 
 ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *error)
 {
-    char *samples = store_text(self, "samples");
     sqlite3_stmt *count = store_prepare(
-        self, "SELECT count(*), count(*) FILTER (WHERE status != 'ok') FROM sample", error);
-    *counts = (ld_study_counts){.samples = samples ? atoll(samples) : 0};
-    free(samples);
+        self,
+        "SELECT count(*), count(*) FILTER (WHERE status != 'ok'), (SELECT count(*) FROM point) * "
+        "(SELECT value FROM study WHERE name = 'samples') FROM sample",
+        error);
+    *counts = (ld_study_counts){0};
     if (!count)
         return LD_ERR_FILE;
     bool read = sqlite3_step(count) == SQLITE_ROW;
     if (read) {
         counts->done = sqlite3_column_int64(count, 0);
         counts->failed = sqlite3_column_int64(count, 1);
+        counts->samples = sqlite3_column_int64(count, 2);
     }
     sqlite3_finalize(count);
     return read ? LD_OK : store_fail(self, "read", error);
@@ -331,62 +423,63 @@ static void bind_number(sqlite3_stmt *statement, int column, double value)
         sqlite3_bind_double(statement, column, value);
 }
 
-static bool step(sqlite3_stmt *statement)
-{
-    int result = sqlite3_step(statement);
-    sqlite3_reset(statement);
-    return result == SQLITE_DONE;
-}
-
 // Binds the factors of the sample (rocket 0) or of a rocket; returns the next free column.
-static int bind_factors(const study_store *self, sqlite3_stmt *statement, int column,
-                        const study_sample *sample, int rocket)
+static int bind_factors(study_store *self, sqlite3_stmt *statement, int column, int64_t number,
+                        int rocket)
 {
-    const ld_scatter *scatter = &self->model->scatter;
-    const double *row = sample->value + (size_t)rocket * (size_t)scatter->factor_count;
-    for (int i = 0; i < scatter->factor_count; i++)
-        if (scatter->factor[i].per_rocket == (rocket > 0))
-            bind_number(statement, column++, row[i]);
+    const study_sampler *sampler = &self->plan->sampler[plan_point(self->plan, number)];
+    sampler_values(sampler, plan_draw(self->plan, number), rocket, self->row);
+    for (int i = 0; i < sampler->factor_count; i++)
+        if (is_of_rocket(self, i) == (rocket > 0))
+            bind_number(statement, column++, self->row[i]);
     return column;
 }
 
-static bool put_rocket(study_store *self, int64_t number, const study_sample *sample, int rocket,
-                       const ld_rocket_summary *summary)
+static bool put_sample(study_store *self, const study_record *record)
 {
-    sqlite3_stmt *insert = self->insert_rocket;
-    sqlite3_bind_int64(insert, 1, number);
-    sqlite3_bind_int(insert, 2, rocket);
-    sqlite3_bind_int(insert, 3, sample->model.firing[rocket - 1].tube);
-    int column = bind_factors(self, insert, 4, sample, rocket);
-    for (const study_result *r = study_results; r->name; r++)
-        bind_number(insert, column++, summary ? study_result_of(summary, r) : NAN);
+    sqlite3_stmt *insert = self->insert_sample;
+    sqlite3_bind_int64(insert, 1, record->number);
+    sqlite3_bind_int(insert, 2, plan_point(self->plan, record->number) + 1);
+    sqlite3_bind_text(insert, 3, ld_status_name((ld_status)record->outcome), -1, SQLITE_STATIC);
+    if (record->outcome)
+        sqlite3_bind_text(insert, 4, record->reason, -1, SQLITE_TRANSIENT);
+    else
+        sqlite3_bind_null(insert, 4);
+    bind_factors(self, insert, 5, record->number, 0);
     return step(insert);
 }
 
-ld_status store_put(study_store *self, int64_t number, const study_sample *sample,
-                    ld_status outcome, const char *reason, const ld_summary *summary,
-                    ld_error *error)
+static bool put_rocket(study_store *self, const study_record *record, int rocket)
 {
-    sqlite3_stmt *insert = self->insert_sample;
-    ld_status status = execute(self, "BEGIN", error);
-    if (status)
-        return status;
-    sqlite3_bind_int64(insert, 1, number);
-    sqlite3_bind_text(insert, 2, ld_status_name(outcome), -1, SQLITE_STATIC);
-    if (outcome)
-        sqlite3_bind_text(insert, 3, reason, -1, SQLITE_TRANSIENT);
-    else
-        sqlite3_bind_null(insert, 3);
-    bind_factors(self, insert, 4, sample, 0);
-    bool good = step(insert);
-    for (int i = 1; i <= self->model->firing_count && good; i++)
-        good = put_rocket(self, number, sample, i,
-                          summary && i <= summary->rocket_count ? &summary->rocket[i - 1] : NULL);
-    if (good)
-        status = execute(self, "COMMIT", error);
-    else
+    sqlite3_stmt *insert = self->insert_rocket;
+    const study_rocket *of = &record->rocket[rocket - 1];
+    sqlite3_bind_int64(insert, 1, record->number);
+    sqlite3_bind_int(insert, 2, rocket);
+    sqlite3_bind_int64(insert, 3, of->tube);
+    int column = bind_factors(self, insert, 4, record->number, rocket);
+    for (int i = 0; i < STUDY_RESULTS; i++)
+        bind_number(insert, column + i, of->result[i]);
+    return step(insert);
+}
+
+ld_status store_begin(study_store *self, ld_error *error)
+{
+    return step(self->begin) ? LD_OK : store_fail(self, "write", error);
+}
+
+ld_status store_put(study_store *self, const study_record *record, ld_error *error)
+{
+    bool good = put_sample(self, record);
+    for (int i = 1; i <= record->rockets && good; i++)
+        good = put_rocket(self, record, i);
+    return good ? LD_OK : store_fail(self, "write", error);
+}
+
+ld_status store_end(study_store *self, ld_status status, ld_error *error)
+{
+    if (!status && !step(self->commit))
         status = store_fail(self, "write", error);
-    if (status)
+    if (status && !sqlite3_get_autocommit(self->database))
         sqlite3_exec(self->database, "ROLLBACK", NULL, NULL, NULL);
     return status;
 }

@@ -1,31 +1,41 @@
-// The folder of a study: one SQLite database, study.db. Tables:
-//   study   (name, value): format, version, hash, scenario, samples, strata
-//   sample  (sample, status, reason, then the factors drawn once a sample)
+// A study's database, SQLite. Tables:
+//   study   (name, value): format, version, hash, scenario, samples (of each point), strata
+//   point   (point, then a text for each swept key)
+//   sample  (sample, point, status, reason, then the factors drawn once a sample)
 //   rocket  (sample, rocket, tube, then the factors drawn for every rocket, then the results)
-// Numbers are stored with all their bits; what is not there is NULL. Each sample is one
-// transaction.
+// Numbers are stored with all their bits; what is not there is NULL. A study's folder holds
+// study.db and, of jobs that ran a part of it, shard-I-of-N.db; each has a lock file beside it.
 #ifndef LD_STUDIES_STORE_H
 #define LD_STUDIES_STORE_H
 
 #include <sqlite3.h>
 
-#include "io/study_results.h"
 #include "launchdyn/study.h"
-#include "studies/sample.h"
+#include "studies/plan.h"
+#include "studies/record.h"
+
+// How a commit is made sure. The write-ahead log is quick and wants one machine's memory; the
+// rollback journal serves files on a network too.
+typedef enum store_journal { STORE_AHEAD, STORE_ROLLBACK } store_journal;
 
 typedef struct study_store {
     sqlite3 *database;
-    sqlite3_stmt *insert_sample, *insert_rocket, *find;
-    const ld_model *model;
+    sqlite3_stmt *begin, *commit, *insert_sample, *insert_rocket, *find;
+    const study_plan *plan;
+    double *row; // [factors]
+    store_journal journal;
     int lock; // descriptor of the locked file, -1: none
     char path[4096];
 } study_store;
 
-// Opens the folder for the study of `model`, making what is not there; refuses another scenario's,
-// or one at which another process is at work.
-ld_status store_open(study_store *self, const char *folder, const ld_model *model, ld_error *error);
-// Opens what is there, for reading only.
+// Opens the database for the study of `plan`, making what is not there; refuses another scenario's,
+// or one at which another process is at work. Of a shard (shards > 0) it is a database of its own.
+ld_status store_open(study_store *self, const char *folder, int shard, int shards,
+                     const study_plan *plan, store_journal journal, ld_error *error);
+// Opens study.db where it is there, for reading only.
 ld_status store_open_to_read(study_store *self, const char *folder, ld_error *error);
+// Opens study.db, which may be new and empty, to add what shards hold.
+ld_status store_open_to_merge(study_store *self, const char *folder, ld_error *error);
 void store_close(study_store *self);
 
 // The text of that name in the table `study`, to be freed; NULL where there is none.
@@ -34,14 +44,19 @@ char *store_text(study_store *self, const char *name);
 ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *error);
 // Whether the sample is kept already.
 ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error);
-// Keeps a sample with what came of it.
-ld_status store_put(study_store *self, int64_t number, const study_sample *sample,
-                    ld_status outcome, const char *reason, const ld_summary *summary,
-                    ld_error *error);
+
+// A transaction: begin, put records, end. What came before decides whether the end keeps it all or
+// nothing, and is returned if it is an error.
+ld_status store_begin(study_store *self, ld_error *error);
+ld_status store_put(study_store *self, const study_record *record, ld_error *error);
+ld_status store_end(study_store *self, ld_status status, ld_error *error);
 
 // Fails with the database's own words.
 ld_status store_fail(const study_store *self, const char *what, ld_error *error);
 // A statement, NULL after an error.
 sqlite3_stmt *store_prepare(study_store *self, const char *text, ld_error *error);
+ld_status store_execute(study_store *self, const char *text, ld_error *error);
+// Opens and locks the lock file of the database at `path`; *lock -1: it could not be.
+ld_status store_lock(const char *path, int *lock, ld_error *error);
 
 #endif

@@ -1,139 +1,28 @@
-// Samples side by side, one writer.
-#include <pthread.h>
-#include <stdatomic.h>
+// Samples side by side on the threads of one process.
 #include <stdlib.h>
 
-#include "launchdyn/study.h"
-#include "simulation/simulation.h"
-#include "studies/store.h"
+#include "studies/ledger.h"
+#include "studies/worker.h"
 
-typedef struct study {
-    const ld_model *model;
-    const ld_study_options *options;
-    study_sampler sampler;
-    pthread_mutex_t mutex; // of all below
-    study_store store;
-    int64_t next; // sample to be looked at
-    ld_study_counts *counts;
-    ld_status status;
-    ld_error *error;
-    atomic_bool stopped; // read without the mutex
-} study;
-
-// ---- one sample
-
-static bool may_go_on(void *self, double share)
+// One thread: runs samples until there are no more.
+static void work(study_ledger *ledger, const study_plan *plan)
 {
-    study *all = self;
-    (void)share;
-    return !all->stopped && (!all->options->go_on || all->options->go_on(all->options->self));
-}
-
-// `simulation`: that of the sample before, NULL for the first.
-static ld_status run_sample(study *self, ld_simulation **simulation, const study_sample *sample,
-                            ld_summary *summary, ld_error *error)
-{
-    ld_run_options options = {.self = self, .progress = may_go_on};
-    ld_status status = simulation_renew(simulation, &sample->model, error);
-    return status ? status : ld_simulation_run(*simulation, &options, summary, error);
-}
-
-// ---- what the threads share
-
-static void stop(study *self, ld_status status, const ld_error *error)
-{
-    if (!self->status) {
-        self->status = status;
-        *self->error = *error;
-    }
-    self->stopped = true;
-}
-
-// The next sample that is not kept yet; 0: there is none, or the study stops.
-static int64_t next_sample(study *self)
-{
-    bool there = true;
+    study_worker worker;
     ld_error error;
-    int64_t number = 0;
-    pthread_mutex_lock(&self->mutex);
-    while (there && !self->stopped && self->next < self->counts->samples) {
-        number = ++self->next;
-        ld_status status = store_has(&self->store, number, &there, &error);
-        if (status)
-            stop(self, status, &error);
-    }
-    bool go_on = may_go_on(self, 0);
-    pthread_mutex_unlock(&self->mutex);
-    return there || self->stopped || !go_on ? 0 : number;
-}
-
-static void keep(study *self, int64_t number, const study_sample *sample, ld_status outcome,
-                 const ld_error *reason, const ld_summary *summary)
-{
-    ld_error error;
-    pthread_mutex_lock(&self->mutex);
-    ld_status status =
-        store_put(&self->store, number, sample, outcome, reason->text, summary, &error);
+    ld_status status = worker_create(&worker, plan, &error);
     if (status) {
-        stop(self, status, &error);
-    } else {
-        self->counts->done++;
-        self->counts->now++;
-        self->counts->failed += outcome != LD_OK;
-        if (self->options->progress)
-            self->options->progress(self->options->self, self->counts);
+        ledger_stop(ledger, status, &error);
+        return;
     }
-    pthread_mutex_unlock(&self->mutex);
-}
-
-static void *work(void *argument)
-{
-    study *self = argument;
-    ld_summary *summary = calloc(1, sizeof *summary);
-    study_sample *sample = sample_create(&self->sampler);
-    ld_simulation *simulation = NULL;
-    ld_error error = {LD_ERR_MEMORY, "no memory for a sample"};
-    ld_status outcome = summary && sample ? LD_OK : LD_ERR_MEMORY;
-    for (int64_t number; outcome != LD_ERR_MEMORY && (number = next_sample(self));) {
-        outcome = sample_draw(sample, &self->sampler, number, &error);
-        bool possible = !outcome;
-        if (possible)
-            outcome = run_sample(self, &simulation, sample, summary, &error);
-        if (outcome == LD_ERR_INTERRUPTED)
-            break;
-        if (outcome != LD_ERR_MEMORY)
-            keep(self, number, sample, outcome, &error,
-                 possible && summary->rocket_count ? summary : NULL);
+    for (int64_t number; (number = ledger_next(ledger)) != 0;) {
+        worker_run(&worker, number, ledger_goes_on, ledger);
+        ledger_keep(ledger, (const study_record *[]){worker.record}, 1);
     }
-    if (outcome == LD_ERR_MEMORY) {
-        pthread_mutex_lock(&self->mutex);
-        stop(self, outcome, &error);
-        pthread_mutex_unlock(&self->mutex);
-    }
-    ld_simulation_free(simulation);
-    sample_free(sample);
-    free(summary);
-    return NULL;
+    worker_free(&worker);
 }
 
 // OpenBLAS, where that is the one: samples run side by side, each on its own thread alone.
 extern void openblas_set_num_threads(int count) __attribute__((weak));
-
-enum { MOST_THREADS = 1024 };
-
-static void run_threads(study *self)
-{
-    pthread_t thread[MOST_THREADS];
-    int wanted = self->options->threads, count = 0;
-    wanted = wanted < 1 ? 1 : wanted > MOST_THREADS ? MOST_THREADS : wanted;
-    if (openblas_set_num_threads)
-        openblas_set_num_threads(1);
-    while (count < wanted - 1 && pthread_create(&thread[count], NULL, work, self) == 0)
-        count++;
-    work(self);
-    for (int i = 0; i < count; i++)
-        pthread_join(thread[i], NULL);
-}
 
 static ld_status require_scatter(const ld_model *model, ld_error *error)
 {
@@ -142,35 +31,40 @@ static ld_status require_scatter(const ld_model *model, ld_error *error)
     return ld_fail(error, LD_ERR_INPUT, "the scenario has no scatter: nothing to study");
 }
 
+static ld_status check_shard(const ld_study_options *options, ld_error *error)
+{
+    if (options->shards == 0 || (options->shard >= 1 && options->shard <= options->shards))
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT, "there is no shard %d of %d: they go from 1/%d to %d/%d",
+                   options->shard, options->shards, options->shards, options->shards,
+                   options->shards);
+}
+
 ld_status ld_study_run(const ld_model *model, const char *folder, const ld_study_options *options,
                        ld_study_counts *counts, ld_error *error)
 {
     static const ld_study_options none = {0};
     ld_error own;
-    study self = {.model = model,
-                  .options = options ? options : &none,
-                  .mutex = PTHREAD_MUTEX_INITIALIZER,
-                  .counts = counts,
-                  .error = error ? error : &own};
+    study_plan plan;
+    study_ledger ledger;
+    error = error ? error : &own;
+    options = options ? options : &none;
     *counts = (ld_study_counts){0};
     ld_status status = require_scatter(model, error);
     if (!status)
-        status = sampler_create(&self.sampler, model, error);
+        status = check_shard(options, error);
+    if (!status)
+        status = plan_create(&plan, model, 1, error);
     if (status)
         return status;
-    status = store_open(&self.store, folder, model, error);
-    if (!status)
-        status = store_count(&self.store, counts, error);
-    if (!status) {
-        run_threads(&self);
-        status = self.status;
-        if (!status && !may_go_on(&self, 0) && counts->done < counts->samples)
-            status = ld_fail(error, LD_ERR_INTERRUPTED,
-                             "interrupted after %lld of %lld samples; the same command goes on",
-                             (long long)counts->done, (long long)counts->samples);
-    }
-    store_close(&self.store);
-    sampler_free(&self.sampler);
+    if (openblas_set_num_threads)
+        openblas_set_num_threads(1);
+    ledger_open(&ledger, &plan, folder, options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD, options,
+                counts, error);
+#pragma omp parallel num_threads(options->threads > 1 ? options->threads : 1)
+    work(&ledger, &plan);
+    status = ledger_close(&ledger);
+    plan_free(&plan);
     return status;
 }
 
@@ -193,7 +87,7 @@ ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **ou
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a sample");
     status = sampler_create(&self->sampler, model, error);
-    self->sample = status ? NULL : sample_create(&self->sampler);
+    self->sample = status ? NULL : sample_create(model->scatter.factor_count);
     if (!status && !self->sample)
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for a sample");
     if (!status)

@@ -122,7 +122,8 @@ static void test_stopped(void **state)
     int runs = 0;
     for (; status == LD_ERR_INTERRUPTED && runs < 30; runs++) {
         atomic_int done = 0;
-        ld_study_options options = {2, &done, count, three_more};
+        ld_study_options options = {
+            .threads = 2, .self = &done, .progress = count, .go_on = three_more};
         int64_t before = counts.done;
         status = ld_study_run(&model, folder("stopped"), &options, &counts, &error);
         assert_true(counts.done >= before + counts.now);
@@ -133,41 +134,6 @@ static void test_stopped(void **state)
     assert_string_equal(one, stopped);
     free(one);
     free(stopped);
-    ld_model_free(&model);
-}
-
-// Killed at any instant: what is kept stays, and the rest comes out the same.
-static void test_killed(void **state)
-{
-    (void)state;
-    enum { KILLS = 20 };
-    ld_model model = read_text(launch);
-    int64_t kept = 0;
-    for (int i = 0; i < KILLS; i++) {
-        ld_error error;
-        ld_study_counts counts;
-        pid_t child = fork();
-        assert_true(child >= 0);
-        if (child == 0) {
-            ld_study_options options = {.threads = 2};
-            ld_study_run(&model, folder("killed"), &options, &counts, &error);
-            _exit(0);
-        }
-        usleep((useconds_t)(20000 + 79190 * i % 200000));
-        kill(child, SIGKILL);
-        waitpid(child, NULL, 0);
-        atomic_int enough = 3;
-        ld_study_options none = {.threads = 1, .go_on = three_more, .self = &enough};
-        ld_study_run(&model, folder("killed"), &none, &counts, &error);
-        assert_true(counts.done >= kept && counts.now == 0);
-        kept = counts.done;
-    }
-    printf("    %lld of 24 samples kept after %d kills\n", (long long)kept, KILLS);
-    run(&model, "killed", 2);
-    char *one = export("one"), *killed = export("killed");
-    assert_string_equal(one, killed);
-    free(one);
-    free(killed);
     ld_model_free(&model);
 }
 
@@ -270,6 +236,83 @@ static void test_one_sample_alone(void **state)
     ld_model_free(&model);
 }
 
+static char *merge(const char *name, ld_status expected)
+{
+    char *text = NULL;
+    size_t length;
+    ld_error error = {0};
+    FILE *stream = open_memstream(&text, &length);
+    assert_non_null(stream);
+    ld_status status = ld_study_merge(folder(name), stream, &error);
+    fclose(stream);
+    if (status != expected)
+        fail_msg("%d %s", status, error.text);
+    if (status) {
+        free(text);
+        return strdup(error.text);
+    }
+    return text;
+}
+
+static void expect_merge(const char *name, ld_status status, const char *part)
+{
+    char *text = merge(name, status);
+    if (!strstr(text, part))
+        fail_msg("\"%s\" is not in: %s", part, text);
+    free(text);
+}
+
+static ld_status run_shard(const ld_model *model, int shard, int shards, ld_study_counts *counts,
+                           bool (*go_on)(void *), void (*progress)(void *, const ld_study_counts *))
+{
+    atomic_int done = 0;
+    ld_error error = {0};
+    ld_study_options options = {.threads = 1,
+                                .shard = shard,
+                                .shards = shards,
+                                .self = &done,
+                                .go_on = go_on,
+                                .progress = progress};
+    return ld_study_run(model, folder("shards"), &options, counts, &error);
+}
+
+// Parts of a study, run in any order and joined, are the study.
+static void test_shards(void **state)
+{
+    (void)state;
+    ld_model model = read_text(launch), other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
+    ld_study_counts counts;
+    assert_int_equal(run_shard(&model, 3, 3, &counts, NULL, NULL), LD_OK);
+    assert_true(counts.samples == 8 && counts.done == 8);
+    assert_int_equal(run_shard(&model, 1, 3, &counts, three_more, count), LD_ERR_INTERRUPTED);
+    expect_merge("shards", LD_OK, "11 of 24 samples");
+    expect_merge("shards", LD_OK, "shard 1 of 3 lacks 5 of its 8 samples");
+    expect_merge("shards", LD_OK, "not there: shard 2 of 3");
+    assert_int_equal(run_shard(&model, 1, 3, &counts, NULL, NULL), LD_OK);
+    assert_true(counts.now == 5);
+    expect_merge("shards", LD_OK, "16 of 24 samples");
+    assert_int_equal(run_shard(&model, 4, 3, &counts, NULL, NULL), LD_ERR_INPUT);
+    assert_int_equal(run_shard(&other, 1, 3, &counts, NULL, NULL), LD_ERR_INPUT);
+    // the plain command runs the rest
+    counts = run(&model, "shards", 2);
+    assert_true(counts.done == 24 && counts.now == 8);
+    char *one = export("one"), *shards = export("shards");
+    assert_string_equal(one, shards);
+    free(shards);
+    // and what it has run may come from its shard as well
+    assert_int_equal(run_shard(&model, 2, 3, &counts, NULL, NULL), LD_OK);
+    expect_merge("shards", LD_OK, "24 of 24 samples");
+    shards = export("shards");
+    assert_string_equal(one, shards);
+    free(one);
+    free(shards);
+    assert_int_equal(run_shard(&other, 1, 4, &counts, NULL, NULL), LD_OK);
+    expect_merge("shards", LD_ERR_INPUT, "of different studies: in their scenario");
+    expect_merge("one", LD_ERR_INPUT, "no shards");
+    ld_model_free(&model);
+    ld_model_free(&other);
+}
+
 // Samples that cannot run are kept with what was the matter, and the study goes on.
 static void test_failures(void **state)
 {
@@ -367,7 +410,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_stopped),
-        cmocka_unit_test(test_killed),
+        cmocka_unit_test(test_shards),
         cmocka_unit_test(test_one_sample_alone),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_failures),

@@ -1,0 +1,147 @@
+#include "studies/ledger.h"
+
+#include <inttypes.h>
+#include <time.h>
+
+bool ledger_goes_on(void *self)
+{
+    const study_ledger *ledger = self;
+    const ld_study_options *options = ledger->options;
+    return !ledger->stopped && (!options->go_on || options->go_on(options->self));
+}
+
+static void stop(study_ledger *self, ld_status status, const ld_error *error)
+{
+    if (!self->status) {
+        self->status = status;
+        *self->error = *error;
+    }
+    self->stopped = true;
+}
+
+void ledger_stop(study_ledger *self, ld_status status, const ld_error *error)
+{
+#pragma omp critical(ledger)
+    stop(self, status, error);
+}
+
+// ---- handing out
+
+static int64_t next_number(study_ledger *self)
+{
+    bool there = true;
+    ld_error error;
+    int64_t number = 0;
+    while (there && self->next <= self->last && ledger_goes_on(self)) {
+        number = self->next;
+        self->next += self->step;
+        ld_status status = store_has(&self->store, number, &there, &error);
+        if (status)
+            stop(self, status, &error);
+    }
+    return there || self->stopped ? 0 : number;
+}
+
+int64_t ledger_next(study_ledger *self)
+{
+    int64_t number;
+#pragma omp critical(ledger)
+    number = next_number(self);
+    return number;
+}
+
+// ---- keeping
+
+// Of an outcome that is not the sample's own.
+static bool is_not_to_be_kept(const study_record *record)
+{
+    return record->outcome == LD_ERR_INTERRUPTED || record->outcome == LD_ERR_MEMORY;
+}
+
+static ld_status put_all(study_ledger *self, const study_record *const *record, int count,
+                         ld_error *error)
+{
+    ld_status status = store_begin(&self->store, error);
+    for (int i = 0; i < count && !status; i++)
+        if (!is_not_to_be_kept(record[i]))
+            status = store_put(&self->store, record[i], error);
+    return store_end(&self->store, status, error);
+}
+
+static void keep(study_ledger *self, const study_record *const *record, int count)
+{
+    ld_error error;
+    ld_status status = put_all(self, record, count, &error);
+    if (status && ledger_goes_on(self))
+        stop(self, status, &error);
+    for (int i = 0; i < count; i++) {
+        if (record[i]->outcome == LD_ERR_INTERRUPTED) {
+            self->stopped = true;
+        } else if (record[i]->outcome == LD_ERR_MEMORY) {
+            status = ld_fail(&error, LD_ERR_MEMORY, "%s", record[i]->reason);
+            stop(self, status, &error);
+        } else if (!status) {
+            self->counts->done++;
+            self->counts->now++;
+            self->counts->failed += record[i]->outcome != LD_OK;
+        }
+    }
+    if (self->options->progress)
+        self->options->progress(self->options->self, self->counts);
+}
+
+void ledger_keep(study_ledger *self, const study_record *const *record, int count)
+{
+    if (count == 0)
+        return;
+#pragma omp critical(ledger)
+    keep(self, record, count);
+}
+
+// ---- from begin to end
+
+// Someone reads what the writer wants to write: wait as long as the study may go on.
+static int wait_for_reader(void *self, int count)
+{
+    (void)count;
+    nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
+    return ledger_goes_on(self);
+}
+
+void ledger_open(study_ledger *self, const study_plan *plan, const char *folder,
+                 store_journal journal, const ld_study_options *options, ld_study_counts *counts,
+                 ld_error *error)
+{
+    int64_t shards = options->shards > 0 ? options->shards : 1;
+    *self = (study_ledger){.options = options,
+                           .counts = counts,
+                           .next = options->shards > 0 ? options->shard : 1,
+                           .step = shards,
+                           .last = plan->samples,
+                           .error = error};
+    *counts = (ld_study_counts){0};
+    ld_status status =
+        store_open(&self->store, folder, options->shard, options->shards, plan, journal, error);
+    if (!status) {
+        self->open = true;
+        sqlite3_busy_handler(self->store.database, wait_for_reader, self);
+        status = store_count(&self->store, counts, error);
+    }
+    counts->samples = self->last < self->next ? 0 : (self->last - self->next) / shards + 1;
+    if (status) {
+        self->status = status;
+        self->stopped = true;
+    }
+}
+
+ld_status ledger_close(study_ledger *self)
+{
+    bool interrupted = !ledger_goes_on(self) && self->counts->done < self->counts->samples;
+    if (self->open)
+        store_close(&self->store);
+    if (self->status || !interrupted)
+        return self->status;
+    return ld_fail(self->error, LD_ERR_INTERRUPTED,
+                   "interrupted after %" PRId64 " of %" PRId64 " samples; the same command goes on",
+                   self->counts->done, self->counts->samples);
+}

@@ -1,0 +1,40 @@
+// The ledger of a study: hands out the numbers of samples that are not kept yet and keeps the
+// records that come back, whoever runs them. All its functions may be called from several threads
+// at once.
+#ifndef LD_STUDIES_LEDGER_H
+#define LD_STUDIES_LEDGER_H
+
+#include <stdatomic.h>
+
+#include "studies/record.h"
+#include "studies/store.h"
+
+typedef struct study_ledger {
+    const ld_study_options *options;
+    ld_study_counts *counts;
+    study_store store;
+    bool open;
+    int64_t next, step, last; // number to be looked at, from one to the next, of the last sample
+    ld_status status;         // why it stopped
+    ld_error *error;
+    atomic_bool stopped;
+} study_ledger;
+
+// Opens the folder, which it may make; error and counts are written to until it is closed. Where
+// this fails the ledger is there all the same and hands out nothing.
+void ledger_open(study_ledger *self, const study_plan *plan, const char *folder,
+                 store_journal journal, const ld_study_options *options, ld_study_counts *counts,
+                 ld_error *error);
+// @return LD_OK: all samples are kept; LD_ERR_INTERRUPTED; or what went wrong first
+ld_status ledger_close(study_ledger *self);
+
+// The number of a sample to be run; 0: no more.
+int64_t ledger_next(study_ledger *self);
+// Keeps `count` records in one transaction; an outcome that is not the sample's stops the study.
+void ledger_keep(study_ledger *self, const study_record *const *record, int count);
+// Stops: what runs is not waited for.
+void ledger_stop(study_ledger *self, ld_status status, const ld_error *error);
+// Whether samples are still wanted; `self` is a ledger.
+bool ledger_goes_on(void *self);
+
+#endif

@@ -1,0 +1,76 @@
+#include "studies/worker.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "simulation/simulation.h"
+
+ld_status worker_create(study_worker *self, const study_plan *plan, ld_error *error)
+{
+    *self = (study_worker){.plan = plan,
+                           .sample = sample_create(plan->model->scatter.factor_count),
+                           .summary = calloc(1, sizeof *self->summary),
+                           .record = calloc(1, record_size(plan->rockets))};
+    if (self->sample && self->summary && self->record)
+        return LD_OK;
+    worker_free(self);
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for a sample");
+}
+
+void worker_free(study_worker *self)
+{
+    ld_simulation_free(self->simulation);
+    sample_free(self->sample);
+    free(self->summary);
+    free(self->record);
+    *self = (study_worker){0};
+}
+
+typedef struct permission {
+    bool (*go_on)(void *);
+    void *argument;
+} permission;
+
+static bool may_go_on(void *self, double share)
+{
+    const permission *asked = self;
+    (void)share;
+    return asked->go_on(asked->argument);
+}
+
+static ld_status run_sample(study_worker *self, permission *asked, ld_error *error)
+{
+    ld_run_options options = {.self = asked, .progress = may_go_on};
+    ld_status status = simulation_renew(&self->simulation, &self->sample->model, error);
+    return status ? status : ld_simulation_run(self->simulation, &options, self->summary, error);
+}
+
+static void fill_rockets(study_worker *self)
+{
+    const ld_model *model = &self->sample->model;
+    for (int i = 0; i < model->firing_count; i++) {
+        study_rocket *rocket = &self->record->rocket[i];
+        rocket->tube = model->firing[i].tube;
+        for (int k = 0; k < STUDY_RESULTS; k++)
+            rocket->result[k] = i < self->summary->rocket_count
+                                    ? study_result_of(&self->summary->rocket[i], &study_results[k])
+                                    : NAN;
+    }
+}
+
+void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument)
+{
+    const study_sampler *sampler = &self->plan->sampler[plan_point(self->plan, number)];
+    ld_error error = {0};
+    self->summary->rocket_count = 0;
+    ld_status outcome = sample_draw(self->sample, sampler, plan_draw(self->plan, number), &error);
+    if (!outcome)
+        outcome = run_sample(self, &(permission){go_on, argument}, &error);
+    study_record *record = self->record;
+    record->number = number;
+    record->outcome = outcome;
+    record->rockets = self->sample->model.firing_count;
+    snprintf(record->reason, sizeof record->reason, "%s", outcome ? error.text : "");
+    fill_rockets(self);
+}

@@ -1,0 +1,23 @@
+// One who runs samples, one after the other.
+#ifndef LD_STUDIES_WORKER_H
+#define LD_STUDIES_WORKER_H
+
+#include "studies/plan.h"
+#include "studies/record.h"
+
+typedef struct study_worker {
+    const study_plan *plan;
+    study_sample *sample;
+    ld_simulation *simulation; // of the sample run last
+    ld_summary *summary;
+    study_record *record; // of the sample run last
+} study_worker;
+
+ld_status worker_create(study_worker *self, const study_plan *plan, ld_error *error);
+void worker_free(study_worker *self);
+
+// Runs sample `number` into the record. The outcomes LD_ERR_INTERRUPTED, where go_on(argument) said
+// false, and LD_ERR_MEMORY are not the sample's: such a record is not to be kept.
+void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument);
+
+#endif
