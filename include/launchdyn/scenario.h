@@ -54,6 +54,10 @@ int ld_scenario_points(const ld_model *model);
 /// first axis varies most slowly.
 int ld_scenario_value(const ld_model *model, int point, int axis);
 
+/// Writes the keys and values of a point, "base.speed 15 km/h, firing.interval 0.4 s"; what is too
+/// long is cut.
+void ld_scenario_point_name(const ld_model *model, int point, char *text, size_t size);
+
 /// Reads the scenario with the values of point `point` (from 1 to ld_scenario_points()) of its
 /// sweep in place of the nominal ones; 0: the nominal ones. A value's place in messages is that in
 /// the sweep. An override of a swept key takes its axis away; other overrides are laid over the

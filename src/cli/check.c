@@ -16,8 +16,12 @@ static int check_points(const ld_model *model, void *data)
     int points = model->sweep_count > 0 ? ld_scenario_points(model) : 0;
     for (int point = 1; point <= points; point++) {
         ld_model one;
-        if (command_read(wishes->file, wishes->sets, point, &one))
+        if (command_read(wishes->file, wishes->sets, point, &one)) {
+            char name[256];
+            ld_scenario_point_name(model, point, name, sizeof name);
+            command_complain("this is point %d of the sweep: %s", point, name);
             return EXIT_INPUT;
+        }
         ld_model_free(&one);
     }
     ld_model_print(model, stdout);

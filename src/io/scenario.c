@@ -195,8 +195,9 @@ static void read_source(scenario_reader *reader, const text_source *source,
     scenario_sweep sweep = sweep_find(reader, root, request->set, request->count);
     sweep_fill(reader, &sweep, model);
     if (request->point > ld_scenario_points(model)) {
-        reader_refuse(reader, root->at, "sweep", "there is no point %d: they go from 1 to %d",
-                      request->point, ld_scenario_points(model));
+        reader_refuse(reader, (text_place){source, 0, 0}, "sweep",
+                      "there is no point %d: they go from 1 to %d", request->point,
+                      ld_scenario_points(model));
         return;
     }
     if (request->point > 0) {

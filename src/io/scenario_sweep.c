@@ -211,3 +211,15 @@ int ld_scenario_value(const ld_model *model, int point, int axis)
         rest /= model->sweep[i].count;
     return rest % model->sweep[axis].count;
 }
+
+void ld_scenario_point_name(const ld_model *model, int point, char *text, size_t size)
+{
+    size_t length = 0;
+    text[0] = '\0';
+    for (int i = 0; i < model->sweep_count && length < size - 1; i++) {
+        const ld_sweep_axis *axis = &model->sweep[i];
+        snprintf(text + length, size - length, "%s%s %s", i ? ", " : "", axis->path,
+                 axis->value[ld_scenario_value(model, point, i)]);
+        length += strlen(text + length);
+    }
+}
