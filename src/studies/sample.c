@@ -92,7 +92,9 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
             status = ld_model_check(&self->model, error);
         self->salvo[i - 1] = self->model.rocket;
     }
-    self->model.rocket = rockets > 1 ? shared : self->salvo[0];
-    self->model.salvo = rockets > 1 ? self->salvo : NULL;
+    // a vehicle carries more rockets than are fired, which are as the scenario says
+    bool apart = rockets > 1 || self->model.base.kind == LD_BASE_VEHICLE;
+    self->model.rocket = apart ? shared : self->salvo[0];
+    self->model.salvo = apart ? self->salvo : NULL;
     return status;
 }

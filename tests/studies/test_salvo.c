@@ -112,7 +112,7 @@ static void check_weight(const char *what, const char *text)
             errors += (drawn->salvo ? drawn->salvo[i] : drawn->rocket).mass_error;
         printf("  %s, sample %d: mass errors of %.3f kg\n", what, number, errors);
         CHECK_BELOW("tyre forces less the weight, over it",
-                    (tyre_forces(drawn) - weight - errors * model.gravity) / weight, 1e-12);
+                    (tyre_forces(drawn) - weight - errors * model.gravity) / weight, 5e-15);
         ld_sample_free(sample);
     }
     ld_model_free(&model);
