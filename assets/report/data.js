@@ -91,10 +91,10 @@ export function matching(table, pattern) {
   return found;
 }
 
-// Six digits as a person reads them.
-export function readable(value) {
+// Six digits, or so many, as a person reads them.
+export function readable(value, digits = 6) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-4 || size >= 1e7)) return value.toExponential(5);
-  return String(Number(value.toPrecision(6)));
+  if (size !== 0 && (size < 1e-4 || size >= 1e7)) return value.toExponential(digits - 1);
+  return String(Number(value.toPrecision(digits)));
 }

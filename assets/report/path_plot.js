@@ -2,17 +2,9 @@
 // cursor of the plots over time.
 import { filled, readable, rowAt } from "./data.js";
 import { colour, curveColour, element, onColours } from "./page.js";
+import { ticks } from "./ticks.js";
 
 const HEIGHT = 230, LEFT = 74, RIGHT = 14, TOP = 12, BOTTOM = 46;
-
-// Round steps that cut a range into about `count` parts.
-function ticks(low, high, count) {
-  const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 5, 10].map((f) => f * power).find((s) => s >= raw);
-  const out = [];
-  for (let k = Math.ceil(low / step); k * step <= high; k++) out.push(k * step);
-  return out;
-}
 
 function widened(values) {
   let low = Infinity, high = -Infinity;

@@ -1,4 +1,4 @@
-/// A run to look at: one HTML file that opens offline in any browser (docs/report.md).
+/// A run, or studies, to look at: one HTML file that opens offline in any browser (docs/report.md).
 #ifndef LAUNCHDYN_REPORT_H
 #define LAUNCHDYN_REPORT_H
 
@@ -15,7 +15,8 @@ enum { LD_REPORT_NOTES = 8 };
 /// What became of a report.
 typedef struct ld_report {
     size_t bytes;   ///< size of the file, at most 2 000 000
-    double pixels;  ///< of 4000 in height: what thinning may move a curve by; 0: all rows are there
+    double pixels;  ///< of 4000 in height: what thinning may move a curve by; 0: all rows are there,
+                    ///< and of studies
     int note_count; ///< what is missing or broken in the results,
     char note[LD_REPORT_NOTES][256]; ///< each in a sentence; the report shows them too
 } ld_report;
@@ -27,6 +28,14 @@ typedef struct ld_report {
 /// @return LD_OK, LD_ERR_INPUT (neither can be read), LD_ERR_FILE (the report cannot be written; an
 ///         earlier one stands) or LD_ERR_MEMORY
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error);
+
+/// Writes the report of studies (launchdyn/study.h) side by side: of each folder its study, or each
+/// point of its sweep. What is broken or not there is noted and left out.
+/// @param report filled; may be NULL
+/// @return LD_OK, LD_ERR_INPUT (no folder holds a study that can be read), LD_ERR_FILE (the report
+///         cannot be written; an earlier one stands) or LD_ERR_MEMORY
+ld_status ld_report_write_studies(const char *const *folder, size_t count, const char *file,
+                                  ld_report *report, ld_error *error);
 
 #ifdef __cplusplus
 }

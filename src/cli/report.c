@@ -1,23 +1,60 @@
-// launchdyn report: one HTML file of a run.
+// launchdyn report: one HTML file of a run, or of studies.
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 #include "launchdyn/report.h"
+
+static int finish(ld_status status, const ld_error *error, const ld_report *report,
+                  const char *file, bool quiet)
+{
+    if (status)
+        return command_fail(status, error);
+    for (int i = 0; i < report->note_count; i++)
+        command_complain("%s", report->note[i]);
+    if (!quiet)
+        printf("%s: %.0f kB\n", file, (double)report->bytes * 1e-3);
+    return 0;
+}
+
+enum { PATH_SIZE = 4096 };
+
+// The report's usual place, where none is asked for.
+static const char *place_of(const char *folder, const char *file, char usual[PATH_SIZE])
+{
+    snprintf(usual, PATH_SIZE, "%.4000s/report.html", folder);
+    return file ? file : usual;
+}
 
 int command_write_report(const char *folder, const char *file, bool quiet)
 {
     static ld_report report;
     ld_error error;
+    char usual[PATH_SIZE];
     ld_status status = ld_report_write(folder, file, &report, &error);
-    if (status)
-        return command_fail(status, &error);
-    for (int i = 0; i < report.note_count; i++)
-        command_complain("%s", report.note[i]);
-    if (!quiet)
-        printf("%s%s: %.0f kB\n", file ? file : folder, file ? "" : "/report.html",
-               (double)report.bytes * 1e-3);
-    return 0;
+    return finish(status, &error, &report, place_of(folder, file, usual), quiet);
+}
+
+static int write_studies(const char *const *folder, size_t count, const char *file)
+{
+    static ld_report report;
+    ld_error error;
+    char usual[PATH_SIZE];
+    if (count > 1 && !file) {
+        command_complain("report of several studies wants -o FILE");
+        return EXIT_INPUT;
+    }
+    file = place_of(folder[0], file, usual);
+    ld_status status = ld_report_write_studies(folder, count, file, &report, &error);
+    return finish(status, &error, &report, file, false);
+}
+
+static bool holds_study(const char *folder)
+{
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%.4000s/study.db", folder);
+    return access(path, F_OK) == 0;
 }
 
 int command_report(const command *self, int argc, const char **argv)
@@ -29,8 +66,11 @@ int command_report(const command *self, int argc, const char **argv)
         COMMAND_END};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, 1, &code)) {
-        code = command_write_report(line.word[0], file, false);
+    if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
+        if (line.count > 1 || holds_study(line.word[0]))
+            code = write_studies(line.word, line.count, file);
+        else
+            code = command_write_report(line.word[0], file, false);
         command_line_end(&line);
     }
     free(file);

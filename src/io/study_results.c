@@ -53,6 +53,12 @@ const study_result *study_result_named(const char *name)
     return NULL;
 }
 
+const study_pair study_pairs[STUDY_PAIRS] = {
+    {"Landing points", {"downrange", "drift"}, "m"},
+    {"Attitude at the exit", {"pitch", "yaw"}, "rad"},
+    {"Rates at the exit", {"pitch_rate", "yaw_rate"}, "rad/s"},
+};
+
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result)
 {
     // the state at the exit is there only where it has left, flight results where it has flown

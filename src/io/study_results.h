@@ -18,6 +18,16 @@ enum { STUDY_RESULTS = 36 };
 // The result with that name, or NULL.
 const study_result *study_result_named(const char *name);
 
+// Two results of one unit that scatter together.
+typedef struct study_pair {
+    const char *title;
+    const char *name[2];
+    const char *unit; // SI
+} study_pair;
+
+enum { STUDY_PAIRS = 3 };
+extern const study_pair study_pairs[STUDY_PAIRS];
+
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result);
 
 #endif

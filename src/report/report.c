@@ -1,8 +1,6 @@
 // From a folder of results to one HTML file.
 #include "launchdyn/report.h"
 
-#include <errno.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -11,25 +9,13 @@
 #include "io/text_file.h"
 #include "report/report_parts.h"
 
-enum { PATH_SIZE = 4096, MOST_SUMMARY = 1 << 20 };
+enum { MOST_SUMMARY = 1 << 20 };
 
 // ---- the results ----
 
-static void take_note(ld_report *report, const char *format, ...) LD_PRINTF(2, 3);
-
-static void take_note(ld_report *report, const char *format, ...)
-{
-    va_list arguments;
-    if (report->note_count == LD_REPORT_NOTES)
-        return;
-    va_start(arguments, format);
-    vsnprintf(report->note[report->note_count++], sizeof *report->note, format, arguments);
-    va_end(arguments);
-}
-
 static void join(char *path, const char *folder, const char *name)
 {
-    snprintf(path, PATH_SIZE, "%s/%s", folder, name);
+    snprintf(path, REPORT_PATH_SIZE, "%s/%s", folder, name);
 }
 
 static void read_rockets(report_source *source, const char *path)
@@ -44,35 +30,35 @@ static void read_rockets(report_source *source, const char *path)
 
 static void read_history(report_source *source, const char *folder)
 {
-    char path[PATH_SIZE];
+    char path[REPORT_PATH_SIZE];
     ld_error error;
     join(path, folder, "history.h5");
     if (access(path, F_OK) != 0) {
         join(path, folder, "history.h5.part");
         if (access(path, F_OK) != 0) {
-            take_note(source->report, "There is no history.h5: no plots.");
+            report_take_note(source->report, "There is no history.h5: no plots.");
             return;
         }
-        take_note(source->report, "The run did not come to its end: the plots are of "
+        report_take_note(source->report, "The run did not come to its end: the plots are of "
                                   "history.h5.part, up to its last block.");
     }
     if (history_read(path, &source->history, &error)) {
-        take_note(source->report, "No plots: %s.", error.text);
+        report_take_note(source->report, "No plots: %s.", error.text);
         return;
     }
     read_rockets(source, path);
     source->has_history = true;
     if (source->history.rows == 0 && source->history.flights == 0)
-        take_note(source->report, "The history has no rows.");
+        report_take_note(source->report, "The history has no rows.");
 }
 
 static void read_summary(report_source *source, const char *folder)
 {
-    char path[PATH_SIZE];
+    char path[REPORT_PATH_SIZE];
     ld_error error;
     join(path, folder, "summary.json");
     if (text_file_read(path, MOST_SUMMARY, &source->summary, &source->summary_length, &error))
-        take_note(source->report, "No summary: summary.json %s.", error.text);
+        report_take_note(source->report, "No summary: summary.json %s.", error.text);
 }
 
 static void free_source(report_source *source)
@@ -126,26 +112,6 @@ static ld_status make_page_that_fits(report_source *source, char **text, size_t 
     }
 }
 
-// Under a temporary name beside the report, which then gets its own.
-static ld_status write_file(const char *file, const char *text, size_t length, ld_error *error)
-{
-    char part[PATH_SIZE + 8];
-    snprintf(part, sizeof part, "%s.part", file);
-    FILE *stream = fopen(part, "wb");
-    bool fine = stream && fwrite(text, 1, length, stream) == length;
-    int number = errno;
-    if (stream && fclose(stream) != 0) {
-        number = errno;
-        fine = false;
-    }
-    if (fine && rename(part, file) == 0)
-        return LD_OK;
-    number = fine ? errno : number;
-    if (stream)
-        unlink(part);
-    return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
-}
-
 static ld_status write_report(report_source *source, const char *file, ld_error *error)
 {
     char *text = NULL;
@@ -154,7 +120,7 @@ static ld_status write_report(report_source *source, const char *file, ld_error 
     ld_status status = make_page_that_fits(source, &text, &length, error);
     numeric_locale_leave(before);
     if (!status)
-        status = write_file(file, text, length, error);
+        status = report_write_file(file, text, length, error);
     free(text);
     return status;
 }
@@ -162,10 +128,10 @@ static ld_status write_report(report_source *source, const char *file, ld_error 
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error)
 {
     ld_report unwanted;
-    char usual[PATH_SIZE];
+    char usual[REPORT_PATH_SIZE];
     report = report ? report : &unwanted;
     memset(report, 0, sizeof *report);
-    if (strlen(folder) + 32 > PATH_SIZE || (file && strlen(file) + 8 > PATH_SIZE))
+    if (strlen(folder) + 32 > REPORT_PATH_SIZE || (file && strlen(file) + 8 > REPORT_PATH_SIZE))
         return ld_fail(error, LD_ERR_INPUT, "the name of the folder or the report is too long");
     report_source *source = calloc(1, sizeof *source);
     if (!source)

@@ -1,10 +1,6 @@
-// The page of a report: what it shows as JSON, then HTML around that, the style and the script.
-#include <string.h>
-
+// The page of a report: what it shows as JSON, and the page around that.
 #include "io/json_text.h"
 #include "report/report_parts.h"
-
-// ---- JSON ----
 
 static void write_curves(FILE *json, const plot_panel *panel)
 {
@@ -118,60 +114,13 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     return status;
 }
 
-// ---- HTML ----
-
-// Text between tags.
-static void write_text(FILE *page, const char *text)
-{
-    for (; *text; text++)
-        switch (*text) {
-        case '<':
-            fputs("&lt;", page);
-            break;
-        case '>':
-            fputs("&gt;", page);
-            break;
-        case '&':
-            fputs("&amp;", page);
-            break;
-        default:
-            fputc(*text, page);
-        }
-}
-
-// JSON that no text in it can end: '<' stands in its strings only, and may be escaped there.
-static void write_json(FILE *page, const char *name, const char *json, size_t length)
-{
-    fprintf(page, "<script type=\"application/json\" id=\"%s\">", name);
-    const char *end = json + length;
-    while (json < end) {
-        const char *tag = memchr(json, '<', (size_t)(end - json));
-        size_t plain = (size_t)((tag ? tag : end) - json);
-        fwrite(json, 1, plain, page);
-        if (tag)
-            fputs("\\u003c", page);
-        json += plain + (tag != NULL);
-    }
-    fputs("</script>\n", page);
-}
-
 void report_write_page(FILE *page, const report_source *source, const char *data, size_t length)
 {
-    fputs("<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n"
-          "<meta http-equiv=\"Content-Security-Policy\" content=\"",
-          page);
-    fwrite(report_policy, 1, report_policy_size, page);
-    fputs("\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>", page);
-    write_text(page, title_of(source));
-    fputs("</title>\n<style>", page);
-    fwrite(report_style, 1, report_style_size, page);
-    fputs("</style>\n<main id=\"report\"><noscript>This report draws its plots with JavaScript; "
-          "summary.json and history.h5 hold the same numbers.</noscript></main>\n",
-          page);
+    report_begin_page(page, &run_bundle, title_of(source),
+                      "This report draws its plots with JavaScript; summary.json and history.h5 "
+                      "hold the same numbers.");
     if (source->summary)
-        write_json(page, "summary", source->summary, source->summary_length);
-    write_json(page, "data", data, length);
-    fputs("<script>", page);
-    fwrite(report_script, 1, report_script_size, page);
-    fputs("</script>\n</html>\n", page);
+        report_write_json(page, "summary", source->summary, source->summary_length);
+    report_write_json(page, "data", data, length);
+    report_end_page(page, &run_bundle);
 }

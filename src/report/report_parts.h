@@ -10,9 +10,9 @@
 #include "io/plot.h"
 #include "launchdyn/report.h"
 #include "launchdyn/status.h"
+#include "report/report_html.h"
 
-// Data that grow beyond the bytes that a report may have are given up on the way.
-enum { REPORT_ROCKETS = 64, REPORT_BYTES = 2000000 };
+enum { REPORT_ROCKETS = 64 };
 
 // What was found in a folder of results.
 typedef struct report_source {
@@ -48,9 +48,5 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
 
 // Writes the page: `data` is the JSON of report_write_data().
 void report_write_page(FILE *page, const report_source *source, const char *data, size_t length);
-
-// What assets/bundle holds, built in.
-extern const unsigned char report_script[], report_style[], report_policy[];
-extern const size_t report_script_size, report_style_size, report_policy_size;
 
 #endif

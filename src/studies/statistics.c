@@ -261,37 +261,59 @@ static double skewness(const grouped *self, double mean)
     return third / n / pow(self->all.second / n, 1.5) * sqrt(n * (n - 1)) / (n - 2);
 }
 
-ld_status statistics_of(const double *value, const int64_t *group, size_t count,
-                        group_statistics *result)
+// All but the order of the values; *reach: how many independent ones would tell the mean as well.
+static ld_status moments(grouped *self, group_statistics *result, double *reach)
 {
     static const estimate none = {NAN, NAN, NAN};
-    *result = (group_statistics){.count = count, .mean = none, .deviation = none};
+    *result = (group_statistics){.count = self->count, .mean = none, .deviation = none};
     result->skewness = result->least = result->greatest = NAN;
     for (int k = 0; k < STATISTICS_QUANTILES; k++)
         result->quantile[k] = none;
-    if (count == 0)
+    *reach = 0;
+    if (self->count == 0)
         return LD_OK;
-    grouped self = {.value = value, .group = group, .count = count};
-    for (size_t i = 0; i < count; i++)
-        self.groups += i == 0 || group[i] != group[i - 1];
-    result->groups = self.groups;
-    result->mean.value = mean_of(value, count);
-    ld_status status = sum_groups(&self, result->mean.value);
+    for (size_t i = 0; i < self->count; i++)
+        self->groups += i == 0 || self->group[i] != self->group[i - 1];
+    result->groups = self->groups;
+    result->mean.value = mean_of(self->value, self->count);
+    ld_status status = sum_groups(self, result->mean.value);
     if (status)
         return status;
-    result->skewness = skewness(&self, result->mean.value);
-    double squares = count > 1 ? fmax(0, variance(self.all)) : NAN, reach = 0;
+    result->skewness = skewness(self, result->mean.value);
+    double squares = self->count > 1 ? fmax(0, variance(self->all)) : NAN;
     result->deviation.value = sqrt(squares);
-    if (self.groups > 1) {
-        mean_interval(&self, &result->mean);
-        reach = squares / variance_of_mean(&self);
+    if (self->groups > 1) {
+        mean_interval(self, &result->mean);
+        *reach = squares / variance_of_mean(self);
     }
-    if (self.groups > 2 && squares > 0)
-        deviation_interval(&self, &result->deviation);
-    status = quantiles(&self, reach, result);
+    if (self->groups > 2 && squares > 0)
+        deviation_interval(self, &result->deviation);
+    return LD_OK;
+}
+
+ld_status moments_of(const double *value, const int64_t *group, size_t count,
+                     group_statistics *result)
+{
+    grouped self = {.value = value, .group = group, .count = count};
+    double reach;
+    ld_status status = moments(&self, result, &reach);
     free(self.of);
     return status;
 }
+
+ld_status statistics_of(const double *value, const int64_t *group, size_t count,
+                        group_statistics *result)
+{
+    grouped self = {.value = value, .group = group, .count = count};
+    double reach;
+    ld_status status = moments(&self, result, &reach);
+    if (!status && count > 0)
+        status = quantiles(&self, reach, result);
+    free(self.of);
+    return status;
+}
+
+const double ellipse_radius = 2.4477468306808161;
 
 void covariance_ellipse_of(const double *x, const double *y, size_t count,
                            covariance_ellipse *result)

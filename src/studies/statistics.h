@@ -32,6 +32,10 @@ typedef struct group_statistics {
 ld_status statistics_of(const double *value, const int64_t *group, size_t count,
                         group_statistics *result);
 
+// The same but for the order of the values: without least, greatest and quantiles, which stay NaN.
+ld_status moments_of(const double *value, const int64_t *group, size_t count,
+                     group_statistics *result);
+
 // Ellipse of two columns of values: semi-axes of one standard deviation along the main axes, and
 // the angle [rad] of the long one from the first towards the second.
 typedef struct covariance_ellipse {
@@ -42,5 +46,8 @@ typedef struct covariance_ellipse {
 
 void covariance_ellipse_of(const double *x, const double *y, size_t count,
                            covariance_ellipse *result);
+
+// A normal distribution has 95 % within so many deviations: sqrt(-2 ln 0.05).
+extern const double ellipse_radius;
 
 #endif

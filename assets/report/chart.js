@@ -1,0 +1,165 @@
+// A plot in SVG: axes with units, what its maker draws between them, a cursor for mouse and keys with
+// the values it is at, and its data as CSV.
+import { readable } from "./data.js";
+import { download, element } from "./page.js";
+import { ticks } from "./ticks.js";
+
+const HEIGHT = 240, LEFT = 62, RIGHT = 14, TOP = 14, BOTTOM = 42;
+
+export function svg(tag, attributes = {}, ...children) {
+  const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
+// What is drawn of the series `index` takes its colour from this.
+export const colourOf = (index) => `--series: var(--curve${index % 8})`;
+
+// A path through points; a point with a value missing is a gap.
+export function pathThrough(points) {
+  let pen = "M";
+  return points.map(([x, y]) => {
+    const step = Number.isFinite(x) && Number.isFinite(y) ? `${pen}${x.toFixed(1)} ${y.toFixed(1)}` : "";
+    pen = step ? "L" : "M";
+    return step;
+  }).join("");
+}
+
+// Least and greatest of the numbers among values, with room around them.
+export function rangeOf(values, room = 0.05) {
+  let low = Infinity, high = -Infinity;
+  for (const v of values) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+  if (!(high >= low)) return [0, 1];
+  const more = (high - low) * room || Math.abs(high) * 0.1 || 1;
+  return [low - more, high + more];
+}
+
+function logTicks(low, high) {
+  const out = [];
+  for (let power = 10 ** Math.floor(Math.log10(low)); power <= high; power *= 10) out.push(power);
+  return out.filter((v) => v >= low);
+}
+
+// Ticks to so many digits that neighbours differ.
+function tickText(v, step) {
+  if (Math.abs(v) < step / 1e6) return "0";
+  const digits = Math.ceil(Math.log10(Math.abs(v) / step)) + 2;
+  return String(Number(v.toPrecision(Math.min(15, Math.max(1, digits)))));
+}
+
+// Where values lie on an axis; pixels from `from` to `to`.
+function scale({ range, log }, from, to) {
+  const f = log ? Math.log10 : (v) => v;
+  const low = f(range[0]), high = f(range[1]);
+  return (v) => from + ((f(v) - low) / (high - low)) * (to - from);
+}
+
+function drawAxes(spec, place) {
+  const { x, y } = spec, nodes = [], right = place.width - RIGHT, bottom = place.height - BOTTOM;
+  const line = (x1, y1, x2, y2) => nodes.push(svg("line", { x1, y1, x2, y2, class: "grid-line" }));
+  const text = (content, at, anchor, more = {}) =>
+    nodes.push(svg("text", { x: at[0], y: at[1], "text-anchor": anchor, ...more }, content));
+  if (x.names) {
+    const each = (right - LEFT) / x.names.length;
+    const fits = x.names.every((name) => name.length * 6.5 < each);
+    x.names.forEach((name, i) => text(fits ? name : String(i + 1), [place.x(i), bottom + 15], "middle"));
+  } else {
+    const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - LEFT) / 80));
+    for (const v of steps) {
+      line(place.x(v), TOP, place.x(v), bottom);
+      text(x.log ? readable(v) : tickText(v, steps[1] - steps[0] || 1), [place.x(v), bottom + 15], "middle");
+    }
+  }
+  const steps = ticks(...y.range, 5);
+  for (const v of steps) {
+    line(LEFT, place.y(v), right, place.y(v));
+    text(tickText(v, steps[1] - steps[0] || 1), [LEFT - 5, place.y(v) + 4], "end");
+  }
+  text(x.label, [(LEFT + right) / 2, place.height - 8], "middle", { class: "axis" });
+  text(y.label, [-(TOP + bottom) / 2, 12], "middle", { class: "axis", transform: "rotate(-90)" });
+  return nodes;
+}
+
+// Equal units on both axes: the range of one grows about its middle.
+function square(spec, width, height) {
+  const span = ({ range }) => range[1] - range[0];
+  const unit = Math.max(span(spec.x) / width, span(spec.y) / height);
+  for (const [axis, pixels] of [[spec.x, width], [spec.y, height]]) {
+    const middle = (axis.range[0] + axis.range[1]) / 2;
+    axis.shown = [middle - (unit * pixels) / 2, middle + (unit * pixels) / 2];
+  }
+}
+
+function placeOf(spec, width) {
+  const height = spec.height ?? HEIGHT, right = width - RIGHT, bottom = height - BOTTOM;
+  if (spec.equal) square(spec, right - LEFT, bottom - TOP);
+  const shown = (axis) => ({ ...axis, range: axis.shown ?? axis.range });
+  const place = { width, height, left: LEFT, right, top: TOP, bottom, x: scale(shown(spec.x), LEFT, right),
+    y: scale(shown(spec.y), bottom, TOP) };
+  place.axes = drawAxes({ x: shown(spec.x), y: shown(spec.y) }, place);
+  return place;
+}
+
+// A card with a plot. `spec`: title; x, y: {label, range, log, names}; equal: same unit on both; draw(place):
+// nodes; and for the cursor count, at(i): [x, y] as values, reading(i): text; csv(): text.
+export function chart(spec) {
+  const drawing = svg("svg", { tabindex: 0, role: "figure", "aria-label": `${spec.title}: ${spec.y.label} against ${spec.x.label}` });
+  const reading = element("output", { className: "reading" }, " ");
+  const host = element("div", { className: "plot" }, drawing, reading);
+  const cursor = svg("g", { class: "cursor" });
+  let place, pointed = -1;
+
+  const point = (index) => {
+    pointed = index;
+    cursor.replaceChildren();
+    if (index >= 0) {
+      const [x, y] = spec.at(index), left = place.x(x), top = place.y(y);
+      if (!spec.equal) cursor.append(svg("line", { x1: left, x2: left, y1: place.top, y2: place.bottom }));
+      if (Number.isFinite(top)) cursor.append(svg("circle", { cx: left, cy: top, r: 4 }));
+    }
+    reading.textContent = index >= 0 ? spec.reading(index) : " ";
+  };
+  const draw = () => {
+    const width = host.clientWidth;
+    if (width === 0 || width === place?.width) return;
+    place = placeOf(spec, width);
+    drawing.setAttribute("viewBox", `0 0 ${width} ${place.height}`);
+    drawing.replaceChildren(...place.axes, svg("g", { class: "marks" }, ...spec.draw(place)), cursor);
+    point(pointed);
+  };
+  const nearest = (left, top) => {
+    let best = Infinity, found = -1;
+    for (let i = 0; i < spec.count; i++) {
+      const [x, y] = spec.at(i);
+      const d = (place.x(x) - left) ** 2 + (spec.equal ? (place.y(y) - top) ** 2 : 0);
+      if (d < best) { best = d; found = i; }
+    }
+    return found;
+  };
+  drawing.addEventListener("pointermove", (event) => {
+    const box = drawing.getBoundingClientRect(), unit = place.width / box.width;
+    point(nearest((event.clientX - box.left) * unit, (event.clientY - box.top) * unit));
+  });
+  drawing.addEventListener("pointerleave", () => point(-1));
+  drawing.addEventListener("keydown", (event) => {
+    const step = event.shiftKey ? 10 : 1, last = spec.count - 1;
+    const to = { ArrowRight: Math.min(last, pointed + step), ArrowLeft: Math.max(0, pointed - step),
+      Home: 0, End: last, Escape: -1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    point(to);
+  });
+  new ResizeObserver(draw).observe(host);
+  return element("section", { className: `card panel ${spec.className ?? ""}` },
+    element("h3", {}, spec.title,
+      element("button", { type: "button", className: "csv", title: "Download these data as CSV",
+        onclick: () => download(`${spec.title}.csv`.replace(/[^\w.-]+/g, "-").toLowerCase(), spec.csv()) }, "CSV")),
+    host);
+}
+
+// Lines of CSV; text in quotes.
+export function csvOf(heads, rows) {
+  const cell = (v) => (typeof v === "string" ? `"${v.replaceAll('"', '""')}"` : v ?? "");
+  return [heads, ...rows].map((row) => row.map(cell).join(",")).join("\n") + "\n";
+}

@@ -1,0 +1,167 @@
+// The plots of a study, of one series of samples or of several laid over each other.
+import { chart, colourOf, csvOf, pathThrough, rangeOf, svg } from "./chart.js";
+import { readable } from "./data.js";
+import { describe } from "./study_results.js";
+
+const MOST_OVERLAID = 4; // distributions of more series stand in columns
+const LEVELS = ["5 %", "median", "95 %"];
+
+const percent = (share) => `${readable(100 * share, 3)} %`;
+const between = (low, high) => (low === null ? "" : ` [${readable(low)}, ${readable(high)}]`);
+export const withInterval = ([value, low, high], factor = 1) =>
+  readable(value * factor) + (low === null ? "" : between(low * factor, high * factor));
+
+// Series that have statistics of this result.
+const having = (data, list) => data.series.map((series, s) => ({ series, s, own: list[s] })).filter(({ own }) => own);
+const named = (list, series, text) => (list.length > 1 ? `${series.label}: ${text}` : text);
+
+// Text beside a line, turned away from the plot's edge.
+function lineLabel(place, x, y, text) {
+  const near = x > place.right - 50;
+  return svg("text", { x: near ? x - 3 : x + 3, y, "text-anchor": near ? "end" : "start", class: "note" }, text);
+}
+
+// ---- distributions ----
+
+function histogram(data, result) {
+  const list = having(data, result.series), { from, width, count: bins } = result.bins, f = result.factor;
+  const edge = (i) => (from + i * width) * f;
+  const share = (own, i) => own.bins[i] / own.count;
+  const top = Math.max(...list.flatMap(({ own }) => own.bins.map((n) => n / own.count)));
+  const one = list.length === 1;
+  const outline = (own, place) => {
+    const points = [[place.x(edge(0)), place.bottom]];
+    for (let i = 0; i < bins; i++)
+      points.push([place.x(edge(i)), place.y(100 * share(own, i))], [place.x(edge(i + 1)), place.y(100 * share(own, i))]);
+    points.push([place.x(edge(bins)), place.bottom]);
+    return pathThrough(points);
+  };
+  const quantiles = (own, s, place) => own.quantiles.flatMap(([value], k) => {
+    const x = place.x(value * f);
+    return [svg("line", { x1: x, x2: x, y1: place.top, y2: place.bottom, class: "quantile", style: colourOf(s) }),
+      ...(one ? [lineLabel(place, x, place.top + 10 + 11 * k, LEVELS[k])] : [])];
+  });
+  return chart({
+    title: `${result.label}: distribution`,
+    x: { label: result.axis, range: rangeOf([edge(0), edge(bins)], 0.03) },
+    y: { label: "share of rockets [%]", range: [0, 108 * top] },
+    draw: (place) => list.flatMap(({ own, s }) => [
+      svg("path", { d: outline(own, place), class: "area", style: colourOf(s) }), ...quantiles(own, s, place)]),
+    count: bins,
+    at: (i) => [edge(i + 0.5), 100 * Math.max(...list.map(({ own }) => share(own, i)))],
+    reading: (i) => `${readable(edge(i))} to ${readable(edge(i + 1))}: ` + list.map(({ own, series }) =>
+      named(list, series, `${own.bins[i]} of ${own.count} (${percent(share(own, i))})`)).join(", "),
+    csv: () => csvOf([`${result.name} from [${result.si}]`, `to [${result.si}]`, ...list.map(({ series }) => `rockets, ${series.label}`)],
+      Array.from({ length: bins }, (_, i) => [from + i * width, from + (i + 1) * width, ...list.map(({ own }) => own.bins[i])])),
+  });
+}
+
+// Many series: a column each, from 5 to 95 %, with the median and the mean.
+function columns(data, result) {
+  const list = having(data, result.series), f = result.factor;
+  const half = (place) => Math.min(14, ((place.right - place.left) / list.length) * 0.35);
+  return chart({
+    title: `${result.label}: distribution`,
+    x: { label: data.axis, range: [-0.5, list.length - 0.5], names: list.map(({ series }) => series.label) },
+    y: { label: result.axis, range: rangeOf(list.flatMap(({ own }) => [own.quantiles[0][0] * f, own.quantiles[2][0] * f])) },
+    draw: (place) => list.flatMap(({ own, s }, i) => {
+      const [low, middle, high] = own.quantiles.map(([v]) => place.y(v * f)), x = place.x(i), w = half(place);
+      return [svg("rect", { x: x - w, width: 2 * w, y: high, height: Math.max(1, low - high), class: "area", style: colourOf(s) }),
+        svg("line", { x1: x - w, x2: x + w, y1: middle, y2: middle, class: "quantile", style: colourOf(s) }),
+        svg("circle", { cx: x, cy: place.y(own.mean[0] * f), r: 3, class: "dot", style: colourOf(s) })];
+    }),
+    count: list.length,
+    at: (i) => [i, list[i].own.mean[0] * f],
+    reading: (i) => `${list[i].series.label}: mean ${withInterval(list[i].own.mean, f)}, ` +
+      list[i].own.quantiles.map(([v], k) => `${LEVELS[k]} ${readable(v * f)}`).join(", "),
+    csv: () => csvOf(["series", ...["mean", ...LEVELS].map((name) => `${name} [${result.si}]`)],
+      list.map(({ series, own }) => [series.label, own.mean[0], ...own.quantiles.map(([v]) => v)])),
+  });
+}
+
+export const distribution = (data, result) =>
+  (data.series.length > MOST_OVERLAID ? columns : histogram)(data, result);
+
+// ---- convergence ----
+
+// Running estimate of `which` (mean or deviation) with its interval against the number of samples.
+export function convergence(data, result, which, what) {
+  const list = having(data, result.running).filter(({ own }) => own.samples.length > 1), f = result.factor;
+  if (list.length === 0) return null;
+  const tracks = list.map(({ own, s, series }) => ({ s, series, n: own.samples,
+    value: own[which].map(([v, low, high]) => [v, low, high].map((u) => (u === null ? NaN : u * f))) }));
+  const places = tracks.flatMap((track) => track.n.map((n, i) => ({ track, i, n }))).sort((a, b) => a.n - b.n);
+  // the first few intervals are far wider than all that follows: the axis leaves them out
+  const settled = tracks.flatMap(({ value }) => value.slice(Math.floor(value.length / 4)).flat());
+  const band = (track, place) => {
+    const side = (k) => track.n.map((n, i) => [place.x(n), place.y(track.value[i][k])])
+      .filter(([, y]) => Number.isFinite(y));
+    const points = [...side(1), ...side(2).reverse()];
+    return points.length ? pathThrough(points) + "Z" : "";
+  };
+  return chart({
+    title: `${result.label}: ${what}`,
+    x: { label: "samples", log: true, range: [places[0].n, Math.max(places[places.length - 1].n, places[0].n + 1)] },
+    y: { label: result.unit ? `${what} [${result.unit}]` : what, range: rangeOf(settled) },
+    draw: (place) => [svg("g", { class: "clipped", style: `clip-path: inset(0 0 ${place.height - place.bottom}px 0)` },
+      svg("rect", { width: place.width, height: place.height, fill: "none" }),
+      ...tracks.flatMap((track) => [svg("path", { d: band(track, place), class: "band", style: colourOf(track.s) }),
+        svg("path", { d: pathThrough(track.n.map((n, i) => [place.x(n), place.y(track.value[i][0])])), class: "curve", style: colourOf(track.s) })]))],
+    count: places.length,
+    at: (i) => [places[i].n, places[i].track.value[places[i].i][0]],
+    reading: (i) => {
+      const { track, n } = places[i], [v, low, high] = track.value[places[i].i];
+      return named(list, track.series, `${n} samples: ${readable(v)}${Number.isFinite(low) ? between(low, high) : ""}`);
+    },
+    csv: () => csvOf(["series", "samples", ...["", ", low", ", high"].map((end) => `${what} of ${result.name}${end} [${result.si}]`)],
+      list.flatMap(({ series, own }) => own.samples.map((n, i) => [series.label, n, ...own[which][i]]))),
+  });
+}
+
+// ---- two results against each other ----
+
+// Points of an ellipse of so many deviations.
+function outlineOf({ mean, semi_axis: [a, b], angle }, deviations) {
+  return Array.from({ length: 97 }, (_, i) => {
+    const u = deviations * a * Math.cos((i * Math.PI) / 48), v = deviations * b * Math.sin((i * Math.PI) / 48);
+    return [mean[0] + u * Math.cos(angle) - v * Math.sin(angle), mean[1] + u * Math.sin(angle) + v * Math.cos(angle)];
+  });
+}
+
+export function scatter(data, pair) {
+  const list = having(data, pair.series);
+  if (list.length === 0) return null;
+  const [across, up] = [pair.x, pair.y].map((name) => describe({ name, unit: pair.unit })), f = across.factor;
+  const points = list.flatMap(({ own, series, s }) => own.points.map(([sample, rocket, x, y]) =>
+    ({ sample, rocket, at: [x * f, y * f], si: [x, y], series, s }))).sort((a, b) => a.at[0] - b.at[0]);
+  const ellipses = list.filter(({ own }) => own.ellipse).flatMap(({ own, series, s }) =>
+    [[1, "one deviation"], [pair.radius, "95 %"]].map(([r, name]) =>
+      ({ s, series, name, r, points: outlineOf(own.ellipse, r).map(([x, y]) => [x * f, y * f]) })));
+  const all = [...points.map((p) => p.at), ...ellipses.flatMap((e) => e.points)];
+  const salvo = data.series.some((series) => series.rockets > series.done - series.failed);
+  const shown = list.map(({ own, series }) => named(list, series, own.points.length < own.count
+    ? `${own.points.length} of ${own.count} points shown` : `${own.count} points`)).join(", ");
+  const plot = chart({
+    title: pair.title, className: "square", height: 420, equal: true,
+    x: { label: across.axis, range: rangeOf(all.map(([x]) => x)) },
+    y: { label: up.axis, range: rangeOf(all.map(([, y]) => y)) },
+    draw: (place) => [
+      ...list.map(({ s }) => svg("path", { class: "points", style: colourOf(s), d: points.filter((p) => p.s === s)
+        .map(({ at: [x, y] }) => `M${place.x(x).toFixed(1)} ${place.y(y).toFixed(1)}h0`).join("") })),
+      ...ellipses.map((e) => svg("path", { class: "ellipse", style: colourOf(e.s), "data-name": e.name,
+        d: pathThrough(e.points.map(([x, y]) => [place.x(x), place.y(y)])) + "Z" }))],
+    count: points.length,
+    at: (i) => points[i].at,
+    reading: (i) => {
+      const { sample, rocket, at, series } = points[i];
+      return named(list, series, `sample ${sample}${salvo ? `, rocket ${rocket}` : ""}: ${at.map((v) => readable(v)).join(", ")} ${across.unit}`);
+    },
+    csv: () => csvOf(["series", "sample", "rocket", `${pair.x} [${pair.unit}]`, `${pair.y} [${pair.unit}]`],
+      points.map((p) => [p.series.label, p.sample, p.rocket, ...p.si])),
+  });
+  const note = document.createElement("p");
+  note.className = "shown";
+  note.textContent = `${shown}; ellipses of one standard deviation and of 95 %`;
+  plot.append(note);
+  return plot;
+}

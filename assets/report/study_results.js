@@ -1,0 +1,38 @@
+// The results of a study as a person reads them: label, unit, factor from SI, and where they belong.
+import { DEG, MM, MRAD, ROCKET } from "./results.js";
+
+const MORE = [
+  ["exit.x", "place at the exit, x", "m", 1],
+  ["exit.y", "place at the exit, y", "m", 1],
+  ["exit.z", "place at the exit, z", "m", 1],
+  ["exit.vx", "velocity at the exit, x", "m/s", 1],
+  ["exit.vy", "velocity at the exit, y", "m/s", 1],
+  ["exit.vz", "velocity at the exit, z", "m/s", 1],
+  ["tip.vy", "tip of the tube, velocity y", "mm/s", 1e3],
+  ["tip.vz", "tip of the tube, velocity z", "mm/s", 1e3],
+  ["tip.pitch_rate", "tip of the tube, pitch rate", "mrad/s", 1e3],
+  ["tip.yaw_rate", "tip of the tube, yaw rate", "mrad/s", 1e3],
+  ["downrange", "downrange", "m", 1],
+  ["t_impact", "impact, on the run's clock", "s", 1],
+];
+
+const PARTS = [
+  ["Attitude and rates at the exit", /^(pitch|yaw)/],
+  ["Speeds at the exit", /speed$|^spin/],
+  ["Flight", /^(apogee|downrange|drift|range|t_impact|time_of_flight|impact|max)/],
+  ["Tip of the tube", /^tip\./],
+  ["Place and velocity at the exit", /^exit\./],
+  ["Instants", /^t_/],
+];
+
+// A result of the study's data with all that.
+export function describe({ name, unit, ...rest }) {
+  const row = [...ROCKET, ...MORE].find(([key]) => key === name || key === `flight.${name}`);
+  const [, label, shown, factor] = row ?? [name, name, unit, 1];
+  const text = label[0].toUpperCase() + label.slice(1);
+  const part = /^(impact|t_impact)/.test(name) ? 2 : PARTS.findIndex(([, pattern]) => pattern.test(name));
+  return { ...rest, name, si: unit, label: text, unit: shown, factor, part, axis: shown ? `${label} [${shown}]` : label };
+}
+
+export const partName = (index) => (index < 0 ? "Other results" : PARTS[index][0]);
+export const partCount = PARTS.length;

@@ -1,0 +1,144 @@
+// From folders of studies to one HTML file.
+#include "report/report_study.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/numeric_locale.h"
+
+// ---- what is laid side by side
+
+// The last part of a folder's path.
+static void name_of(const char *folder, char *name, size_t size)
+{
+    size_t end = strlen(folder);
+    while (end > 1 && folder[end - 1] == '/')
+        end--;
+    size_t from = end;
+    while (from > 0 && folder[from - 1] != '/')
+        from--;
+    snprintf(name, size, "%.*s", (int)(end - from), folder + from);
+}
+
+// "15 km/h" of a swept key, several joined by commas.
+static void point_name(const study_data *data, const study_point *point, char *name, size_t size)
+{
+    size_t used = 0;
+    for (int i = 0; i < data->swept_count && used < size; i++) {
+        const char *dot = strrchr(data->swept[i], '.');
+        used += (size_t)snprintf(name + used, size - used, "%s%s = %s", i ? ", " : "",
+                                 dot ? dot + 1 : data->swept[i], point->text[i]);
+    }
+}
+
+static void add_series(study_source *source, const study_data *data, const char *folder)
+{
+    for (int i = 0; i < data->point_count; i++) {
+        if (source->series_count == REPORT_SERIES) {
+            report_take_note(source->report, "More than %d series: the rest of %.120s is left out.",
+                             REPORT_SERIES, folder);
+            return;
+        }
+        study_series *series = &source->series[source->series_count++];
+        *series = (study_series){.data = data, .point = &data->point[i]};
+        char name[100], point[140] = "";
+        name_of(folder, name, sizeof name);
+        point_name(data, series->point, point, sizeof point);
+        snprintf(series->label, sizeof series->label, "%s%s%s", point[0] ? point : name,
+                 point[0] && source->several ? ", " : "", point[0] && source->several ? name : "");
+    }
+}
+
+static void open_studies(study_source *source, const char *const *folder, size_t count)
+{
+    source->several = count > 1;
+    for (size_t i = 0; i < count; i++) {
+        study_data *data = &source->study[source->study_count];
+        ld_error error;
+        if (source->study_count == REPORT_SERIES) {
+            report_take_note(source->report, "More than %d studies: the rest is left out.",
+                             REPORT_SERIES);
+            return;
+        }
+        if (study_data_open(folder[i], data, &error)) {
+            report_take_note(source->report, "%.230s.", error.text);
+            continue;
+        }
+        source->study_count++;
+        add_series(source, data, folder[i]);
+    }
+}
+
+static void close_studies(study_source *source)
+{
+    for (int i = 0; i < source->series_count; i++)
+        study_values_free(&source->series[i].values);
+    for (int i = 0; i < source->study_count; i++)
+        study_data_close(&source->study[i]);
+}
+
+// ---- the file
+
+// The page in memory, to be freed.
+static ld_status make_page(study_source *source, char **text, size_t *length, ld_error *error)
+{
+    char *data = NULL;
+    size_t data_length = 0;
+    FILE *json = open_memstream(&data, &data_length), *page = open_memstream(text, length);
+    bool fine = json && page;
+    if (fine)
+        study_write_data(json, source);
+    fine &= json && fclose(json) == 0;
+    if (fine) {
+        report_begin_page(page, &study_bundle,
+                          source->several ? "Studies" : source->series[0].data->title,
+                          "This report draws its plots with JavaScript; study.db holds the same "
+                          "numbers, and launchdyn study show prints them.");
+        report_write_json(page, "data", data, data_length);
+        report_end_page(page, &study_bundle);
+    }
+    fine &= page && fclose(page) == 0;
+    free(data);
+    if (!fine)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    return *length <= REPORT_BYTES
+               ? LD_OK
+               : ld_fail(error, LD_ERR_INPUT, "the studies are too many for a report of %d bytes",
+                         REPORT_BYTES);
+}
+
+static ld_status write_report(study_source *source, const char *file, ld_error *error)
+{
+    char *text = NULL;
+    size_t length = 0;
+    locale_t before = numeric_locale_enter();
+    ld_status status = make_page(source, &text, &length, error);
+    numeric_locale_leave(before);
+    if (!status)
+        status = report_write_file(file, text, length, error);
+    source->report->bytes = length;
+    free(text);
+    return status;
+}
+
+ld_status ld_report_write_studies(const char *const *folder, size_t count, const char *file,
+                                  ld_report *report, ld_error *error)
+{
+    ld_report unwanted;
+    report = report ? report : &unwanted;
+    memset(report, 0, sizeof *report);
+    study_source *source = calloc(1, sizeof *source);
+    if (!source)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    source->report = report;
+    open_studies(source, folder, count);
+    ld_status status = LD_OK;
+    if (source->study_count == 0)
+        status = ld_fail(error, LD_ERR_INPUT, "no study to report: %s",
+                         count ? report->note[0] : "no folder is named");
+    if (!status)
+        status = write_report(source, file, error);
+    close_studies(source);
+    free(source);
+    return status;
+}

@@ -1,0 +1,53 @@
+// The parts of the report of studies: what is laid side by side, its numbers, the page.
+#ifndef LD_REPORT_REPORT_STUDY_H
+#define LD_REPORT_REPORT_STUDY_H
+
+#include "report/report_html.h"
+#include "studies/results.h"
+#include "studies/statistics.h"
+#include "studies/study_data.h"
+
+// More series than REPORT_OVERLAID are drawn as columns: their histograms are left out.
+enum { REPORT_SERIES = 40, REPORT_OVERLAID = 4, REPORT_BINS = 80, REPORT_PLACES = 100 };
+
+// A study, or one point of its sweep.
+typedef struct study_series {
+    const study_data *data;
+    const study_point *point;
+    char label[256];
+    study_values values; // of the results at hand
+    bool broken;         // said already
+} study_series;
+
+typedef struct study_source {
+    bool several; // folders were named
+    int study_count, series_count;
+    study_data study[REPORT_SERIES];
+    study_series series[REPORT_SERIES];
+    ld_report *report; // takes notes
+} study_source;
+
+// Bins of the same width for all series.
+typedef struct study_bins {
+    double from, width;
+    int count;
+} study_bins;
+
+// Bins for values, each series' sorted: the width of Freedman and Diaconis (2 IQR n^(-1/3)) for the
+// series that wants the finest, at most REPORT_BINS. count 0: there are no values.
+study_bins study_choose_bins(const double *const *sorted, const size_t *count, int series);
+// How many of the values lie in each bin; the last one has its upper end too.
+void study_fill_bins(const study_bins *bins, const double *sorted, size_t count, long *in_bin);
+
+// Numbers of independent groups at which estimates are shown as the study grows, from 2 to all of
+// them, evenly spaced in their logarithm; at most `most`. Returns how many.
+int study_choose_places(size_t groups, int most, size_t *place);
+
+// Whether a plot that holds about `most` of `count` points shows this one; depends on its number
+// only.
+bool study_shows_point(int64_t sample, int rocket, size_t count, size_t most);
+
+// Writes all that the page shows as JSON; notes what cannot be read.
+void study_write_data(FILE *json, study_source *source);
+
+#endif

@@ -1,0 +1,67 @@
+// Histograms, places and points of the report of studies.
+#include <math.h>
+
+#include "base/random.h"
+#include "report/report_study.h"
+
+static double quantile(const double *sorted, size_t count, double level)
+{
+    double at = level * (double)(count - 1);
+    size_t i = (size_t)at, next = i + 1 < count ? i + 1 : i;
+    return sorted[i] + (at - (double)i) * (sorted[next] - sorted[i]);
+}
+
+// 0: the rule gives none.
+static double bin_width(const double *sorted, size_t count)
+{
+    double middle_half = quantile(sorted, count, 0.75) - quantile(sorted, count, 0.25);
+    return 2 * middle_half / cbrt((double)count);
+}
+
+study_bins study_choose_bins(const double *const *sorted, const size_t *count, int series)
+{
+    double low = INFINITY, high = -INFINITY, width = INFINITY;
+    for (int i = 0; i < series; i++) {
+        if (count[i] == 0)
+            continue;
+        double own = bin_width(sorted[i], count[i]);
+        low = fmin(low, sorted[i][0]);
+        high = fmax(high, sorted[i][count[i] - 1]);
+        width = own > 0 ? fmin(width, own) : width;
+    }
+    if (!(high >= low))
+        return (study_bins){0};
+    if (high == low)
+        return (study_bins){.from = low, .width = 0, .count = 1};
+    double bins = ceil(fmin((high - low) / width, REPORT_BINS));
+    int wanted = isinf(width) ? REPORT_BINS : bins < 1 ? 1 : (int)bins;
+    return (study_bins){.from = low, .width = (high - low) / wanted, .count = wanted};
+}
+
+void study_fill_bins(const study_bins *bins, const double *sorted, size_t count, long *in_bin)
+{
+    for (int i = 0; i < bins->count; i++)
+        in_bin[i] = 0;
+    for (size_t i = 0; i < count; i++) {
+        double bin = bins->width > 0 ? floor((sorted[i] - bins->from) / bins->width) : 0;
+        in_bin[(int)fmin(fmax(bin, 0), bins->count - 1)]++;
+    }
+}
+
+int study_choose_places(size_t groups, int most, size_t *place)
+{
+    int count = 0;
+    double last = log((double)groups), first = log(2);
+    for (int i = 0; i < most && groups >= 2; i++) {
+        size_t next = (size_t)lround(exp(first + (last - first) * i / (most - 1)));
+        if (count == 0 || next > place[count - 1])
+            place[count++] = next;
+    }
+    return count;
+}
+
+bool study_shows_point(int64_t sample, int rocket, size_t count, size_t most)
+{
+    double u = random_uniform(0, random_stream("report"), (uint64_t)sample, (uint64_t)rocket, 0);
+    return u * (double)count < (double)most;
+}

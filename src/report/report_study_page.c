@@ -1,0 +1,323 @@
+// What the report of studies shows, as JSON. All statistics are computed here, none in the page.
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/json_text.h"
+#include "report/report_study.h"
+
+// Bytes for what grows with the number of series; the rest of a report fits beside them.
+enum {
+    BYTES_OF_PLACES = 800000,
+    BYTES_OF_A_PLACE = 70,
+    BYTES_OF_POINTS = 400000,
+    BYTES_OF_A_POINT = 40,
+    MOST_POINTS = 2000,
+    MOST_FAILURES = 200
+};
+
+static int most_places(const study_source *source)
+{
+    int fit = BYTES_OF_PLACES / (BYTES_OF_A_PLACE * STUDY_RESULTS * source->series_count);
+    return fit < REPORT_PLACES ? fit : REPORT_PLACES;
+}
+
+// ---- numbers
+
+// Eight digits: enough to draw.
+static void write_short(FILE *json, double value)
+{
+    if (isfinite(value))
+        fprintf(json, "%.8g", value);
+    else
+        fputs("null", json);
+}
+
+typedef void write_number(FILE *json, double value);
+
+// One of a list of estimates.
+static void write_estimate(FILE *json, int index, estimate e, write_number *write)
+{
+    fputs(index ? ",[" : "[", json);
+    write(json, e.value);
+    fputc(',', json);
+    write(json, e.low);
+    fputc(',', json);
+    write(json, e.high);
+    fputc(']', json);
+}
+
+static void write_named(FILE *json, const char *name, double value)
+{
+    fprintf(json, ",\"%s\":", name);
+    json_write_number(json, value);
+}
+
+static void write_text(FILE *json, const char *name, const char *text)
+{
+    fprintf(json, ",\"%s\":", name);
+    json_write_text(json, text ? text : "");
+}
+
+// ---- reading
+
+// One or two columns of a series; of broken ones what could be read, which is said once.
+static void read_values(study_source *source, study_series *series, const char *const *name,
+                        int columns)
+{
+    const study_column *column[2];
+    ld_error error;
+    const char *nearest;
+    series->values.count = 0;
+    for (int i = 0; i < columns; i++)
+        if (!(column[i] = study_data_find(series->data, name[i], &nearest)))
+            return;
+    if (!study_data_read(series->data, series->point, column, columns, &series->values, &error) ||
+        series->broken)
+        return;
+    series->broken = true;
+    report_take_note(source->report, "%.60s is broken, the numbers are of what could be read: %s.",
+                     series->label, error.text);
+}
+
+// ---- one result
+
+static size_t count_groups(const study_values *values)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < values->count; i++)
+        count += i == 0 || values->group[i] != values->group[i - 1];
+    return count;
+}
+
+// Estimates from the first groups alone, ever more of them; `values` in the order of their groups.
+static void write_running(FILE *json, const study_values *values, int most)
+{
+    size_t place[REPORT_PLACES], passed = 0, end = 0;
+    long samples[REPORT_PLACES], sample_count = 0;
+    group_statistics running[REPORT_PLACES];
+    int count = study_choose_places(count_groups(values), most, place);
+    for (int i = 0; i < count; i++) {
+        for (; end < values->count; end++) {
+            bool next = end == 0 || values->group[end] != values->group[end - 1];
+            if (next && passed == place[i])
+                break;
+            passed += next;
+            sample_count += end == 0 || values->sample[end] != values->sample[end - 1];
+        }
+        samples[i] = sample_count;
+        moments_of(values->value[0], values->group, end, &running[i]);
+    }
+    fputs("{\"samples\":[", json);
+    for (int i = 0; i < count; i++)
+        fprintf(json, "%s%ld", i ? "," : "", samples[i]);
+    fputs("],\"mean\":[", json);
+    for (int i = 0; i < count; i++)
+        write_estimate(json, i, running[i].mean, write_short);
+    fputs("],\"deviation\":[", json);
+    for (int i = 0; i < count; i++)
+        write_estimate(json, i, running[i].deviation, write_short);
+    fputs("]}", json);
+}
+
+static void write_statistics(FILE *json, const group_statistics *s)
+{
+    fprintf(json, "\"count\":%zu,\"groups\":%zu,\"mean\":", s->count, s->groups);
+    write_estimate(json, 0, s->mean, json_write_number);
+    fputs(",\"deviation\":", json);
+    write_estimate(json, 0, s->deviation, json_write_number);
+    write_named(json, "skewness", s->skewness);
+    write_named(json, "least", s->least);
+    write_named(json, "greatest", s->greatest);
+    fputs(",\"quantiles\":[", json);
+    for (int k = 0; k < STATISTICS_QUANTILES; k++)
+        write_estimate(json, k, s->quantile[k], json_write_number);
+    fputc(']', json);
+}
+
+static void write_bins(FILE *json, const study_bins *bins, const study_values *sorted)
+{
+    long in_bin[REPORT_BINS];
+    study_fill_bins(bins, sorted->value[0], sorted->count, in_bin);
+    fputs(",\"bins\":[", json);
+    for (int i = 0; i < bins->count; i++)
+        fprintf(json, "%s%ld", i ? "," : "", in_bin[i]);
+    fputc(']', json);
+}
+
+// The bins that suit all series, whose values are sorted.
+static study_bins bins_of(const study_source *source)
+{
+    const double *sorted[REPORT_SERIES];
+    size_t count[REPORT_SERIES];
+    for (int i = 0; i < source->series_count; i++) {
+        sorted[i] = source->series[i].values.value[0];
+        count[i] = source->series[i].values.count;
+    }
+    return study_choose_bins(sorted, count, source->series_count);
+}
+
+// Of a result that some series has: running estimates, bins, statistics with a histogram.
+static void write_result(FILE *json, const study_source *source, const study_result *result,
+                         int places)
+{
+    group_statistics statistics[REPORT_SERIES];
+    fputs("{\"name\":", json);
+    json_write_text(json, result->name);
+    write_text(json, "unit", result->unit);
+    fputs(",\"running\":[", json);
+    for (int i = 0; i < source->series_count; i++) {
+        const study_values *values = &source->series[i].values;
+        fputs(i ? ",\n" : "\n", json);
+        write_running(json, values, places);
+        statistics_of(values->value[0], values->group, values->count, &statistics[i]);
+    }
+    study_bins bins = bins_of(source);
+    bool overlaid = source->series_count <= REPORT_OVERLAID;
+    fprintf(json, "],\"bins\":{\"from\":%.17g,\"width\":%.17g,\"count\":%d},\"series\":[", bins.from,
+            bins.width, bins.count);
+    for (int i = 0; i < source->series_count; i++) {
+        const study_values *values = &source->series[i].values;
+        fputs(i ? ",\n" : "\n", json);
+        fputs(values->count ? "{" : "null", json);
+        if (values->count)
+            write_statistics(json, &statistics[i]);
+        if (values->count && overlaid)
+            write_bins(json, &bins, values);
+        fputs(values->count ? "}" : "", json);
+    }
+    fputs("]}", json);
+}
+
+static void write_results(FILE *json, study_source *source)
+{
+    int places = most_places(source);
+    bool first = true;
+    for (const study_result *result = study_results; result->name; result++) {
+        size_t count = 0;
+        for (int i = 0; i < source->series_count; i++) {
+            read_values(source, &source->series[i], &result->name, 1);
+            count += source->series[i].values.count;
+        }
+        if (count == 0)
+            continue;
+        fputs(first ? "\n" : ",\n", json);
+        first = false;
+        write_result(json, source, result, places);
+    }
+}
+
+// ---- two results against each other
+
+static void write_points(FILE *json, const study_values *values, size_t most)
+{
+    bool first = true;
+    fputs(",\"points\":[", json);
+    for (size_t i = 0; i < values->count; i++) {
+        if (!study_shows_point(values->sample[i], values->rocket[i], values->count, most))
+            continue;
+        fprintf(json, "%s[%" PRId64 ",%d,", first ? "" : ",", values->sample[i], values->rocket[i]);
+        first = false;
+        write_short(json, values->value[0][i]);
+        fputc(',', json);
+        write_short(json, values->value[1][i]);
+        fputc(']', json);
+    }
+    fputc(']', json);
+}
+
+static void write_scatter(FILE *json, const study_values *values, size_t most)
+{
+    fprintf(json, "{\"count\":%zu", values->count);
+    if (values->count >= 3) {
+        covariance_ellipse e;
+        covariance_ellipse_of(values->value[0], values->value[1], values->count, &e);
+        fprintf(json,
+                ",\"ellipse\":{\"mean\":[%.17g,%.17g],\"semi_axis\":[%.17g,%.17g],\"angle\":%.17g}",
+                e.mean[0], e.mean[1], e.semi_axis[0], e.semi_axis[1], e.angle);
+    }
+    write_points(json, values, most);
+    fputc('}', json);
+}
+
+static void write_pairs(FILE *json, study_source *source)
+{
+    size_t fit = (size_t)(BYTES_OF_POINTS / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
+    size_t most = fit < MOST_POINTS ? fit : MOST_POINTS;
+    for (size_t p = 0; p < STUDY_PAIRS; p++) {
+        const study_pair *pair = &study_pairs[p];
+        fprintf(json, "%s\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"", p ? "," : "",
+                pair->title, pair->name[0], pair->name[1], pair->unit);
+        fprintf(json, ",\"radius\":%.17g,\"series\":[", ellipse_radius);
+        for (int i = 0; i < source->series_count; i++) {
+            study_series *series = &source->series[i];
+            read_values(source, series, pair->name, 2);
+            fputs(i ? ",\n" : "\n", json);
+            if (series->values.count)
+                write_scatter(json, &series->values, most);
+            else
+                fputs("null", json);
+        }
+        fputs("]}", json);
+    }
+}
+
+// ---- the series
+
+static void write_failures(FILE *json, study_source *source, const study_series *series)
+{
+    enum { LEAST_EACH = 5 };
+    int most = MOST_FAILURES / source->series_count, count = 0;
+    most = most > LEAST_EACH ? most : LEAST_EACH;
+    study_failed *failed = calloc((size_t)most, sizeof *failed);
+    ld_error error;
+    if (failed && study_data_failed(series->data, series->point, failed, most, &count, &error))
+        report_take_note(source->report, "%.60s: failed samples cannot be read: %s.", series->label,
+                         error.text);
+    fputs(",\"failures\":[", json);
+    for (int i = 0; i < count; i++) {
+        fprintf(json, "%s[%" PRId64 ",", i ? "," : "", failed[i].sample);
+        json_write_text(json, failed[i].status);
+        fputc(',', json);
+        json_write_text(json, failed[i].reason);
+        fputc(']', json);
+    }
+    fputc(']', json);
+    free(failed);
+}
+
+static void write_series(FILE *json, study_source *source, const study_series *series)
+{
+    const study_point *point = series->point;
+    fputs("{\"label\":", json);
+    json_write_text(json, series->label);
+    write_text(json, "title", series->data->title);
+    write_text(json, "version", series->data->version);
+    fprintf(json,
+            ",\"samples\":%" PRId64 ",\"done\":%" PRId64 ",\"failed\":%" PRId64
+            ",\"strata\":%" PRId64,
+            point->asked, point->done, point->failed, series->data->strata);
+    write_failures(json, source, series);
+    fputc('}', json);
+}
+
+void study_write_data(FILE *json, study_source *source)
+{
+    fprintf(json, "{\"version\":\"%s\",\"series\":[", LD_VERSION);
+    for (int i = 0; i < source->series_count; i++) {
+        fputs(i ? ",\n" : "\n", json);
+        write_series(json, source, &source->series[i]);
+    }
+    fputs("],\"results\":[", json);
+    write_results(json, source);
+    fputs("],\"pairs\":[", json);
+    write_pairs(json, source);
+    // last, when all that is broken is known
+    fputs("],\"notes\":[", json);
+    for (int i = 0; i < source->report->note_count; i++) {
+        fputs(i ? "," : "", json);
+        json_write_text(json, source->report->note[i]);
+    }
+    fputs("]}", json);
+}
