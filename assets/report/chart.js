@@ -36,9 +36,10 @@ export function rangeOf(values, room = 0.05) {
 }
 
 function logTicks(low, high) {
-  const out = [];
-  for (let power = 10 ** Math.floor(Math.log10(low)); power <= high; power *= 10) out.push(power);
-  return out.filter((v) => v >= low);
+  const steps = high / low < 100 ? [1, 2, 5] : [1], out = [];
+  for (let power = 10 ** Math.floor(Math.log10(low)); power <= high; power *= 10)
+    out.push(...steps.map((f) => f * power));
+  return out.filter((v) => v >= low && v <= high);
 }
 
 // Ticks to so many digits that neighbours differ.
@@ -65,7 +66,7 @@ function drawAxes(spec, place) {
     const fits = x.names.every((name) => name.length * 6.5 < each);
     x.names.forEach((name, i) => text(fits ? name : String(i + 1), [place.x(i), bottom + 15], "middle"));
   } else {
-    const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - LEFT) / 80));
+    const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - LEFT) / 60));
     for (const v of steps) {
       line(place.x(v), TOP, place.x(v), bottom);
       text(x.log ? readable(v) : tickText(v, steps[1] - steps[0] || 1), [place.x(v), bottom + 15], "middle");
@@ -101,6 +102,13 @@ function placeOf(spec, width) {
   return place;
 }
 
+// What is drawn between the axes, and cut off there.
+function inside(place, nodes) {
+  const width = place.right - place.left, height = place.bottom - place.top;
+  return svg("svg", { class: "marks", x: place.left, y: place.top, width, height,
+    viewBox: `${place.left} ${place.top} ${width} ${height}` }, ...nodes);
+}
+
 // A card with a plot. `spec`: title; x, y: {label, range, log, names}; equal: same unit on both; draw(place):
 // nodes; and for the cursor count, at(i): [x, y] as values, reading(i): text; csv(): text.
 export function chart(spec) {
@@ -125,7 +133,7 @@ export function chart(spec) {
     if (width === 0 || width === place?.width) return;
     place = placeOf(spec, width);
     drawing.setAttribute("viewBox", `0 0 ${width} ${place.height}`);
-    drawing.replaceChildren(...place.axes, svg("g", { class: "marks" }, ...spec.draw(place)), cursor);
+    drawing.replaceChildren(...place.axes, inside(place, spec.draw(place)), cursor);
     point(pointed);
   };
   const nearest = (left, top) => {
@@ -151,7 +159,7 @@ export function chart(spec) {
     point(to);
   });
   new ResizeObserver(draw).observe(host);
-  return element("section", { className: `card panel ${spec.className ?? ""}` },
+  return element("section", { className: "card panel", "data-title": spec.title },
     element("h3", {}, spec.title,
       element("button", { type: "button", className: "csv", title: "Download these data as CSV",
         onclick: () => download(`${spec.title}.csv`.replace(/[^\w.-]+/g, "-").toLowerCase(), spec.csv()) }, "CSV")),

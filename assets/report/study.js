@@ -47,12 +47,14 @@ function state(series) {
   return lines.length ? element("p", { className: "warning" }, name + lines.join(" ")) : null;
 }
 
-const title = [...new Set(data.series.map((series) => series.title))].join(" · ") || "Studies";
+const titles = new Set(data.series.map((series) => series.title));
+const title = titles.size === 1 ? data.series[0].title : "Studies beside each other";
+host.classList.toggle("several", data.series.length > 1);
 host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeSwitch(),
   data.series.length > 1 ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
 section("summary", "Summary", ...data.notes.map((note) => element("p", { className: "warning" }, note)),
   ...data.series.map(state), data.series.length > 0 ? counts(data) : null);
-section("scatter", "Scatter", grid("", data.pairs.map((pair) => scatter(data, pair))));
+section("scatter", "Scatter", grid("three", data.pairs.map((pair) => scatter(data, pair))));
 section("statistics", "Statistics", ...(results.length ? statistics(data, results) : []));
 section("distributions", "Distributions and convergence", sameEverywhere(),
   ...Array.from({ length: partCount }, (_, part) => partOf(part)), partOf(-1));
@@ -61,4 +63,5 @@ host.append(element("footer", {}, element("p", {},
   `launchdyn ${data.version}. Values stand below a plot where the mouse is; with the keyboard: Tab to a plot, arrows, with ` +
   "Shift by ten, Home and End move the cursor, Escape takes it away. Intervals hold 95 % and count independent groups of " +
   "samples. study.db in the study's folder keeps everything.")));
-document.documentElement.dataset.ready = "yes";
+// the plots draw themselves once they have a size
+requestAnimationFrame(() => requestAnimationFrame(() => { document.documentElement.dataset.ready = "yes"; }));

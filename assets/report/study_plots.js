@@ -44,7 +44,7 @@ function histogram(data, result) {
   return chart({
     title: `${result.label}: distribution`,
     x: { label: result.axis, range: rangeOf([edge(0), edge(bins)], 0.03) },
-    y: { label: "share of rockets [%]", range: [0, 108 * top] },
+    y: { label: "share of rockets [%]", range: [0, (one ? 130 : 108) * top] },
     draw: (place) => list.flatMap(({ own, s }) => [
       svg("path", { d: outline(own, place), class: "area", style: colourOf(s) }), ...quantiles(own, s, place)]),
     count: bins,
@@ -62,7 +62,7 @@ function columns(data, result) {
   const half = (place) => Math.min(14, ((place.right - place.left) / list.length) * 0.35);
   return chart({
     title: `${result.label}: distribution`,
-    x: { label: data.axis, range: [-0.5, list.length - 0.5], names: list.map(({ series }) => series.label) },
+    x: { label: "studies or points of a sweep", range: [-0.5, list.length - 0.5], names: list.map(({ series }) => series.label) },
     y: { label: result.axis, range: rangeOf(list.flatMap(({ own }) => [own.quantiles[0][0] * f, own.quantiles[2][0] * f])) },
     draw: (place) => list.flatMap(({ own, s }, i) => {
       const [low, middle, high] = own.quantiles.map(([v]) => place.y(v * f)), x = place.x(i), w = half(place);
@@ -91,8 +91,9 @@ export function convergence(data, result, which, what) {
   const tracks = list.map(({ own, s, series }) => ({ s, series, n: own.samples,
     value: own[which].map(([v, low, high]) => [v, low, high].map((u) => (u === null ? NaN : u * f))) }));
   const places = tracks.flatMap((track) => track.n.map((n, i) => ({ track, i, n }))).sort((a, b) => a.n - b.n);
-  // the first few intervals are far wider than all that follows: the axis leaves them out
-  const settled = tracks.flatMap(({ value }) => value.slice(Math.floor(value.length / 4)).flat());
+  // the first intervals are far wider than all that follow: the axis leaves them out
+  const settled = places.filter(({ n }) => n * n >= 2 * places[places.length - 1].n)
+    .flatMap(({ track, i }) => track.value[i]);
   const band = (track, place) => {
     const side = (k) => track.n.map((n, i) => [place.x(n), place.y(track.value[i][k])])
       .filter(([, y]) => Number.isFinite(y));
@@ -103,10 +104,10 @@ export function convergence(data, result, which, what) {
     title: `${result.label}: ${what}`,
     x: { label: "samples", log: true, range: [places[0].n, Math.max(places[places.length - 1].n, places[0].n + 1)] },
     y: { label: result.unit ? `${what} [${result.unit}]` : what, range: rangeOf(settled) },
-    draw: (place) => [svg("g", { class: "clipped", style: `clip-path: inset(0 0 ${place.height - place.bottom}px 0)` },
-      svg("rect", { width: place.width, height: place.height, fill: "none" }),
-      ...tracks.flatMap((track) => [svg("path", { d: band(track, place), class: "band", style: colourOf(track.s) }),
-        svg("path", { d: pathThrough(track.n.map((n, i) => [place.x(n), place.y(track.value[i][0])])), class: "curve", style: colourOf(track.s) })]))],
+    draw: (place) => tracks.flatMap((track) => [
+      svg("path", { d: band(track, place), class: "band", style: colourOf(track.s) }),
+      svg("path", { class: "curve", style: colourOf(track.s),
+        d: pathThrough(track.n.map((n, i) => [place.x(n), place.y(track.value[i][0])])) })]),
     count: places.length,
     at: (i) => [places[i].n, places[i].track.value[places[i].i][0]],
     reading: (i) => {
@@ -142,7 +143,7 @@ export function scatter(data, pair) {
   const shown = list.map(({ own, series }) => named(list, series, own.points.length < own.count
     ? `${own.points.length} of ${own.count} points shown` : `${own.count} points`)).join(", ");
   const plot = chart({
-    title: pair.title, className: "square", height: 420, equal: true,
+    title: pair.title, height: 420, equal: true,
     x: { label: across.axis, range: rangeOf(all.map(([x]) => x)) },
     y: { label: up.axis, range: rangeOf(all.map(([, y]) => y)) },
     draw: (place) => [

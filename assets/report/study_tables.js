@@ -34,10 +34,15 @@ export function counts(data) {
       ...data.series.map((s, i) => cell(of(s, i), name === "title" ? "text" : ""))))));
 }
 
-// A value with its interval below.
+// A value with its interval below, both to two digits of the interval's half.
 function estimate([value, low, high], factor) {
-  return element("td", {}, readable(value * factor),
-    low === null ? null : element("small", {}, `${readable(low * factor)} … ${readable(high * factor)}`));
+  if (low === null) return element("td", {}, readable(value * factor));
+  const half = Math.abs((high - low) * factor) / 2, scale = Math.floor(Math.log10(half));
+  const text = (v) => {
+    if (half === 0 || Math.abs(v * factor) >= 1e7) return readable(v * factor);
+    return Math.abs(value * factor) < 1e-4 ? (v * factor).toExponential(2) : (v * factor).toFixed(Math.max(0, 1 - scale));
+  };
+  return element("td", {}, text(value), element("small", {}, `${text(low)} … ${text(high)}`));
 }
 
 const statistic = {
@@ -51,24 +56,28 @@ const statistic = {
   greatest: (own, f) => cell(readable(own.greatest * f)),
 };
 
+// A row for each result, a column for each statistic and series.
 function statisticsTable(data, results, title, names) {
   const several = data.series.length > 1;
-  const edge = (k) => ({ className: several && k === 0 ? "first" : "" });
-  const series = several && element("tr", {}, head(""), head(""), ...data.series.map((s, i) =>
-    element("th", { scope: "colgroup", colSpan: names.length, className: "first" }, seriesName(s, i))));
-  const heads = element("tr", {}, head(""), head(""),
-    ...data.series.flatMap(() => names.map((name, k) => head(name, "col", edge(k)))));
+  const edge = (i) => ({ className: several && i === 0 ? "first" : "" });
+  const heads = names.map((name) => element("th", { scope: "colgroup", colSpan: data.series.length, ...edge(0) }, name));
+  const series = several && element("tr", {}, head(""), head(""), ...names.flatMap(() =>
+    data.series.map((s, i) => element("th", { scope: "col", ...edge(i) }, seriesName(s, i)))));
   const rows = results.map((result) => element("tr", { title: result.name },
     head(result.label, "row"), cell(result.unit, "unit"),
-    ...result.series.flatMap((own) => names.map((name) =>
-      (own ? statistic[name](own, result.factor) : cell("–"))))));
+    ...names.flatMap((name) => result.series.map((own) => (own ? statistic[name](own, result.factor) : cell("–"))))));
   return card(title, element("table", { className: "statistics" },
-    element("thead", {}, series || null, heads), element("tbody", {}, ...rows)));
+    element("thead", {}, element("tr", {}, head(""), head(""), ...heads), series || null),
+    element("tbody", {}, ...rows)));
 }
 
 export function statistics(data, results) {
-  return [statisticsTable(data, results, "Mean and standard deviation, with 95 % intervals", ["mean", "standard deviation", "skewness"]),
-    statisticsTable(data, results, "Quantiles and extremes", ["5 %", "median", "95 %", "least", "greatest"])];
+  const moments = ["mean", "standard deviation"], quantiles = ["5 %", "median", "95 %"];
+  if (data.series.length === 1)
+    return [statisticsTable(data, results, "Results, with 95 % intervals",
+      [...moments, "skewness", ...quantiles, "least", "greatest"])];
+  return [statisticsTable(data, results, "Mean and standard deviation, with 95 % intervals", moments),
+    statisticsTable(data, results, "Quantiles", quantiles)];
 }
 
 export function failures(data) {

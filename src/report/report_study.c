@@ -91,7 +91,8 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
     fine &= json && fclose(json) == 0;
     if (fine) {
         report_begin_page(page, &study_bundle,
-                          source->several ? "Studies" : source->series[0].data->title,
+                          source->several ? "Studies beside each other"
+                                          : source->series[0].data->title,
                           "This report draws its plots with JavaScript; study.db holds the same "
                           "numbers, and launchdyn study show prints them.");
         report_write_json(page, "data", data, data_length);

@@ -80,15 +80,12 @@ static ld_status print_results(const study_data *data, const study_point *point,
 static ld_status print_ellipses(const study_data *data, const study_point *point, FILE *stream,
                                 study_values *values, ld_error *error)
 {
-    static const char *const pairs[][3] = {
-        {"downrange", "drift", "m"}, {"pitch", "yaw", "rad"}, {"pitch_rate", "yaw_rate", "rad/s"}};
-    // a normal distribution has 95 % within so many deviations: sqrt(-2 ln 0.05)
-    const double radius = 2.4477468306808161;
-    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+    for (size_t i = 0; i < STUDY_PAIRS; i++) {
+        const char *const *name = study_pairs[i].name, *unit = study_pairs[i].unit;
         covariance_ellipse e;
         const char *nearest;
-        const study_column *pair[] = {study_data_find(data, pairs[i][0], &nearest),
-                                      study_data_find(data, pairs[i][1], &nearest)};
+        const study_column *pair[] = {study_data_find(data, name[0], &nearest),
+                                      study_data_find(data, name[1], &nearest)};
         if (!pair[0] || !pair[1])
             continue;
         ld_status status = study_data_read(data, point, pair, 2, values, error);
@@ -100,9 +97,9 @@ static ld_status print_ellipses(const study_data *data, const study_point *point
         fprintf(stream,
                 "\n%s and %s: centre %.6g, %.6g %s; semi-axes of one deviation %.5g, %.5g %s, of "
                 "95 %% %.5g, %.5g %s; the long one %.4g deg from %s towards %s",
-                pairs[i][0], pairs[i][1], e.mean[0], e.mean[1], pairs[i][2], e.semi_axis[0],
-                e.semi_axis[1], pairs[i][2], radius * e.semi_axis[0], radius * e.semi_axis[1],
-                pairs[i][2], e.angle * 57.295779513082321, pairs[i][0], pairs[i][1]);
+                name[0], name[1], e.mean[0], e.mean[1], unit, e.semi_axis[0], e.semi_axis[1], unit,
+                ellipse_radius * e.semi_axis[0], ellipse_radius * e.semi_axis[1], unit,
+                e.angle * 57.295779513082321, name[0], name[1]);
     }
     fputc('\n', stream);
     return LD_OK;

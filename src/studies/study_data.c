@@ -305,6 +305,32 @@ ld_status study_data_failures(const study_data *data, const study_point *point,
     return LD_OK;
 }
 
+ld_status study_data_failed(const study_data *data, const study_point *point, study_failed *failed,
+                            int capacity, int *count, ld_error *error)
+{
+    study_reader *self = data->reader;
+    char query[160];
+    int result = SQLITE_DONE;
+    *count = 0;
+    snprintf(query, sizeof query,
+             "SELECT sample, status, reason FROM sample WHERE status != 'ok' AND %s = ? ORDER BY "
+             "sample",
+             self->has_points ? "point" : "1");
+    sqlite3_stmt *row = store_prepare(&self->store, query, error);
+    if (!row)
+        return LD_ERR_FILE;
+    sqlite3_bind_int64(row, 1, point->number);
+    while (*count < capacity && (result = sqlite3_step(row)) == SQLITE_ROW) {
+        study_failed *f = &failed[(*count)++];
+        f->sample = sqlite3_column_int64(row, 0);
+        snprintf(f->status, sizeof f->status, "%s", sqlite3_column_text(row, 1));
+        snprintf(f->reason, sizeof f->reason, "%s", sqlite3_column_text(row, 2));
+    }
+    sqlite3_finalize(row);
+    return *count < capacity && result != SQLITE_DONE ? store_fail(&self->store, "read", error)
+                                                      : LD_OK;
+}
+
 // ---- values
 
 void study_values_free(study_values *values)

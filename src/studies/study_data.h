@@ -55,6 +55,17 @@ typedef struct study_failure {
 ld_status study_data_failures(const study_data *data, const study_point *point,
                               study_failure *failure, int capacity, int *count, ld_error *error);
 
+// A sample that failed.
+typedef struct study_failed {
+    int64_t sample;
+    char status[16];
+    char reason[384];
+} study_failed;
+
+// Fills up to `capacity`, in the order of their numbers; *count becomes how many.
+ld_status study_data_failed(const study_data *data, const study_point *point, study_failed *failed,
+                            int capacity, int *count, ld_error *error);
+
 // Columns of the rockets of a point's samples that went well, in order of (sample, rocket).
 typedef struct study_values {
     size_t count, capacity;

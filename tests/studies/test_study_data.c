@@ -1,29 +1,11 @@
 // Reading a study's folder: databases written here by hand, with and without points of a sweep.
 // link: -lsqlite3
-#include "support/check.h"
-#include "support/scratch.h"
-
-#include <sqlite3.h>
-#include <sys/stat.h>
+#include "support/study_database.h"
 
 #include "base/random.h"
 #include "studies/draw.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
-
-static void write_database(const char *name, const char *text)
-{
-    char path[256];
-    char *problem = NULL;
-    sqlite3 *database;
-    assert_int_equal(mkdir(in(name), 0777), 0);
-    snprintf(path, sizeof path, "%s/study.db", in(name));
-    assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
-    sqlite3_exec(database, text, NULL, NULL, &problem);
-    if (problem)
-        fail_msg("%s", problem);
-    sqlite3_close(database);
-}
 
 static int make_folder(void **state)
 {
@@ -113,6 +95,11 @@ static void test_values(void **state)
     assert_true(count == 1 && failure[0].count == 1 && failure[0].first == 3);
     assert_string_equal(failure[0].status, "launch");
     assert_string_equal(failure[0].reason, "the lock held");
+    study_failed failed[2];
+    assert_int_equal(study_data_failed(&data, data.point, failed, 2, &count, &error), LD_OK);
+    assert_true(count == 1 && failed[0].sample == 3);
+    assert_string_equal(failed[0].status, "launch");
+    assert_string_equal(failed[0].reason, "the lock held");
     study_data_close(&data);
 }
 

@@ -1,0 +1,193 @@
+// The report of studies in a real browser.
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { check, checkFits, checkSilence, drawn, example, folder, inBrowser, launchdyn, near, open, paper, picture,
+  readCsv } from "./support.mjs";
+
+// A scattered flight, with other values for some keys.
+function studyOf(name, samples, { title = "Flight, scattered", speed = "36.8 12.6 0 m/s", more = "" } = {}) {
+  const scenario = join(folder, `${name}.yaml`), out = join(folder, name), csv = join(folder, `${name}.csv`);
+  writeFileSync(scenario, `include: ${example("flight.yaml")}
+title: ${JSON.stringify(title)}
+flight: {velocity: ${speed}}
+scatter:
+  seed: 7
+  samples: ${samples}
+  factors:
+    rocket.motor.thrust_scale: {normal: 1 %, within: 3}
+    rocket.motor.misalignment.y: {normal: 0.5 mrad, within: 3}
+    rocket.motor.misalignment.z: {normal: 0.5 mrad, within: 3}
+${more}`);
+  launchdyn("study", scenario, "--out", out, "--quiet");
+  launchdyn("study", "export", out, "--csv", csv);
+  return { out, column: readCsv(csv) };
+}
+
+function reportOf(name, ...studies) {
+  const file = join(folder, name);
+  launchdyn("report", ...studies.map((study) => study.out), "-o", file);
+  return file;
+}
+
+const panel = (title) => `.panel[data-title="${title}"]`;
+const readingOf = (page, title) => page.$eval(`${panel(title)} .reading`, (node) => node.textContent);
+const dataOf = (page) => page.evaluate(() => JSON.parse(document.getElementById("data").textContent));
+const frame = async (page, title) => {
+  const marks = page.locator(`${panel(title)} .marks`);
+  await marks.evaluate((node) => node.scrollIntoView({ block: "center" }));
+  return marks.boundingBox();
+};
+
+// Every plot has marks, and some of them stand between the axes.
+async function checkNoneEmpty(page, least) {
+  const shown = await page.$$eval(".panel", (panels) => panels.map((node) => {
+    const box = node.querySelector("svg.marks").getBoundingClientRect();
+    const inside = [...node.querySelectorAll("svg.marks :is(path, rect, circle)")].filter((mark) => {
+      const own = mark.getBoundingClientRect();
+      return own.width + own.height > 4 && own.right > box.left && own.left < box.right &&
+        own.bottom > box.top && own.top < box.bottom && getComputedStyle(mark).stroke + getComputedStyle(mark).fill !== "nonenone";
+    });
+    return { title: node.dataset.title, count: inside.length };
+  }));
+  const empty = shown.filter(({ count }) => count === 0).map(({ title }) => title);
+  check(`none of ${shown.length} plots is empty`, shown.length >= least && empty.length === 0, empty);
+}
+
+const numbersIn = (text) => (text.match(/-?\d+(\.\d+)?(e[-+]\d+)?/g) ?? []).map(Number);
+
+// The mouse over a histogram, a scatter plot, an estimate: what stands below is what the study holds.
+async function checkCursor(page, study) {
+  const downrange = study.column.get("downrange"), drift = study.column.get("drift");
+  for (const share of [0.3, 0.5, 0.7]) {
+    const box = await frame(page, "Downrange: distribution");
+    await page.mouse.move(box.x + share * box.width, box.y + box.height / 2);
+    const text = await readingOf(page, "Downrange: distribution");
+    const [low, high, count, of] = numbersIn(text.replace(" to ", " "));
+    const slack = 1e-5 * high, within = (from, to) => downrange.filter((v) => v >= from && v < to).length;
+    check("a bin holds the values that it says", of === downrange.length &&
+      count >= within(low + slack, high - slack) && count <= within(low - slack, high + slack), text);
+  }
+  for (const share of [0.4, 0.6]) {
+    const box = await frame(page, "Landing points");
+    await page.mouse.move(box.x + share * box.width, box.y + box.height / 2);
+    const text = await readingOf(page, "Landing points"), [sample, x, y] = numbersIn(text);
+    check("a point is that of its sample",
+      near(downrange[sample - 1], x, 1e-5) && near(drift[sample - 1], y, 1e-5), text);
+  }
+  const box = await frame(page, "Downrange: mean");
+  await page.mouse.move(box.x + box.width - 1, box.y + box.height / 2);
+  const text = await readingOf(page, "Downrange: mean"), [n, mean] = numbersIn(text);
+  check("the last estimate is the mean of all", n === downrange.length &&
+    near(mean, downrange.reduce((sum, v) => sum + v) / n, 1e-5), text);
+}
+
+async function checkTable(page) {
+  const data = await dataOf(page), result = data.results.find(({ name }) => name === "downrange");
+  const cells = await page.$$eval(".statistics tr[title='downrange'] td:not(.unit)", (list) =>
+    list.map((cell) => cell.childNodes[0].textContent));
+  const { mean, deviation, quantiles } = result.series[0];
+  const expected = [mean[0], deviation[0], null, ...quantiles.map(([v]) => v)];
+  check("the table has the statistics", expected.every((v, i) => v === null || near(Number(cells[i]), v, 1e-2)), cells);
+}
+
+async function checkKeys(page) {
+  const title = "Downrange: distribution", data = await dataOf(page);
+  const { from, width, count } = data.results.find(({ name }) => name === "downrange").bins;
+  await page.mouse.move(1, 1);
+  await page.locator(`${panel(title)} .plot > svg`).focus();
+  const after = async (key) => {
+    await page.keyboard.press(key);
+    return numbersIn((await readingOf(page, title)).replace(" to ", " "))[0];
+  };
+  check("an arrow begins at the first bin", near(await after("ArrowRight"), from, 1e-5));
+  check("the next one is the second", near(await after("ArrowRight"), from + width, 1e-5));
+  check("End is the last", near(await after("End"), from + (count - 1) * width, 1e-5));
+  check("Escape takes the cursor away", (await after("Escape")) === undefined);
+}
+
+// What the button hands out is the data of the plot.
+async function checkDownload(page, study) {
+  const [file] = await Promise.all([page.waitForEvent("download"),
+    page.locator(`${panel("Landing points")} .csv`).click()]);
+  const text = readFileSync(await file.path(), "utf8"), rows = text.trim().split("\n");
+  const [, sample, , x, y] = rows[5].split(",");
+  check("CSV with units", rows[0].includes('"downrange [m]","drift [m]"'), rows[0]);
+  check("CSV of all points", rows.length === 1 + study.column.get("drift").length && near(study.column.get("downrange")[sample - 1], Number(x), 1e-7) &&
+    near(study.column.get("drift")[sample - 1], Number(y), 1e-7), rows[5]);
+}
+
+async function checkOne(browser, study) {
+  console.log("one study");
+  const file = reportOf("one.html", study), page = await open(browser, file);
+  checkSilence(page, file);
+  await checkNoneEmpty(page, 25);
+  await checkCursor(page, study);
+  await checkTable(page);
+  await checkKeys(page);
+  await checkDownload(page, study);
+  await picture(page, "study.png");
+  await page.context().close();
+}
+
+async function checkSideBySide(browser, studies) {
+  console.log("three studies beside each other, dark, 400 pixels wide");
+  const file = reportOf("three.html", ...studies), page = await open(browser, file, { width: 400, dark: true });
+  checkSilence(page, file);
+  await checkNoneEmpty(page, 25);
+  await checkFits(page);
+  check("dark as the system says", (await paper(page)) === "rgb(20, 24, 28)");
+  const box = await frame(page, "Downrange: distribution");
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + box.height / 2);
+  const text = await readingOf(page, "Downrange: distribution");
+  check("a bin says what each study has there", ["slow", "middle", "fast"].every((name) => text.includes(`${name}: `)), text);
+  const ellipses = await page.$$eval(`${panel("Landing points")} .ellipse`, (list) => list.map((node) => getComputedStyle(node).stroke));
+  check("two ellipses each, in the study's colour", ellipses.length === 6 && new Set(ellipses).size === 3, ellipses);
+  const heads = await page.$$eval(".statistics thead tr:last-child", (rows) => rows[0].textContent);
+  check("the table has columns for each", heads === "slowmiddlefastslowmiddlefast", heads);
+  await page.locator("#scatter").scrollIntoViewIfNeeded();
+  await picture(page, "studies-narrow.png");
+  await page.locator("#theme").click();
+  await drawn(page);
+  check("the switch makes it light", (await paper(page)) === "rgb(255, 255, 255)");
+  await page.emulateMedia({ media: "print" });
+  check("on paper without buttons", !(await page.locator(".csv").first().isVisible()));
+  await page.context().close();
+}
+
+// More than can be laid over each other stand in columns.
+async function checkColumns(browser, studies) {
+  console.log("six studies");
+  const file = reportOf("six.html", ...studies, ...studies), page = await open(browser, file);
+  checkSilence(page, file);
+  await checkNoneEmpty(page, 25);
+  const columns = await page.locator(`${panel("Downrange: distribution")} rect.area`).count();
+  check("a column for each", columns === 6, columns);
+  await picture(page, "studies-columns.png");
+  await page.context().close();
+}
+
+async function checkHostile(browser) {
+  console.log("titles, folders and reasons that would be code; samples that fail");
+  const code = "</script><img src=x onerror=window.owned=1>", title = `</title>${code}<script>window.owned=1</script>`;
+  const study = studyOf("<img src=x onerror=window.owned=1>", 30,
+    { title, more: "    rocket.empty.mass: {normal: 20 kg}\n" });
+  const file = reportOf("hostile.html", study), text = readFileSync(file, "utf8");
+  const failed = /"failures":\[\[\d+,"input","/;
+  check("some samples failed", failed.test(text));
+  writeFileSync(file, text.replace(failed, (found) => found + code.replaceAll("<", "\\u003c")));
+  const page = await open(browser, file);
+  checkSilence(page, file);
+  check("the title is text", (await page.locator("h1").textContent()) === title);
+  check("so is a reason", (await page.locator("#failures").textContent()).includes(code));
+  check("nothing of it ran", await page.evaluate(() => window.owned === undefined && !document.querySelector("img")));
+  await page.context().close();
+}
+
+await inBrowser(async (browser) => {
+  const studies = [studyOf("slow", 150), studyOf("middle", 150, { speed: "39.8 12.6 0 m/s" }),
+    studyOf("fast", 150, { speed: "44 12.6 0 m/s" })];
+  await checkOne(browser, studies[0]);
+  await checkSideBySide(browser, studies);
+  await checkColumns(browser, studies);
+  await checkHostile(browser);
+});

@@ -1,0 +1,26 @@
+// A study's database, written by hand in a folder of the scratch folder.
+#ifndef LD_TESTS_SUPPORT_STUDY_DATABASE_H
+#define LD_TESTS_SUPPORT_STUDY_DATABASE_H
+
+#include <sqlite3.h>
+#include <sys/stat.h>
+
+#include "support/check.h"
+#include "support/scratch.h"
+
+// Runs SQL on the study in folder `name`, which is made where it is not there.
+static void write_database(const char *name, const char *text)
+{
+    char path[256];
+    char *problem = NULL;
+    sqlite3 *database;
+    mkdir(in(name), 0777);
+    snprintf(path, sizeof path, "%s/study.db", in(name));
+    assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
+    sqlite3_exec(database, text, NULL, NULL, &problem);
+    if (problem)
+        fail_msg("%s", problem);
+    sqlite3_close(database);
+}
+
+#endif
