@@ -87,7 +87,7 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
     FILE *json = open_memstream(&data, &data_length), *page = open_memstream(text, length);
     bool fine = json && page;
     if (fine)
-        study_write_data(json, source);
+        fine = study_write_data(json, source) == LD_OK;
     fine &= json && fclose(json) == 0;
     if (fine) {
         report_begin_page(page, &study_bundle,

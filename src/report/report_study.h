@@ -2,8 +2,8 @@
 #ifndef LD_REPORT_REPORT_STUDY_H
 #define LD_REPORT_REPORT_STUDY_H
 
+#include "io/study_results.h"
 #include "report/report_html.h"
-#include "studies/results.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
 
@@ -48,6 +48,7 @@ int study_choose_places(size_t groups, int most, size_t *place);
 bool study_shows_point(int64_t sample, int rocket, size_t count, size_t most);
 
 // Writes all that the page shows as JSON; notes what cannot be read.
-void study_write_data(FILE *json, study_source *source);
+// @return LD_OK, LD_ERR_MEMORY
+ld_status study_write_data(FILE *json, study_source *source);
 
 #endif

@@ -92,13 +92,14 @@ static size_t count_groups(const study_values *values)
 }
 
 // Estimates from the first groups alone, ever more of them; `values` in the order of their groups.
-static void write_running(FILE *json, const study_values *values, int most)
+static ld_status write_running(FILE *json, const study_values *values, int most)
 {
     size_t place[REPORT_PLACES], passed = 0, end = 0;
     long samples[REPORT_PLACES], sample_count = 0;
     group_statistics running[REPORT_PLACES];
     int count = study_choose_places(count_groups(values), most, place);
-    for (int i = 0; i < count; i++) {
+    ld_status status = LD_OK;
+    for (int i = 0; i < count && !status; i++) {
         for (; end < values->count; end++) {
             bool next = end == 0 || values->group[end] != values->group[end - 1];
             if (next && passed == place[i])
@@ -107,8 +108,10 @@ static void write_running(FILE *json, const study_values *values, int most)
             sample_count += end == 0 || values->sample[end] != values->sample[end - 1];
         }
         samples[i] = sample_count;
-        moments_of(values->value[0], values->group, end, &running[i]);
+        status = moments_of(values->value[0], values->group, end, &running[i]);
     }
+    if (status)
+        return status;
     fputs("{\"samples\":[", json);
     for (int i = 0; i < count; i++)
         fprintf(json, "%s%ld", i ? "," : "", samples[i]);
@@ -119,6 +122,7 @@ static void write_running(FILE *json, const study_values *values, int most)
     for (int i = 0; i < count; i++)
         write_estimate(json, i, running[i].deviation, write_short);
     fputs("]}", json);
+    return LD_OK;
 }
 
 static void write_statistics(FILE *json, const group_statistics *s)
@@ -146,37 +150,52 @@ static void write_bins(FILE *json, const study_bins *bins, const study_values *s
     fputc(']', json);
 }
 
-// The bins that suit all series, whose values are sorted.
-static study_bins bins_of(const study_source *source)
+static int by_value(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+// Sorts the values of all series, and chooses bins for them.
+static study_bins sort_into_bins(const study_source *source)
 {
     const double *sorted[REPORT_SERIES];
     size_t count[REPORT_SERIES];
     for (int i = 0; i < source->series_count; i++) {
-        sorted[i] = source->series[i].values.value[0];
-        count[i] = source->series[i].values.count;
+        const study_values *values = &source->series[i].values;
+        sorted[i] = values->value ? values->value[0] : NULL;
+        count[i] = values->count;
+        if (count[i] > 0)
+            qsort(values->value[0], count[i], sizeof(double), by_value);
     }
     return study_choose_bins(sorted, count, source->series_count);
 }
 
 // Of a result that some series has: running estimates, bins, statistics with a histogram.
-static void write_result(FILE *json, const study_source *source, const study_result *result,
-                         int places)
+static ld_status write_result(FILE *json, const study_source *source, const study_result *result,
+                              int places)
 {
     group_statistics statistics[REPORT_SERIES];
+    ld_status status = LD_OK;
     fputs("{\"name\":", json);
     json_write_text(json, result->name);
     write_text(json, "unit", result->unit);
     fputs(",\"running\":[", json);
-    for (int i = 0; i < source->series_count; i++) {
+    for (int i = 0; i < source->series_count && !status; i++) {
         const study_values *values = &source->series[i].values;
         fputs(i ? ",\n" : "\n", json);
-        write_running(json, values, places);
-        statistics_of(values->value[0], values->group, values->count, &statistics[i]);
+        fputs(values->count ? "" : "null", json);
+        if (values->count)
+            status = write_running(json, values, places);
+        if (values->count && !status)
+            status = statistics_of(values->value[0], values->group, values->count, &statistics[i]);
     }
-    study_bins bins = bins_of(source);
+    if (status)
+        return status;
+    study_bins bins = sort_into_bins(source);
     bool overlaid = source->series_count <= REPORT_OVERLAID;
-    fprintf(json, "],\"bins\":{\"from\":%.17g,\"width\":%.17g,\"count\":%d},\"series\":[", bins.from,
-            bins.width, bins.count);
+    fprintf(json, "],\"bins\":{\"from\":%.17g,\"width\":%.17g,\"count\":%d},\"series\":[",
+            bins.from, bins.width, bins.count);
     for (int i = 0; i < source->series_count; i++) {
         const study_values *values = &source->series[i].values;
         fputs(i ? ",\n" : "\n", json);
@@ -188,13 +207,15 @@ static void write_result(FILE *json, const study_source *source, const study_res
         fputs(values->count ? "}" : "", json);
     }
     fputs("]}", json);
+    return LD_OK;
 }
 
-static void write_results(FILE *json, study_source *source)
+static ld_status write_results(FILE *json, study_source *source)
 {
     int places = most_places(source);
     bool first = true;
-    for (const study_result *result = study_results; result->name; result++) {
+    ld_status status = LD_OK;
+    for (const study_result *result = study_results; result->name && !status; result++) {
         size_t count = 0;
         for (int i = 0; i < source->series_count; i++) {
             read_values(source, &source->series[i], &result->name, 1);
@@ -204,8 +225,9 @@ static void write_results(FILE *json, study_source *source)
             continue;
         fputs(first ? "\n" : ",\n", json);
         first = false;
-        write_result(json, source, result, places);
+        status = write_result(json, source, result, places);
     }
+    return status;
 }
 
 // ---- two results against each other
@@ -243,12 +265,13 @@ static void write_scatter(FILE *json, const study_values *values, size_t most)
 
 static void write_pairs(FILE *json, study_source *source)
 {
-    size_t fit = (size_t)(BYTES_OF_POINTS / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
+    size_t fit =
+        (size_t)(BYTES_OF_POINTS / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
     size_t most = fit < MOST_POINTS ? fit : MOST_POINTS;
     for (size_t p = 0; p < STUDY_PAIRS; p++) {
         const study_pair *pair = &study_pairs[p];
-        fprintf(json, "%s\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"", p ? "," : "",
-                pair->title, pair->name[0], pair->name[1], pair->unit);
+        fprintf(json, "%s\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"",
+                p ? "," : "", pair->title, pair->name[0], pair->name[1], pair->unit);
         fprintf(json, ",\"radius\":%.17g,\"series\":[", ellipse_radius);
         for (int i = 0; i < source->series_count; i++) {
             study_series *series = &source->series[i];
@@ -302,7 +325,7 @@ static void write_series(FILE *json, study_source *source, const study_series *s
     fputc('}', json);
 }
 
-void study_write_data(FILE *json, study_source *source)
+ld_status study_write_data(FILE *json, study_source *source)
 {
     fprintf(json, "{\"version\":\"%s\",\"series\":[", LD_VERSION);
     for (int i = 0; i < source->series_count; i++) {
@@ -310,7 +333,7 @@ void study_write_data(FILE *json, study_source *source)
         write_series(json, source, &source->series[i]);
     }
     fputs("],\"results\":[", json);
-    write_results(json, source);
+    ld_status status = write_results(json, source);
     fputs("],\"pairs\":[", json);
     write_pairs(json, source);
     // last, when all that is broken is known
@@ -320,4 +343,5 @@ void study_write_data(FILE *json, study_source *source)
         json_write_text(json, source->report->note[i]);
     }
     fputs("]}", json);
+    return status;
 }
