@@ -14,10 +14,10 @@ enum { LD_REPORT_NOTES = 8 };
 
 /// What became of a report.
 typedef struct ld_report {
-    size_t bytes;   ///< size of the file, at most 2 000 000
-    double pixels;  ///< of 4000 in height: what thinning may move a curve by; 0: all rows are there,
-                    ///< and of studies
-    int note_count; ///< what is missing or broken in the results,
+    size_t bytes;  ///< size of the file, at most 2 000 000
+    double pixels; ///< of 4000 in height: what thinning may move a curve by; 0: all rows are there,
+                   ///< and of studies
+    int note_count;                  ///< what is missing or broken in the results,
     char note[LD_REPORT_NOTES][256]; ///< each in a sentence; the report shows them too
 } ld_report;
 
