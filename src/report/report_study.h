@@ -8,7 +8,7 @@
 #include "studies/study_data.h"
 
 // More series than REPORT_OVERLAID are drawn as columns: their histograms are left out.
-enum { REPORT_SERIES = 40, REPORT_OVERLAID = 4, REPORT_BINS = 80, REPORT_PLACES = 100 };
+enum { REPORT_SERIES = 40, REPORT_OVERLAID = 4, REPORT_BINS = 80, REPORT_PLACES = 60 };
 
 // A study, or one point of its sweep.
 typedef struct study_series {
