@@ -40,7 +40,7 @@ static void read_history(report_source *source, const char *folder)
             return;
         }
         report_take_note(source->report, "The run did not come to its end: the plots are of "
-                                  "history.h5.part, up to its last block.");
+                                         "history.h5.part, up to its last block.");
     }
     if (history_read(path, &source->history, &error)) {
         report_take_note(source->report, "No plots: %s.", error.text);
