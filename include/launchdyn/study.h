@@ -7,11 +7,29 @@
 #include <stdio.h>
 
 #include "launchdyn/model.h"
+#include "launchdyn/scenario.h"
 #include "launchdyn/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/// A scenario with all points of its sweep. The samples are numbered from 1 round the points:
+/// sample s is the sample (s - 1) / points + 1 of point (s - 1) % points + 1.
+typedef struct ld_study ld_study;
+
+/// Reads a study, all points of its sweep, as ld_scenario_read() does; messages about a point name
+/// it.
+/// @param study filled on success (free with ld_study_free())
+ld_status ld_study_read(const char *path, const char *const *sets, size_t count, ld_study **study,
+                        ld_messages *messages);
+ld_status ld_study_read_text(const char *text, size_t length, const char *name, const char *folder,
+                             const char *const *sets, size_t count, ld_study **study,
+                             ld_messages *messages);
+void ld_study_free(ld_study *study);
+
+/// The scenario's model, of a sweep the nominal one.
+const ld_model *ld_study_model(const ld_study *study);
 
 /// How far a study is.
 typedef struct ld_study_counts {
@@ -34,13 +52,14 @@ typedef struct ld_study_options {
     bool (*go_on)(void *self);
 } ld_study_options;
 
-/// Runs the samples of `model` that the folder does not hold yet and keeps each as soon as it is
+/// Runs the samples of `study` that the folder does not hold yet and keeps each as soon as it is
 /// done, in DIR/study.db. A sample that cannot run is kept with its reason. Results are the same to
 /// the bit for any number of threads and any interruption.
 /// @param counts filled in any case
-/// @return LD_OK; LD_ERR_INPUT (no scatter; the folder holds another scenario's study, or another
+/// @return LD_OK; LD_ERR_INPUT (nothing varies; the folder holds another scenario's study, or
+/// another
 ///         program works on it), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_INTERRUPTED
-ld_status ld_study_run(const ld_model *model, const char *folder, const ld_study_options *options,
+ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study_options *options,
                        ld_study_counts *counts, ld_error *error);
 
 /// Joins what shards have kept in the folder into its study.db and prints what is still missing.
@@ -58,9 +77,12 @@ ld_status ld_study_export(const char *folder, const char *file, ld_error *error)
 /// One sample by itself.
 typedef struct ld_sample ld_sample;
 
-/// The model of sample `number` (from 1) of a study; `model` must outlive it.
-/// @return LD_OK, LD_ERR_INPUT (no scatter, no such sample, or its values make no possible model),
-///         LD_ERR_MEMORY
+/// Sample `number` (from 1) of a study, which must outlive it.
+/// @return LD_OK, LD_ERR_INPUT (nothing varies, no such sample, or its values make no possible
+///         model), LD_ERR_MEMORY
+ld_status ld_study_sample(const ld_study *study, int64_t number, ld_sample **sample,
+                          ld_error *error);
+/// Sample `number` (from 1) of a model by itself, which must outlive it.
 ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **sample,
                            ld_error *error);
 const ld_model *ld_sample_model(const ld_sample *sample);

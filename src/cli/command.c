@@ -79,19 +79,37 @@ void command_line_end(command_line *line)
     poptFreeContext(line->context);
 }
 
-ld_status command_read(const char *file, char **sets, int point, ld_model *model)
+static size_t count_sets(char **sets)
 {
-    ld_messages messages = {0};
     size_t count = 0;
     while (sets && sets[count])
         count++;
-    ld_status status =
-        ld_scenario_read_point(file, (const char *const *)sets, count, point, model, &messages);
+    return count;
+}
+
+static ld_status print_messages(ld_status status, ld_messages *messages)
+{
     if (status) {
-        ld_messages_print(&messages, stderr);
-        ld_messages_free(&messages);
+        ld_messages_print(messages, stderr);
+        ld_messages_free(messages);
     }
     return status;
+}
+
+ld_status command_read(const char *file, char **sets, int point, ld_model *model)
+{
+    ld_messages messages = {0};
+    ld_status status = ld_scenario_read_point(file, (const char *const *)sets, count_sets(sets),
+                                              point, model, &messages);
+    return print_messages(status, &messages);
+}
+
+ld_status command_read_study(const char *file, char **sets, ld_study **study)
+{
+    ld_messages messages = {0};
+    ld_status status =
+        ld_study_read(file, (const char *const *)sets, count_sets(sets), study, &messages);
+    return print_messages(status, &messages);
 }
 
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),

@@ -8,6 +8,7 @@
 
 #include "launchdyn/model.h"
 #include "launchdyn/status.h"
+#include "launchdyn/study.h"
 
 // What the command ends with, beside 0; an interrupted run ends with 128 + the signal's number.
 enum { EXIT_FAILED = 1, EXIT_INPUT = 2 };
@@ -79,12 +80,13 @@ int command_on_model(const command *self, int argc, const char **argv,
                      const struct poptOption *options, char ***sets,
                      int (*work)(const ld_model *model, void *data), void *data);
 
-// The parts of it: the model of the file with its overrides at a point of its sweep (0: the nominal
-// one), after messages LD_ERR_INPUT or another; `work` on the nominal one; the end of the
-// overrides.
+// The parts of it: the study or the model of the file with its overrides at a point of its sweep
+// (0: the nominal one), after messages LD_ERR_INPUT or another; `work` on the nominal one; the end
+// of the overrides.
 ld_status command_read(const char *file, char **sets, int point, ld_model *model);
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
+ld_status command_read_study(const char *file, char **sets, ld_study **study);
 void command_free_sets(char **sets);
 
 #endif

@@ -6,17 +6,14 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/run.h"
-#include "launchdyn/scenario.h"
-#include "launchdyn/study.h"
+#include "cli/study.h"
 
-typedef struct study_wishes {
-    run_wishes run; // overrides, folder, quiet
-    int threads;
-    int only; // sample, 0: all
-    int shard, shards;
-    char *file;
-} study_wishes;
+void study_wishes_free(study_wishes *wishes)
+{
+    command_free_sets(wishes->run.sets);
+    free(wishes->run.folder);
+    free(wishes->file);
+}
 
 void command_study_help(void)
 {
@@ -29,7 +26,7 @@ void command_study_help(void)
          "launchdyn study merge DIR then joins what they have kept.");
 }
 
-static int run_all(const ld_model *model, const study_wishes *wishes)
+int study_run_all(const ld_study *study, const study_wishes *wishes, study_runner *run)
 {
     run_progress progress;
     ld_study_counts counts;
@@ -41,7 +38,7 @@ static int run_all(const ld_model *model, const study_wishes *wishes)
                                 .self = &progress,
                                 .progress = progress_samples,
                                 .go_on = progress_go_on};
-    ld_status status = ld_study_run(model, wishes->run.folder, &options, &counts, &error);
+    ld_status status = run(study, wishes->run.folder, &options, &counts, &error);
     progress_end(&progress);
     if (status == LD_ERR_INTERRUPTED) {
         command_fail(status, &error);
@@ -59,12 +56,12 @@ static int run_all(const ld_model *model, const study_wishes *wishes)
 }
 
 // One sample with its whole history, in a folder of its own.
-static int run_one(const ld_model *model, study_wishes *wishes)
+static int run_one(const ld_study *study, study_wishes *wishes)
 {
     ld_sample *sample = NULL;
     ld_error error;
     char folder[4096];
-    ld_status status = ld_sample_create(model, wishes->only, &sample, &error);
+    ld_status status = ld_study_sample(study, wishes->only, &sample, &error);
     if (status)
         return command_fail(status, &error);
     run_wishes run = wishes->run;
@@ -75,15 +72,20 @@ static int run_one(const ld_model *model, study_wishes *wishes)
     return code;
 }
 
-static int study_model(const ld_model *model, void *data)
+static int study_file(const char *file, study_wishes *wishes)
 {
-    study_wishes *wishes = data;
+    ld_study *study = NULL;
+    if (command_read_study(file, wishes->run.sets, &study))
+        return EXIT_INPUT;
+    int code = EXIT_INPUT;
     if (wishes->only)
-        return run_one(model, wishes);
-    if (wishes->run.folder)
-        return run_all(model, wishes);
-    command_complain("study wants --out DIR, the folder that keeps it");
-    return EXIT_INPUT;
+        code = run_one(study, wishes);
+    else if (wishes->run.folder)
+        code = study_run_all(study, wishes, ld_study_run);
+    else
+        command_complain("study wants --out DIR, the folder that keeps it");
+    ld_study_free(study);
+    return code;
 }
 
 static int finish(ld_status status, const ld_error *error)
@@ -124,16 +126,13 @@ int command_study(const command *self, int argc, const char **argv)
     study_wishes wishes = {.threads = 1};
     char *shard = NULL;
     const struct poptOption options[] = {
-        COMMAND_SETS(&wishes.run.sets),
-        {"out", 'o', POPT_ARG_STRING, &wishes.run.folder, 0, "The folder that keeps the study",
-         "DIR"},
+        STUDY_OPTIONS(&wishes),
         {"jobs", 'j', POPT_ARG_INT, &wishes.threads, 0, "Samples that run side by side (1)", "N"},
         {"only", '\0', POPT_ARG_INT, &wishes.only, 0,
          "Run sample N alone, with its history in DIR/sample-N", "N"},
         {"shard", '\0', POPT_ARG_STRING, &shard, 0,
          "Run only the I-th of N parts of the study, for merge DIR", "I/N"},
         {"csv", '\0', POPT_ARG_STRING, &wishes.file, 0, "Of export: the table to write", "FILE"},
-        {"quiet", 'q', POPT_ARG_NONE, &wishes.run.quiet, 0, "Print nothing but errors", NULL},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -148,13 +147,11 @@ int command_study(const command *self, int argc, const char **argv)
             command_complain("study wants %s; see launchdyn study --help", self->arguments);
             code = EXIT_INPUT;
         } else {
-            code = command_on_file(file, wishes.run.sets, study_model, &wishes);
+            code = study_file(file, &wishes);
         }
         command_line_end(&line);
     }
-    command_free_sets(wishes.run.sets);
-    free(wishes.run.folder);
-    free(wishes.file);
+    study_wishes_free(&wishes);
     free(shard);
     return code;
 }

@@ -108,7 +108,7 @@ static int wait_for_reader(void *self, int count)
     return ledger_goes_on(self);
 }
 
-void ledger_open(study_ledger *self, const study_plan *plan, const char *folder,
+void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
                  store_journal journal, const ld_study_options *options, ld_study_counts *counts,
                  ld_error *error)
 {
@@ -117,11 +117,11 @@ void ledger_open(study_ledger *self, const study_plan *plan, const char *folder,
                            .counts = counts,
                            .next = options->shards > 0 ? options->shard : 1,
                            .step = shards,
-                           .last = plan->samples,
+                           .last = study->samples,
                            .error = error};
     *counts = (ld_study_counts){0};
     ld_status status =
-        store_open(&self->store, folder, options->shard, options->shards, plan, journal, error);
+        store_open(&self->store, folder, options->shard, options->shards, study, journal, error);
     if (!status) {
         self->open = true;
         sqlite3_busy_handler(self->store.database, wait_for_reader, self);

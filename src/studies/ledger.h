@@ -22,14 +22,15 @@ typedef struct study_ledger {
 
 // Opens the folder, which it may make; error and counts are written to until it is closed. Where
 // this fails the ledger is there all the same and hands out nothing.
-void ledger_open(study_ledger *self, const study_plan *plan, const char *folder,
+void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
                  store_journal journal, const ld_study_options *options, ld_study_counts *counts,
                  ld_error *error);
 // @return LD_OK: all samples are kept; LD_ERR_INTERRUPTED; or what went wrong first
 ld_status ledger_close(study_ledger *self);
 
-// The number of a sample to be run; 0: no more.
+// The number of a sample to be run; 0: no more; LEDGER_WAIT: it is not known yet, ask again.
 int64_t ledger_next(study_ledger *self);
+enum { LEDGER_WAIT = -1 };
 // Keeps `count` records in one transaction; an outcome that is not the sample's stops the study.
 void ledger_keep(study_ledger *self, const study_record *const *record, int count);
 // Stops: what runs is not waited for.

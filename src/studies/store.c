@@ -64,8 +64,8 @@ static bool step(sqlite3_stmt *statement)
 
 // ---- what is written once
 
-// The scenario as text in which nothing is left out; without the number of samples where more may
-// be added.
+// The scenario as text in which nothing is left out but when to stop: the rule, and the number of
+// samples where more may be added.
 static char *identity_of(const ld_model *model)
 {
     char *text = NULL;
@@ -76,18 +76,19 @@ static char *identity_of(const ld_model *model)
         return NULL;
     if (same.scatter.plan == LD_PLAN_RANDOM)
         same.scatter.samples = 1;
+    same.scatter.until_count = 0;
     ld_model_print(&same, stream);
     return fclose(stream) == 0 ? text : NULL;
 }
 
 static bool is_of_rocket(const study_store *self, int factor)
 {
-    return self->plan->model->scatter.factor[factor].per_rocket;
+    return self->study->nominal->scatter.factor[factor].per_rocket;
 }
 
 static ld_status make_tables(study_store *self, ld_error *error)
 {
-    const ld_scatter *scatter = &self->plan->model->scatter;
+    const ld_scatter *scatter = &self->study->nominal->scatter;
     char *text = NULL;
     size_t length;
     FILE *stream = open_memstream(&text, &length);
@@ -101,8 +102,8 @@ static ld_status make_tables(study_store *self, ld_error *error)
         if (!is_of_rocket(self, i))
             fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
     fputs("); CREATE TABLE point (point INTEGER PRIMARY KEY", stream);
-    for (int i = 0; i < self->plan->model->sweep_count; i++)
-        fprintf(stream, ", \"%s\" TEXT NOT NULL", self->plan->model->sweep[i].path);
+    for (int i = 0; i < self->study->nominal->sweep_count; i++)
+        fprintf(stream, ", \"%s\" TEXT NOT NULL", self->study->nominal->sweep[i].path);
     fputs("); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER",
           stream);
     for (int i = 0; i < scatter->factor_count; i++)
@@ -144,10 +145,10 @@ char *store_text(study_store *self, const char *name)
 
 static ld_status put_points(study_store *self, ld_error *error)
 {
-    const ld_model *model = self->plan->model;
+    const ld_model *model = self->study->nominal;
     sqlite3_stmt *insert = prepare_insert(self, "point", 1 + model->sweep_count, error);
     bool good = insert != NULL;
-    for (int point = 1; point <= self->plan->points && good; point++) {
+    for (int point = 1; point <= self->study->points && good; point++) {
         sqlite3_bind_int(insert, 1, point);
         for (int i = 0; i < model->sweep_count; i++)
             sqlite3_bind_text(insert, 2 + i,
@@ -225,7 +226,7 @@ static ld_status set_number(study_store *self, const char *name, int64_t value, 
 
 static ld_status begin_or_compare(study_store *self, const char *identity, ld_error *error)
 {
-    const ld_scatter *scatter = &self->plan->model->scatter;
+    const ld_scatter *scatter = &self->study->nominal->scatter;
     sqlite3_stmt *tables =
         store_prepare(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", error);
     if (!tables)
@@ -234,7 +235,7 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
     sqlite3_finalize(tables);
     ld_status status = there ? compare(self, identity, error) : fill_new(self, identity, error);
     if (!status)
-        status = set_number(self, "samples", plan_draws(self->plan), error);
+        status = set_number(self, "samples", study_draws(self->study), error);
     int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;
     if (!status)
         status = set_number(self, "strata", strata, error);
@@ -275,7 +276,7 @@ static void name_file(char *path, size_t size, const char *folder, int shard, in
 
 static ld_status prepare_all(study_store *self, ld_error *error)
 {
-    int of_rocket = 0, factors = self->plan->model->scatter.factor_count;
+    int of_rocket = 0, factors = self->study->nominal->scatter.factor_count;
     for (int i = 0; i < factors; i++)
         of_rocket += is_of_rocket(self, i);
     self->row = calloc((size_t)factors + 1, sizeof *self->row);
@@ -315,16 +316,16 @@ static ld_status open_locked(study_store *self, const char *folder, int shard, i
 }
 
 ld_status store_open(study_store *self, const char *folder, int shard, int shards,
-                     const study_plan *plan, store_journal journal, ld_error *error)
+                     const ld_study *study, store_journal journal, ld_error *error)
 {
     char made[4096], *identity = NULL;
     size_t there = 0;
-    *self = (study_store){.plan = plan, .lock = -1};
+    *self = (study_store){.study = study, .lock = -1};
     snprintf(made, sizeof made, "%s", folder);
     ld_status status = folder_make(made, &there, error);
     if (!status)
         status = open_locked(self, folder, shard, shards, journal, error);
-    if (!status && !(identity = identity_of(plan->model)))
+    if (!status && !(identity = identity_of(study->nominal)))
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for the scenario's text");
     if (!status)
         status = store_execute(self, "BEGIN IMMEDIATE", error);
@@ -427,8 +428,8 @@ static void bind_number(sqlite3_stmt *statement, int column, double value)
 static int bind_factors(study_store *self, sqlite3_stmt *statement, int column, int64_t number,
                         int rocket)
 {
-    const study_sampler *sampler = &self->plan->sampler[plan_point(self->plan, number)];
-    sampler_values(sampler, plan_draw(self->plan, number), rocket, self->row);
+    const study_sampler *sampler = &self->study->sampler[study_point_of(self->study, number)];
+    sampler_values(sampler, study_draw_of(self->study, number), rocket, self->row);
     for (int i = 0; i < sampler->factor_count; i++)
         if (is_of_rocket(self, i) == (rocket > 0))
             bind_number(statement, column++, self->row[i]);
@@ -439,7 +440,7 @@ static bool put_sample(study_store *self, const study_record *record)
 {
     sqlite3_stmt *insert = self->insert_sample;
     sqlite3_bind_int64(insert, 1, record->number);
-    sqlite3_bind_int(insert, 2, plan_point(self->plan, record->number) + 1);
+    sqlite3_bind_int(insert, 2, study_point_of(self->study, record->number) + 1);
     sqlite3_bind_text(insert, 3, ld_status_name((ld_status)record->outcome), -1, SQLITE_STATIC);
     if (record->outcome)
         sqlite3_bind_text(insert, 4, record->reason, -1, SQLITE_TRANSIENT);

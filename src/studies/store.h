@@ -11,8 +11,8 @@
 #include <sqlite3.h>
 
 #include "launchdyn/study.h"
-#include "studies/plan.h"
 #include "studies/record.h"
+#include "studies/study.h"
 
 // How a commit is made sure. The write-ahead log is quick and wants one machine's memory; the
 // rollback journal serves files on a network too.
@@ -21,17 +21,17 @@ typedef enum store_journal { STORE_AHEAD, STORE_ROLLBACK } store_journal;
 typedef struct study_store {
     sqlite3 *database;
     sqlite3_stmt *begin, *commit, *insert_sample, *insert_rocket, *find;
-    const study_plan *plan;
+    const ld_study *study;
     double *row; // [factors]
     store_journal journal;
     int lock; // descriptor of the locked file, -1: none
     char path[4096];
 } study_store;
 
-// Opens the database for the study of `plan`, making what is not there; refuses another scenario's,
+// Opens the database for `study`, making what is not there; refuses another scenario's,
 // or one at which another process is at work. Of a shard (shards > 0) it is a database of its own.
 ld_status store_open(study_store *self, const char *folder, int shard, int shards,
-                     const study_plan *plan, store_journal journal, ld_error *error);
+                     const ld_study *study, store_journal journal, ld_error *error);
 // Opens study.db where it is there, for reading only.
 ld_status store_open_to_read(study_store *self, const char *folder, ld_error *error);
 // Opens study.db, which may be new and empty, to add what shards hold.

@@ -6,12 +6,12 @@
 
 #include "simulation/simulation.h"
 
-ld_status worker_create(study_worker *self, const study_plan *plan, ld_error *error)
+ld_status worker_create(study_worker *self, const ld_study *study, ld_error *error)
 {
-    *self = (study_worker){.plan = plan,
-                           .sample = sample_create(plan->model->scatter.factor_count),
+    *self = (study_worker){.study = study,
+                           .sample = sample_create(study->nominal->scatter.factor_count),
                            .summary = calloc(1, sizeof *self->summary),
-                           .record = calloc(1, record_size(plan->rockets))};
+                           .record = calloc(1, record_size(study->rockets))};
     if (self->sample && self->summary && self->record)
         return LD_OK;
     worker_free(self);
@@ -61,10 +61,11 @@ static void fill_rockets(study_worker *self)
 
 void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument)
 {
-    const study_sampler *sampler = &self->plan->sampler[plan_point(self->plan, number)];
+    const study_sampler *sampler = &self->study->sampler[study_point_of(self->study, number)];
     ld_error error = {0};
     self->summary->rocket_count = 0;
-    ld_status outcome = sample_draw(self->sample, sampler, plan_draw(self->plan, number), &error);
+    ld_status outcome =
+        sample_draw(self->sample, sampler, study_draw_of(self->study, number), &error);
     if (!outcome)
         outcome = run_sample(self, &(permission){go_on, argument}, &error);
     study_record *record = self->record;
@@ -73,4 +74,20 @@ void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void 
     record->rockets = self->sample->model.firing_count;
     snprintf(record->reason, sizeof record->reason, "%s", outcome ? error.text : "");
     fill_rockets(self);
+}
+
+void worker_run_all(const ld_study *study, study_ledger *ledger)
+{
+    study_worker worker;
+    ld_error error;
+    ld_status status = worker_create(&worker, study, &error);
+    if (status) {
+        ledger_stop(ledger, status, &error);
+        return;
+    }
+    for (int64_t number; (number = ledger_next(ledger)) != 0;) {
+        worker_run(&worker, number, ledger_goes_on, ledger);
+        ledger_keep(ledger, (const study_record *[]){worker.record}, 1);
+    }
+    worker_free(&worker);
 }

@@ -2,22 +2,26 @@
 #ifndef LD_STUDIES_WORKER_H
 #define LD_STUDIES_WORKER_H
 
-#include "studies/plan.h"
+#include "studies/ledger.h"
 #include "studies/record.h"
+#include "studies/study.h"
 
 typedef struct study_worker {
-    const study_plan *plan;
+    const ld_study *study;
     study_sample *sample;
     ld_simulation *simulation; // of the sample run last
     ld_summary *summary;
     study_record *record; // of the sample run last
 } study_worker;
 
-ld_status worker_create(study_worker *self, const study_plan *plan, ld_error *error);
+ld_status worker_create(study_worker *self, const ld_study *study, ld_error *error);
 void worker_free(study_worker *self);
 
 // Runs sample `number` into the record. The outcomes LD_ERR_INTERRUPTED, where go_on(argument) said
 // false, and LD_ERR_MEMORY are not the sample's: such a record is not to be kept.
 void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument);
+
+// Runs samples that the ledger hands out until there are no more: the work of one thread.
+void worker_run_all(const ld_study *study, study_ledger *ledger);
 
 #endif

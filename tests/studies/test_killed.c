@@ -26,7 +26,7 @@ static int tear_down(void **state)
     return scratch_remove();
 }
 
-static void read_model(ld_model *model)
+static ld_study *read_study(void)
 {
     static const char text[] = "include: fixed.yaml\n"
                                "scatter:\n"
@@ -34,10 +34,12 @@ static void read_model(ld_model *model)
                                "  factors:\n"
                                "    rocket.mass_error: {normal: 0.2 kg}\n"
                                "    base.elevation: {normal: 1 deg}\n";
+    ld_study *study;
     ld_messages messages;
-    assert_int_equal(ld_scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
-                                           NULL, 0, model, &messages),
+    assert_int_equal(ld_study_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples", NULL,
+                                        0, &study, &messages),
                      LD_OK);
+    return study;
 }
 
 static int report_to; // descriptor
@@ -51,7 +53,7 @@ static void report(void *self, const ld_study_counts *counts)
 }
 
 // Runs the study in a child, which reports how many samples are kept.
-static pid_t start(const ld_model *model, const char *name, int threads, int *reports)
+static pid_t start(const ld_study *study, const char *name, int threads, int *reports)
 {
     int pipe_ends[2];
     assert_int_equal(pipe(pipe_ends), 0);
@@ -62,7 +64,7 @@ static pid_t start(const ld_model *model, const char *name, int threads, int *re
         ld_study_counts counts;
         ld_study_options options = {.threads = threads, .progress = report};
         report_to = pipe_ends[1];
-        _exit(ld_study_run(model, in(name), &options, &counts, &error) != LD_OK);
+        _exit(ld_study_run(study, in(name), &options, &counts, &error) != LD_OK);
     }
     close(pipe_ends[1]);
     *reports = pipe_ends[0];
@@ -78,10 +80,10 @@ static int64_t drain(int reports)
     return last;
 }
 
-static void run_to_its_end(const ld_model *model, const char *name, int threads)
+static void run_to_its_end(const ld_study *study, const char *name, int threads)
 {
     int reports, status;
-    pid_t child = start(model, name, threads, &reports);
+    pid_t child = start(study, name, threads, &reports);
     drain(reports);
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_int_equal(status, 0);
@@ -120,15 +122,14 @@ static void expect_same_tables(const char *one, const char *other)
 static void test_killed(void **state)
 {
     (void)state;
-    ld_model model;
+    ld_study *study = read_study();
     bool before[SAMPLES + 1] = {0}, after[SAMPLES + 1];
     int kills = getenv("LD_KILLS") ? atoi(getenv("LD_KILLS")) : 6, hit = 0;
     int64_t lost = 0, repeated = 0, most = 0;
-    read_model(&model);
-    run_to_its_end(&model, "whole", 1);
+    run_to_its_end(study, "whole", 1);
     for (int i = 0; i < kills; i++) {
         int reports;
-        pid_t child = start(&model, "killed", THREADS, &reports);
+        pid_t child = start(study, "killed", THREADS, &reports);
         // so that on the average all kills together leave a little to be done
         double u = random_uniform(11, 0, (uint64_t)i, 0, 0);
         int64_t wanted = (int64_t)(u * 2 * SAMPLES / kills), done;
@@ -158,9 +159,9 @@ static void test_killed(void **state)
     CHECK_BELOW("gaps below the last one kept, the most", (double)most, THREADS - 0.5);
     printf("    %lld such gaps in all\n", (long long)repeated);
     assert_true(hit >= kills / 2);
-    run_to_its_end(&model, "killed", THREADS);
+    run_to_its_end(study, "killed", THREADS);
     expect_same_tables("whole", "killed");
-    ld_model_free(&model);
+    ld_study_free(study);
 }
 
 int main(void)

@@ -38,15 +38,21 @@ static const char *folder(const char *name)
     return path[next];
 }
 
-static ld_model read_text(const char *text)
+static ld_study *read_with(const char *text, const char *set)
 {
-    ld_model model;
+    ld_study *study;
     ld_messages messages;
-    ld_status status = ld_scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
-                                             NULL, 0, &model, &messages);
-    ld_messages_print(&messages, stdout);
+    ld_status status = ld_study_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
+                                          &set, set != NULL, &study, &messages);
+    if (status)
+        ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
-    return model;
+    return study;
+}
+
+static ld_study *read_text(const char *text)
+{
+    return read_with(text, NULL);
 }
 
 #define LAUNCH                                                                                     \
@@ -73,12 +79,12 @@ static char *export(const char *name)
     return text;
 }
 
-static ld_study_counts run(const ld_model *model, const char *name, int threads)
+static ld_study_counts run(const ld_study *study, const char *name, int threads)
 {
     ld_error error = {0};
     ld_study_counts counts;
     ld_study_options options = {.threads = threads};
-    ld_status status = ld_study_run(model, folder(name), &options, &counts, &error);
+    ld_status status = ld_study_run(study, folder(name), &options, &counts, &error);
     if (status)
         fail_msg("%s", error.text);
     return counts;
@@ -87,17 +93,17 @@ static ld_study_counts run(const ld_model *model, const char *name, int threads)
 static void test_threads(void **state)
 {
     (void)state;
-    ld_model model = read_text(launch);
-    ld_study_counts counts = run(&model, "one", 1);
+    ld_study *study = read_text(launch);
+    ld_study_counts counts = run(study, "one", 1);
     assert_true(counts.done == 24 && counts.now == 24 && counts.failed == 0);
-    run(&model, "three", 3);
+    run(study, "three", 3);
     char *one = export("one"), *three = export("three");
     assert_string_equal(one, three);
-    counts = run(&model, "one", 2);
+    counts = run(study, "one", 2);
     assert_true(counts.done == 24 && counts.now == 0);
     free(one);
     free(three);
-    ld_model_free(&model);
+    ld_study_free(study);
 }
 
 static bool three_more(void *self)
@@ -115,7 +121,7 @@ static void count(void *self, const ld_study_counts *counts)
 static void test_stopped(void **state)
 {
     (void)state;
-    ld_model model = read_text(launch);
+    ld_study *study = read_text(launch);
     ld_error error;
     ld_study_counts counts = {0};
     ld_status status = LD_ERR_INTERRUPTED;
@@ -125,7 +131,7 @@ static void test_stopped(void **state)
         ld_study_options options = {
             .threads = 2, .self = &done, .progress = count, .go_on = three_more};
         int64_t before = counts.done;
-        status = ld_study_run(&model, folder("stopped"), &options, &counts, &error);
+        status = ld_study_run(study, folder("stopped"), &options, &counts, &error);
         assert_true(counts.done >= before + counts.now);
     }
     assert_int_equal(status, LD_OK);
@@ -134,14 +140,14 @@ static void test_stopped(void **state)
     assert_string_equal(one, stopped);
     free(one);
     free(stopped);
-    ld_model_free(&model);
+    ld_study_free(study);
 }
 
-static void expect_refusal(const ld_model *model, const char *name, const char *part)
+static void expect_refusal(const ld_study *study, const char *name, const char *part)
 {
     ld_error error = {0};
     ld_study_counts counts;
-    assert_int_equal(ld_study_run(model, folder(name), NULL, &counts, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_study_run(study, folder(name), NULL, &counts, &error), LD_ERR_INPUT);
     if (!strstr(error.text, part))
         fail_msg("\"%s\" is not about \"%s\"", error.text, part);
 }
@@ -149,15 +155,15 @@ static void expect_refusal(const ld_model *model, const char *name, const char *
 static void test_refusals(void **state)
 {
     (void)state;
-    ld_model model = read_text(launch), other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
-    ld_model more = read_text(launch), plain = read_text("include: fixed.yaml\n");
-    expect_refusal(&other, "one", "mass: 61 kg");
-    expect_refusal(&plain, "plain", "no scatter");
+    ld_study *study = read_text(launch), *other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
+    ld_study *more = read_with(launch, "scatter.samples=26"),
+             *plain = read_text("include: fixed.yaml\n");
+    expect_refusal(other, "one", "mass: 61 kg");
+    expect_refusal(plain, "plain", "neither scatter nor sweep");
     // more samples of the plan `random` are the same study
-    more.scatter.samples = 26;
-    ld_study_counts counts = run(&more, "one", 2);
+    ld_study_counts counts = run(more, "one", 2);
     assert_true(counts.done == 26 && counts.now == 2);
-    run(&more, "more", 1);
+    run(more, "more", 1);
     char *one = export("one"), *again = export("more");
     assert_string_equal(one, again);
     free(one);
@@ -166,28 +172,29 @@ static void test_refusals(void **state)
     int ready[2];
     char word;
     assert_int_equal(pipe(ready), 0);
-    more.scatter.samples = 1000000;
+    ld_study_free(more);
+    more = read_with(launch, "scatter.samples=1000000");
     pid_t child = fork();
     if (child == 0) {
         ld_error error;
         ld_study_options options = {.threads = 1};
         if (write(ready[1], "!", 1) == 1)
-            ld_study_run(&more, folder("one"), &options, &counts, &error);
+            ld_study_run(more, folder("one"), &options, &counts, &error);
         _exit(0);
     }
     assert_int_equal(read(ready[0], &word, 1), 1);
     usleep(100000);
-    expect_refusal(&model, "one", "another launchdyn");
+    expect_refusal(study, "one", "another launchdyn");
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
     // a folder that cannot be made
     ld_error error;
-    assert_int_equal(ld_study_run(&model, "/proc/study", NULL, &counts, &error), LD_ERR_FILE);
+    assert_int_equal(ld_study_run(study, "/proc/study", NULL, &counts, &error), LD_ERR_FILE);
     assert_int_equal(ld_study_show(folder("nothing"), stdout, &error), LD_ERR_INPUT);
-    ld_model_free(&model);
-    ld_model_free(&other);
-    ld_model_free(&more);
-    ld_model_free(&plain);
+    ld_study_free(study);
+    ld_study_free(other);
+    ld_study_free(more);
+    ld_study_free(plain);
 }
 
 // The text of column `name` of the line of sample `number`, rocket `rocket`.
@@ -213,13 +220,13 @@ static void cell(const char *csv, const char *name, int number, int rocket, char
 static void test_one_sample_alone(void **state)
 {
     (void)state;
-    ld_model model = read_text(launch);
+    ld_study *study = read_text(launch);
     ld_sample *sample;
     ld_simulation *simulation;
     ld_error error;
     static ld_summary summary;
     char *csv = export("three"), kept[64], alone[64];
-    assert_int_equal(ld_sample_create(&model, 17, &sample, &error), LD_OK);
+    assert_int_equal(ld_study_sample(study, 17, &sample, &error), LD_OK);
     assert_int_equal(ld_simulation_create(ld_sample_model(sample), &simulation, &error), LD_OK);
     assert_int_equal(ld_simulation_run(simulation, NULL, &summary, &error), LD_OK);
     cell(csv, "muzzle_speed", 17, 1, kept);
@@ -229,11 +236,11 @@ static void test_one_sample_alone(void **state)
     snprintf(alone, sizeof alone, "%.17g", ld_sample_model(sample)->rocket.mass_error);
     assert_string_equal(alone, kept);
     ld_sample *none;
-    assert_int_equal(ld_sample_create(&model, 25, &none, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_study_sample(study, 25, &none, &error), LD_ERR_INPUT);
     free(csv);
     ld_simulation_free(simulation);
     ld_sample_free(sample);
-    ld_model_free(&model);
+    ld_study_free(study);
 }
 
 static char *merge(const char *name, ld_status expected)
@@ -262,7 +269,7 @@ static void expect_merge(const char *name, ld_status status, const char *part)
     free(text);
 }
 
-static ld_status run_shard(const ld_model *model, int shard, int shards, ld_study_counts *counts,
+static ld_status run_shard(const ld_study *study, int shard, int shards, ld_study_counts *counts,
                            bool (*go_on)(void *), void (*progress)(void *, const ld_study_counts *))
 {
     atomic_int done = 0;
@@ -273,55 +280,55 @@ static ld_status run_shard(const ld_model *model, int shard, int shards, ld_stud
                                 .self = &done,
                                 .go_on = go_on,
                                 .progress = progress};
-    return ld_study_run(model, folder("shards"), &options, counts, &error);
+    return ld_study_run(study, folder("shards"), &options, counts, &error);
 }
 
 // Parts of a study, run in any order and joined, are the study.
 static void test_shards(void **state)
 {
     (void)state;
-    ld_model model = read_text(launch), other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
+    ld_study *study = read_text(launch), *other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
     ld_study_counts counts;
-    assert_int_equal(run_shard(&model, 3, 3, &counts, NULL, NULL), LD_OK);
+    assert_int_equal(run_shard(study, 3, 3, &counts, NULL, NULL), LD_OK);
     assert_true(counts.samples == 8 && counts.done == 8);
-    assert_int_equal(run_shard(&model, 1, 3, &counts, three_more, count), LD_ERR_INTERRUPTED);
+    assert_int_equal(run_shard(study, 1, 3, &counts, three_more, count), LD_ERR_INTERRUPTED);
     expect_merge("shards", LD_OK, "11 of 24 samples");
     expect_merge("shards", LD_OK, "shard 1 of 3 lacks 5 of its 8 samples");
     expect_merge("shards", LD_OK, "not there: shard 2 of 3");
-    assert_int_equal(run_shard(&model, 1, 3, &counts, NULL, NULL), LD_OK);
+    assert_int_equal(run_shard(study, 1, 3, &counts, NULL, NULL), LD_OK);
     assert_true(counts.now == 5);
     expect_merge("shards", LD_OK, "16 of 24 samples");
-    assert_int_equal(run_shard(&model, 4, 3, &counts, NULL, NULL), LD_ERR_INPUT);
-    assert_int_equal(run_shard(&other, 1, 3, &counts, NULL, NULL), LD_ERR_INPUT);
+    assert_int_equal(run_shard(study, 4, 3, &counts, NULL, NULL), LD_ERR_INPUT);
+    assert_int_equal(run_shard(other, 1, 3, &counts, NULL, NULL), LD_ERR_INPUT);
     // the plain command runs the rest
-    counts = run(&model, "shards", 2);
+    counts = run(study, "shards", 2);
     assert_true(counts.done == 24 && counts.now == 8);
     char *one = export("one"), *shards = export("shards");
     assert_string_equal(one, shards);
     free(shards);
     // and what it has run may come from its shard as well
-    assert_int_equal(run_shard(&model, 2, 3, &counts, NULL, NULL), LD_OK);
+    assert_int_equal(run_shard(study, 2, 3, &counts, NULL, NULL), LD_OK);
     expect_merge("shards", LD_OK, "24 of 24 samples");
     shards = export("shards");
     assert_string_equal(one, shards);
     free(one);
     free(shards);
-    assert_int_equal(run_shard(&other, 1, 4, &counts, NULL, NULL), LD_OK);
+    assert_int_equal(run_shard(other, 1, 4, &counts, NULL, NULL), LD_OK);
     expect_merge("shards", LD_ERR_INPUT, "of different studies: in their scenario");
     expect_merge("one", LD_ERR_INPUT, "no shards");
-    ld_model_free(&model);
-    ld_model_free(&other);
+    ld_study_free(study);
+    ld_study_free(other);
 }
 
 // Samples that cannot run are kept with what was the matter, and the study goes on.
 static void test_failures(void **state)
 {
     (void)state;
-    ld_model model =
+    ld_study *study =
         read_text("include: fixed.yaml\nscatter:\n  samples: 20\n  factors:\n"
                   "    rocket.lock.release_force: {discrete: [5 kN, 500 kN], weights: [3, 1]}\n"
                   "    rocket.mass: {normal: 60 kg}\n");
-    ld_study_counts counts = run(&model, "failures", 2);
+    ld_study_counts counts = run(study, "failures", 2);
     char *csv = export("failures"), *shown = NULL, status[64], value[64];
     int launches = 0, inputs = 0;
     size_t length;
@@ -344,7 +351,7 @@ static void test_failures(void **state)
     assert_non_null(strstr(shown, "the lock never let go"));
     free(csv);
     free(shown);
-    ld_model_free(&model);
+    ld_study_free(study);
 }
 
 // On a base that stands still the second rocket leaves as it would alone, with its own numbers.
@@ -358,12 +365,12 @@ static void test_rockets_of_a_salvo(void **state)
     "    rocket.mass_error: {normal: 1 kg}\n    rocket.motor.thrust_scale: {normal: 5 %}\n"        \
     "    rocket.adaptors.rear.clearance: {uniform: 0.2 0.4 mm}\n"                                  \
     "    rocket.motor.misalignment.z: {normal: 2 mrad}\n"
-    ld_model model = read_text(SALVO);
+    ld_study *study = read_text(SALVO);
     ld_sample *sample;
     ld_simulation *simulation;
     ld_error error;
     static ld_summary salvo, alone;
-    assert_int_equal(ld_sample_create(&model, 1, &sample, &error), LD_OK);
+    assert_int_equal(ld_study_sample(study, 1, &sample, &error), LD_OK);
     const ld_model *drawn = ld_sample_model(sample);
     assert_int_equal(ld_simulation_create(drawn, &simulation, &error), LD_OK);
     assert_int_equal(ld_simulation_run(simulation, NULL, &salvo, &error), LD_OK);
@@ -384,25 +391,25 @@ static void test_rockets_of_a_salvo(void **state)
     CHECK_BELOW("yaw rate [rad/s]", a->yaw_rate - b->yaw_rate, 1e-6);
     CHECK_WITHIN("t_rear of the first rocket differs [s]", fabs(c->t_rear - b->t_rear), 1e-4, 0.1);
     ld_sample_free(sample);
-    ld_model_free(&model);
+    ld_study_free(study);
 }
 
 // Flights alone: the size of what is kept.
 static void test_size(void **state)
 {
     (void)state;
-    ld_model model = read_text("include: flight.yaml\nrun: {flight_tolerance: 1e-4}\nscatter:\n"
-                               "  samples: 400\n  plan: lhs\n  replicates: 4\n  factors:\n"
-                               "    rocket.mass_error: {normal: 0.2 kg}\n"
-                               "    rocket.motor.thrust_scale: {normal: 1 %}\n"
-                               "    rocket.motor.misalignment.y: {normal: 0.5 mrad}\n"
-                               "    rocket.aerodynamics.ca_scale: {normal: 2 %}\n"
-                               "    environment.temperature_offset: {normal: 5 K}\n");
-    run(&model, "flight", 2);
+    ld_study *study = read_text("include: flight.yaml\nrun: {flight_tolerance: 1e-4}\nscatter:\n"
+                                "  samples: 400\n  plan: lhs\n  replicates: 4\n  factors:\n"
+                                "    rocket.mass_error: {normal: 0.2 kg}\n"
+                                "    rocket.motor.thrust_scale: {normal: 1 %}\n"
+                                "    rocket.motor.misalignment.y: {normal: 0.5 mrad}\n"
+                                "    rocket.aerodynamics.ca_scale: {normal: 2 %}\n"
+                                "    environment.temperature_offset: {normal: 5 K}\n");
+    run(study, "flight", 2);
     struct stat file;
     assert_int_equal(stat(folder("flight/study.db"), &file), 0);
     CHECK_WITHIN("bytes a sample", (double)file.st_size / 400, 100, 1000);
-    ld_model_free(&model);
+    ld_study_free(study);
 }
 
 int main(void)

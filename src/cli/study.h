@@ -1,0 +1,36 @@
+// What the commands share that run a study.
+#ifndef LD_CLI_STUDY_H
+#define LD_CLI_STUDY_H
+
+#include "cli/run.h"
+#include "launchdyn/study.h"
+
+typedef struct study_wishes {
+    run_wishes run; // overrides, folder, quiet
+    int threads;
+    int only; // sample, 0: all
+    int shard, shards;
+    char *file;
+} study_wishes;
+
+// The options that they share; overrides, folder and quiet are those of `wishes`.
+#define STUDY_OPTIONS(wishes)                                                                      \
+    COMMAND_SETS(&(wishes)->run.sets),                                                             \
+        {"out", 'o', POPT_ARG_STRING, &(wishes)->run.folder, 0, "The folder that keeps the study", \
+         "DIR"},                                                                                   \
+    {                                                                                              \
+        "quiet", 'q', POPT_ARG_NONE, &(wishes)->run.quiet, 0, "Print nothing but errors", NULL     \
+    }
+
+void study_wishes_free(study_wishes *wishes);
+
+// ld_study_run(), or another that does the same.
+typedef ld_status study_runner(const ld_study *study, const char *folder,
+                               const ld_study_options *options, ld_study_counts *counts,
+                               ld_error *error);
+
+// Runs the study by `run` with a progress line, and prints what the folder then holds. Returns the
+// exit code.
+int study_run_all(const ld_study *study, const study_wishes *wishes, study_runner *run);
+
+#endif

@@ -1,0 +1,221 @@
+// A follower sends the record of the sample that it has run (an empty one at first) and gets the
+// number of its next sample; 0: no more, it is dismissed. So each message has one answer, which
+// comes before the message where the study stops while a sample runs.
+#include "mpi/hand_out.h"
+
+#include <mpi.h>
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "studies/ledger.h"
+#include "studies/worker.h"
+
+enum { TAG_RECORD = 1, TAG_NUMBER = 2, DISMISSED = 0 };
+
+// Waiting without keeping a core busy: the longer it has lasted, the longer the next pause.
+typedef struct patience {
+    double since; // [s]
+} patience;
+
+static void pause_a_little(const patience *self)
+{
+    const double least = 20e-6, most = 1e-3; // [s]
+    double pause = 0.05 * (MPI_Wtime() - self->since);
+    pause = pause < least ? least : pause > most ? most : pause;
+    nanosleep(&(struct timespec){.tv_nsec = (long)(pause * 1e9)}, NULL);
+}
+
+// ---- the first process
+
+typedef enum follower_state { RUNNING, ASKING, SENT_HOME, GONE } follower_state;
+
+typedef struct leader {
+    study_ledger *ledger;
+    int processes;
+    follower_state *state;      // [processes], of all but the first
+    study_record **inbox;       // [processes]
+    const study_record **fresh; // [processes] of the inbox, to be kept
+    size_t record_size;
+} leader;
+
+static void leader_free(leader *self)
+{
+    for (int i = 0; self->inbox && i < self->processes; i++)
+        free(self->inbox[i]);
+    free(self->state);
+    free(self->inbox);
+    free(self->fresh);
+}
+
+static ld_status leader_create(leader *self, const ld_study *study, study_ledger *ledger,
+                               ld_error *error)
+{
+    *self = (leader){.ledger = ledger, .record_size = record_size(study->rockets)};
+    MPI_Comm_size(MPI_COMM_WORLD, &self->processes);
+    size_t count = (size_t)self->processes;
+    self->state = calloc(count, sizeof *self->state);
+    self->inbox = calloc(count, sizeof *self->inbox);
+    self->fresh = calloc(count, sizeof *self->fresh);
+    bool enough = self->state && self->inbox && self->fresh;
+    for (size_t i = 1; i < count && enough; i++)
+        enough = (self->inbox[i] = calloc(1, self->record_size)) != NULL;
+    if (enough)
+        return LD_OK;
+    leader_free(self);
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for %d processes", self->processes);
+}
+
+static void answer(leader *self, int follower, int64_t number, follower_state next)
+{
+    MPI_Send(&number, 1, MPI_INT64_T, follower, TAG_NUMBER, MPI_COMM_WORLD);
+    self->state[follower] = next;
+}
+
+// Takes in what has come, and keeps it in one transaction; returns how many messages there were.
+static int receive(leader *self)
+{
+    int received = 0, fresh = 0;
+    while (received < self->processes - 1) {
+        MPI_Status about;
+        int there;
+        MPI_Iprobe(MPI_ANY_SOURCE, TAG_RECORD, MPI_COMM_WORLD, &there, &about);
+        if (!there)
+            break;
+        int from = about.MPI_SOURCE;
+        study_record *record = self->inbox[from];
+        MPI_Recv(record, (int)self->record_size, MPI_BYTE, from, TAG_RECORD, MPI_COMM_WORLD,
+                 MPI_STATUS_IGNORE);
+        self->state[from] = self->state[from] == SENT_HOME ? GONE : ASKING;
+        if (record->number > 0 || record->outcome)
+            self->fresh[fresh++] = record;
+        received++;
+    }
+    ledger_keep(self->ledger, self->fresh, fresh);
+    return received;
+}
+
+// Answers those who ask; where the study stops, everybody.
+static void answer_all(leader *self)
+{
+    for (int i = 1; i < self->processes; i++) {
+        if (self->state[i] == ASKING) {
+            int64_t number = ledger_next(self->ledger);
+            if (number != LEDGER_WAIT)
+                answer(self, i, number, number == DISMISSED ? GONE : RUNNING);
+        } else if (self->state[i] == RUNNING && !ledger_goes_on(self->ledger)) {
+            answer(self, i, DISMISSED, SENT_HOME);
+        }
+    }
+}
+
+static bool all_are_gone(const leader *self)
+{
+    for (int i = 1; i < self->processes; i++)
+        if (self->state[i] != GONE)
+            return false;
+    return true;
+}
+
+static void serve(leader *self)
+{
+    patience waiting = {MPI_Wtime()};
+    while (!all_are_gone(self)) {
+        if (receive(self) > 0)
+            waiting.since = MPI_Wtime();
+        else
+            pause_a_little(&waiting);
+        answer_all(self);
+    }
+}
+
+ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_study_options *options,
+                         ld_study_counts *counts, ld_error *error)
+{
+    study_ledger ledger;
+    leader all;
+    ld_status status = leader_create(&all, study, &ledger, error);
+    if (status) {
+        fprintf(stderr, "launchdyn-mpi: %s\n", error->text);
+        MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+    }
+    study_calm_blas();
+    ledger_open(&ledger, study, folder, STORE_ROLLBACK, options, counts, error);
+#pragma omp parallel num_threads(all.processes > 1 ? 2 : 1)
+    {
+        // MPI is the main thread's
+        if (omp_get_thread_num() == 0)
+            serve(&all);
+        else
+            worker_run_all(study, &ledger);
+    }
+    // alone, or without a second thread
+    worker_run_all(study, &ledger);
+    leader_free(&all);
+    return ledger_close(&ledger);
+}
+
+// ---- every other process
+
+typedef struct follower {
+    bool (*go_on)(void *);
+    void *self;
+    double looked; // [s] when for a message
+    bool sent_home;
+} follower;
+
+// Whether the sample that runs is still wanted.
+static bool is_wanted(void *argument)
+{
+    const double often = 0.02; // [s]
+    follower *self = argument;
+    double now = MPI_Wtime();
+    if (now - self->looked > often) {
+        int there;
+        MPI_Iprobe(0, TAG_NUMBER, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+        self->sent_home = there;
+        self->looked = now;
+    }
+    return !self->sent_home && self->go_on(self->self);
+}
+
+static int64_t next_number(void)
+{
+    MPI_Request request;
+    int64_t number;
+    int there = 0;
+    patience waiting = {MPI_Wtime()};
+    MPI_Irecv(&number, 1, MPI_INT64_T, 0, TAG_NUMBER, MPI_COMM_WORLD, &request);
+    for (;;) {
+        MPI_Test(&request, &there, MPI_STATUS_IGNORE);
+        if (there)
+            return number;
+        pause_a_little(&waiting);
+    }
+}
+
+static int64_t send(const study_record *record)
+{
+    MPI_Send(record, (int)record_size(record->rockets), MPI_BYTE, 0, TAG_RECORD, MPI_COMM_WORLD);
+    return next_number();
+}
+
+void mpi_study_follow(const ld_study *study, bool (*go_on)(void *), void *self)
+{
+    follower of = {.go_on = go_on, .self = self};
+    study_worker worker;
+    ld_error error;
+    study_calm_blas();
+    ld_status status = worker_create(&worker, study, &error);
+    if (status) {
+        study_record failed = {.outcome = status};
+        snprintf(failed.reason, sizeof failed.reason, "%s", error.text);
+        while (send(&failed) != DISMISSED)
+            ;
+        return;
+    }
+    for (int64_t number; (number = send(worker.record)) != DISMISSED;)
+        worker_run(&worker, number, is_wanted, &of);
+    worker_free(&worker);
+}

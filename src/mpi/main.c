@@ -1,0 +1,129 @@
+// launchdyn-mpi: `launchdyn study FILE --out DIR` on the processes that mpirun starts.
+#include <inttypes.h>
+#include <mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/study.h"
+#include "launchdyn/scenario.h"
+#include "mpi/hand_out.h"
+
+static const command study_command = {
+    "study", "FILE", "Run the samples of a study on all processes that mpirun has started", NULL,
+    NULL};
+
+// The lowest number that any process gives.
+static int lowest(int number)
+{
+    int least;
+    MPI_Allreduce(&number, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    return least;
+}
+
+// Whether all processes give the same.
+static bool is_everywhere(uint64_t number)
+{
+    uint64_t both[2] = {number, ~number}, least[2];
+    MPI_Allreduce(both, least, 2, MPI_UINT64_T, MPI_MIN, MPI_COMM_WORLD);
+    return least[0] == ~least[1];
+}
+
+// What the processes must agree on before they begin.
+static uint64_t identity(const ld_study *study)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return 0;
+    ld_model_print(ld_study_model(study), stream);
+    fprintf(stream, "%zu %s", sizeof(study_wishes), LD_VERSION);
+    uint64_t hash = fclose(stream) == 0 ? random_stream(text) : 0;
+    free(text);
+    return hash;
+}
+
+// Reads the scenario in every process. What the first one finds wrong it says itself.
+static int read_everywhere(const char *file, char **sets, int process, ld_study **study)
+{
+    int processes;
+    MPI_Comm_size(MPI_COMM_WORLD, &processes);
+    *study = NULL;
+    ld_status status = command_read_study(file, sets, study);
+    int failed = lowest(status ? process : processes);
+    if (failed < processes) {
+        if (failed > 0)
+            command_complain("process %d cannot read %s as process 0 does", failed, file);
+        return EXIT_INPUT;
+    }
+    if (is_everywhere(identity(*study)))
+        return 0;
+    command_complain("the processes read different scenarios from %s, or are of different versions",
+                     file);
+    return EXIT_INPUT;
+}
+
+static int lead(const ld_study *study, const study_wishes *wishes)
+{
+    return study_run_all(study, wishes, mpi_study_lead);
+}
+
+static int follow(const ld_study *study)
+{
+    run_progress progress;
+    progress_start(&progress, true);
+    mpi_study_follow(study, progress_go_on, &progress);
+    return 0;
+}
+
+static int run_study(const char *file, const study_wishes *wishes, int process)
+{
+    ld_study *study;
+    if (!wishes->run.folder) {
+        command_complain("study wants --out DIR, the folder that keeps it");
+        return EXIT_INPUT;
+    }
+    int code = read_everywhere(file, wishes->run.sets, process, &study);
+    if (!code)
+        code = process == 0 ? lead(study, wishes) : follow(study);
+    ld_study_free(study);
+    return code;
+}
+
+static int run_command(int argc, const char **argv, int process)
+{
+    study_wishes wishes = {0};
+    const struct poptOption options[] = {STUDY_OPTIONS(&wishes), COMMAND_HELP, COMMAND_END};
+    command_line line;
+    int code = EXIT_INPUT;
+    if (argc < 2 || strcmp(argv[1], "study") != 0) {
+        command_complain("launchdyn-mpi knows one command: study FILE --out DIR");
+        return EXIT_INPUT;
+    }
+    if (command_line_read(&line, &study_command, argc - 1, argv + 1, options, 1, &code)) {
+        code = run_study(line.word[0], &wishes, process);
+        command_line_end(&line);
+    }
+    study_wishes_free(&wishes);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    int given, process;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &given);
+    MPI_Comm_rank(MPI_COMM_WORLD, &process);
+    // one of them talks
+    if (process > 0 && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)))
+        MPI_Abort(MPI_COMM_WORLD, EXIT_FAILED);
+    int code = given >= MPI_THREAD_FUNNELED ? run_command(argc, (const char **)argv, process)
+                                            : EXIT_FAILED;
+    if (given < MPI_THREAD_FUNNELED)
+        command_complain("this MPI is made for programs without threads");
+    MPI_Finalize();
+    return process == 0 ? code : 0;
+}

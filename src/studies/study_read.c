@@ -1,0 +1,165 @@
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "launchdyn/scenario.h"
+#include "studies/study.h"
+
+// Where the scenario comes from.
+typedef struct study_source {
+    const char *path; // NULL: the text
+    const char *text, *name, *folder;
+    size_t length;
+    const char *const *sets;
+    size_t count;
+} study_source;
+
+static ld_status read_point(const study_source *from, int point, ld_model *model,
+                            ld_messages *messages)
+{
+    return from->path
+               ? ld_scenario_read_point(from->path, from->sets, from->count, point, model, messages)
+               : ld_scenario_read_text_point(from->text, from->length, from->name, from->folder,
+                                             from->sets, from->count, point, model, messages);
+}
+
+// Adds to a message which point it is about: " (point 5 of the sweep, rocket.mass: 61 kg)".
+static void name_point(ld_message *message, const ld_model *model, int point)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return;
+    fprintf(stream, "%s (point %d of the sweep", message->text, point);
+    for (int i = 0; i < model->sweep_count; i++)
+        fprintf(stream, ", %s: %s", model->sweep[i].path,
+                model->sweep[i].value[ld_scenario_value(model, point, i)]);
+    fputc(')', stream);
+    if (fclose(stream) == 0) {
+        free(message->text);
+        message->text = text;
+    } else {
+        free(text);
+    }
+}
+
+// Where nothing else says what is wrong.
+static ld_status add_message(ld_messages *messages, const char *file, ld_status status,
+                             const char *text)
+{
+    messages->item = calloc(1, sizeof *messages->item);
+    if (!messages->item)
+        return status;
+    messages->count = 1;
+    *messages->item = (ld_message){.file = strdup(file),
+                                   .path = strdup("scatter"),
+                                   .text = strdup(text),
+                                   .source = strdup("")};
+    return status;
+}
+
+static ld_status read_points(ld_study *self, const study_source *from, ld_messages *messages)
+{
+    const ld_model *nominal = self->nominal;
+    if (nominal->sweep_count == 0) {
+        self->model = self->nominal;
+        self->points = 1;
+        return LD_OK;
+    }
+    int points = ld_scenario_points(nominal);
+    self->model = calloc((size_t)points, sizeof *self->model);
+    if (!self->model)
+        return LD_ERR_MEMORY;
+    for (; self->points < points; self->points++) {
+        int point = self->points + 1;
+        ld_status status = read_point(from, point, &self->model[point - 1], messages);
+        for (size_t i = 0; status && i < messages->count; i++)
+            name_point(&messages->item[i], nominal, point);
+        if (status)
+            return status;
+    }
+    return LD_OK;
+}
+
+static ld_status find_factors(ld_study *self, ld_error *error)
+{
+    const ld_scatter *scatter = &self->nominal->scatter;
+    self->samples = (int64_t)self->points * (scatter->present ? scatter->samples : 1);
+    self->sampler = calloc((size_t)self->points, sizeof *self->sampler);
+    if (!self->sampler)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's factors");
+    for (int i = 0; i < self->points; i++) {
+        ld_status status = sampler_create(&self->sampler[i], &self->model[i], error);
+        if (status)
+            return status;
+        if (self->model[i].firing_count > self->rockets)
+            self->rockets = self->model[i].firing_count;
+    }
+    return LD_OK;
+}
+
+static ld_status read_study(const study_source *from, ld_study **out, ld_messages *messages)
+{
+    const char *name = from->path ? from->path : from->name;
+    ld_study *self = calloc(1, sizeof *self);
+    ld_error error = {LD_ERR_MEMORY, "no memory for the study"};
+    *messages = (ld_messages){0};
+    if (!self)
+        return add_message(messages, name, LD_ERR_MEMORY, error.text);
+    self->nominal = calloc(1, sizeof *self->nominal);
+    ld_status status = self->nominal ? read_point(from, 0, self->nominal, messages) : LD_ERR_MEMORY;
+    if (!status)
+        status = read_points(self, from, messages);
+    if (!status)
+        status = find_factors(self, &error);
+    if (!status) {
+        *out = self;
+        return LD_OK;
+    }
+    ld_study_free(self);
+    return messages->count > 0 ? status : add_message(messages, name, status, error.text);
+}
+
+ld_status ld_study_read(const char *path, const char *const *sets, size_t count, ld_study **study,
+                        ld_messages *messages)
+{
+    return read_study(&(study_source){.path = path, .sets = sets, .count = count}, study, messages);
+}
+
+ld_status ld_study_read_text(const char *text, size_t length, const char *name, const char *folder,
+                             const char *const *sets, size_t count, ld_study **study,
+                             ld_messages *messages)
+{
+    return read_study(&(study_source){.text = text,
+                                      .length = length,
+                                      .name = name,
+                                      .folder = folder,
+                                      .sets = sets,
+                                      .count = count},
+                      study, messages);
+}
+
+void ld_study_free(ld_study *self)
+{
+    if (!self)
+        return;
+    for (int i = 0; i < self->points; i++) {
+        if (self->sampler)
+            sampler_free(&self->sampler[i]);
+        if (self->model != self->nominal)
+            ld_model_free(&self->model[i]);
+    }
+    if (self->nominal)
+        ld_model_free(self->nominal);
+    if (self->model != self->nominal)
+        free(self->model);
+    free(self->nominal);
+    free(self->sampler);
+    free(self);
+}
+
+const ld_model *ld_study_model(const ld_study *self)
+{
+    return self->nominal;
+}
