@@ -33,7 +33,10 @@ const ld_model *ld_study_model(const ld_study *study);
 
 /// How far a study is.
 typedef struct ld_study_counts {
-    int64_t samples; ///< that the scenario asks for
+    int64_t samples; ///< that the scenario asks for; as soon as its stopping rule holds, those
+                     ///< that were enough
+    int64_t look;    ///< of a stopping rule: samples after which it is looked at; without one 0
+    bool enough;     ///< the stopping rule holds
     int64_t done;    ///< that are kept, failed ones included
     int64_t failed;
     int64_t now; ///< of `done`, those of this run

@@ -59,19 +59,25 @@ bool progress_go_on(void *self)
     return stop_signal == 0;
 }
 
-// "1234 of 5000 samples, 3 failed, 83.1 /s, 45 s left"
+// "1234 of 5000 samples, 3 failed, 83.1 /s, 45 s left", and with a stopping rule "of at most 5000
+// samples, enough perhaps at 1450".
 void progress_samples(void *self, const ld_study_counts *counts)
 {
     run_progress *progress = self;
     double time = now();
+    char look[64] = "";
     if (!progress->shown || time - progress->latest < 0.2)
         return;
     progress->latest = time;
     progress->drawn = true;
     double rate = (double)counts->now / (time - progress->start);
-    fprintf(stderr, "\r%lld of %lld samples, %lld failed, %.3g /s, %.0f s left     ",
-            (long long)counts->done, (long long)counts->samples, (long long)counts->failed, rate,
-            (double)(counts->samples - counts->done) / rate);
+    bool open_end = counts->look > 0 && counts->look < counts->samples;
+    int64_t next = open_end ? counts->look : counts->samples;
+    if (open_end)
+        snprintf(look, sizeof look, ", enough perhaps at %lld", (long long)counts->look);
+    fprintf(stderr, "\r%lld of %s%lld samples%s, %lld failed, %.3g /s, %.0f s left     ",
+            (long long)counts->done, open_end ? "at most " : "", (long long)counts->samples, look,
+            (long long)counts->failed, rate, (double)(next - counts->done) / rate);
     fflush(stderr);
 }
 

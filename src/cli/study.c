@@ -50,7 +50,10 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
             "merge %s\n",
             wishes->shard, wishes->shards, (long long)counts.done, (long long)counts.failed,
             wishes->run.folder);
-    else if (!status && !wishes->run.quiet)
+    if (!status && !wishes->run.quiet && counts.look > 0)
+        printf("the stopping rule %s after %lld samples\n",
+               counts.enough ? "holds" : "does not hold", (long long)counts.samples);
+    if (!status && !wishes->run.quiet && !wishes->shards)
         status = ld_study_show(wishes->run.folder, stdout, &error);
     return status ? command_fail(status, &error) : 0;
 }

@@ -3,6 +3,8 @@
 #include <inttypes.h>
 #include <time.h>
 
+#include "studies/until.h"
+
 bool ledger_goes_on(void *self)
 {
     const study_ledger *ledger = self;
@@ -27,12 +29,13 @@ void ledger_stop(study_ledger *self, ld_status status, const ld_error *error)
 
 // ---- handing out
 
-static int64_t next_number(study_ledger *self)
+// The next number up to self->look that is not kept; 0: there is none.
+static int64_t next_up_to_look(study_ledger *self)
 {
     bool there = true;
     ld_error error;
     int64_t number = 0;
-    while (there && self->next <= self->last && ledger_goes_on(self)) {
+    while (there && self->next <= self->look && ledger_goes_on(self)) {
         number = self->next;
         self->next += self->step;
         ld_status status = store_has(&self->store, number, &there, &error);
@@ -40,6 +43,38 @@ static int64_t next_number(study_ledger *self)
             stop(self, status, &error);
     }
     return there || self->stopped ? 0 : number;
+}
+
+// All samples up to self->look are kept: looks whether they are enough, and how many are next.
+static void look_at_rule(study_ledger *self)
+{
+    ld_error error;
+    ld_study_counts *counts = self->counts;
+    ld_status status = until_holds(self->study, self->folder, self->look, &counts->enough, &error);
+    self->decided = counts->enough || self->look >= self->last;
+    if (!status && self->decided) {
+        self->last = counts->samples = self->look;
+        status = store_set_samples(&self->store, self->last, &error);
+    } else {
+        self->look = self->study->points * until_next_look(&self->study->nominal->scatter,
+                                                           self->look / self->study->points);
+        counts->look = self->look;
+    }
+    if (status)
+        stop(self, status, &error);
+}
+
+static int64_t next_number(study_ledger *self)
+{
+    for (;;) {
+        int64_t number = next_up_to_look(self);
+        self->running += number != 0;
+        if (number != 0 || !ledger_goes_on(self) || self->decided)
+            return number;
+        if (self->running > 0)
+            return LEDGER_WAIT;
+        look_at_rule(self);
+    }
 }
 
 int64_t ledger_next(study_ledger *self)
@@ -75,6 +110,7 @@ static void keep(study_ledger *self, const study_record *const *record, int coun
     if (status && ledger_goes_on(self))
         stop(self, status, &error);
     for (int i = 0; i < count; i++) {
+        self->running -= record[i]->number > 0;
         if (record[i]->outcome == LD_ERR_INTERRUPTED) {
             self->stopped = true;
         } else if (record[i]->outcome == LD_ERR_MEMORY) {
@@ -115,6 +151,8 @@ void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
     int64_t shards = options->shards > 0 ? options->shards : 1;
     *self = (study_ledger){.options = options,
                            .counts = counts,
+                           .study = study,
+                           .folder = folder,
                            .next = options->shards > 0 ? options->shard : 1,
                            .step = shards,
                            .last = study->samples,
@@ -128,6 +166,11 @@ void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
         status = store_count(&self->store, counts, error);
     }
     counts->samples = self->last < self->next ? 0 : (self->last - self->next) / shards + 1;
+    const ld_scatter *scatter = &study->nominal->scatter;
+    self->look = self->last;
+    self->decided = scatter->until_count == 0;
+    if (!self->decided)
+        self->look = counts->look = study->points * until_next_look(scatter, 0);
     if (status) {
         self->status = status;
         self->stopped = true;

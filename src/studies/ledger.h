@@ -12,9 +12,14 @@
 typedef struct study_ledger {
     const ld_study_options *options;
     ld_study_counts *counts;
+    const ld_study *study;
+    const char *folder;
     study_store store;
     bool open;
     int64_t next, step, last; // number to be looked at, from one to the next, of the last sample
+    int64_t look;             // number after which the stopping rule is looked at; without one last
+    bool decided;             // there is no rule, or it was looked at for the last time
+    int running;              // samples handed out that have not come back
     ld_status status;         // why it stopped
     ld_error *error;
     atomic_bool stopped;

@@ -235,7 +235,7 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
     sqlite3_finalize(tables);
     ld_status status = there ? compare(self, identity, error) : fill_new(self, identity, error);
     if (!status)
-        status = set_number(self, "samples", study_draws(self->study), error);
+        status = set_number(self, "samples", self->study->samples, error);
     int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;
     if (!status)
         status = set_number(self, "strata", strata, error);
@@ -391,8 +391,8 @@ ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *erro
 {
     sqlite3_stmt *count = store_prepare(
         self,
-        "SELECT count(*), count(*) FILTER (WHERE status != 'ok'), (SELECT count(*) FROM point) * "
-        "(SELECT value FROM study WHERE name = 'samples') FROM sample",
+        "SELECT count(*), count(*) FILTER (WHERE status != 'ok'), (SELECT value FROM study WHERE "
+        "name = 'samples') FROM sample",
         error);
     *counts = (ld_study_counts){0};
     if (!count)
@@ -405,6 +405,11 @@ ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *erro
     }
     sqlite3_finalize(count);
     return read ? LD_OK : store_fail(self, "read", error);
+}
+
+ld_status store_set_samples(study_store *self, int64_t samples, ld_error *error)
+{
+    return set_number(self, "samples", samples, error);
 }
 
 ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error)

@@ -1,5 +1,5 @@
 // A study's database, SQLite. Tables:
-//   study   (name, value): format, version, hash, scenario, samples (of each point), strata
+//   study   (name, value): format, version, hash, scenario, samples (of all points), strata
 //   point   (point, then a text for each swept key)
 //   sample  (sample, point, status, reason, then the factors drawn once a sample)
 //   rocket  (sample, rocket, tube, then the factors drawn for every rocket, then the results)
@@ -42,6 +42,8 @@ void store_close(study_store *self);
 char *store_text(study_store *self, const char *name);
 // Counts what is kept.
 ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *error);
+// How many samples are enough after all.
+ld_status store_set_samples(study_store *self, int64_t samples, ld_error *error);
 // Whether the sample is kept already.
 ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error);
 

@@ -22,8 +22,13 @@ ld_status study_check(const ld_study *study, ld_error *error)
                    "the scenario has neither scatter nor sweep: nothing to study");
 }
 
-static ld_status check_shard(const ld_study_options *options, ld_error *error)
+static ld_status check_shard(const ld_study *study, const ld_study_options *options,
+                             ld_error *error)
 {
+    if (options->shards > 0 && study->nominal->scatter.until_count > 0)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "scatter.until wants all samples, of which a shard knows its own only: run "
+                       "the shards with --set scatter.until=, or the study as a whole");
     if (options->shards == 0 || (options->shard >= 1 && options->shard <= options->shards))
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT, "there is no shard %d of %d: they go from 1/%d to %d/%d",
@@ -42,7 +47,7 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
     *counts = (ld_study_counts){0};
     ld_status status = study_check(study, error);
     if (!status)
-        status = check_shard(options, error);
+        status = check_shard(study, options, error);
     if (status)
         return status;
     study_calm_blas();

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "simulation/simulation.h"
 
@@ -86,6 +87,10 @@ void worker_run_all(const ld_study *study, study_ledger *ledger)
         return;
     }
     for (int64_t number; (number = ledger_next(ledger)) != 0;) {
+        if (number == LEDGER_WAIT) {
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+            continue;
+        }
         worker_run(&worker, number, ledger_goes_on, ledger);
         ledger_keep(ledger, (const study_record *[]){worker.record}, 1);
     }
