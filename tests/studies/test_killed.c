@@ -1,6 +1,6 @@
 // Studies killed at any instant: what was kept stays, and the rest comes out the same. LD_KILLS:
 // how often (default 6). The study runs in children only, so that none inherits threads.
-#include "support/check.h"
+#include "support/study_run.h"
 
 #include <signal.h>
 #include <sqlite3.h>
@@ -8,9 +8,6 @@
 #include <unistd.h>
 
 #include "base/random.h"
-#include "launchdyn/scenario.h"
-#include "launchdyn/study.h"
-#include "support/scratch.h"
 
 enum { SAMPLES = 80, THREADS = 2 };
 
@@ -26,21 +23,12 @@ static int tear_down(void **state)
     return scratch_remove();
 }
 
-static ld_study *read_study(void)
-{
-    static const char text[] = "include: fixed.yaml\n"
-                               "scatter:\n"
-                               "  samples: 80\n"
-                               "  factors:\n"
-                               "    rocket.mass_error: {normal: 0.2 kg}\n"
-                               "    base.elevation: {normal: 1 deg}\n";
-    ld_study *study;
-    ld_messages messages;
-    assert_int_equal(ld_study_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples", NULL,
-                                        0, &study, &messages),
-                     LD_OK);
-    return study;
-}
+static const char text[] = "include: fixed.yaml\n"
+                           "scatter:\n"
+                           "  samples: 80\n"
+                           "  factors:\n"
+                           "    rocket.mass_error: {normal: 0.2 kg}\n"
+                           "    base.elevation: {normal: 1 deg}\n";
 
 static int report_to; // descriptor
 
@@ -107,22 +95,10 @@ static void read_kept(const char *name, bool kept[SAMPLES + 1])
     sqlite3_close(database);
 }
 
-static void expect_same_tables(const char *one, const char *other)
-{
-    char text[512];
-    ld_error error;
-    snprintf(text, sizeof text, "%s.csv", in(one));
-    assert_int_equal(ld_study_export(in(one), text, &error), LD_OK);
-    snprintf(text, sizeof text, "%s.csv", in(other));
-    assert_int_equal(ld_study_export(in(other), text, &error), LD_OK);
-    snprintf(text, sizeof text, "cmp %s.csv %s.csv", in(one), in(other));
-    assert_int_equal(system(text), 0);
-}
-
 static void test_killed(void **state)
 {
     (void)state;
-    ld_study *study = read_study();
+    ld_study *study = study_of(text);
     bool before[SAMPLES + 1] = {0}, after[SAMPLES + 1];
     int kills = getenv("LD_KILLS") ? atoi(getenv("LD_KILLS")) : 6, hit = 0;
     int64_t lost = 0, repeated = 0, most = 0;

@@ -1,58 +1,24 @@
 // Studies: the same results whatever the number of threads and the interruptions; what is kept.
-#include "support/check.h"
+#include "support/study_run.h"
 
 #include <signal.h>
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
-#include "launchdyn/study.h"
 
-static char scratch[64];
-
-static int make_scratch(void **state)
+static int set_up(void **state)
 {
     (void)state;
-    snprintf(scratch, sizeof scratch, "/tmp/launchdyn-study-XXXXXX");
-    return mkdtemp(scratch) == NULL;
+    return scratch_make();
 }
 
-static int remove_scratch(void **state)
+static int tear_down(void **state)
 {
-    char command[96];
     (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", scratch);
-    return system(command);
-}
-
-static const char *folder(const char *name)
-{
-    static char path[4][128];
-    static int next;
-    next = (next + 1) % 4;
-    snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
-    return path[next];
-}
-
-static ld_study *read_with(const char *text, const char *set)
-{
-    ld_study *study;
-    ld_messages messages;
-    ld_status status = ld_study_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
-                                          &set, set != NULL, &study, &messages);
-    if (status)
-        ld_messages_print(&messages, stdout);
-    assert_int_equal(status, LD_OK);
-    return study;
-}
-
-static ld_study *read_text(const char *text)
-{
-    return read_with(text, NULL);
+    return scratch_remove();
 }
 
 #define LAUNCH                                                                                     \
@@ -65,41 +31,16 @@ static ld_study *read_text(const char *text)
     "    base.elevation: {normal: 1 deg}\n"
 static const char launch[] = LAUNCH;
 
-static char *export(const char *name)
-{
-    ld_error error;
-    char csv[128], *text = calloc(1, 1 << 20);
-    snprintf(csv, sizeof csv, "%s.csv", folder(name));
-    assert_int_equal(ld_study_export(folder(name), csv, &error), LD_OK);
-    FILE *stream = fopen(csv, "r");
-    assert_non_null(stream);
-    assert_non_null(text);
-    assert_true(fread(text, 1, (1 << 20) - 1, stream) > 0);
-    fclose(stream);
-    return text;
-}
-
-static ld_study_counts run(const ld_study *study, const char *name, int threads)
-{
-    ld_error error = {0};
-    ld_study_counts counts;
-    ld_study_options options = {.threads = threads};
-    ld_status status = ld_study_run(study, folder(name), &options, &counts, &error);
-    if (status)
-        fail_msg("%s", error.text);
-    return counts;
-}
-
 static void test_threads(void **state)
 {
     (void)state;
-    ld_study *study = read_text(launch);
-    ld_study_counts counts = run(study, "one", 1);
+    ld_study *study = study_of(launch);
+    ld_study_counts counts = study_run(study, "one", 1);
     assert_true(counts.done == 24 && counts.now == 24 && counts.failed == 0);
-    run(study, "three", 3);
-    char *one = export("one"), *three = export("three");
+    study_run(study, "three", 3);
+    char *one = study_table("one"), *three = study_table("three");
     assert_string_equal(one, three);
-    counts = run(study, "one", 2);
+    counts = study_run(study, "one", 2);
     assert_true(counts.done == 24 && counts.now == 0);
     free(one);
     free(three);
@@ -121,7 +62,7 @@ static void count(void *self, const ld_study_counts *counts)
 static void test_stopped(void **state)
 {
     (void)state;
-    ld_study *study = read_text(launch);
+    ld_study *study = study_of(launch);
     ld_error error;
     ld_study_counts counts = {0};
     ld_status status = LD_ERR_INTERRUPTED;
@@ -131,12 +72,12 @@ static void test_stopped(void **state)
         ld_study_options options = {
             .threads = 2, .self = &done, .progress = count, .go_on = three_more};
         int64_t before = counts.done;
-        status = ld_study_run(study, folder("stopped"), &options, &counts, &error);
+        status = ld_study_run(study, in("stopped"), &options, &counts, &error);
         assert_true(counts.done >= before + counts.now);
     }
     assert_int_equal(status, LD_OK);
     CHECK_WITHIN("runs that it took", runs, 6, 9);
-    char *one = export("one"), *stopped = export("stopped");
+    char *one = study_table("one"), *stopped = study_table("stopped");
     assert_string_equal(one, stopped);
     free(one);
     free(stopped);
@@ -147,7 +88,7 @@ static void expect_refusal(const ld_study *study, const char *name, const char *
 {
     ld_error error = {0};
     ld_study_counts counts;
-    assert_int_equal(ld_study_run(study, folder(name), NULL, &counts, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_study_run(study, in(name), NULL, &counts, &error), LD_ERR_INPUT);
     if (!strstr(error.text, part))
         fail_msg("\"%s\" is not about \"%s\"", error.text, part);
 }
@@ -155,16 +96,16 @@ static void expect_refusal(const ld_study *study, const char *name, const char *
 static void test_refusals(void **state)
 {
     (void)state;
-    ld_study *study = read_text(launch), *other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
-    ld_study *more = read_with(launch, "scatter.samples=26"),
-             *plain = read_text("include: fixed.yaml\n");
+    ld_study *study = study_of(launch), *other = study_of(LAUNCH "rocket:\n  mass: 61 kg\n");
+    ld_study *more = study_with(launch, "scatter.samples=26"),
+             *plain = study_of("include: fixed.yaml\n");
     expect_refusal(other, "one", "mass: 61 kg");
     expect_refusal(plain, "plain", "neither scatter nor sweep");
     // more samples of the plan `random` are the same study
-    ld_study_counts counts = run(more, "one", 2);
+    ld_study_counts counts = study_run(more, "one", 2);
     assert_true(counts.done == 26 && counts.now == 2);
-    run(more, "more", 1);
-    char *one = export("one"), *again = export("more");
+    study_run(more, "more", 1);
+    char *one = study_table("one"), *again = study_table("more");
     assert_string_equal(one, again);
     free(one);
     free(again);
@@ -173,13 +114,13 @@ static void test_refusals(void **state)
     char word;
     assert_int_equal(pipe(ready), 0);
     ld_study_free(more);
-    more = read_with(launch, "scatter.samples=1000000");
+    more = study_with(launch, "scatter.samples=1000000");
     pid_t child = fork();
     if (child == 0) {
         ld_error error;
         ld_study_options options = {.threads = 1};
         if (write(ready[1], "!", 1) == 1)
-            ld_study_run(more, folder("one"), &options, &counts, &error);
+            ld_study_run(more, in("one"), &options, &counts, &error);
         _exit(0);
     }
     assert_int_equal(read(ready[0], &word, 1), 1);
@@ -190,7 +131,7 @@ static void test_refusals(void **state)
     // a folder that cannot be made
     ld_error error;
     assert_int_equal(ld_study_run(study, "/proc/study", NULL, &counts, &error), LD_ERR_FILE);
-    assert_int_equal(ld_study_show(folder("nothing"), stdout, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_study_show(in("nothing"), stdout, &error), LD_ERR_INPUT);
     ld_study_free(study);
     ld_study_free(other);
     ld_study_free(more);
@@ -220,12 +161,12 @@ static void cell(const char *csv, const char *name, int number, int rocket, char
 static void test_one_sample_alone(void **state)
 {
     (void)state;
-    ld_study *study = read_text(launch);
+    ld_study *study = study_of(launch);
     ld_sample *sample;
     ld_simulation *simulation;
     ld_error error;
     static ld_summary summary;
-    char *csv = export("three"), kept[64], alone[64];
+    char *csv = study_table("three"), kept[64], alone[64];
     assert_int_equal(ld_study_sample(study, 17, &sample, &error), LD_OK);
     assert_int_equal(ld_simulation_create(ld_sample_model(sample), &simulation, &error), LD_OK);
     assert_int_equal(ld_simulation_run(simulation, NULL, &summary, &error), LD_OK);
@@ -250,7 +191,7 @@ static char *merge(const char *name, ld_status expected)
     ld_error error = {0};
     FILE *stream = open_memstream(&text, &length);
     assert_non_null(stream);
-    ld_status status = ld_study_merge(folder(name), stream, &error);
+    ld_status status = ld_study_merge(in(name), stream, &error);
     fclose(stream);
     if (status != expected)
         fail_msg("%d %s", status, error.text);
@@ -280,14 +221,14 @@ static ld_status run_shard(const ld_study *study, int shard, int shards, ld_stud
                                 .self = &done,
                                 .go_on = go_on,
                                 .progress = progress};
-    return ld_study_run(study, folder("shards"), &options, counts, &error);
+    return ld_study_run(study, in("shards"), &options, counts, &error);
 }
 
 // Parts of a study, run in any order and joined, are the study.
 static void test_shards(void **state)
 {
     (void)state;
-    ld_study *study = read_text(launch), *other = read_text(LAUNCH "rocket:\n  mass: 61 kg\n");
+    ld_study *study = study_of(launch), *other = study_of(LAUNCH "rocket:\n  mass: 61 kg\n");
     ld_study_counts counts;
     assert_int_equal(run_shard(study, 3, 3, &counts, NULL, NULL), LD_OK);
     assert_true(counts.samples == 8 && counts.done == 8);
@@ -301,15 +242,15 @@ static void test_shards(void **state)
     assert_int_equal(run_shard(study, 4, 3, &counts, NULL, NULL), LD_ERR_INPUT);
     assert_int_equal(run_shard(other, 1, 3, &counts, NULL, NULL), LD_ERR_INPUT);
     // the plain command runs the rest
-    counts = run(study, "shards", 2);
+    counts = study_run(study, "shards", 2);
     assert_true(counts.done == 24 && counts.now == 8);
-    char *one = export("one"), *shards = export("shards");
+    char *one = study_table("one"), *shards = study_table("shards");
     assert_string_equal(one, shards);
     free(shards);
     // and what it has run may come from its shard as well
     assert_int_equal(run_shard(study, 2, 3, &counts, NULL, NULL), LD_OK);
     expect_merge("shards", LD_OK, "24 of 24 samples");
-    shards = export("shards");
+    shards = study_table("shards");
     assert_string_equal(one, shards);
     free(one);
     free(shards);
@@ -325,11 +266,11 @@ static void test_failures(void **state)
 {
     (void)state;
     ld_study *study =
-        read_text("include: fixed.yaml\nscatter:\n  samples: 20\n  factors:\n"
-                  "    rocket.lock.release_force: {discrete: [5 kN, 500 kN], weights: [3, 1]}\n"
-                  "    rocket.mass: {normal: 60 kg}\n");
-    ld_study_counts counts = run(study, "failures", 2);
-    char *csv = export("failures"), *shown = NULL, status[64], value[64];
+        study_of("include: fixed.yaml\nscatter:\n  samples: 20\n  factors:\n"
+                 "    rocket.lock.release_force: {discrete: [5 kN, 500 kN], weights: [3, 1]}\n"
+                 "    rocket.mass: {normal: 60 kg}\n");
+    ld_study_counts counts = study_run(study, "failures", 2);
+    char *csv = study_table("failures"), *shown = NULL, status[64], value[64];
     int launches = 0, inputs = 0;
     size_t length;
     for (int i = 1; i <= 20; i++) {
@@ -346,7 +287,7 @@ static void test_failures(void **state)
     assert_true(counts.done == 20 && counts.failed == launches + inputs);
     FILE *stream = open_memstream(&shown, &length);
     ld_error error;
-    assert_int_equal(ld_study_show(folder("failures"), stream, &error), LD_OK);
+    assert_int_equal(ld_study_show(in("failures"), stream, &error), LD_OK);
     fclose(stream);
     assert_non_null(strstr(shown, "the lock never let go"));
     free(csv);
@@ -365,7 +306,7 @@ static void test_rockets_of_a_salvo(void **state)
     "    rocket.mass_error: {normal: 1 kg}\n    rocket.motor.thrust_scale: {normal: 5 %}\n"        \
     "    rocket.adaptors.rear.clearance: {uniform: 0.2 0.4 mm}\n"                                  \
     "    rocket.motor.misalignment.z: {normal: 2 mrad}\n"
-    ld_study *study = read_text(SALVO);
+    ld_study *study = study_of(SALVO);
     ld_sample *sample;
     ld_simulation *simulation;
     ld_error error;
@@ -398,16 +339,16 @@ static void test_rockets_of_a_salvo(void **state)
 static void test_size(void **state)
 {
     (void)state;
-    ld_study *study = read_text("include: flight.yaml\nrun: {flight_tolerance: 1e-4}\nscatter:\n"
-                                "  samples: 400\n  plan: lhs\n  replicates: 4\n  factors:\n"
-                                "    rocket.mass_error: {normal: 0.2 kg}\n"
-                                "    rocket.motor.thrust_scale: {normal: 1 %}\n"
-                                "    rocket.motor.misalignment.y: {normal: 0.5 mrad}\n"
-                                "    rocket.aerodynamics.ca_scale: {normal: 2 %}\n"
-                                "    environment.temperature_offset: {normal: 5 K}\n");
-    run(study, "flight", 2);
+    ld_study *study = study_of("include: flight.yaml\nrun: {flight_tolerance: 1e-4}\nscatter:\n"
+                               "  samples: 400\n  plan: lhs\n  replicates: 4\n  factors:\n"
+                               "    rocket.mass_error: {normal: 0.2 kg}\n"
+                               "    rocket.motor.thrust_scale: {normal: 1 %}\n"
+                               "    rocket.motor.misalignment.y: {normal: 0.5 mrad}\n"
+                               "    rocket.aerodynamics.ca_scale: {normal: 2 %}\n"
+                               "    environment.temperature_offset: {normal: 5 K}\n");
+    study_run(study, "flight", 2);
     struct stat file;
-    assert_int_equal(stat(folder("flight/study.db"), &file), 0);
+    assert_int_equal(stat(in("flight/study.db"), &file), 0);
     CHECK_WITHIN("bytes a sample", (double)file.st_size / 400, 100, 1000);
     ld_study_free(study);
 }
@@ -424,5 +365,5 @@ int main(void)
         cmocka_unit_test(test_rockets_of_a_salvo),
         cmocka_unit_test(test_size),
     };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+    return cmocka_run_group_tests(tests, set_up, tear_down);
 }
