@@ -7,7 +7,6 @@
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task=1
 #SBATCH --time=02:00:00
-#SBATCH --signal=TERM@60
 #SBATCH --requeue
 set -euo pipefail
 file=$1

@@ -4,12 +4,11 @@
 #SBATCH --ntasks=64
 #SBATCH --cpus-per-task=1
 #SBATCH --time=02:00:00
-#SBATCH --signal=TERM@60
 #SBATCH --requeue
 set -euo pipefail
 file=$1
 folder=$2
 
-# OpenBLAS and OpenMP: a core a process. Killed or out of time, the same job goes on where it was.
+# A core a process. Killed or out of time, the same job goes on where it was.
 export OPENBLAS_NUM_THREADS=1
 exec mpirun launchdyn-mpi study "$file" --out "$folder" --quiet
