@@ -3,6 +3,7 @@
 #ifndef LD_STUDIES_STATISTICS_H
 #define LD_STUDIES_STATISTICS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
