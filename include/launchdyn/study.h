@@ -71,11 +71,21 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
 ///         study.db), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status ld_study_merge(const char *folder, FILE *stream, ld_error *error);
 
-/// Prints counts, failures and statistics of what the folder holds, also while a study runs.
-ld_status ld_study_show(const char *folder, FILE *stream, ld_error *error);
+/// What is shown of a study; NULL or zeros: the usual.
+typedef struct ld_study_view {
+    const char *what; ///< names of results, with commas between; "all"; NULL: a choice
+    bool sensitivity; ///< how much of the variance each factor explains, instead of statistics
+} ld_study_view;
 
-/// Writes a line for each rocket with its factors and results, in full precision.
-ld_status ld_study_export(const char *folder, const char *file, ld_error *error);
+/// Prints counts, failures and statistics of what the folder holds, also while a study runs: point
+/// by point of a sweep, and side by side.
+/// @return LD_OK; LD_ERR_INPUT (no study there, no such result), LD_ERR_FILE, LD_ERR_MEMORY
+ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
+                        ld_error *error);
+
+/// Writes all rockets with their factors and results, in full precision: a line for each into the
+/// CSV file, a dataset for each column into the HDF5 file; NULL: not wanted.
+ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5, ld_error *error);
 
 /// One sample by itself.
 typedef struct ld_sample ld_sample;

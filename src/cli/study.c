@@ -12,7 +12,8 @@ void study_wishes_free(study_wishes *wishes)
 {
     command_free_sets(wishes->run.sets);
     free(wishes->run.folder);
-    free(wishes->file);
+    free(wishes->csv);
+    free(wishes->hdf5);
 }
 
 void command_study_help(void)
@@ -20,7 +21,7 @@ void command_study_help(void)
     puts("\nlaunchdyn study FILE --out DIR runs what DIR does not hold yet: the same command goes "
          "on\n"
          "after an interruption. launchdyn study show DIR prints statistics, also meanwhile;\n"
-         "launchdyn study export DIR --csv FILE writes a line for each rocket.\n"
+         "launchdyn study export DIR --csv FILE --hdf5 FILE writes all rockets, as one or both.\n"
          "\n"
          "Jobs on several machines that share DIR take --shard 1/N to N/N, in any order;\n"
          "launchdyn study merge DIR then joins what they have kept.");
@@ -54,7 +55,7 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
         printf("the stopping rule %s after %lld samples\n",
                counts.enough ? "holds" : "does not hold", (long long)counts.samples);
     if (!status && !wishes->run.quiet && !wishes->shards)
-        status = ld_study_show(wishes->run.folder, stdout, &error);
+        status = ld_study_show(wishes->run.folder, NULL, stdout, &error);
     return status ? command_fail(status, &error) : 0;
 }
 
@@ -100,13 +101,13 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
 {
     ld_error error;
     if (strcmp(verb, "show") == 0)
-        return finish(ld_study_show(folder, stdout, &error), &error);
+        return finish(ld_study_show(folder, &wishes->view, stdout, &error), &error);
     if (strcmp(verb, "merge") == 0)
         return finish(ld_study_merge(folder, stdout, &error), &error);
-    if (strcmp(verb, "export") == 0 && wishes->file)
-        return finish(ld_study_export(folder, wishes->file, &error), &error);
+    if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5))
+        return finish(ld_study_export(folder, wishes->csv, wishes->hdf5, &error), &error);
     if (strcmp(verb, "export") == 0)
-        command_complain("study export wants --csv FILE");
+        command_complain("study export wants --csv FILE or --hdf5 FILE");
     else
         command_complain("study knows show DIR, export DIR and merge DIR, not %s", verb);
     return EXIT_INPUT;
@@ -127,7 +128,8 @@ static bool read_shard(const char *text, study_wishes *wishes)
 int command_study(const command *self, int argc, const char **argv)
 {
     study_wishes wishes = {.threads = 1};
-    char *shard = NULL;
+    char *shard = NULL, *what = NULL;
+    int sensitivity = 0;
     const struct poptOption options[] = {
         STUDY_OPTIONS(&wishes),
         {"jobs", 'j', POPT_ARG_INT, &wishes.threads, 0, "Samples that run side by side (1)", "N"},
@@ -135,13 +137,18 @@ int command_study(const command *self, int argc, const char **argv)
          "Run sample N alone, with its history in DIR/sample-N", "N"},
         {"shard", '\0', POPT_ARG_STRING, &shard, 0,
          "Run only the I-th of N parts of the study, for merge DIR", "I/N"},
-        {"csv", '\0', POPT_ARG_STRING, &wishes.file, 0, "Of export: the table to write", "FILE"},
+        {"what", 'w', POPT_ARG_STRING, &what, 0, "Of show: these results, or all", "NAME,..."},
+        {"sensitivity", '\0', POPT_ARG_NONE, &sensitivity, 0,
+         "Of show: the share of the variance that each factor explains", NULL},
+        {"csv", '\0', POPT_ARG_STRING, &wishes.csv, 0, "Of export: the table as CSV", "FILE"},
+        {"hdf5", '\0', POPT_ARG_STRING, &wishes.hdf5, 0, "Of export: the table as HDF5", "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
         const char *file = line.word[0];
+        wishes.view = (ld_study_view){.what = what, .sensitivity = sensitivity};
         if (shard && !read_shard(shard, &wishes)) {
             code = EXIT_INPUT;
         } else if (line.count == 2) {
@@ -156,5 +163,6 @@ int command_study(const command *self, int argc, const char **argv)
     }
     study_wishes_free(&wishes);
     free(shard);
+    free(what);
     return code;
 }

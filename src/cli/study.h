@@ -10,7 +10,8 @@ typedef struct study_wishes {
     int threads;
     int only; // sample, 0: all
     int shard, shards;
-    char *file;
+    ld_study_view view;
+    char *csv, *hdf5; // tables to be written
 } study_wishes;
 
 // The options that they share; overrides, folder and quiet are those of `wishes`.

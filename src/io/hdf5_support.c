@@ -45,7 +45,27 @@ ld_status hdf5_failed(ld_error *error, const char *what, const char *path)
                    found.number ? strerror(found.number) : found.text);
 }
 
-static hid_t text_type(void)
+hid_t hdf5_create_group(hid_t parent, const char *name)
+{
+    hid_t properties = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    H5Pset_obj_track_times(properties, false);
+    hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, properties, H5P_DEFAULT);
+    H5Pclose(properties);
+    return group;
+}
+
+hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size)
+{
+    hid_t space = H5Screate_simple(rank, size, NULL), properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(properties, false);
+    hid_t dataset = H5Dcreate2(group, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+    H5Pclose(properties);
+    H5Sclose(space);
+    return dataset;
+}
+
+hid_t hdf5_text_type(void)
 {
     hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, H5T_VARIABLE);
@@ -66,7 +86,7 @@ static bool write_attribute(hid_t object, const char *name, hid_t type, const vo
 
 bool hdf5_write_text(hid_t object, const char *name, const char *text)
 {
-    hid_t type = text_type();
+    hid_t type = hdf5_text_type();
     bool fine = write_attribute(object, name, type, &text);
     H5Tclose(type);
     return fine;
@@ -95,7 +115,7 @@ static bool read_attribute(hid_t object, const char *name, hid_t type, void *val
 char *hdf5_read_text(hid_t object, const char *name)
 {
     char *text = NULL;
-    hid_t type = text_type();
+    hid_t type = hdf5_text_type();
     bool fine = read_attribute(object, name, type, &text);
     H5Tclose(type);
     char *copy = fine && text ? strdup(text) : NULL;

@@ -19,6 +19,13 @@ void hdf5_quiet_end(const hdf5_quiet *quiet);
 // LD_ERR_FILE with "cannot `what` `path`: reason", the reason from HDF5's error stack.
 ld_status hdf5_failed(ld_error *error, const char *what, const char *path);
 
+// A group whose members keep the order in which they were made.
+hid_t hdf5_create_group(hid_t parent, const char *name);
+// An array of fixed size.
+hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size);
+// UTF-8 text of variable length, to be closed.
+hid_t hdf5_text_type(void);
+
 // Attributes of an open object: UTF-8 text of variable length, integer, double.
 bool hdf5_write_text(hid_t object, const char *name, const char *text);
 bool hdf5_write_integer(hid_t object, const char *name, int value);

@@ -24,23 +24,12 @@ static ld_status failed(const history_hdf5 *history, ld_error *error)
     return hdf5_failed(error, "write", history->path);
 }
 
-// A group whose members keep the order in which they were made.
-static hid_t create_group(hid_t parent, const char *name)
-{
-    hid_t properties = H5Pcreate(H5P_GROUP_CREATE);
-    H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    H5Pset_obj_track_times(properties, false);
-    hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, properties, H5P_DEFAULT);
-    H5Pclose(properties);
-    return group;
-}
-
 static bool create_file(history_hdf5 *history, const char *title)
 {
     history->file = H5Fcreate(history->path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     if (history->file < 0)
         return false;
-    history->group = create_group(history->file, "history");
+    history->group = hdf5_create_group(history->file, "history");
     return history->group >= 0 && hdf5_write_integer(history->file, "format", 1) &&
            hdf5_write_text(history->file, "title", title) &&
            hdf5_write_text(history->file, "version", LD_VERSION) &&
@@ -95,11 +84,7 @@ ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 
 static bool write_array(hid_t group, const ld_array *array)
 {
     hsize_t size[2] = {array->rows, array->columns};
-    hid_t space = H5Screate_simple(2, size, NULL);
-    hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_obj_track_times(properties, false);
-    hid_t dataset = H5Dcreate2(group, array->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
-                               properties, H5P_DEFAULT);
+    hid_t dataset = hdf5_create_dataset(group, array->name, H5T_NATIVE_DOUBLE, 2, size);
     bool fine =
         dataset >= 0 &&
         H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->value) >= 0 &&
@@ -107,14 +92,12 @@ static bool write_array(hid_t group, const ld_array *array)
         hdf5_write_text(dataset, "description", array->description);
     if (dataset >= 0)
         H5Dclose(dataset);
-    H5Pclose(properties);
-    H5Sclose(space);
     return fine;
 }
 
 static bool write_geometry(hid_t file, const ld_array *arrays, size_t count)
 {
-    hid_t group = create_group(file, "geometry");
+    hid_t group = hdf5_create_group(file, "geometry");
     bool fine = group >= 0;
     for (size_t i = 0; fine && i < count; i++)
         fine = write_array(group, &arrays[i]);
@@ -227,7 +210,7 @@ ld_status history_hdf5_row(history_hdf5 *history, const double *values, ld_error
 static hid_t open_group(hid_t parent, const char *name)
 {
     return H5Lexists(parent, name, H5P_DEFAULT) > 0 ? H5Gopen2(parent, name, H5P_DEFAULT)
-                                                    : create_group(parent, name);
+                                                    : hdf5_create_group(parent, name);
 }
 
 // The group of rocket number `rocket`, by its number in the order of firing.
@@ -249,7 +232,7 @@ static bool begin_flight(history_hdf5 *history, int rocket)
     close_table(history);
     hid_t group = open_rocket(history->file, rocket);
     if (group >= 0) {
-        history->group = create_group(group, "flight");
+        history->group = hdf5_create_group(group, "flight");
         H5Gclose(group);
     }
     return group >= 0 && history->group >= 0;

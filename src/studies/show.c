@@ -1,221 +1,444 @@
-// What a study's folder holds: counts, statistics, tables.
+// What a study's folder holds, printed: counts, statistics, sensitivities, point by point and side
+// by side; lines of 120 characters.
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "io/numeric_locale.h"
+#include "io/study_results.h"
+#include "launchdyn/study.h"
+#include "studies/sensitivity.h"
 #include "studies/statistics.h"
-#include "studies/store.h"
 #include "studies/study_data.h"
 
-// ---- show
+typedef struct shown {
+    const study_data *data;
+    const ld_study_view *view;
+    FILE *stream;
+    const study_column **column; // [count] what is shown
+    int count;
+    group_statistics *of; // [points][count]
+    study_values values;  // read last
+} shown;
 
-static ld_status print_counts(const study_data *data, const study_point *point, FILE *stream,
-                              ld_error *error)
+static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,pitch,yaw,pitch_rate,"
+                            "yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed";
+static const char sensitive[] = "t_rear,muzzle_speed,pitch,yaw,pitch_rate,yaw_rate,downrange,drift";
+
+static ld_status no_memory(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
+}
+
+// ---- what is shown
+
+static ld_status add_column(shown *self, const char *name, ld_error *error)
+{
+    const char *nearest = NULL;
+    const study_column *column = study_data_find(self->data, name, &nearest);
+    if (!column)
+        return ld_fail(error, LD_ERR_INPUT, "the study has no result \"%s\"%s%s%s", name,
+                       nearest ? "; did you mean \"" : "", nearest ? nearest : "",
+                       nearest ? "\"?" : "");
+    for (int i = 0; i < self->count; i++)
+        if (self->column[i] == column)
+            return LD_OK;
+    self->column[self->count++] = column;
+    return LD_OK;
+}
+
+static ld_status choose_columns(shown *self, ld_error *error)
+{
+    const study_data *data = self->data;
+    const char *what = self->view->what;
+    self->column = calloc((size_t)data->column_count + 1, sizeof(void *));
+    if (!self->column)
+        return no_memory(error);
+    if (what && strcmp(what, "all") == 0) {
+        for (int i = 0; i < data->result_count; i++)
+            self->column[self->count++] = &data->column[i];
+        return LD_OK;
+    }
+    char *names = strdup(what ? what : self->view->sensitivity ? sensitive : usual), *rest = NULL;
+    ld_status status = names ? LD_OK : no_memory(error);
+    for (char *name = names ? strtok_r(names, ", ", &rest) : NULL; name && !status;
+         name = strtok_r(NULL, ", ", &rest))
+        status = add_column(self, name, error);
+    free(names);
+    return status;
+}
+
+static group_statistics *statistics_at(const shown *self, const study_point *point)
+{
+    return self->of + (point - self->data->point) * self->count;
+}
+
+static ld_status compute_point(shown *self, const study_point *point, ld_error *error)
+{
+    for (int i = 0; i < self->count; i++) {
+        study_values *values = &self->values;
+        ld_status status = study_data_read(self->data, point, &self->column[i], 1, values, error);
+        if (status)
+            return status;
+        if (statistics_of(values->count ? values->value[0] : NULL, values->group, values->count,
+                          &statistics_at(self, point)[i]))
+            return no_memory(error);
+    }
+    return LD_OK;
+}
+
+static size_t values_of(const shown *self, int column)
+{
+    size_t count = 0;
+    for (int i = 0; i < self->data->point_count; i++)
+        count += statistics_at(self, &self->data->point[i])[column].count;
+    return count;
+}
+
+// Leaves out what no point has a value of.
+static void drop_empty(shown *self)
+{
+    for (int c = self->count - 1; c >= 0; c--) {
+        if (values_of(self, c) > 0)
+            continue;
+        size_t kept = 0, all = (size_t)self->data->point_count * (size_t)self->count;
+        for (size_t i = 0; i < all; i++)
+            if (i % (size_t)self->count != (size_t)c)
+                self->of[kept++] = self->of[i];
+        self->count--;
+        for (int i = c; i < self->count; i++)
+            self->column[i] = self->column[i + 1];
+    }
+}
+
+static ld_status compute(shown *self, ld_error *error)
+{
+    int points = self->data->point_count;
+    self->of = calloc((size_t)points * (size_t)self->count + 1, sizeof *self->of);
+    if (!self->of)
+        return no_memory(error);
+    ld_status status = LD_OK;
+    for (int i = 0; i < points && !status; i++)
+        status = compute_point(self, &self->data->point[i], error);
+    if (!status)
+        drop_empty(self);
+    return status;
+}
+
+// ---- a point
+
+static void print_name(FILE *stream, const study_column *column)
+{
+    char name[192];
+    snprintf(name, sizeof name, "%s%s%s%s", column->name, column->unit[0] ? " [" : "", column->unit,
+             column->unit[0] ? "]" : "");
+    fprintf(stream, "%-26s", name);
+}
+
+static ld_status print_counts(const shown *self, const study_point *point, ld_error *error)
 {
     enum { MOST = 20 };
     study_failure failure[MOST];
     int count;
-    ld_status status = study_data_failures(data, point, failure, MOST, &count, error);
-    fprintf(stream, "%" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n", point->done,
+    ld_status status = study_data_failures(self->data, point, failure, MOST, &count, error);
+    fprintf(self->stream, "%" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n", point->done,
             point->asked, point->failed);
     for (int i = 0; i < count && !status; i++)
-        fprintf(stream, "  %" PRId64 " failed (%s), the first of them %" PRId64 ": %s\n",
+        fprintf(self->stream, "  %" PRId64 " failed (%s), the first of them %" PRId64 ": %s\n",
                 failure[i].count, failure[i].status, failure[i].first, failure[i].reason);
     return status;
 }
 
-static void print_estimate(FILE *stream, estimate e)
+static void print_mean(FILE *stream, const estimate *e)
 {
     char text[64];
-    if (isnan(e.low))
-        snprintf(text, sizeof text, "%.6g", e.value);
+    if (isnan(e->low))
+        snprintf(text, sizeof text, "%.6g", e->value);
     else
-        snprintf(text, sizeof text, "%.6g [%.6g, %.6g]", e.value, e.low, e.high);
-    fprintf(stream, "  %-38s", text);
+        snprintf(text, sizeof text, "%.6g +- %.2g", e->value, 0.5 * (e->high - e->low));
+    fprintf(stream, " %-25s", text);
 }
 
-static void print_statistics(FILE *stream, const study_column *r, const group_statistics *s)
+static void print_estimate(FILE *stream, int width, const estimate *e)
 {
-    char name[64];
-    snprintf(name, sizeof name, "%s%s%s%s", r->name, r->unit[0] ? " [" : "", r->unit,
-             r->unit[0] ? "]" : "");
-    fprintf(stream, "%-27s", name);
-    print_estimate(stream, s->mean);
-    print_estimate(stream, s->deviation);
-    fprintf(stream, "  %8.3g", s->skewness);
-    for (int k = 0; k < STATISTICS_QUANTILES; k++)
-        fprintf(stream, "  %11.6g", s->quantile[k].value);
-    fputc('\n', stream);
+    char text[96];
+    if (isnan(e->low))
+        snprintf(text, sizeof text, "%.4g", e->value);
+    else
+        snprintf(text, sizeof text, "%.4g [%.4g, %.4g]", e->value, e->low, e->high);
+    fprintf(stream, " %-*s", width, text);
 }
 
-static ld_status print_results(const study_data *data, const study_point *point, FILE *stream,
-                               study_values *values, ld_error *error)
+static void print_statistics(const shown *self, const group_statistics *of)
 {
-    bool first = true;
-    for (int i = 0; i < data->result_count; i++) {
-        group_statistics statistics;
-        const study_column *column = &data->column[i];
-        ld_status status = study_data_read(data, point, &column, 1, values, error);
-        if (status)
-            return status;
-        if (values->count == 0)
+    FILE *stream = self->stream;
+    fprintf(stream, "\n%-26s %-25s %-33s %8s %11s %11s\n", "", "mean", "standard deviation",
+            "skewness", "least", "greatest");
+    for (int i = 0; i < self->count; i++) {
+        if (of[i].count == 0)
             continue;
-        if (statistics_of(values->value[0], values->group, values->count, &statistics))
-            return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
-        if (first)
-            fprintf(
-                stream,
-                "%zu rockets, %zu independent groups; in brackets 95 %% intervals over groups\n\n"
-                "%-27s  %-38s  %-38s  %8s  %11s  %11s  %11s\n",
-                statistics.count, statistics.groups, "", "mean", "standard deviation", "skewness",
-                "5 %", "median", "95 %");
-        first = false;
-        print_statistics(stream, column, &statistics);
+        print_name(stream, self->column[i]);
+        print_mean(stream, &of[i].mean);
+        print_estimate(stream, 33, &of[i].deviation);
+        fprintf(stream, " %8.3g %11.6g %11.6g\n", of[i].skewness, of[i].least, of[i].greatest);
     }
-    return LD_OK;
+    fprintf(stream, "\n%-26s %-30s %-30s %s\n", "", "5 %", "median", "95 %");
+    for (int i = 0; i < self->count; i++) {
+        if (of[i].count == 0)
+            continue;
+        print_name(stream, self->column[i]);
+        for (int k = 0; k < STATISTICS_QUANTILES; k++)
+            print_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &of[i].quantile[k]);
+        fputc('\n', stream);
+    }
 }
 
-static ld_status print_ellipses(const study_data *data, const study_point *point, FILE *stream,
-                                study_values *values, ld_error *error)
+// The widest count of values among what is shown; NULL: there are none.
+static const group_statistics *most_values(const shown *self, const group_statistics *of)
 {
+    const group_statistics *most = NULL;
+    for (int i = 0; i < self->count; i++)
+        if (of[i].count > (most ? most->count : 0))
+            most = &of[i];
+    return most;
+}
+
+// ---- ellipses
+
+static bool is_shown(const shown *self, const study_column *column)
+{
+    for (int i = 0; i < self->count; i++)
+        if (self->column[i] == column)
+            return true;
+    return false;
+}
+
+static void print_ellipse(FILE *stream, const study_column *const pair[2],
+                          const covariance_ellipse *e, const estimate axis[2], size_t count)
+{
+    const double degrees = 57.295779513082321;
+    fprintf(stream, "%s and %s [%s], %zu rockets: centre %.6g, %.6g\n", pair[0]->name,
+            pair[1]->name, pair[0]->unit, count, e->mean[0], e->mean[1]);
+    fputs("    semi-axes of one standard deviation", stream);
+    print_estimate(stream, 0, &axis[0]);
+    fputs(" and", stream);
+    print_estimate(stream, 0, &axis[1]);
+    fprintf(stream,
+            "\n    of 95 %% of a normal distribution %.4g and %.4g; the long one %.4g deg from %s "
+            "towards %s\n",
+            ellipse_radius * e->semi_axis[0], ellipse_radius * e->semi_axis[1], e->angle * degrees,
+            pair[0]->name, pair[1]->name);
+}
+
+static ld_status print_ellipses(shown *self, const study_point *point, ld_error *error)
+{
+    study_values *values = &self->values;
+    bool first = true;
     for (size_t i = 0; i < STUDY_PAIRS; i++) {
-        const char *const *name = study_pairs[i].name, *unit = study_pairs[i].unit;
-        covariance_ellipse e;
         const char *nearest;
-        const study_column *pair[] = {study_data_find(data, name[0], &nearest),
-                                      study_data_find(data, name[1], &nearest)};
-        if (!pair[0] || !pair[1])
+        const study_column *pair[] = {
+            study_data_find(self->data, study_pairs[i].name[0], &nearest),
+            study_data_find(self->data, study_pairs[i].name[1], &nearest)};
+        covariance_ellipse ellipse;
+        estimate axis[2];
+        if (!is_shown(self, pair[0]) || !is_shown(self, pair[1]))
             continue;
-        ld_status status = study_data_read(data, point, pair, 2, values, error);
+        ld_status status = study_data_read(self->data, point, pair, 2, values, error);
         if (status)
             return status;
         if (values->count < 3)
             continue;
-        covariance_ellipse_of(values->value[0], values->value[1], values->count, &e);
-        fprintf(stream,
-                "\n%s and %s: centre %.6g, %.6g %s; semi-axes of one deviation %.5g, %.5g %s, of "
-                "95 %% %.5g, %.5g %s; the long one %.4g deg from %s towards %s",
-                name[0], name[1], e.mean[0], e.mean[1], unit, e.semi_axis[0], e.semi_axis[1], unit,
-                ellipse_radius * e.semi_axis[0], ellipse_radius * e.semi_axis[1], unit,
-                e.angle * 57.295779513082321, name[0], name[1]);
+        fputs(first ? "\n" : "", self->stream);
+        first = false;
+        covariance_ellipse_of(values->value[0], values->value[1], values->count, &ellipse);
+        if (covariance_ellipse_intervals(values->value[0], values->value[1], values->group,
+                                         values->count, &ellipse, axis))
+            return no_memory(error);
+        print_ellipse(self->stream, pair, &ellipse, axis, values->count);
     }
-    fputc('\n', stream);
     return LD_OK;
 }
 
-// "speed: 15 km/h, interval: 0.5 s"
-static void print_heading(const study_data *data, const study_point *point, FILE *stream)
+// ---- sensitivities
+
+// "64+-7", in percent
+static void print_share(FILE *stream, int width, estimate e)
 {
-    if (data->swept_count == 0)
-        return;
-    fprintf(stream, "\n%" PRId64 ".", point->number);
-    for (int k = 0; k < data->swept_count; k++)
-        fprintf(stream, "%s %s: %s", k ? "," : "", data->swept[k], point->text[k]);
-    fputs("\n", stream);
+    char text[64];
+    double half = 50 * (e.high - e.low), value = 100 * fmax(0, e.value);
+    if (isnan(e.value))
+        snprintf(text, sizeof text, "-");
+    else if (isnan(half))
+        snprintf(text, sizeof text, "%.0f", value);
+    else
+        snprintf(text, sizeof text, half < 1 ? "%.1f+-%.1f" : "%.0f+-%.0f", value, half);
+    fprintf(stream, " %*s", width, text);
 }
 
-static ld_status print_point(const study_data *data, const study_point *point, FILE *stream,
-                             study_values *values, ld_error *error)
+static int share_width(const study_column *column)
 {
-    print_heading(data, point, stream);
-    ld_status status = print_counts(data, point, stream, error);
-    if (!status)
-        status = print_results(data, point, stream, values, error);
-    return status ? status : print_ellipses(data, point, stream, values, error);
+    int length = (int)strlen(column->name);
+    return length > 9 ? length : 9;
 }
 
-ld_status ld_study_show(const char *folder, FILE *stream, ld_error *error)
+// Reads the shown result together with all factors of the study; one result's columns at a time.
+static ld_status sensitivities_of(shown *self, const study_point *point, int result,
+                                  estimate *share, ld_error *error)
 {
-    study_data data;
-    study_values values = {0};
-    ld_status status = study_data_open(folder, &data, error);
-    if (status)
-        return status;
-    locale_t before = numeric_locale_enter();
-    for (int i = 0; i < data.point_count && !status; i++)
-        status = print_point(&data, &data.point[i], stream, &values, error);
-    numeric_locale_leave(before);
-    study_values_free(&values);
-    study_data_close(&data);
+    const study_data *data = self->data;
+    int factors = data->column_count - data->result_count;
+    study_values *values = &self->values;
+    const study_column **column = calloc((size_t)factors + 1, sizeof(void *));
+    if (!column)
+        return no_memory(error);
+    for (int k = 0; k < factors; k++)
+        column[k] = &data->column[data->result_count + k];
+    column[factors] = self->column[result];
+    ld_status status = study_data_read(data, point, column, factors + 1, values, error);
+    for (int k = 0; k < factors && !status; k++)
+        share[k] = values->count
+                       ? sensitivity_of(values->value[k], values->value[factors], values->sample,
+                                        values->group, values->count, column[k]->per_rocket)
+                       : (estimate){NAN, NAN, NAN};
+    free(column);
     return status;
 }
 
-// ---- export
-
-static void print_cell(FILE *stream, sqlite3_stmt *row, int column)
+static void print_shares(const shown *self, const estimate *share)
 {
-    int type = sqlite3_column_type(row, column);
-    if (type == SQLITE_FLOAT)
-        fprintf(stream, "%.17g", sqlite3_column_double(row, column));
-    else if (type != SQLITE_NULL)
-        fprintf(stream, "%s", (const char *)sqlite3_column_text(row, column));
-}
-
-static bool write_rows(FILE *stream, sqlite3_stmt *rows)
-{
-    int result, columns = sqlite3_column_count(rows);
-    for (int i = 0; i < columns; i++)
-        fprintf(stream, "%s%s", i ? "," : "", sqlite3_column_name(rows, i));
-    fputc('\n', stream);
-    while ((result = sqlite3_step(rows)) == SQLITE_ROW) {
-        for (int i = 0; i < columns; i++) {
-            fputs(i ? "," : "", stream);
-            print_cell(stream, rows, i);
-        }
-        fputc('\n', stream);
+    const study_data *data = self->data;
+    int factors = data->column_count - data->result_count;
+    fprintf(self->stream,
+            "\n%% of the variance that each factor explains alone, estimated from "
+            "these samples; +- half a 95 %% interval\n\n%-33s",
+            "");
+    for (int i = 0; i < self->count; i++)
+        fprintf(self->stream, " %*s", share_width(self->column[i]), self->column[i]->name);
+    for (int k = 0; k < factors; k++) {
+        const study_column *factor = &data->column[data->result_count + k];
+        if (factor->seed)
+            continue;
+        fprintf(self->stream, "\n%-33s", factor->name);
+        for (int i = 0; i < self->count; i++)
+            print_share(self->stream, share_width(self->column[i]), share[i * factors + k]);
     }
-    return result == SQLITE_DONE;
+    fprintf(self->stream, "\n%-33s", "together");
+    for (int i = 0; i < self->count; i++) {
+        estimate sum = {0, NAN, NAN};
+        for (int k = 0; k < factors; k++)
+            sum.value +=
+                data->column[data->result_count + k].seed ? 0 : share[i * factors + k].value;
+        print_share(self->stream, share_width(self->column[i]), sum);
+    }
+    fputc('\n', self->stream);
 }
 
-// The columns of a table after the first few, each with its table and a comma before it.
-static void list_columns(study_store *self, FILE *text, const char *table, int from)
+static ld_status print_sensitivities(shown *self, const study_point *point, ld_error *error)
 {
-    char query[64];
-    snprintf(query, sizeof query, "PRAGMA table_info(%s)", table);
-    sqlite3_stmt *columns = store_prepare(self, query, NULL);
-    while (columns && sqlite3_step(columns) == SQLITE_ROW)
-        if (sqlite3_column_int(columns, 0) >= from)
-            fprintf(text, ", %s.\"%s\"", table, sqlite3_column_text(columns, 1));
-    sqlite3_finalize(columns);
+    int factors = self->data->column_count - self->data->result_count;
+    estimate *share = calloc((size_t)(self->count * factors) + 1, sizeof *share);
+    ld_status status = share ? LD_OK : no_memory(error);
+    for (int i = 0; i < self->count && !status; i++)
+        status = sensitivities_of(self, point, i, share + i * factors, error);
+    if (!status && factors > 0)
+        print_shares(self, share);
+    free(share);
+    return status;
 }
 
-static ld_status export(study_store *self, const char *file, ld_error *error)
+// ---- points
+
+static ld_status print_point(shown *self, const study_point *point, ld_error *error)
 {
-    char *query = NULL;
-    size_t length;
-    FILE *text = open_memstream(&query, &length);
-    if (!text)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the table");
-    fputs("SELECT sample.sample, rocket.rocket, rocket.tube, sample.status", text);
-    list_columns(self, text, "sample", 4);
-    list_columns(self, text, "rocket", 3);
-    fputs(" FROM sample JOIN rocket USING (sample) ORDER BY sample.sample, rocket.rocket", text);
-    fclose(text);
-    sqlite3_stmt *rows = store_prepare(self, query, error);
-    free(query);
-    if (!rows)
-        return LD_ERR_FILE;
-    FILE *stream = fopen(file, "w");
-    bool read = stream && write_rows(stream, rows);
-    bool written = stream && !ferror(stream);
-    written = stream && fclose(stream) == 0 && written;
-    sqlite3_finalize(rows);
-    if (!written)
-        return ld_fail(error, LD_ERR_FILE, "cannot write %s", file);
-    return read ? LD_OK : store_fail(self, "read", error);
+    const study_data *data = self->data;
+    if (data->swept_count > 0) {
+        fprintf(self->stream, "%s%" PRId64 ".", point > data->point ? "\n" : "", point->number);
+        for (int k = 0; k < data->swept_count; k++)
+            fprintf(self->stream, "%s %s: %s", k ? "," : "", data->swept[k], point->text[k]);
+        fputc('\n', self->stream);
+    }
+    ld_status status = print_counts(self, point, error);
+    const group_statistics *of = statistics_at(self, point), *most = most_values(self, of);
+    if (status || !most)
+        return status;
+    fprintf(self->stream, "%zu rockets, %zu independent groups; 95 %% intervals over groups\n",
+            most->count, most->groups);
+    if (self->view->sensitivity)
+        return print_sensitivities(self, point, error);
+    print_statistics(self, of);
+    return print_ellipses(self, point, error);
 }
 
-ld_status ld_study_export(const char *folder, const char *file, ld_error *error)
+enum { CELL = 22, CELLS = 4 };
+
+static void print_cell(FILE *stream, int digits, const estimate *e)
 {
-    study_store store;
-    ld_status status = store_open_to_read(&store, folder, error);
+    char text[64] = "";
+    if (!isnan(e->value) && isnan(e->low))
+        snprintf(text, sizeof text, "%.*g", digits, e->value);
+    else if (!isnan(e->value))
+        snprintf(text, sizeof text, "%.*g +- %.2g", digits, e->value, 0.5 * (e->high - e->low));
+    fprintf(stream, " %-*s", CELL, text);
+}
+
+// Points `from` to before `to`, a column each.
+static void print_beside(const shown *self, int from, int to)
+{
+    const study_data *data = self->data;
+    for (int k = 0; k < data->swept_count; k++) {
+        fprintf(self->stream, "\n%-26s", data->swept[k]);
+        for (int i = from; i < to; i++)
+            fprintf(self->stream, " %-*.*s", CELL, CELL, data->point[i].text[k]);
+    }
+    for (int c = 0; c < self->count; c++) {
+        fputc('\n', self->stream);
+        print_name(self->stream, self->column[c]);
+        for (int i = from; i < to; i++)
+            print_cell(self->stream, 6, &statistics_at(self, &data->point[i])[c].mean);
+        fprintf(self->stream, "\n%-26s", "    deviation");
+        for (int i = from; i < to; i++)
+            print_cell(self->stream, 4, &statistics_at(self, &data->point[i])[c].deviation);
+    }
+    fputc('\n', self->stream);
+}
+
+static void print_side_by_side(const shown *self)
+{
+    int points = self->data->point_count;
+    fputs("\nAll points: mean and standard deviation, +- half a 95 % interval\n", self->stream);
+    for (int from = 0; from < points; from += CELLS)
+        print_beside(self, from, from + CELLS < points ? from + CELLS : points);
+}
+
+static ld_status print_all(shown *self, ld_error *error)
+{
+    const study_data *data = self->data;
+    ld_status status = choose_columns(self, error);
+    if (!status)
+        status = compute(self, error);
+    for (int i = 0; i < data->point_count && !status; i++)
+        status = print_point(self, &data->point[i], error);
+    if (!status && data->point_count > 1 && !self->view->sensitivity)
+        print_side_by_side(self);
+    return status;
+}
+
+ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
+                        ld_error *error)
+{
+    static const ld_study_view none = {0};
+    study_data data;
+    ld_status status = study_data_open(folder, &data, error);
     if (status)
         return status;
+    shown self = {.data = &data, .view = view ? view : &none, .stream = stream};
     locale_t before = numeric_locale_enter();
-    status = export(&store, file, error);
+    status = print_all(&self, error);
     numeric_locale_leave(before);
-    store_close(&store);
+    free(self.column);
+    free(self.of);
+    study_values_free(&self.values);
+    study_data_close(&data);
     return status;
 }

@@ -332,3 +332,23 @@ void covariance_ellipse_of(const double *x, const double *y, size_t count,
         .angle = 0.5 * atan2(2 * xy, xx - yy),
     };
 }
+
+ld_status covariance_ellipse_intervals(const double *x, const double *y, const int64_t *group,
+                                       size_t count, const covariance_ellipse *ellipse,
+                                       estimate semi_axis[2])
+{
+    double *along = malloc(count * sizeof *along);
+    ld_status status = along ? LD_OK : LD_ERR_MEMORY;
+    for (int k = 0; k < 2 && !status; k++) {
+        group_statistics of;
+        double cosine = cos(ellipse->angle), sine = sin(ellipse->angle);
+        for (size_t i = 0; i < count; i++) {
+            double dx = x[i] - ellipse->mean[0], dy = y[i] - ellipse->mean[1];
+            along[i] = k ? dy * cosine - dx * sine : dx * cosine + dy * sine;
+        }
+        status = statistics_of(along, group, count, &of);
+        semi_axis[k] = of.deviation;
+    }
+    free(along);
+    return status;
+}

@@ -51,4 +51,11 @@ void covariance_ellipse_of(const double *x, const double *y, size_t count,
 // A normal distribution has 95 % within so many deviations: sqrt(-2 ln 0.05).
 extern const double ellipse_radius;
 
+// The semi-axes with the intervals of standard deviations along them, as if their directions were
+// known.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status covariance_ellipse_intervals(const double *x, const double *y, const int64_t *group,
+                                       size_t count, const covariance_ellipse *ellipse,
+                                       estimate semi_axis[2]);
+
 #endif

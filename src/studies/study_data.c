@@ -92,15 +92,23 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
             status = no_memory(error);
         else
             column[data->column_count++] = (study_column){kept, result ? result->unit : "", !result,
-                                                          strcmp(table, "rocket") == 0};
+                                                          strcmp(table, "rocket") == 0, false};
     }
     sqlite3_finalize(row);
     data->column = self->column;
     return status;
 }
 
-// Units of the factors and the title, from the scenario itself; without them where it cannot be
-// read.
+static bool is_seed(const ld_model *model, const char *path)
+{
+    for (int i = 0; i < model->scatter.factor_count; i++)
+        if (strcmp(model->scatter.factor[i].path, path) == 0)
+            return model->scatter.factor[i].distribution == LD_EACH_SAMPLE;
+    return false;
+}
+
+// Units and kinds of the factors and the title, from the scenario itself; without them where it
+// cannot be read.
 static ld_status read_scenario(study_data *data, ld_error *error)
 {
     study_reader *self = data->reader;
@@ -117,6 +125,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
         field_place place;
         if (field_locate(&model, data->column[i].name, &place, why, sizeof why) && place.row->unit)
             self->column[i].unit = place.row->unit;
+        self->column[i].seed = is_seed(&model, data->column[i].name);
     }
     data->title = keep(self, strdup(model.title ? model.title : ""));
     ld_model_free(&model);
@@ -187,7 +196,7 @@ static ld_status count_samples(study_data *data, ld_error *error)
     int64_t asked = samples ? atoll(samples) : 0;
     free(samples);
     for (int i = 0; i < data->point_count; i++)
-        self->point[i].asked = asked / data->point_count;
+        self->point[i].asked = asked;
     snprintf(query, sizeof query,
              "SELECT %s, count(*), count(*) FILTER (WHERE status != 'ok') FROM sample GROUP BY 1",
              self->has_points ? "point" : "1");
@@ -447,7 +456,7 @@ static double half_width(const group_statistics *of, ld_statistic statistic, boo
 {
     const estimate *e = statistic == LD_STATISTIC_MEAN ? &of->mean : &of->deviation;
     double half = 0.5 * (e->high - e->low);
-    if (of->groups > 2 && of->least == of->greatest)
+    if (of->groups > 2 && of->deviation.value == 0)
         return 0;
     return isnan(half) ? INFINITY : relative ? half / fabs(e->value) : half;
 }
@@ -463,7 +472,7 @@ ld_status study_data_half_width(const study_data *data, const study_column *resu
         group_statistics of;
         status = read_up_to(data, &data->point[i], last > 0 ? last : INT64_MAX, &result, 1, &values,
                             error);
-        if (!status && statistics_of(values.value[0], values.group, values.count, &of))
+        if (!status && moments_of(values.value[0], values.group, values.count, &of))
             status = no_memory(error);
         if (!status)
             *half = fmax(*half, half_width(&of, statistic, relative));

@@ -17,6 +17,7 @@ typedef struct study_column {
     const char *unit; // SI; "" without, or of a factor that this version does not know
     bool factor;      // drawn; else a result
     bool per_rocket;  // else one for all rockets of a sample
+    bool seed;        // a factor that is another seed in each sample
 } study_column;
 
 // A point of the sweep; a study without one has a single point.

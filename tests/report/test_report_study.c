@@ -243,7 +243,7 @@ static void test_numbers_are_those_of_show(void **state)
     char *shown = NULL, *page = report_one("study", NULL);
     size_t length;
     FILE *stream = open_memstream(&shown, &length);
-    assert_int_equal(ld_study_show(in("study"), stream, NULL), LD_OK);
+    assert_int_equal(ld_study_show(in("study"), NULL, stream, NULL), LD_OK);
     fclose(stream);
     for (int k = 0; k < STUDY_RESULTS; k++) {
         double e[3] = {0};

@@ -131,7 +131,7 @@ static void test_refusals(void **state)
     // a folder that cannot be made
     ld_error error;
     assert_int_equal(ld_study_run(study, "/proc/study", NULL, &counts, &error), LD_ERR_FILE);
-    assert_int_equal(ld_study_show(in("nothing"), stdout, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_study_show(in("nothing"), NULL, stdout, &error), LD_ERR_INPUT);
     ld_study_free(study);
     ld_study_free(other);
     ld_study_free(more);
@@ -287,7 +287,7 @@ static void test_failures(void **state)
     assert_true(counts.done == 20 && counts.failed == launches + inputs);
     FILE *stream = open_memstream(&shown, &length);
     ld_error error;
-    assert_int_equal(ld_study_show(in("failures"), stream, &error), LD_OK);
+    assert_int_equal(ld_study_show(in("failures"), NULL, stream, &error), LD_OK);
     fclose(stream);
     assert_non_null(strstr(shown, "the lock never let go"));
     free(csv);

@@ -1,0 +1,197 @@
+// The table of a study's rockets as CSV, or as HDF5.
+#include "studies/export.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/numeric_locale.h"
+#include "launchdyn/study.h"
+#include "studies/store.h"
+
+static ld_status no_memory(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for the table");
+}
+
+static ld_status cannot_write(const char *file, int number, ld_error *error)
+{
+    return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
+}
+
+// ---- the table
+
+// Factors stand before results.
+static const study_column *column_at(const study_data *data, int i)
+{
+    int factors = data->column_count - data->result_count;
+    return &data->column[i < factors ? data->result_count + i : i - factors];
+}
+
+const char *export_unit(const export_table *table, int column)
+{
+    return column < table->keys ? "" : column_at(table->data, column - table->keys)->unit;
+}
+
+static char *select_rows(const study_data *data)
+{
+    char *query = NULL;
+    size_t length;
+    FILE *text = open_memstream(&query, &length);
+    if (!text)
+        return NULL;
+    fputs("SELECT sample.sample, rocket.rocket, rocket.tube, sample.status", text);
+    if (data->swept_count > 0)
+        fputs(", sample.point", text);
+    for (int i = 0; i < data->swept_count; i++)
+        fprintf(text, ", point.\"%s\"", data->swept[i]);
+    for (int i = 0; i < data->column_count; i++) {
+        const study_column *column = column_at(data, i);
+        fprintf(text, ", %s.\"%s\"", column->per_rocket ? "rocket" : "sample", column->name);
+    }
+    fprintf(text, " FROM sample JOIN rocket USING (sample)%s ORDER BY sample.sample, rocket.rocket",
+            data->swept_count > 0 ? " JOIN point USING (point)" : "");
+    return fclose(text) == 0 ? query : NULL;
+}
+
+static ld_status count_rows(study_store *store, int64_t *rows, ld_error *error)
+{
+    sqlite3_stmt *count =
+        store_prepare(store, "SELECT count(*) FROM sample JOIN rocket USING (sample)", error);
+    if (!count)
+        return LD_ERR_FILE;
+    bool read = sqlite3_step(count) == SQLITE_ROW;
+    *rows = read ? sqlite3_column_int64(count, 0) : 0;
+    sqlite3_finalize(count);
+    return read ? LD_OK : store_fail(store, "read", error);
+}
+
+// ---- CSV
+
+// Texts with a comma, a quote or a line's end stand in quotes (RFC 4180).
+static void print_text(FILE *stream, const char *text)
+{
+    if (!text[strcspn(text, ",\"\r\n")]) {
+        fputs(text, stream);
+        return;
+    }
+    fputc('"', stream);
+    for (; *text; text++) {
+        fputs(*text == '"' ? "\"" : "", stream);
+        fputc(*text, stream);
+    }
+    fputc('"', stream);
+}
+
+static void print_cell(FILE *stream, sqlite3_stmt *row, int column)
+{
+    int type = sqlite3_column_type(row, column);
+    if (type == SQLITE_FLOAT)
+        fprintf(stream, "%.17g", sqlite3_column_double(row, column));
+    else if (type != SQLITE_NULL)
+        print_text(stream, (const char *)sqlite3_column_text(row, column));
+}
+
+static ld_status write_csv(const export_table *table, FILE *stream, ld_error *error)
+{
+    int result;
+    for (int i = 0; i < table->columns; i++) {
+        fputs(i ? "," : "", stream);
+        print_text(stream, sqlite3_column_name(table->row, i));
+    }
+    fputc('\n', stream);
+    while ((result = sqlite3_step(table->row)) == SQLITE_ROW) {
+        for (int i = 0; i < table->columns; i++) {
+            fputs(i ? "," : "", stream);
+            print_cell(stream, table->row, i);
+        }
+        fputc('\n', stream);
+    }
+    if (result != SQLITE_DONE)
+        return ld_fail(error, LD_ERR_FILE, "cannot read %s", table->path);
+    return LD_OK;
+}
+
+static ld_status export_csv(const export_table *table, const char *file, const char *name,
+                            ld_error *error)
+{
+    errno = 0;
+    FILE *stream = fopen(file, "w");
+    if (!stream)
+        return cannot_write(name, errno, error);
+    ld_status status = write_csv(table, stream, error);
+    bool written = !ferror(stream);
+    int number = errno;
+    if (fclose(stream) != 0 && written) {
+        written = false;
+        number = errno;
+    }
+    return status || written ? status : cannot_write(name, number, error);
+}
+
+// ---- both
+
+typedef ld_status table_writer(const export_table *table, const char *file, const char *name,
+                               ld_error *error);
+
+// Under a temporary name beside the file, which then gets its own; what is not a file (/dev/stdout)
+// is written at once.
+static ld_status write_file(export_table *table, table_writer *write, const char *file,
+                            ld_error *error)
+{
+    char part[4096];
+    struct stat there;
+    sqlite3_reset(table->row);
+    if (stat(file, &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
+        return write(table, file, file, error);
+    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
+        return ld_fail(error, LD_ERR_INPUT, "the table's name is too long");
+    ld_status status = write(table, part, file, error);
+    if (!status && rename(part, file) != 0)
+        status = cannot_write(file, errno, error);
+    if (status)
+        unlink(part);
+    return status;
+}
+
+static ld_status export_rows(const study_data *data, study_store *store, const char *csv,
+                             const char *hdf5, ld_error *error)
+{
+    export_table table = {.data = data, .path = store->path, .keys = EXPORT_KEYS};
+    char *query = select_rows(data);
+    if (!query)
+        return no_memory(error);
+    table.row = store_prepare(store, query, error);
+    free(query);
+    if (!table.row)
+        return LD_ERR_FILE;
+    table.keys += data->swept_count > 0 ? 1 + data->swept_count : 0;
+    table.columns = sqlite3_column_count(table.row);
+    ld_status status = count_rows(store, &table.rows, error);
+    if (!status && csv)
+        status = write_file(&table, export_csv, csv, error);
+    if (!status && hdf5)
+        status = write_file(&table, export_hdf5, hdf5, error);
+    sqlite3_finalize(table.row);
+    return status;
+}
+
+ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5, ld_error *error)
+{
+    study_data data;
+    study_store store;
+    ld_status status = study_data_open(folder, &data, error);
+    if (status)
+        return status;
+    status = store_open_to_read(&store, folder, error);
+    if (!status) {
+        locale_t before = numeric_locale_enter();
+        status = export_rows(&data, &store, csv, hdf5, error);
+        numeric_locale_leave(before);
+        store_close(&store);
+    }
+    study_data_close(&data);
+    return status;
+}

@@ -1,0 +1,27 @@
+// The table of a study's rockets, to be written: columns with their units, rows from the database.
+#ifndef LD_STUDIES_EXPORT_H
+#define LD_STUDIES_EXPORT_H
+
+#include <sqlite3.h>
+
+#include "studies/study_data.h"
+
+enum { EXPORT_KEYS = 4 }; // sample, rocket, tube, status: the first columns
+
+typedef struct export_table {
+    const study_data *data;
+    const char *path; // of the database, for messages
+    int keys;         // columns before the factors: EXPORT_KEYS, of a sweep its points too
+    int columns;
+    sqlite3_stmt *row;
+    int64_t rows;
+} export_table;
+
+// The unit of a column, "" without.
+const char *export_unit(const export_table *table, int column);
+
+// Writes the table, from its first row, as an HDF5 file, in messages by its name.
+ld_status export_hdf5(const export_table *table, const char *file, const char *name,
+                      ld_error *error);
+
+#endif
