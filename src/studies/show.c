@@ -63,8 +63,10 @@ static ld_status choose_columns(shown *self, ld_error *error)
     char *names = strdup(what ? what : self->view->sensitivity ? sensitive : usual), *rest = NULL;
     ld_status status = names ? LD_OK : no_memory(error);
     for (char *name = names ? strtok_r(names, ", ", &rest) : NULL; name && !status;
-         name = strtok_r(NULL, ", ", &rest))
+         name = strtok_r(NULL, ", ", &rest)) {
         status = add_column(self, name, error);
+        status = what ? status : LD_OK; // of the choice, what there is
+    }
     free(names);
     return status;
 }
@@ -218,8 +220,8 @@ static void print_ellipse(FILE *stream, const study_column *const pair[2],
                           const covariance_ellipse *e, const estimate axis[2], size_t count)
 {
     const double degrees = 57.295779513082321;
-    fprintf(stream, "%s and %s [%s], %zu rockets: centre %.6g, %.6g\n", pair[0]->name,
-            pair[1]->name, pair[0]->unit, count, e->mean[0], e->mean[1]);
+    fprintf(stream, "%s and %s [%s]: centre %.6g, %.6g; %zu rockets\n", pair[0]->name,
+            pair[1]->name, pair[0]->unit, e->mean[0], e->mean[1], count);
     fputs("    semi-axes of one standard deviation", stream);
     print_estimate(stream, 0, &axis[0]);
     fputs(" and", stream);

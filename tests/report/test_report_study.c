@@ -243,22 +243,25 @@ static void test_numbers_are_those_of_show(void **state)
     char *shown = NULL, *page = report_one("study", NULL);
     size_t length;
     FILE *stream = open_memstream(&shown, &length);
-    assert_int_equal(ld_study_show(in("study"), NULL, stream, NULL), LD_OK);
+    ld_study_view all = {.what = "all"};
+    assert_int_equal(ld_study_show(in("study"), &all, stream, NULL), LD_OK);
     fclose(stream);
     for (int k = 0; k < STUDY_RESULTS; k++) {
         double e[3] = {0};
         const char *series = after(result_named(page, study_results[k].name), "\"series\":[");
         read_numbers(after(series, "\"mean\":"), e, 3);
-        expect_line(shown, "%.6g [%.6g, %.6g]", e);
+        e[1] = 0.5 * (e[2] - e[1]);
+        expect_line(shown, "%.6g +- %.2g", e);
         read_numbers(after(series, "\"deviation\":"), e, 3);
-        expect_line(shown, "%.6g [%.6g, %.6g]", e);
+        expect_line(shown, "%.4g [%.4g, %.4g]", e);
     }
     const char *ellipse = after(after(page, "\"x\":\"downrange\""), "\"ellipse\":");
-    double e[3] = {0};
+    double e[4] = {0};
     read_numbers(after(ellipse, "\"mean\":"), e, 2);
-    expect_line(shown, "downrange and drift: centre %.6g, %.6g m", e);
+    expect_line(shown, "downrange and drift [m]: centre %.6g, %.6g", e);
     read_numbers(after(ellipse, "\"semi_axis\":"), e, 2);
-    expect_line(shown, "semi-axes of one deviation %.5g, %.5g m", e);
+    expect_line(shown, "    semi-axes of one standard deviation %.4g [", e);
+    expect_line(shown, "] and %.4g [", e + 1);
     free(page);
     free(shown);
 }

@@ -19,11 +19,6 @@ static int remove_folder(void **state)
     return scratch_remove();
 }
 
-#define STUDY(strata)                                                                              \
-    "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT);"                                      \
-    "INSERT INTO study VALUES ('format', '1'), ('version', '0.1'), ('samples', '6'),"              \
-    "  ('strata', '" strata "'), ('scenario', 'include: fixed.yaml');"
-
 static study_data open_data(const char *name)
 {
     study_data data;

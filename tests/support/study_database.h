@@ -8,6 +8,12 @@
 #include "support/check.h"
 #include "support/scratch.h"
 
+// The table `study`, of hypercubes of so many samples ("1": random).
+#define STUDY(strata)                                                                              \
+    "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT);"                                      \
+    "INSERT INTO study VALUES ('format', '2'), ('version', '0.1'), ('samples', '6'),"              \
+    "  ('strata', '" strata "'), ('scenario', 'include: fixed.yaml');"
+
 // Runs SQL on the study in folder `name`, which is made where it is not there.
 static void write_database(const char *name, const char *text)
 {

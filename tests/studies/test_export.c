@@ -1,0 +1,240 @@
+// What is printed and exported of a study, against a database written by hand.
+// link: -lsqlite3
+#include "support/study_database.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "io/hdf5_support.h"
+#include "launchdyn/study.h"
+
+// Two points of a sweep, three samples at each with two rockets; sample 3 failed, the second
+// rocket of sample 6 did not leave.
+#define SWEEP                                                                                      \
+    STUDY("1")                                                                                     \
+    "CREATE TABLE point (point INTEGER PRIMARY KEY, \"base.speed\" TEXT, \"firing.order\" TEXT);"  \
+    "INSERT INTO point VALUES (2, '15 km/h', '[1, 2]'), (1, '0 km/h', '[2, \"1\"]');"              \
+    "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT, reason TEXT,"    \
+    "  \"base.elevation\" REAL);"                                                                  \
+    "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"                           \
+    "  \"rocket.mass_error\" REAL, t_rear REAL, muzzle_speed REAL, PRIMARY KEY (sample, rocket))"  \
+    "  WITHOUT ROWID;"                                                                             \
+    "INSERT INTO sample VALUES (1, 1, 'ok', NULL, 0.5), (2, 2, 'ok', NULL, 0.5),"                  \
+    "  (3, 1, 'launch', 'the lock held', 0.25), (4, 2, 'ok', NULL, 0.25),"                         \
+    "  (5, 1, 'ok', NULL, 0.1), (6, 2, 'ok', NULL, 0.1);"                                          \
+    "INSERT INTO rocket VALUES (1, 1, 2, 0.75, 0.125, 38), (1, 2, 1, -0.5, 0.25, 36),"             \
+    "  (2, 1, 1, 0.75, 0.1, 39), (2, 2, 2, -0.5, 0.3, 37), (3, 1, 2, 1, NULL, NULL),"              \
+    "  (3, 2, 1, 2, NULL, NULL), (4, 1, 1, 1, 0.2, 37.5), (4, 2, 2, 2, 0.15, 38.5),"               \
+    "  (5, 1, 2, 0, 0.1875, 37), (5, 2, 1, 0, 0.1875, 37), (6, 1, 1, 0, 0.2, 37.25),"              \
+    "  (6, 2, 2, 0, NULL, NULL);"
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (scratch_make())
+        return -1;
+    write_database("sweep", SWEEP);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return scratch_remove();
+}
+
+static char *read_text(const char *path)
+{
+    char *text = calloc(1, 1 << 16);
+    FILE *stream = fopen(path, "r");
+    assert_true(text && stream);
+    assert_true(fread(text, 1, (1 << 16) - 1, stream) > 0);
+    fclose(stream);
+    return text;
+}
+
+// ---- CSV
+
+static void test_csv(void **state)
+{
+    (void)state;
+    static const char expected[] =
+        "sample,rocket,tube,status,point,base.speed,firing.order,base.elevation,"
+        "rocket.mass_error,t_rear,muzzle_speed\n"
+        "1,1,2,ok,1,0 km/h,\"[2, \"\"1\"\"]\",0.5,0.75,0.125,38\n"
+        "1,2,1,ok,1,0 km/h,\"[2, \"\"1\"\"]\",0.5,-0.5,0.25,36\n"
+        "2,1,1,ok,2,15 km/h,\"[1, 2]\",0.5,0.75,0.10000000000000001,39\n"
+        "2,2,2,ok,2,15 km/h,\"[1, 2]\",0.5,-0.5,0.29999999999999999,37\n"
+        "3,1,2,launch,1,0 km/h,\"[2, \"\"1\"\"]\",0.25,1,,\n"
+        "3,2,1,launch,1,0 km/h,\"[2, \"\"1\"\"]\",0.25,2,,\n"
+        "4,1,1,ok,2,15 km/h,\"[1, 2]\",0.25,1,0.20000000000000001,37.5\n"
+        "4,2,2,ok,2,15 km/h,\"[1, 2]\",0.25,2,0.14999999999999999,38.5\n"
+        "5,1,2,ok,1,0 km/h,\"[2, \"\"1\"\"]\",0.10000000000000001,0,0.1875,37\n"
+        "5,2,1,ok,1,0 km/h,\"[2, \"\"1\"\"]\",0.10000000000000001,0,0.1875,37\n"
+        "6,1,1,ok,2,15 km/h,\"[1, 2]\",0.10000000000000001,0,0.20000000000000001,37.25\n"
+        "6,2,2,ok,2,15 km/h,\"[1, 2]\",0.10000000000000001,0,,\n";
+    ld_error error;
+    assert_int_equal(ld_study_export(in("sweep"), in("a.csv"), NULL, &error), LD_OK);
+    char *text = read_text(in("a.csv"));
+    assert_string_equal(text, expected);
+    free(text);
+    assert_int_equal(access(in("a.csv.part"), F_OK), -1);
+}
+
+// ---- HDF5
+
+static void read_column(hid_t file, const char *name, hid_t type, void *value)
+{
+    hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    assert_true(dataset >= 0);
+    assert_true(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
+    H5Dclose(dataset);
+}
+
+static void expect_attribute(hid_t file, const char *object, const char *name, const char *text)
+{
+    hid_t opened = H5Oopen(file, object, H5P_DEFAULT);
+    char *found = hdf5_read_text(opened, name);
+    assert_string_equal(found, text);
+    free(found);
+    H5Oclose(opened);
+}
+
+static void test_hdf5(void **state)
+{
+    (void)state;
+    ld_error error;
+    int64_t sample[12], tube[12], point[12];
+    double speed[12], elevation[12];
+    char status[12][16];
+    assert_int_equal(ld_study_export(in("sweep"), in("b.csv"), in("b.h5"), &error), LD_OK);
+    hid_t file = H5Fopen(in("b.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
+    assert_true(file >= 0);
+    read_column(file, "rockets/sample", H5T_NATIVE_INT64, sample);
+    read_column(file, "rockets/tube", H5T_NATIVE_INT64, tube);
+    read_column(file, "rockets/point", H5T_NATIVE_INT64, point);
+    read_column(file, "rockets/muzzle_speed", H5T_NATIVE_DOUBLE, speed);
+    read_column(file, "rockets/base.elevation", H5T_NATIVE_DOUBLE, elevation);
+    hid_t text = H5Tcopy(H5T_C_S1);
+    H5Tset_size(text, sizeof *status);
+    read_column(file, "rockets/status", text, status);
+    H5Tclose(text);
+    assert_true(sample[5] == 3 && tube[5] == 1 && point[5] == 1 && isnan(speed[5]));
+    assert_true(sample[7] == 4 && tube[7] == 2 && point[7] == 2 && speed[7] == 38.5);
+    assert_true(elevation[6] == 0.25 && elevation[7] == 0.25 && isnan(speed[11]));
+    assert_string_equal(status[5], "launch");
+    assert_string_equal(status[6], "ok");
+    expect_attribute(file, "rockets/muzzle_speed", "unit", "m/s");
+    expect_attribute(file, ".", "scenario", "include: fixed.yaml");
+    char *order[2];
+    text = hdf5_text_type();
+    read_column(file, "points/firing.order", text, order);
+    assert_string_equal(order[0], "[2, \"1\"]");
+    assert_string_equal(order[1], "[1, 2]");
+    H5free_memory(order[0]);
+    H5free_memory(order[1]);
+    H5Tclose(text);
+    H5Fclose(file);
+    // the CSV beside it is the one alone
+    char *alone = read_text(in("a.csv")), *beside = read_text(in("b.csv"));
+    assert_string_equal(alone, beside);
+    free(alone);
+    free(beside);
+}
+
+// ---- what cannot be written
+
+static void expect_failure(const char *csv, const char *hdf5, const char *part)
+{
+    ld_error error = {0};
+    assert_int_equal(ld_study_export(in("sweep"), csv, hdf5, &error), LD_ERR_FILE);
+    if (!strstr(error.text, part))
+        fail_msg("\"%s\" is not about \"%s\"", error.text, part);
+}
+
+static void test_failures(void **state)
+{
+    (void)state;
+    // a full disk
+    expect_failure("/dev/full", NULL, "cannot write /dev/full: No space left on device");
+    expect_failure(NULL, "/dev/full", "cannot write /dev/full: ");
+    // a folder that takes no files
+    expect_failure("/proc/a.csv", NULL, "cannot write /proc/a.csv: No such file or directory");
+    expect_failure(NULL, "/proc/a.h5", "cannot write /proc/a.h5: No such file or directory");
+    // what was there stays where the new one cannot be written
+    char *before = read_text(in("a.csv"));
+    assert_int_equal(mkdir(in("a.csv.part"), 0777), 0);
+    expect_failure(in("a.csv"), NULL, "a.csv: Is a directory");
+    assert_int_equal(rmdir(in("a.csv.part")), 0);
+    char *after = read_text(in("a.csv"));
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+}
+
+// ---- show
+
+static char *shown(const ld_study_view *view)
+{
+    char *text = NULL;
+    size_t length;
+    ld_error error;
+    FILE *stream = open_memstream(&text, &length);
+    assert_non_null(stream);
+    assert_int_equal(ld_study_show(in("sweep"), view, stream, &error), LD_OK);
+    assert_int_equal(fclose(stream), 0);
+    return text;
+}
+
+static void expect_part(const char *text, const char *part)
+{
+    if (!strstr(text, part))
+        fail_msg("\"%s\" is not in\n%s", part, text);
+}
+
+static void test_show(void **state)
+{
+    (void)state;
+    char *text = shown(NULL);
+    expect_part(text, "1. base.speed: 0 km/h, firing.order: [2, \"1\"]\n"
+                      "3 of 6 samples, 1 failed\n"
+                      "  1 failed (launch), the first of them 3: the lock held\n"
+                      "4 rockets, 2 independent groups");
+    expect_part(text, "\n2. base.speed: 15 km/h, firing.order: [1, 2]\n"
+                      "3 of 6 samples, 0 failed\n"
+                      "5 rockets, 3 independent groups");
+    // means of all rockets: (0.125 + 0.25 + 2 0.1875)/4 and (38 + 36 + 37 + 37)/4
+    expect_part(text, "\nt_rear [s]                 0.1875 +- 0 ");
+    expect_part(text, "\nmuzzle_speed [m/s]         37 +- 0 ");
+    expect_part(text, "\nbase.speed                 0 km/h                 15 km/h");
+    for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
+        assert_true(strcspn(line, "\n") <= 120);
+    assert_null(strstr(text, "t_front"));
+    free(text);
+
+    text = shown(&(ld_study_view){.what = "muzzle_speed,rocket.mass_error"});
+    assert_null(strstr(text, "t_rear"));
+    expect_part(text, "rocket.mass_error");
+    free(text);
+
+    text = shown(&(ld_study_view){.sensitivity = true});
+    expect_part(text, "% of the variance that each factor explains alone");
+    free(text);
+
+    ld_error error;
+    ld_study_view wrong = {.what = "t_rear,muzle_speed"};
+    assert_int_equal(ld_study_show(in("sweep"), &wrong, stdout, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text,
+                        "the study has no result \"muzle_speed\"; did you mean \"muzzle_speed\"?");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_csv),
+        cmocka_unit_test(test_hdf5),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_show),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
