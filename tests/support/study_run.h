@@ -42,7 +42,7 @@ static inline char *study_table(const char *name)
     ld_error error;
     char csv[160], *text = calloc(1, 1 << 20);
     snprintf(csv, sizeof csv, "%s.csv", in(name));
-    assert_int_equal(ld_study_export(in(name), csv, &error), LD_OK);
+    assert_int_equal(ld_study_export(in(name), csv, NULL, &error), LD_OK);
     FILE *stream = fopen(csv, "r");
     assert_non_null(stream);
     assert_non_null(text);
