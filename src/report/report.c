@@ -140,8 +140,8 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     read_history(source, folder);
     read_summary(source, folder);
     join(usual, folder, "report.html");
-    ld_status status = LD_OK;
-    if (!source->has_history && !source->summary)
+    ld_status status = report_add_replay(&source->history, error);
+    if (!status && !source->has_history && !source->summary)
         status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
                          report->note[0], report->note[report->note_count - 1]);
     if (!status)

@@ -104,7 +104,9 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     }
     fputs("],\"rockets\":[", json);
     write_rockets(json, source);
-    fputs("],\"tables\":[", json);
+    fputs("],\"geometry\":", json);
+    report_write_geometry(json, &source->history);
+    fputs(",\"tables\":[", json);
     ld_status status = write_tables(json, source, detail, error);
     fputs("],\"figures\":{\"launch\":[", json);
     write_figures(json, false);

@@ -42,6 +42,23 @@ bool report_is_flight(const history_data *history);
 ld_status report_write_table(FILE *json, const history_data *history, int rocket,
                              const report_detail *detail, ld_error *error);
 
+// Whether a history has what the replay wants.
+bool report_has_replay(const history_data *history);
+
+// Adds the columns that the replay wants and the history lacks, where there is a replay:
+// "replay.x", ".y", ".z" [m], ".rx", ".ry", ".rz" [rad], place and rotation vector of the tube's
+// frame R against the undeformed tube, in its axes.
+ld_status report_add_replay(history_data *history, ld_error *error);
+
+// Whether the replay shows a column of a launcher.
+bool report_replay_shows(const char *name);
+
+// Writes the launcher's geometry as JSON: an object of arrays, empty where there is no replay.
+void report_write_geometry(FILE *json, const history_data *history);
+
+// Writes bytes as text: deflated (zlib), in base64.
+ld_status report_write_bytes(FILE *text, const void *bytes, size_t count, ld_error *error);
+
 // Writes all that the page shows beside the summary as JSON.
 ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,
                             ld_error *error);

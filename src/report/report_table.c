@@ -1,4 +1,4 @@
-// A history as JSON: the columns that figures show, thinned, in base64.
+// A history as JSON: the columns that are shown, thinned, as bytes in base64.
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -7,56 +7,29 @@
 #include "io/json_text.h"
 #include "report/report_parts.h"
 
-// ---- base64 ----
-
-typedef struct base64 {
-    FILE *file;
-    unsigned char byte[3];
-    int count;
-} base64;
-
-static void base64_flush(base64 *text)
-{
-    static const char letter[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *b = text->byte;
-    if (text->count == 0)
-        return;
-    memset(text->byte + text->count, 0, (size_t)(3 - text->count));
-    char four[4] = {letter[b[0] >> 2], letter[(b[0] & 3) << 4 | b[1] >> 4],
-                    letter[(b[1] & 15) << 2 | b[2] >> 6], letter[b[2] & 63]};
-    memset(four + text->count + 1, '=', (size_t)(3 - text->count));
-    fwrite(four, 1, 4, text->file);
-    text->count = 0;
-}
-
-static void base64_byte(base64 *text, unsigned byte)
-{
-    text->byte[text->count++] = (unsigned char)byte;
-    if (text->count == 3)
-        base64_flush(text);
-}
-
-// The lowest byte first.
-static void base64_integer(base64 *text, uint64_t value, int bytes)
-{
-    for (int i = 0; i < bytes; i++)
-        base64_byte(text, value >> 8 * i & 255);
-}
-
-static void base64_float(base64 *text, double value)
-{
-    float single = (float)value;
-    uint32_t bits;
-    memcpy(&bits, &single, sizeof bits);
-    base64_integer(text, bits, 4);
-}
+// ---- numbers as bytes ----
 
 // Seven bits a byte, the lowest first; the eighth says that more follow.
-static void base64_count(base64 *text, size_t value)
+static void write_count(FILE *bytes, size_t value)
 {
     for (; value > 127; value >>= 7)
-        base64_byte(text, (value & 127) | 128);
-    base64_byte(text, (unsigned)value);
+        fputc((int)((value & 127) | 128), bytes);
+    fputc((int)value, bytes);
+}
+
+// Bits of a single-precision number, so that larger numbers have larger integers.
+static uint32_t ordered(double value)
+{
+    float single = isnan(value) ? NAN : (float)value;
+    uint32_t bits;
+    memcpy(&bits, &single, sizeof bits);
+    return bits >> 31 ? ~bits : bits | 0x80000000;
+}
+
+// Second differences of smooth curves are small, whatever their sign.
+static uint32_t folded(uint32_t difference)
+{
+    return difference << 1 ^ (difference >> 31 ? 0xffffffff : 0);
 }
 
 // ---- the table ----
@@ -75,14 +48,18 @@ typedef struct thinned {
     const double *t, *phase; // phase may be NULL
     size_t *column;          // [columns] those that are shown
     size_t columns;
-    char *keep; // [columns][rows] of the segment at hand
-    char *any;  // [rows] kept by some column
+    char *keep;      // [columns][rows] of the segment at hand
+    char *any;       // [rows] kept by some column
+    uint32_t *value; // [rows] of one column, coded
+    FILE *bytes;     // of the segment at hand
 } thinned;
 
 static bool is_shown(const char *name, bool flight)
 {
     char unused[LD_MAX_NAME + 8];
     const plot_figure *figure;
+    if (!flight && report_replay_shows(name))
+        return true;
     for (size_t f = 0; (figure = report_figure_at(flight, f)) != NULL; f++)
         for (const plot_panel *panel = figure->panel;
              panel < figure->panel + PLOT_PANELS && panel->title; panel++) {
@@ -183,54 +160,55 @@ static void thin(const thinned *table, const segment *part, const double *y, cha
 // row.
 static void write_times(const thinned *table, const segment *part)
 {
-    base64 text = {.file = table->json};
     long long before = 0;
     for (size_t i = part->first; i <= part->last; i++) {
         if (!table->any[i - part->first])
             continue;
         long long now = llround((table->t[i] - table->t[part->first]) * 1e9);
-        base64_count(&text, (size_t)(now > before ? now - before : 0));
+        write_count(table->bytes, (size_t)(now > before ? now - before : 0));
         before = now > before ? now : before;
     }
-    base64_flush(&text);
 }
 
-// Which of those rows a column needs: the steps from one to the next, the first from -1.
-static void write_rows(const thinned *table, size_t rows, const char *keep)
+// Which of those rows a column needs: how many, and where not all the steps from one to the next,
+// the first from -1.
+static void write_rows(const thinned *table, size_t rows, size_t all, const char *keep)
 {
-    if (memcmp(keep, table->any, rows) == 0) {
-        fputs("null", table->json);
-        return;
-    }
-    base64 text = {.file = table->json};
-    size_t step = 0;
-    fputc('"', table->json);
-    for (size_t i = 0; i < rows; i++) {
+    size_t count = 0, step = 0;
+    for (size_t i = 0; i < rows; i++)
+        count += keep[i] != 0;
+    write_count(table->bytes, count);
+    for (size_t i = 0; i < rows && count < all; i++) {
         step += table->any[i] != 0;
         if (!keep[i])
             continue;
-        base64_count(&text, step);
+        write_count(table->bytes, step);
         step = 0;
     }
-    base64_flush(&text);
-    fputc('"', table->json);
 }
 
-static void write_values(const thinned *table, const segment *part, const double *y,
-                         const char *keep)
+// Second differences, first the lowest bytes of all, then the next.
+static void write_values(const thinned *table, size_t rows, const double *y, const char *keep)
 {
-    base64 text = {.file = table->json};
-    fputc('"', table->json);
-    for (size_t i = 0; i <= part->last - part->first; i++)
-        if (keep[i])
-            base64_float(&text, y[i]);
-    base64_flush(&text);
-    fputc('"', table->json);
+    uint32_t before[2] = {0, 0};
+    size_t count = 0;
+    for (size_t i = 0; i < rows; i++) {
+        if (!keep[i])
+            continue;
+        uint32_t now = ordered(y[i]);
+        table->value[count++] = folded(now - 2 * before[0] + before[1]);
+        before[1] = before[0];
+        before[0] = now;
+    }
+    for (int shift = 0; shift < 32; shift += 8)
+        for (size_t i = 0; i < count; i++)
+            fputc((int)(table->value[i] >> shift & 255), table->bytes);
 }
 
-static void write_segment(const thinned *table, const segment *part)
+// Marks what each column keeps of a segment and returns how many rows some column keeps.
+static size_t thin_all(const thinned *table, const segment *part)
 {
-    size_t rows = part->last - part->first + 1;
+    size_t rows = part->last - part->first + 1, kept = 0;
     memset(table->any, 0, rows);
     for (size_t c = 0; c < table->columns; c++) {
         char *keep = table->keep + c * table->history->rows;
@@ -238,24 +216,35 @@ static void write_segment(const thinned *table, const segment *part)
         for (size_t i = 0; i < rows; i++)
             table->any[i] |= keep[i];
     }
-    fprintf(table->json, "{\"name\":\"%s\",\"of\":%zu,\"from\":%.17g,\"t\":\"", part->name, rows,
-            table->t[part->first]);
-    write_times(table, part);
-    fputs("\",\"rows\":[", table->json);
-    for (size_t c = 0; c < table->columns; c++) {
-        fputs(c ? "," : "", table->json);
-        write_rows(table, rows, table->keep + c * table->history->rows);
-    }
-    fputs("],\"values\":[", table->json);
-    for (size_t c = 0; c < table->columns && ftell(table->json) <= REPORT_BYTES; c++) {
-        fputs(c ? "," : "", table->json);
-        write_values(table, part, values_of(table, c) + part->first,
-                     table->keep + c * table->history->rows);
-    }
-    fputs("]}", table->json);
+    for (size_t i = 0; i < rows; i++)
+        kept += table->any[i] != 0;
+    return kept;
 }
 
-static void write_table(thinned *table, int rocket)
+static ld_status write_segment(thinned *table, const segment *part, ld_error *error)
+{
+    char *bytes = NULL;
+    size_t rows = part->last - part->first + 1, kept = thin_all(table, part), length = 0;
+    fprintf(table->json, "{\"name\":\"%s\",\"of\":%zu,\"from\":%.17g,\"count\":%zu,\"data\":\"",
+            part->name, rows, table->t[part->first], kept);
+    table->bytes = open_memstream(&bytes, &length);
+    if (!table->bytes)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    write_times(table, part);
+    for (size_t c = 0; c < table->columns; c++) {
+        const char *keep = table->keep + c * table->history->rows;
+        write_rows(table, rows, kept, keep);
+        write_values(table, rows, values_of(table, c) + part->first, keep);
+    }
+    ld_status status = fclose(table->bytes) == 0
+                           ? report_write_bytes(table->json, bytes, length, error)
+                           : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    free(bytes);
+    fputs("\"}", table->json);
+    return status;
+}
+
+static ld_status write_table(thinned *table, int rocket, ld_error *error)
 {
     const history_data *history = table->history;
     bool flight = report_is_flight(history);
@@ -273,14 +262,15 @@ static void write_table(thinned *table, int rocket)
         fputc(']', table->json);
     }
     fputs("],\"segments\":[", table->json);
-    for (size_t first = 0;
-         table->t && first < history->rows && ftell(table->json) <= REPORT_BYTES;) {
+    ld_status status = LD_OK;
+    for (size_t first = 0; table->t && first < history->rows && !status;) {
         segment part = segment_from(table, first);
         fputs(first ? ",\n" : "\n", table->json);
-        write_segment(table, &part);
+        status = write_segment(table, &part, error);
         first = part.last + 1;
     }
     fputs("]}", table->json);
+    return status;
 }
 
 ld_status report_write_table(FILE *json, const history_data *history, int rocket,
@@ -295,11 +285,13 @@ ld_status report_write_table(FILE *json, const history_data *history, int rocket
     table.column = malloc((history->columns + 1) * sizeof *table.column);
     table.keep = malloc(history->columns * rows + 1);
     table.any = malloc(rows + 1);
-    bool fine = table.column && table.keep && table.any;
-    if (fine)
-        write_table(&table, rocket);
+    table.value = malloc((rows + 1) * sizeof *table.value);
+    bool fine = table.column && table.keep && table.any && table.value;
+    ld_status status = fine ? write_table(&table, rocket, error)
+                            : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     free(table.column);
     free(table.keep);
     free(table.any);
-    return fine ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    free(table.value);
+    return status;
 }

@@ -103,19 +103,15 @@ static section section_at(const history_data *read, size_t row, double x)
     return found;
 }
 
-static m3 about(int axis, double angle)
-{
-    return rv_exp(v3_make(axis == 0 ? angle : 0, axis == 1 ? angle : 0, axis == 2 ? angle : 0));
-}
-
 // Undeformed tube's frame against I: the base's pose, then where the tube is mounted on it.
 static m3 tube_axes(const history_data *read, size_t row)
 {
-    m3 A =
-        m3_mul(m3_mul(about(1, at(read, "base.yaw", row)), about(2, at(read, "base.pitch", row))),
-               about(0, at(read, "base.roll", row)));
+    m3 A = m3_mul(m3_mul(m3_rotation_y(at(read, "base.yaw", row)),
+                         m3_rotation_z(at(read, "base.pitch", row))),
+                  m3_rotation_x(at(read, "base.roll", row)));
     const history_array *mount = history_array_named(read, "base.mount");
-    return mount ? m3_mul(A, m3_mul(about(1, mount->value[0]), about(2, mount->value[1]))) : A;
+    return mount ? m3_mul(A, m3_mul(m3_rotation_y(mount->value[0]), m3_rotation_z(mount->value[1])))
+                 : A;
 }
 
 static v3 vector(const history_data *read, const char *x, const char *y, const char *z, size_t row)
@@ -148,9 +144,9 @@ static double adaptor_error(const history_data *read, size_t row, size_t i, cons
         return 0;
     double s = at(read, "rocket.s", row), l = array(read, "rocket.adaptor")->value[i];
     section S = section_at(read, row, s);
-    m3 A_SB = m3_mul(
-        m3_mul(about(2, at(read, "rocket.psi", row)), about(1, at(read, "rocket.theta", row))),
-        about(0, at(read, "rocket.gamma", row)));
+    m3 A_SB = m3_mul(m3_mul(m3_rotation_z(at(read, "rocket.psi", row)),
+                            m3_rotation_y(at(read, "rocket.theta", row))),
+                     m3_rotation_x(at(read, "rocket.gamma", row)));
     v3 in_S = v3_add(v3_make(0, at(read, "rocket.y", row), at(read, "rocket.z", row)),
                      m3_apply(A_SB, v3_make(l, 0, 0)));
     v3 C = v3_add(S.P, m3_apply(S.A, in_S));
@@ -211,12 +207,12 @@ static void test_vehicle(void **state)
     assert_int_equal(places->rows, 18);
     double place = 0, wheel = 0;
     for (size_t row = 0; row < read.rows; row += 7) {
-        m3 A_C = m3_mul(m3_mul(about(1, at(&read, "chassis.yaw", row)),
-                               about(2, at(&read, "chassis.pitch", row))),
-                        about(0, at(&read, "chassis.roll", row)));
+        m3 A_C = m3_mul(m3_mul(m3_rotation_y(at(&read, "chassis.yaw", row)),
+                               m3_rotation_z(at(&read, "chassis.pitch", row))),
+                        m3_rotation_x(at(&read, "chassis.roll", row)));
         v3 r_C = vector(&read, "chassis.x", "chassis.y", "chassis.z", row);
-        m3 A_A = m3_mul(A_C, about(1, at(&read, "azimuth.angle", row)));
-        m3 A_E = m3_mul(A_A, about(2, at(&read, "elevation.angle", row)));
+        m3 A_A = m3_mul(A_C, m3_rotation_y(at(&read, "azimuth.angle", row)));
+        m3 A_E = m3_mul(A_A, m3_rotation_z(at(&read, "elevation.angle", row)));
         v3 azimuth = v3_add(r_C, m3_apply(A_C, v3_from(array(&read, "azimuth.hinge")->value)));
         v3 elevation =
             v3_add(azimuth, m3_apply(A_A, v3_from(array(&read, "elevation.hinge")->value)));

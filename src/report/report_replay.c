@@ -1,0 +1,131 @@
+// What the replay of a launch wants beside what the plots show: where the tube is against its
+// undeformed place, and the launcher's geometry.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/json_text.h"
+#include "math/quaternion.h"
+#include "math/rotation_vector.h"
+#include "report/report_parts.h"
+
+enum { DERIVED = 6 };
+
+static const char *const derived[DERIVED] = {"replay.x",  "replay.y",  "replay.z",
+                                             "replay.rx", "replay.ry", "replay.rz"};
+
+bool report_has_replay(const history_data *history)
+{
+    return history->rows > 0 && history_array_named(history, "tube.station") &&
+           history_column(history, "tube.q0") && history_column(history, "base.roll");
+}
+
+bool report_replay_shows(const char *name)
+{
+    static const char *const shown[] = {"base.x",      "base.y",        "base.z",    "base.yaw",
+                                        "base.pitch",  "base.roll",     "chassis.x", "chassis.z",
+                                        "chassis.yaw", "azimuth.angle", "thrust",    "phase"};
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        if (strcmp(name, shown[i]) == 0)
+            return true;
+    for (int i = 0; i < DERIVED; i++)
+        if (strcmp(name, derived[i]) == 0)
+            return true;
+    return *name == 'q' && name[1] && strspn(name + 1, "0123456789") == strlen(name + 1);
+}
+
+// ---- columns ----
+
+// Columns that a row is computed from.
+typedef struct pose_columns {
+    const double *base[6], *tube[7];
+} pose_columns;
+
+// Place of the tube's frame R and rotation vector of R, both against the undeformed tube and in its
+// axes: small numbers, which single precision holds to 7 digits where the places in I would not.
+static void find_pose(const pose_columns *from, const m3 *mount, size_t row, double pose[DERIVED])
+{
+    const double *const *base = from->base, *const *tube = from->tube;
+    m3 yaw = m3_rotation_y(base[3][row]), pitch = m3_rotation_z(base[4][row]);
+    m3 A = m3_mul(m3_mul(m3_mul(yaw, pitch), m3_rotation_x(base[5][row])), *mount);
+    quat q = q_from((double[]){tube[3][row], tube[4][row], tube[5][row], tube[6][row]});
+    v3 r = v3_make(tube[0][row] - base[0][row], tube[1][row] - base[1][row],
+                   tube[2][row] - base[2][row]);
+    v3_store(pose, m3_apply_transposed(A, r));
+    v3_store(pose + 3, rv_log(m3_mul(m3_transpose(A), q_matrix(q))));
+}
+
+static void fill(const history_data *history, double *value)
+{
+    static const char *const base[] = {"base.x",   "base.y",     "base.z",
+                                       "base.yaw", "base.pitch", "base.roll"};
+    static const char *const tube[] = {"tube.x",  "tube.y",  "tube.z", "tube.q0",
+                                       "tube.q1", "tube.q2", "tube.q3"};
+    pose_columns from;
+    for (int i = 0; i < 6; i++)
+        from.base[i] = history_column(history, base[i]);
+    for (int i = 0; i < 7; i++)
+        from.tube[i] = history_column(history, tube[i]);
+    const history_array *angles = history_array_named(history, "base.mount");
+    m3 mount = m3_identity();
+    if (angles && angles->rows * angles->columns == 2)
+        mount = m3_mul(m3_rotation_y(angles->value[0]), m3_rotation_z(angles->value[1]));
+    for (size_t row = 0; row < history->rows; row++) {
+        double pose[DERIVED];
+        find_pose(&from, &mount, row, pose);
+        for (size_t i = 0; i < DERIVED; i++)
+            value[i * history->rows + row] = pose[i];
+    }
+}
+
+// Room for more columns; what is there stays.
+static bool grow(history_data *history, size_t columns)
+{
+    char **name = realloc(history->name, columns * sizeof *name);
+    history->name = name ? name : history->name;
+    char **unit = realloc(history->unit, columns * sizeof *unit);
+    history->unit = unit ? unit : history->unit;
+    double *value = realloc(history->value, columns * history->rows * sizeof *value);
+    history->value = value ? value : history->value;
+    return name && unit && value;
+}
+
+ld_status report_add_replay(history_data *history, ld_error *error)
+{
+    size_t before = history->columns;
+    if (!report_has_replay(history))
+        return LD_OK;
+    bool fine = grow(history, before + DERIVED);
+    for (size_t i = 0; fine && i < DERIVED; i++) {
+        history->name[before + i] = strdup(derived[i]);
+        history->unit[before + i] = strdup(i < 3 ? "m" : "rad");
+        history->columns++;
+        fine = history->name[before + i] && history->unit[before + i];
+    }
+    if (!fine)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    fill(history, history->value + before * history->rows);
+    return LD_OK;
+}
+
+// ---- geometry ----
+
+void report_write_geometry(FILE *json, const history_data *history)
+{
+    fputc('{', json);
+    for (size_t i = 0; i < history->arrays && report_has_replay(history); i++) {
+        const history_array *array = &history->geometry[i];
+        fputs(i ? ",\n" : "\n", json);
+        json_write_text(json, array->name);
+        fprintf(json, ":{\"columns\":%zu,\"value\":[", array->columns);
+        for (size_t k = 0; k < array->rows * array->columns; k++) {
+            fputs(k ? "," : "", json);
+            if (isfinite(array->value[k]))
+                fprintf(json, "%.9g", array->value[k]);
+            else
+                fputs("null", json);
+        }
+        fputs("]}", json);
+    }
+    fputc('}', json);
+}
