@@ -1,6 +1,6 @@
 // The report of a run: summary first, then the plots of each table of numbers.
-import { decodeTable, readable } from "./data.js";
-import { download, element, themeSwitch } from "./page.js";
+import { decodeTable, filled, inflated, readable, rowAt } from "./data.js";
+import { colour, download, element, onColours, themeSwitch } from "./page.js";
 import { csvOf, instantsOf, panelsOf } from "./panels.js";
 import { pathPlot } from "./path_plot.js";
 import { showSummary } from "./summary.js";
@@ -112,6 +112,57 @@ function showTable(table, index, summary, nav) {
     }
   }
   for (const group of Object.values(groups)) group.reset();
+  return { table, marks, zero: ignition, group: groups.launch };
+}
+
+function hasWebGL() {
+  try {
+    return Boolean(document.createElement("canvas").getContext("webgl2"));
+  } catch {
+    return false;
+  }
+}
+
+// Why there is no replay, or nothing.
+function missing() {
+  if (!document.getElementById("replay"))
+    return "No replay: these results do not hold the launcher's geometry. The plots below show the run.";
+  if (!hasWebGL())
+    return "No replay: this browser gives no WebGL. The plots below show the same run.";
+  return null;
+}
+
+// Takes the replay's own script out of the page and starts it; the page's policy knows that script.
+function startReplay(place, shown, flights) {
+  const code = new TextDecoder().decode(inflated(document.getElementById("replay").textContent));
+  document.head.append(element("script", { textContent: code }));
+  const { table, marks, zero, group } = shown;
+  let leading = false, last = 0;
+  const replay = window.launchdyn.replay(place, {
+    table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets,
+    tools: { colour, element, filled, onColours, readable, rowAt },
+    shown: (time) => {
+      const now = performance.now();
+      if (now - last < 150 && replay?.playing) return;
+      last = now;
+      leading = true;
+      group.pointAt(time - zero);
+      leading = false;
+    },
+  });
+  group.followers.push({ point: (time) => { if (!leading && !replay.playing) replay.show(zero + time, true); } });
+  window.launchdyn.current = replay;
+}
+
+function showReplay(place, shown, flights) {
+  const why = missing();
+  try {
+    if (!why) startReplay(place, shown, flights);
+    else place.append(element("p", { className: "warning" }, why));
+  } catch (error) {
+    place.replaceChildren(element("p", { className: "warning" },
+      `No replay: ${error.message}. The plots below show the run.`));
+  }
 }
 
 function state(summary) {
@@ -131,7 +182,16 @@ host.append(element("h2", { id: "summary-tables" }, "Summary"), state(summary),
 if (summary) host.append(showSummary(summary));
 
 const tables = data.tables.map(decodeTable);
-tables.forEach((table, i) => table.t.length > 0 && showTable(table, i, summary, nav));
+const launch = tables.find((table) => table.kind === "launch" && table.t.length > 0);
+const place = element("section", { className: "card replay" });
+if (launch) {
+  host.append(element("h2", { id: "replay-heading" }, "Replay"), place);
+  nav.append(element("a", { href: "#replay-heading" }, "Replay"));
+}
+const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, summary, nav));
+if (launch)
+  showReplay(place, shown[tables.indexOf(launch)],
+    data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && table.rocket === i + 1 && table.t.length > 0)));
 
 const rows = tables.reduce((sum, table) => sum + table.full, 0);
 host.append(element("footer", {}, element("p", {},

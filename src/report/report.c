@@ -83,7 +83,7 @@ static ld_status make_page(const report_source *source, const report_detail *det
         status = report_write_data(json, source, detail, error);
     bool wrong = json && fclose(json) != 0;
     if (!status && !wrong)
-        report_write_page(page, source, data, data_length);
+        status = report_write_page(page, source, data, data_length, error);
     wrong |= page && fclose(page) != 0;
     free(data);
     return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;

@@ -19,6 +19,10 @@ typedef struct report_bundle {
 
 extern const report_bundle run_bundle, study_bundle;
 
+// The script of the replay, which the script of a run's report unpacks and starts.
+extern const unsigned char replay_script[];
+extern const size_t replay_script_size;
+
 // A page from its head to where the data begin; `without_script` is what it says where no script
 // may run.
 void report_begin_page(FILE *page, const report_bundle *bundle, const char *title,

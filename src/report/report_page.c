@@ -116,7 +116,20 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     return status;
 }
 
-void report_write_page(FILE *page, const report_source *source, const char *data, size_t length)
+// The replay's script, where there is something to replay: as data, which the page's script
+// unpacks.
+static ld_status write_replay(FILE *page, const report_source *source, ld_error *error)
+{
+    if (!report_has_replay(&source->history))
+        return LD_OK;
+    fputs("<script type=\"text/plain\" id=\"replay\">", page);
+    ld_status status = report_write_bytes(page, replay_script, replay_script_size, error);
+    fputs("</script>\n", page);
+    return status;
+}
+
+ld_status report_write_page(FILE *page, const report_source *source, const char *data,
+                            size_t length, ld_error *error)
 {
     report_begin_page(page, &run_bundle, title_of(source),
                       "This report draws its plots with JavaScript; summary.json and history.h5 "
@@ -124,5 +137,7 @@ void report_write_page(FILE *page, const report_source *source, const char *data
     if (source->summary)
         report_write_json(page, "summary", source->summary, source->summary_length);
     report_write_json(page, "data", data, length);
+    ld_status status = write_replay(page, source, error);
     report_end_page(page, &run_bundle);
+    return status;
 }

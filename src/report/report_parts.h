@@ -64,6 +64,7 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
                             ld_error *error);
 
 // Writes the page: `data` is the JSON of report_write_data().
-void report_write_page(FILE *page, const report_source *source, const char *data, size_t length);
+ld_status report_write_page(FILE *page, const report_source *source, const char *data,
+                            size_t length, ld_error *error);
 
 #endif

@@ -1,0 +1,220 @@
+// Where everything of a launcher is at an instant, from the columns of its history and its geometry.
+// Frames: I inertial, T undeformed launching tube (origin at its rear end, x along it), R tube.
+import { add, apply, aboutX, aboutY, aboutZ, multiply, pose, rotation, scaled, subtract } from "./vector.js";
+
+// An array of the geometry as a list of rows.
+function rowsOf(geometry, name) {
+  const { columns, value } = geometry[name] ?? { columns: 1, value: [] }, rows = [];
+  for (let i = 0; i < value.length; i += columns) rows.push(value.slice(i, i + columns));
+  return rows;
+}
+
+const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+
+export class Motion {
+  constructor(table, geometry, rockets, { filled, rowAt }) {
+    this.t = table.t;
+    this.rowAt = rowAt;
+    this.value = (name) => {
+      const column = table.column.get(name);
+      const values = column ? filled(column.value, table.t) : null;
+      this.values.set(name, values);
+      return values;
+    };
+    this.values = new Map();
+    this.segments = numbered(table.segments);
+    this.rockets = rockets;
+    const rows = (name) => rowsOf(geometry, name), single = (name) => rows(name)[0];
+    this.stations = rows("tube.station").map(([x]) => x);
+    this.shapes = { b: rows("tube.bending"), slope: rows("tube.bending_slope"), torsion: rows("tube.torsion") };
+    this.length = this.stations.at(-1);
+    const section = single("tube.section");
+    this.bore = section[1];
+    this.outer = section[2] ?? 1.03 * this.bore;
+    this.supports = rows("tube.support").map(([x]) => x);
+    this.places = rows("tubes.rear_end");
+    this.empty = rows("tubes.empty").map(([number]) => number);
+    this.adaptors = rows("rocket.adaptor").map(([x]) => x);
+    this.clearances = rows("rocket.clearance").map((row) => row.map((c) => c ?? 0));
+    this.center = single("rocket.center")?.[0] ?? 0;
+    this.mounts = rows("wheel.mount");
+    this.wheelRadius = single("wheel.radius")?.[0] ?? 0;
+    this.azimuthHinge = single("azimuth.hinge");
+    this.elevationHinge = single("elevation.hinge");
+    const mount = single("base.mount");
+    this.mount = mount ? multiply(aboutY(mount[0]), aboutZ(mount[1])) : IDENTITY;
+    const named = (head, tail) => [...table.column.keys()].filter((name) => name.startsWith(head) &&
+      name.endsWith(tail)).map((name) => name.slice(head.length, name.length - tail.length));
+    this.adaptorNames = named("contact.", ".force");
+    this.wheelNames = named("wheel.", ".travel");
+    this.modes = this.shapes.b[0].length;
+  }
+
+  get vehicle() {
+    return this.mounts.length > 0 && this.mounts.length === this.wheelNames.length;
+  }
+
+  // The largest value of a column, in size.
+  largest(name) {
+    let most = 0;
+    for (const v of this.values.get(name) ?? this.value(name) ?? [])
+      if (Math.abs(v) > most) most = Math.abs(v);
+    return most;
+  }
+
+  // Rows before and after an instant and the share of the second; never from one phase to the next.
+  place(time) {
+    const last = this.t.length - 1, row = Math.min(last, Math.max(0, this.rowAt(this.t, time)));
+    const part = this.segments.find(({ end }) => row < end) ?? this.segments.at(-1);
+    const next = row + 1 < part.end ? row + 1 : row;
+    const share = next > row ? Math.min(1, Math.max(0, (time - this.t[row]) / (this.t[next] - this.t[row]))) : 0;
+    return { row, next, share, part };
+  }
+
+  // All that is drawn, at an instant on the run's clock.
+  at(time) {
+    const { row, next, share, part } = this.place(time);
+    const read = (name) => {
+      const values = this.values.has(name) ? this.values.get(name) : this.value(name);
+      return values ? values[row] + share * (values[next] - values[row]) : NaN;
+    };
+    const all = (head, ...names) => names.map((name) => read(head + name));
+    const base = { r: all("base.", "x", "y", "z"), A: pose(...all("base.", "yaw", "pitch", "roll")) };
+    const state = {
+      time, part, number: part.number, base, read,
+      tube: { r: base.r, A: multiply(base.A, this.mount) },
+      thrust: read("thrust"),
+      forces: this.adaptorNames.map((name) => read(`contact.${name}.force`)),
+    };
+    this.bend(state);
+    this.putRocket(state);
+    if (this.vehicle) this.putVehicle(state);
+    return state;
+  }
+
+  // The tube's axis against the undeformed one: at each station the offset in T.
+  bend(state) {
+    const { read } = state, n = this.modes;
+    const q = Array.from({ length: 2 * n + (this.shapes.torsion[0]?.length ?? 0) }, (_, i) => read(`q${i + 1}`));
+    const r = ["x", "y", "z"].map((name) => read(`replay.${name}`));
+    const A = rotation(["rx", "ry", "rz"].map((name) => read(`replay.${name}`)));
+    const sum = (shapes, from) => shapes.reduce((total, shape, i) => total + shape * q[from + i], 0);
+    state.A_TR = A;
+    state.nodes = this.stations.map((x, k) => {
+      const u = [sum(this.shapes.b[k], 0), sum(this.shapes.b[k], n)];
+      return {
+        x, u, slope: [sum(this.shapes.slope[k], 0), sum(this.shapes.slope[k], n)],
+        twist: sum(this.shapes.torsion[k] ?? [], 2 * n),
+        offset: subtract(add(r, apply(A, [x, ...u])), [x, 0, 0]),
+      };
+    });
+    state.r_TR = r;
+  }
+
+  // Deflections in R at any station by the elements' own cubics; straight on beyond the ends.
+  section(state, x) {
+    const { nodes } = state, s = this.stations, last = s.length - 2;
+    let k = Math.min(last, Math.max(0, Math.floor((x / this.length) * (last + 1))));
+    while (k > 0 && x < s[k]) k--;
+    while (k < last && x > s[k + 1]) k++;
+    const a = nodes[k], b = nodes[k + 1], h = b.x - a.x, inside = Math.min(b.x, Math.max(a.x, x));
+    const xi = (inside - a.x) / h, beyond = x - inside;
+    const H = [1 + xi * xi * (2 * xi - 3), h * xi * (1 + xi * (xi - 2)), xi * xi * (3 - 2 * xi),
+      h * xi * xi * (xi - 1)];
+    const D = [(6 * xi * (xi - 1)) / h, 1 + xi * (3 * xi - 4), (6 * xi * (1 - xi)) / h, xi * (3 * xi - 2)];
+    const by = (f, i) => f[0] * a.u[i] + f[1] * a.slope[i] + f[2] * b.u[i] + f[3] * b.slope[i];
+    const slope = [by(D, 0), by(D, 1)];
+    return {
+      P: [x, by(H, 0) + beyond * slope[0], by(H, 1) + beyond * slope[1]],
+      A: rotation([a.twist + xi * (b.twist - a.twist), -slope[1], slope[0]]),
+    };
+  }
+
+  // Offset of the tube's axis in T at a station.
+  deflection(state, x) {
+    return subtract(add(state.r_TR, apply(state.A_TR, this.section(state, x).P)), [x, 0, 0]);
+  }
+
+  // The rocket while it is in the tube: points of its axis in T, its roll.
+  putRocket(state) {
+    const { read } = state, s = read("rocket.s");
+    state.rocket = null;
+    if (!Number.isFinite(s)) return;
+    const { P, A } = this.section(state, s), roll = read("rocket.gamma");
+    const O1 = add(P, apply(A, [0, read("rocket.y"), read("rocket.z")]));
+    const axis = apply(A, apply(multiply(aboutZ(read("rocket.psi")), aboutY(read("rocket.theta"))), [1, 0, 0]));
+    state.rocket = {
+      s, roll, point: (l) => add(state.r_TR, apply(state.A_TR, add(O1, scaled(l, axis)))),
+    };
+  }
+
+  putVehicle(state) {
+    const { read } = state;
+    const A = pose(read("chassis.yaw"), read("chassis.pitch"), read("chassis.roll"));
+    state.chassis = { r: [read("chassis.x"), read("chassis.y"), read("chassis.z")], A };
+    state.azimuth = {
+      r: add(state.chassis.r, apply(A, this.azimuthHinge)), A: multiply(A, aboutY(read("azimuth.angle"))),
+    };
+    state.wheels = this.mounts.map((mount, i) => add(state.chassis.r,
+      apply(A, add(mount, [0, read(`wheel.${this.wheelNames[i]}.travel`), 0]))));
+  }
+
+  // Heights of the road over x under the left and the right wheels, as far as they roll.
+  road() {
+    const x = this.value("chassis.x");
+    const track = (side) => {
+      const wheels = this.mounts.map((mount, i) => ({ mount, name: this.wheelNames[i] }))
+        .filter(({ mount }) => Math.sign(mount[2]) === side).sort((a, b) => a.mount[0] - b.mount[0]);
+      const points = [];
+      for (const { mount, name } of wheels) {
+        const h = this.value(`wheel.${name}.road`);
+        x.forEach((at, i) => {
+          if (Number.isFinite(h[i]) && !(at + mount[0] <= points.at(-1)?.[0])) points.push([at + mount[0], h[i]]);
+        });
+      }
+      return points;
+    };
+    return [track(-1), track(1)];
+  }
+}
+
+// Which rocket's turn it is in each phase, from 0.
+function numbered(segments) {
+  let number = 0;
+  return segments.map((part, i) => {
+    if (i > 0 && segments[i - 1].name === "after" && part.name !== "after") number++;
+    return { ...part, number };
+  });
+}
+
+// A rocket in free flight.
+export class Flight {
+  constructor(table, { filled, rowAt }) {
+    this.t = table.t;
+    this.rowAt = rowAt;
+    this.values = new Map();
+    for (const name of ["center.x", "center.y", "center.z", "rocket.pitch", "rocket.yaw", "rocket.spin", "thrust"])
+      this.values.set(name, filled(table.column.get(name).value, table.t));
+    this.roll = [0];
+    const spin = this.values.get("rocket.spin");
+    for (let i = 1; i < this.t.length; i++)
+      this.roll.push(this.roll[i - 1] + 0.5 * (spin[i] + spin[i - 1]) * (this.t[i] - this.t[i - 1]));
+    this.values.set("roll", this.roll);
+  }
+  at(time) {
+    const last = this.t.length - 1, row = Math.min(last, Math.max(0, this.rowAt(this.t, time)));
+    const next = Math.min(last, row + 1), span = this.t[next] - this.t[row];
+    const share = span > 0 ? Math.min(1, Math.max(0, (time - this.t[row]) / span)) : 0;
+    const read = (name) => {
+      const values = this.values.get(name);
+      return values[row] + share * (values[next] - values[row]);
+    };
+    return {
+      row, center: [read("center.x"), read("center.y"), read("center.z")], thrust: read("thrust"),
+      A: multiply(pose(read("rocket.yaw"), read("rocket.pitch"), 0), aboutX(read("roll"))),
+    };
+  }
+  points() {
+    return ["x", "y", "z"].map((name) => this.values.get(`center.${name}`));
+  }
+}

@@ -1,0 +1,227 @@
+// The replay of a launch: its stage, its clock, what leads them. A bundle of its own, which the
+// report takes in where the results can be replayed and the browser has WebGL.
+import { Flight, Motion } from "./motion.js";
+import { Stage } from "./stage.js";
+
+const SLIDER = 10000, LARGEST = 1000;
+const SPEEDS = [["auto", "automatic"], [1, "1"], [1 / 3, "1/3"], [1 / 10, "1/10"], [1 / 30, "1/30"],
+  [1 / 100, "1/100"], [1 / 300, "1/300"], [1 / 1000, "1/1000"]];
+const AUTOMATIC = { before: 1, tube: 1 / 50, after: 1, flight: 4 };
+
+// The time slider gives each phase a share of its width: the tube half of it.
+class Clock {
+  constructor(motion, flights) {
+    const parts = motion.segments.map(({ name, first, end }) => ({ name, from: motion.t[first], to: motion.t[end - 1] }));
+    parts.forEach((part, i) => { if (parts[i + 1]) part.to = parts[i + 1].from; });
+    const end = Math.max(...flights.map((flight) => flight?.t.at(-1) ?? -Infinity));
+    if (end > parts.at(-1).to) parts.push({ name: "flight", from: parts.at(-1).to, to: end });
+    const weight = ({ name, from, to }) => (to > from ? { tube: 4, before: 1.6, after: 0.4, flight: 2.4 }[name] : 0);
+    const all = parts.reduce((sum, part) => sum + weight(part), 0);
+    let at = 0;
+    this.parts = parts.map((part) => ({ ...part, low: at, high: (at += weight(part) / all) }));
+    this.first = parts[0].from;
+    this.last = parts.at(-1).to;
+  }
+  partAt(time) {
+    return this.parts.find(({ to }) => time < to) ?? this.parts.at(-1);
+  }
+  share(time) {
+    const { low, high, from, to } = this.partAt(time);
+    return Math.min(1, Math.max(0, low + ((high - low) * (time - from)) / (to - from || 1)));
+  }
+  time(share) {
+    const { low, high, from, to } = this.parts.find((part) => share < part.high) ?? this.parts.at(-1);
+    return from + ((to - from) * (share - low)) / (high - low || 1);
+  }
+}
+
+// A round scale with which the largest deflection is drawn as a twelfth of the tube.
+function usualScale(motion) {
+  const most = Math.max(motion.largest("tip.y"), motion.largest("tip.z"));
+  const wanted = most > 0 ? motion.length / 12 / most : 1, power = 10 ** Math.floor(Math.log10(wanted));
+  return Math.min(LARGEST, Math.max(1, [5, 2, 1].map((f) => f * power).find((s) => s <= wanted)));
+}
+
+class Replay {
+  // `given`: table of the launch, its flights by rocket, geometry, rockets, marks in seconds from
+  // `zero`, the page's helpers, and what to tell of a new instant.
+  constructor(host, given) {
+    Object.assign(this, given);
+    this.motion = new Motion(this.table, this.geometry, this.rockets, this.tools);
+    this.ways = this.rockets.map((_, i) => this.flights[i] && new Flight(this.flights[i], this.tools));
+    this.clock = new Clock(this.motion, this.ways);
+    this.build(host);
+    this.stage = new Stage(this.canvas, this.motion, this.ways, this.rockets);
+    this.speed = "auto";
+    this.playing = false;
+    this.setScale(usualScale(this.motion));
+    new ResizeObserver(() => this.fit()).observe(this.canvas);
+    this.tools.onColours(() => this.paint());
+    addEventListener("beforeprint", () => this.photograph());
+    this.stage.paint(this.tools.colour);
+    this.time = this.opening();
+    this.fit();
+  }
+  // Where the replay stands at first: the first rocket on its way through the tube.
+  opening() {
+    const { ignition, rear } = this.rockets[0] ?? {};
+    return Number.isFinite(ignition) ? ignition + 0.75 * (rear ?? 0) : this.clock.first;
+  }
+
+  // ---- the page ----
+
+  build(host) {
+    const { element } = this.tools, button = (text, onclick, more = {}) =>
+      element("button", { type: "button", onclick, ...more }, text);
+    this.canvas = element("canvas", { className: "stage", tabIndex: 0 });
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", "Replay of the launch in three dimensions");
+    this.canvas.addEventListener("keydown", (event) => this.key(event));
+    this.photo = element("img", { className: "photo", alt: "The launch at the instant shown" });
+    this.play = button("Play", () => this.toggle(), { className: "play" });
+    this.slider = element("input", { type: "range", min: 0, max: SLIDER, step: 1, className: "time",
+      oninput: () => { this.pause(); this.show(this.clock.time(this.slider.value / SLIDER)); } });
+    this.slider.setAttribute("aria-label", "Time");
+    const speed = element("select", { onchange: () => { this.speed = speed.value === "auto" ? "auto" : Number(speed.value); } },
+      ...SPEEDS.map(([value, name]) => element("option", { value }, name)));
+    this.amount = element("input", { type: "range", min: 0, max: 3, step: 0.01, className: "amount",
+      oninput: () => { this.setScale(10 ** Number(this.amount.value)); this.redraw(); } });
+    this.amountText = element("output", { className: "scale" });
+    this.views = ["launcher", "tube", "rocket", ...(this.ways.some(Boolean) ? ["path"] : [])].map((view) =>
+      button(view[0].toUpperCase() + view.slice(1), () => this.look(view), { value: view }));
+    this.reading = element("output", { className: "reading" });
+    host.append(
+      element("div", { className: "screen" }, this.canvas, this.photo, this.legend()),
+      this.reading,
+      element("div", { className: "timeline" }, this.play, element("div", { className: "ticks" }, this.slider, ...this.ticks())),
+      element("div", { className: "controls" },
+        element("span", { role: "group" }, "Look at ", ...this.views),
+        element("label", {}, "Speed ", speed),
+        element("label", {}, "Deflection ", this.amount, this.amountText)));
+  }
+  legend() {
+    const { element } = this.tools, item = (name, text) =>
+      element("span", {}, element("i", { className: name }), text);
+    return element("div", { className: "key" }, item("tube", "tube"), item("rocket", "rocket"),
+      item("adaptor", "adaptors"), item("force", "contact forces"));
+  }
+  // The key instants below the slider, their names in two lines where the ones before leave room.
+  ticks() {
+    const { element } = this.tools, free = [-1, -1];
+    return this.marks.map(({ name, t }) => {
+      const share = this.clock.share(t + this.zero), row = free.findIndex((end) => share >= end);
+      if (row >= 0) free[row] = share + 0.012 * name.length;
+      return element("span", { className: row === 1 ? "tick low" : "tick", title: name,
+        style: `left:${(100 * share).toFixed(3)}%` }, row >= 0 ? name : "");
+    });
+  }
+  key(event) {
+    const row = this.motion.place(this.time).row, step = event.shiftKey ? 10 : 1;
+    const go = (to) => {
+      this.pause();
+      this.show(this.motion.t[Math.min(this.motion.t.length - 1, Math.max(0, to))]);
+    };
+    const actions = {
+      " ": () => this.toggle(), ArrowLeft: () => go(row - step), ArrowRight: () => go(row + step),
+      Home: () => go(0), End: () => { this.pause(); this.show(this.clock.last); },
+      "+": () => this.nearer(0.8), "-": () => this.nearer(1.25),
+    };
+    const view = this.views[Number(event.key) - 1]?.value;
+    if (!actions[event.key] && !view) return;
+    event.preventDefault();
+    if (view) this.look(view);
+    else actions[event.key]();
+  }
+  nearer(factor) {
+    const { position } = this.stage.camera, { target } = this.stage.controls;
+    position.sub(target).multiplyScalar(factor).add(target);
+    this.redraw();
+  }
+  look(view) {
+    this.stage.look(view);
+    this.show(this.time);
+  }
+  setScale(scale) {
+    this.stage.setScale(scale);
+    const text = (v) => `× ${this.tools.readable(v, 3)}`;
+    this.amount.value = Math.log10(scale);
+    this.amountText.textContent = this.stage.gap < scale ? `${text(scale)}, gaps ${text(this.stage.gap)}` : text(scale);
+  }
+
+  // ---- time ----
+
+  toggle() {
+    if (this.playing) this.pause();
+    else this.start();
+  }
+  start() {
+    if (this.time >= this.clock.last) this.time = Math.max(this.clock.first, (this.rockets[0]?.ignition ?? 0) - 0.005);
+    this.playing = true;
+    this.play.textContent = "Pause";
+    let before = performance.now();
+    const step = (now) => {
+      if (!this.playing) return;
+      const passed = Math.min(0.1, (now - before) / 1000);
+      before = now;
+      this.advance(passed);
+      requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
+  }
+  pause() {
+    this.playing = false;
+    this.play.textContent = "Play";
+  }
+  advance(passed) {
+    const speed = this.speed === "auto" ? AUTOMATIC[this.clock.partAt(this.time).name] : this.speed;
+    const time = Math.min(this.clock.last, this.time + speed * passed);
+    this.show(time);
+    if (time >= this.clock.last) this.pause();
+  }
+  // Shows an instant on the run's clock; `quiet`: tells nobody.
+  show(time, quiet = false) {
+    this.time = Math.min(this.clock.last, Math.max(this.clock.first, time));
+    this.stage.show(this.time);
+    this.slider.value = Math.round(SLIDER * this.clock.share(this.time));
+    this.read();
+    for (const button of this.views) button.setAttribute("aria-pressed", button.value === this.stage.view);
+    if (!quiet) this.shown(this.time);
+  }
+  read() {
+    const { readable } = this.tools, { state } = this.stage, part = this.clock.partAt(this.time);
+    const words = [`t ${readable(this.time - this.zero, 6)} s`];
+    if (state.rocket)
+      words.push(`travel ${readable(state.rocket.s, 4)} m`, `speed ${readable(state.read("rocket.s_dot"), 4)} m/s`);
+    const flying = this.stage.flying[this.stage.watched()];
+    if (flying) words.push(`height ${readable(flying.center[1], 4)} m`);
+    if (part.name !== "flight")
+      words.push(...["y", "z"].map((axis) => `tip ${axis} ${readable(1e3 * state.read(`tip.${axis}`), 3)} mm`));
+    if (this.stage.view === "path") words.push(`squares of ${readable(this.stage.map.cell / 1000, 3)} km`);
+    else if (this.motion.t.at(-1) < this.time) words.push("launcher as it was when its history ended");
+    this.reading.textContent = words.join("   ");
+    this.canvas.setAttribute("aria-label", `Replay of the launch: ${words.join(", ")}`);
+  }
+
+  // ---- looks ----
+
+  fit() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0 || height === 0) return;
+    this.stage.resize(width, height);
+    this.show(this.time, true);
+  }
+  paint() {
+    this.stage.paint(this.tools.colour);
+    this.redraw();
+  }
+  redraw() {
+    if (this.stage.state) this.show(this.time, true);
+  }
+  // A picture for paper, where a canvas would stay empty.
+  photograph() {
+    this.stage.draw();
+    this.photo.src = this.canvas.toDataURL("image/png");
+  }
+}
+
+window.launchdyn = { replay: (host, given) => new Replay(host, given) };

@@ -1,0 +1,109 @@
+// Bodies for the scene: surfaces around a curve, boxes and cylinders with their edges.
+import { BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, Group, LineBasicMaterial,
+  LineSegments, Mesh, MeshLambertMaterial } from "three";
+import { add, cross, dot, scaled, subtract, unit } from "./vector.js";
+
+// A tube of circles about points of a curve, moved as often as one likes.
+export class Sleeve {
+  constructor(rings, segments, material) {
+    this.rings = rings;
+    this.segments = segments;
+    this.position = new BufferAttribute(new Float32Array(rings * (segments + 1) * 3), 3);
+    this.normal = new BufferAttribute(new Float32Array(rings * (segments + 1) * 3), 3);
+    this.geometry = new BufferGeometry();
+    this.geometry.setAttribute("position", this.position);
+    this.geometry.setAttribute("normal", this.normal);
+    const index = [];
+    for (let j = 0; j + 1 < rings; j++)
+      for (let i = 0; i < segments; i++) {
+        const a = j * (segments + 1) + i, b = a + segments + 1;
+        index.push(a, a + 1, b, b, a + 1, b + 1);
+      }
+    this.geometry.setIndex(index);
+    this.mesh = new Mesh(this.geometry, material);
+    this.mesh.frustumCulled = false;
+  }
+  // Curve: a list of { at: [x, y, z], radius, slope of the radius }; between the angles `from` and
+  // `to` about the curve's direction, from y towards z.
+  draw(curve, from = 0, to = 2 * Math.PI) {
+    curve.forEach((ring, j) => {
+      const { along, up, side } = framesAt(curve, j), radius = ring.radius, slope = ring.slope ?? 0;
+      for (let i = 0; i <= this.segments; i++) {
+        const angle = from + ((to - from) * i) / this.segments, c = Math.cos(angle), s = Math.sin(angle);
+        const out = add(scaled(c, up), scaled(s, side)), k = j * (this.segments + 1) + i;
+        this.position.setXYZ(k, ...add(ring.at, scaled(radius, out)));
+        this.normal.setXYZ(k, ...unit(subtract(out, scaled(slope, along))));
+      }
+    });
+    this.position.needsUpdate = this.normal.needsUpdate = true;
+  }
+  // Centre of a ring, from the vertices as they are drawn.
+  centre(ring) {
+    const sum = [0, 0, 0], n = this.segments;
+    for (let i = 0; i < n; i++) {
+      const k = ring * (n + 1) + i;
+      sum[0] += this.position.getX(k);
+      sum[1] += this.position.getY(k);
+      sum[2] += this.position.getZ(k);
+    }
+    return scaled(1 / n, sum);
+  }
+  // Radius of a ring, from the vertices as they are drawn.
+  radius(ring) {
+    const k = ring * (this.segments + 1);
+    return Math.hypot(...subtract([this.position.getX(k), this.position.getY(k), this.position.getZ(k)],
+      this.centre(ring)));
+  }
+}
+
+// Directions at a point of a curve: along it, and across it from y and z.
+function framesAt(curve, j) {
+  const a = curve[Math.max(0, j - 1)].at, b = curve[Math.min(curve.length - 1, j + 1)].at;
+  const step = subtract(b, a), along = Math.hypot(...step) > 0 ? unit(step) : [1, 0, 0];
+  const up = unit(subtract([0, 1, 0], scaled(dot([0, 1, 0], along), along)));
+  return { along, up, side: cross(along, up) };
+}
+
+// Seen from both sides, all of them: the fewer kinds, the fewer programs the browser has to compile.
+export const material = (color, more = {}) => new MeshLambertMaterial({ color, side: DoubleSide, ...more });
+
+// A body with its edges drawn.
+function edged(geometry, surface, edge) {
+  const group = new Group();
+  group.add(new Mesh(geometry, surface));
+  if (edge) group.add(new LineSegments(new EdgesGeometry(geometry, 25), edge));
+  return group;
+}
+
+// A box between two corners.
+export function box(low, high, surface, edge) {
+  const made = edged(new BoxGeometry(...subtract(high, low)), surface, edge);
+  made.position.set(...scaled(0.5, add(low, high)));
+  return made;
+}
+
+// A cylinder from one point to another.
+export function cylinder(from, to, radius, surface, edge, segments = 24) {
+  const axis = subtract(to, from), length = Math.hypot(...axis);
+  const made = edged(new CylinderGeometry(radius, radius, length, segments), surface, edge);
+  point(made, scaled(0.5, add(from, to)), axis);
+  return made;
+}
+
+// Puts an object's y axis along a direction.
+export function point(object, at, direction) {
+  object.position.set(...at);
+  const [x, y, z] = unit(direction);
+  // the shortest turn from y to the direction
+  if (y < -0.999999) object.quaternion.set(1, 0, 0, 0);
+  else object.quaternion.set(z, 0, -x, 1 + y).normalize();
+}
+
+export const line = (color, more = {}) => new LineBasicMaterial({ color, ...more });
+
+// Puts an object in a frame given by origin and matrix by rows.
+export function place(object, r, A) {
+  object.matrixAutoUpdate = false;
+  object.matrix.set(A[0], A[1], A[2], r[0], A[3], A[4], A[5], r[1], A[6], A[7], A[8], r[2], 0, 0, 0, 1);
+  object.matrixWorldNeedsUpdate = true;
+}
