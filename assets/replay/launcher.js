@@ -227,7 +227,7 @@ export class Rocket {
     this.skin = material(0xffffff, { vertexColors: true });
     this.body = new Sleeve(this.profile.length, RING, this.skin);
     this.body.geometry.setAttribute("color", stripes(this.profile.length));
-    this.rings = adaptors.map(() => new Sleeve(6, RING, material(COLOURS.adaptor)));
+    this.rings = adaptors.map(() => new Sleeve(7, RING, material(COLOURS.adaptor)));
     this.flame = new Mesh(new ConeGeometry(1, 1, 20, 1, true), material(COLOURS.flame,
       { transparent: true, opacity: 0.75, depthWrite: false, emissive: 0xff7a00 }));
     this.fins = new Group();
@@ -270,7 +270,7 @@ export class Rocket {
     this.body.draw(this.profile.map(({ l, r, slope }) => ({ at: at(l), radius: r, slope })), roll, roll + 2 * Math.PI);
     this.rings.forEach((ring, i) => {
       const l = this.motion.adaptors[i], half = 0.03, low = this.bodyRadius, high = radius(i);
-      ring.draw([[-half, low], [-half, high], [-half / 2, high], [half / 2, high], [half, high], [half, low]]
+      ring.draw([[-half, low], [-half, high], [-half / 2, high], [0, high], [half / 2, high], [half, high], [half, low]]
         .map(([step, r]) => ({ at: at(l + step), radius: r })));
     });
     const rear = at(this.profile[0].l), ahead = at(this.profile[1].l + 0.1);
@@ -287,7 +287,7 @@ export class Rocket {
   }
   // Adaptor i's centre against the tube's axis as drawn [m], and its radius, from the vertices.
   adaptor(i) {
-    return { centre: scaled(0.5, add(this.rings[i].centre(2), this.rings[i].centre(3))), radius: this.rings[i].radius(2) };
+    return { centre: this.rings[i].centre(3), radius: this.rings[i].radius(3) };
   }
 }
 

@@ -56,6 +56,10 @@ class Replay {
     this.playing = false;
     this.setScale(usualScale(this.motion));
     new ResizeObserver(() => this.fit()).observe(this.canvas);
+    new IntersectionObserver(([entry]) => {
+      this.stage.seen = entry.isIntersecting;
+      if (this.stage.seen) this.redraw();
+    }).observe(this.canvas);
     this.tools.onColours(() => this.paint());
     addEventListener("beforeprint", () => this.photograph());
     this.stage.paint(this.tools.colour);
@@ -219,7 +223,7 @@ class Replay {
   }
   // A picture for paper, where a canvas would stay empty.
   photograph() {
-    this.stage.draw();
+    this.stage.render();
     this.photo.src = this.canvas.toDataURL("image/png");
   }
 }

@@ -33,6 +33,7 @@ export class Stage {
     this.mostClearance = Math.max(0, ...motion.clearances.flat());
     this.view = "launcher";
     this.target = null;
+    this.seen = false; // nothing is drawn while the canvas is out of sight
   }
   light() {
     const sun = new DirectionalLight(0xffffff, 2.1);
@@ -94,12 +95,15 @@ export class Stage {
     this.follow();
     this.draw();
   }
-  // Draws what is there as the eye sees it; the cut of the tube turns to the eye.
+  // Draws what is there as the eye sees it, where somebody can; the cut of the tube turns to the eye.
   draw() {
     const { state } = this, middle = apply(state.tube.A, [0.6 * this.motion.length, 0, 0]);
     const to = subtract(subtract(this.camera.position.toArray(), middle), subtract(state.tube.r, this.anchor));
     const [, y, z] = turnedBack(state.tube.A, to);
     this.tube.show(state, this.anchor, this.scale, Math.atan2(z, y));
+    if (this.seen) this.render();
+  }
+  render() {
     this.renderer.render(this.scene, this.camera);
   }
 

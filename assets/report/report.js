@@ -143,7 +143,7 @@ function startReplay(place, shown, flights) {
     tools: { colour, element, filled, onColours, readable, rowAt },
     shown: (time) => {
       const now = performance.now();
-      if (now - last < 150 && replay?.playing) return;
+      if (now - last < 400 && replay?.playing) return;
       last = now;
       leading = true;
       group.pointAt(time - zero);

@@ -1,5 +1,5 @@
 // The report of a run in a real browser.
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, checkFits, checkNoneEmpty, checkSilence, drawn, inBrowser, launchdyn, near, open, paper, picture,
   rowNear, runOf } from "./support.mjs";
@@ -68,6 +68,142 @@ async function checkKeys(page) {
   check("Escape shows all again", (await drawing()) === whole);
 }
 
+// ---- the replay ----
+
+// Draws an instant, in seconds from ignition, and reads the picture: how many of its points look
+// like the tube and like the rocket, a sum that tells pictures apart.
+function look(page, code = "") {
+  return page.evaluate((change) => {
+    const replay = window.launchdyn.current, gl = replay.stage.renderer.getContext();
+    new Function("replay", change)(replay);
+    replay.stage.draw();
+    replay.stage.render();
+    const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
+    const data = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
+    let tube = 0, rocket = 0, sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = [data[i], data[i + 1], data[i + 2]];
+      tube += b > r + 60 && b > g + 15;
+      rocket += r > b + 70 && g < 0.72 * r;
+      sum = (31 * sum + r + 7 * g + 13 * b) % 4294967291;
+    }
+    return { tube, rocket, sum, points: width * height };
+  }, code);
+}
+
+const show = (time) => `replay.show(${time} + replay.zero, true);`;
+
+async function checkPicture(page) {
+  const first = await look(page, "replay.look('tube');" + show(0.08));
+  check("the tube is seen, points of the picture", first.tube > 0.004 * first.points, `${first.tube} of ${first.points}`);
+  check("the rocket is seen", first.rocket > 0.002 * first.points, first.rocket);
+  const later = await look(page, show(0.12));
+  check("the picture moves", later.sum !== first.sum, `${first.sum} and ${later.sum}`);
+  check("and comes back the same", (await look(page, show(0.08))).sum === first.sum);
+  const bare = await look(page, "replay.stage.bodies[0].group.visible = false;");
+  check("without the rocket none of it is seen", bare.rocket < 0.05 * first.rocket, bare.rocket);
+  const empty = await look(page, "replay.stage.tube.group.visible = false;");
+  check("nor of the tube", empty.tube < 0.05 * first.tube, empty.tube);
+  await look(page, "replay.stage.tube.group.visible = true;" + show(0.08));
+}
+
+// Where the tip's and the adaptors' vertices are drawn, over the scale: that is what the results say.
+async function checkDrawn(page, run, adaptors) {
+  const t = run.column.get("t"), most = Math.max(...run.column.get("tip.y").map(Math.abs));
+  for (const [time, scale] of [[0.02, 200], [0.07, 1], [0.125, 1000]]) {
+    const row = rowNear(t, time), at = (name) => run.column.get(name)[row];
+    const shown = await page.evaluate(([now, amount]) => {
+      const replay = window.launchdyn.current, { stage } = replay;
+      replay.setScale(amount);
+      replay.show(now, true);
+      const [, y, z] = stage.tube.tip(), body = stage.bodies[stage.state.number];
+      return { y, z, gap: stage.gap, adaptors: stage.motion.adaptors.map((l, i) => {
+        const { centre, radius } = body.adaptor(i), x = stage.motion.deflection(stage.state, centre[0]);
+        return { y: centre[1] - amount * x[1], z: centre[2] - amount * x[2], radius };
+      }), bore: stage.motion.bore, clearances: stage.motion.clearances[0] };
+    }, [t[row], scale]);
+    const error = Math.hypot(shown.y / scale - at("tip.y"), shown.z / scale - at("tip.z"));
+    check(`t ${t[row]} s, deflection x ${scale}: tip drawn where tip.y, tip.z of the results are`,
+      error < Math.max(2e-6 * most, 3e-7 / scale), `${error.toExponential(1)} m off of ${most.toExponential(1)} m`);
+    const wrong = adaptors.map((name, i) => Math.hypot(shown.adaptors[i].y / shown.gap - at(`contact.${name}.y`),
+      shown.adaptors[i].z / shown.gap - at(`contact.${name}.z`))).filter(Number.isFinite);
+    // sections roll by some 0.1 mrad against the undeformed tube, in whose axes it is drawn
+    check(`gaps x ${shown.gap.toPrecision(3)}: ${wrong.length} adaptors drawn where the results say`,
+      Math.max(...wrong) < 1e-7, `${Math.max(...wrong).toExponential(1)} m off`);
+    const gaps = adaptors.map((name, i) => (shown.bore - shown.adaptors[i].radius) / shown.gap - shown.clearances[i]);
+    check("and their clearances", Math.max(...gaps.map(Math.abs)) < 1e-6 / shown.gap + 1e-8,
+      `${Math.max(...gaps.map(Math.abs)).toExponential(1)} m off`);
+  }
+}
+
+async function checkControls(page, run) {
+  const now = () => page.evaluate(() => window.launchdyn.current.time - window.launchdyn.current.zero);
+  await look(page, show(0.05));
+  await page.focus(".stage");
+  const before = await now();
+  await page.keyboard.press("ArrowRight");
+  check("an arrow moves the replay by a row", near((await now()) - before, 1e-4, 0.01), `${before} to ${await now()}`);
+  await page.keyboard.press("3");
+  check("a number chooses what is looked at",
+    (await page.getAttribute(".controls button[value=rocket]", "aria-pressed")) === "true");
+  await page.keyboard.press(" ");
+  await page.waitForFunction((from) => window.launchdyn.current.time - window.launchdyn.current.zero > from + 5e-4, before);
+  await page.keyboard.press(" ");
+  const stood = await now();
+  await drawn(page);
+  check("the space bar starts it and stops it", stood > before && (await now()) === stood, `${before} to ${stood}`);
+  await page.locator(".amount").fill("2");
+  check("the slider scales the deflection", (await page.evaluate(() => window.launchdyn.current.stage.scale)) === 100 &&
+    (await page.textContent(".scale")).startsWith("× 100"));
+  await page.locator(".time").fill("5000");
+  const led = await now();
+  check("the time slider leads the plots' cursor", near((await legend(page, "#table0-tip .uplot"))[0],
+    run.column.get("t")[rowNear(run.column.get("t"), led)], 1e-5), led);
+  const over = page.locator("#table0-tip .u-over").first();
+  await over.hover({ position: { x: 200, y: 50 } });
+  await drawn(page);
+  const pointed = (await legend(page, "#table0-tip .uplot"))[0];
+  check("the plots' cursor leads the replay", Math.abs((await now()) - pointed) < 3e-4, `${pointed} and ${await now()}`);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  check("a picture is there for paper",
+    await page.$eval(".photo", (photo) => photo.src.startsWith("data:image/png") && photo.src.length > 5000));
+}
+
+async function checkReplay(browser) {
+  console.log("fixed.yaml, replay");
+  const run = runOf("fixed.yaml"), page = await open(browser, run.file, { width: 700 });
+  await checkPicture(page);
+  await checkDrawn(page, run, ["rear", "middle", "front"]);
+  await checkControls(page, run);
+  checkSilence(page, run.file);
+  await page.context().close();
+  await checkFallbacks(browser, run);
+}
+
+// The plots alone, with a note, where there is no WebGL, or no geometry in the results.
+async function checkFallbacks(browser, run) {
+  const note = async (page) => page.textContent(".replay");
+  const without = await open(browser, run.file, {
+    before: () => {
+      const usual = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+        return kind.startsWith("webgl") ? null : usual.call(this, kind, ...more);
+      };
+    },
+  });
+  check("without WebGL a note says so", (await note(without)).includes("no WebGL"), await note(without));
+  await checkNoneEmpty(without);
+  checkSilence(without, run.file);
+  await without.context().close();
+  const old = join(run.out, "old.html");
+  writeFileSync(old, readFileSync(run.file, "utf8").replace(/<script type="text\/plain" id="replay">[^<]*<\/script>/, ""));
+  const page = await open(browser, old);
+  check("so it does without geometry", (await note(page)).includes("geometry"), await note(page));
+  checkSilence(page, old);
+  await page.context().close();
+}
+
 async function checkLooks(browser) {
   const run = runOf("reference.yaml");
   console.log("reference.yaml, dark, 400 pixels wide");
@@ -75,6 +211,9 @@ async function checkLooks(browser) {
   checkSilence(page, run.file);
   await checkNoneEmpty(page);
   await checkFits(page);
+  const seen = await look(page, "replay.look('tube');" + show(0.1));
+  check("tube and rocket are seen in the dark", seen.tube > 0.002 * seen.points && seen.rocket > 0.001 * seen.points,
+    `${seen.tube} and ${seen.rocket} of ${seen.points}`);
   check("dark as the system says", (await paper(page)) === "rgb(20, 24, 28)");
   await picture(page, "narrow.png");
   await page.click("#theme");
@@ -90,7 +229,7 @@ async function checkHostile(browser) {
   const page = await open(browser, run.file);
   checkSilence(page, run.file);
   check("the title is text", (await page.textContent("h1")) === title);
-  check("nothing of it ran", await page.evaluate(() => window.owned === undefined && !document.querySelector("img")));
+  check("nothing of it ran", await page.evaluate(() => window.owned === undefined && !document.querySelector("img:not(.photo)")));
   writeFileSync(join(run.out, "summary.json"), "{\"title\": ");
   launchdyn("report", run.out);
   await page.context().close();
@@ -102,6 +241,7 @@ async function checkHostile(browser) {
 
 await inBrowser(async (browser) => {
   await checkLaunch(browser);
+  await checkReplay(browser);
   await checkLooks(browser);
   await checkHostile(browser);
 });
