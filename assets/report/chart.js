@@ -4,7 +4,7 @@ import { readable } from "./data.js";
 import { download, element } from "./page.js";
 import { ticks } from "./ticks.js";
 
-const HEIGHT = 240, LEFT = 62, RIGHT = 14, TOP = 14, BOTTOM = 42;
+const HEIGHT = 240, LEAST = 170, MOST = 420, RIGHT = 14, TOP = 14, BOTTOM = 42;
 
 export function svg(tag, attributes = {}, ...children) {
   const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -57,34 +57,36 @@ function scale({ range, log }, from, to) {
 }
 
 function drawAxes(spec, place) {
-  const { x, y } = spec, nodes = [], right = place.width - RIGHT, bottom = place.height - BOTTOM;
+  const { x, y } = spec, { left, right, bottom } = place, nodes = [];
   const line = (x1, y1, x2, y2) => nodes.push(svg("line", { x1, y1, x2, y2, class: "grid-line" }));
   const text = (content, at, anchor, more = {}) =>
     nodes.push(svg("text", { x: at[0], y: at[1], "text-anchor": anchor, ...more }, content));
   if (x.names) {
-    const each = (right - LEFT) / x.names.length;
+    const each = (right - left) / x.names.length;
     const fits = x.names.every((name) => name.length * 6.5 < each);
     x.names.forEach((name, i) => text(fits ? name : String(i + 1), [place.x(i), bottom + 15], "middle"));
   } else {
-    const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - LEFT) / 60));
+    const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - left) / 60));
     for (const v of steps) {
       line(place.x(v), TOP, place.x(v), bottom);
-      text(x.log ? readable(v) : tickText(v, steps[1] - steps[0] || 1), [place.x(v), bottom + 15], "middle");
+      const end = place.x(v) > right - 12;
+      text(x.log ? readable(v) : tickText(v, steps[1] - steps[0] || 1), [place.x(v) + (end ? 12 : 0), bottom + 15], end ? "end" : "middle");
     }
   }
-  const steps = ticks(...y.range, 5);
+  const steps = y.names ? [] : ticks(...y.range, 5);
   for (const v of steps) {
-    line(LEFT, place.y(v), right, place.y(v));
-    text(tickText(v, steps[1] - steps[0] || 1), [LEFT - 5, place.y(v) + 4], "end");
+    line(left, place.y(v), right, place.y(v));
+    text(tickText(v, steps[1] - steps[0] || 1), [left - 5, place.y(v) + 4], "end");
   }
-  text(x.label, [(LEFT + right) / 2, place.height - 8], "middle", { class: "axis" });
+  text(x.label, [(left + right) / 2, place.height - 8], "middle", { class: "axis" });
   text(y.label, [-(TOP + bottom) / 2, 12], "middle", { class: "axis", transform: "rotate(-90)" });
   return nodes;
 }
 
+const span = ({ range }) => range[1] - range[0];
+
 // Equal units on both axes: the range of one grows about its middle.
 function square(spec, width, height) {
-  const span = ({ range }) => range[1] - range[0];
   const unit = Math.max(span(spec.x) / width, span(spec.y) / height);
   for (const [axis, pixels] of [[spec.x, width], [spec.y, height]]) {
     const middle = (axis.range[0] + axis.range[1]) / 2;
@@ -93,10 +95,13 @@ function square(spec, width, height) {
 }
 
 function placeOf(spec, width) {
-  const height = spec.height ?? HEIGHT, right = width - RIGHT, bottom = height - BOTTOM;
-  if (spec.equal) square(spec, right - LEFT, bottom - TOP);
+  const left = spec.down ? 10 : 62, right = width - RIGHT;
+  const wanted = TOP + BOTTOM + ((right - left) * span(spec.y)) / span(spec.x);
+  const height = spec.equal ? Math.min(MOST, Math.max(LEAST, wanted)) : spec.height ?? HEIGHT;
+  const bottom = height - BOTTOM;
+  if (spec.equal) square(spec, right - left, bottom - TOP);
   const shown = (axis) => ({ ...axis, range: axis.shown ?? axis.range });
-  const place = { width, height, left: LEFT, right, top: TOP, bottom, x: scale(shown(spec.x), LEFT, right),
+  const place = { width, height, left, right, top: TOP, bottom, x: scale(shown(spec.x), left, right),
     y: scale(shown(spec.y), bottom, TOP) };
   place.axes = drawAxes({ x: shown(spec.x), y: shown(spec.y) }, place);
   return place;
@@ -109,10 +114,11 @@ function inside(place, nodes) {
     viewBox: `${place.left} ${place.top} ${width} ${height}` }, ...nodes);
 }
 
-// A card with a plot. `spec`: title; x, y: {label, range, log, names}; equal: same unit on both; draw(place):
-// nodes; and for the cursor count, at(i): [x, y] as values, reading(i): text; csv(): text.
+// A card with a plot. `spec`: title; x, y: {label, range, log, names}; equal: same unit on both; down: its
+// things stand below each other; wide; height; draw(place): nodes; note below; for the cursor count, at(i): [x, y]
+// as values, reading(i): text; csv(): text.
 export function chart(spec) {
-  const drawing = svg("svg", { tabindex: 0, role: "figure", "aria-label": `${spec.title}: ${spec.y.label} against ${spec.x.label}` });
+  const drawing = svg("svg", { tabindex: 0, role: "figure", "aria-label": [spec.title, spec.y.label, spec.x.label].join(", ") });
   const reading = element("output", { className: "reading" }, " ");
   const host = element("div", { className: "plot" }, drawing, reading);
   const cursor = svg("g", { class: "cursor" });
@@ -123,7 +129,7 @@ export function chart(spec) {
     cursor.replaceChildren();
     if (index >= 0) {
       const [x, y] = spec.at(index), left = place.x(x), top = place.y(y);
-      if (!spec.equal) cursor.append(svg("line", { x1: left, x2: left, y1: place.top, y2: place.bottom }));
+      if (!spec.equal && !spec.down) cursor.append(svg("line", { x1: left, x2: left, y1: place.top, y2: place.bottom }));
       if (Number.isFinite(top)) cursor.append(svg("circle", { cx: left, cy: top, r: 4 }));
     }
     reading.textContent = index >= 0 ? spec.reading(index) : " ";
@@ -140,7 +146,7 @@ export function chart(spec) {
     let best = Infinity, found = -1;
     for (let i = 0; i < spec.count; i++) {
       const [x, y] = spec.at(i);
-      const d = (place.x(x) - left) ** 2 + (spec.equal ? (place.y(y) - top) ** 2 : 0);
+      const d = (spec.down ? 0 : (place.x(x) - left) ** 2) + (spec.equal || spec.down ? (place.y(y) - top) ** 2 : 0);
       if (d < best) { best = d; found = i; }
     }
     return found;
@@ -152,18 +158,19 @@ export function chart(spec) {
   drawing.addEventListener("pointerleave", () => point(-1));
   drawing.addEventListener("keydown", (event) => {
     const step = event.shiftKey ? 10 : 1, last = spec.count - 1;
-    const to = { ArrowRight: Math.min(last, pointed + step), ArrowLeft: Math.max(0, pointed - step),
+    const next = Math.min(last, pointed + step), before = Math.max(0, pointed - step);
+    const to = { ArrowRight: next, ArrowDown: next, ArrowLeft: before, ArrowUp: before,
       Home: 0, End: last, Escape: -1 }[event.key];
     if (to === undefined) return;
     event.preventDefault();
     point(to);
   });
   new ResizeObserver(draw).observe(host);
-  return element("section", { className: "card panel", "data-title": spec.title },
+  return element("section", { className: `card panel${spec.wide ? " wide" : ""}`, "data-title": spec.title },
     element("h3", {}, spec.title,
       element("button", { type: "button", className: "csv", title: "Download these data as CSV",
         onclick: () => download(`${spec.title}.csv`.replace(/[^\w.-]+/g, "-").toLowerCase(), spec.csv()) }, "CSV")),
-    host);
+    host, spec.note ? element("p", { className: "shown" }, spec.note) : null);
 }
 
 // Lines of CSV; text in quotes.

@@ -1,8 +1,8 @@
 // The report of a study, or of several beside each other.
 import { element, themeSwitch } from "./page.js";
-import { convergence, distribution, scatter } from "./study_plots.js";
+import { convergence, distribution, scatter, sensitivity } from "./study_plots.js";
 import { describe, partCount, partName } from "./study_results.js";
-import { counts, failures, seriesName, statistics } from "./study_tables.js";
+import { counts, ellipses, failures, seriesName, statistics } from "./study_tables.js";
 
 const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -12,13 +12,14 @@ const nav = element("nav");
 function section(id, title, ...children) {
   const content = children.filter(Boolean);
   if (content.length === 0) return;
-  nav.append(element("a", { href: `#${id}` }, title));
+  nav.append(element("a", { href: `#${id}` }, title.split(" ")[0]));
   host.append(element("h2", { id }, title), ...content);
 }
 
-const grid = (className, children) => {
-  const shown = children.filter(Boolean);
-  return shown.length ? element("div", { className: `grid ${className}` }, ...shown) : null;
+// Two cards in a row, or three where there are more; wide ones have a row of their own.
+const grid = (children) => {
+  const shown = children.filter(Boolean), narrow = shown.filter((card) => !card.classList.contains("wide"));
+  return shown.length ? element("div", { className: `grid${narrow.length > 2 ? " three" : ""}` }, ...shown) : null;
 };
 
 // Whether a result differs between rockets at all.
@@ -28,7 +29,7 @@ function partOf(part) {
   const own = results.filter((result) => result.part === part && scatters(result));
   if (own.length === 0) return null;
   return element("section", { className: "figure" }, element("h3", { className: "heading" }, partName(part)),
-    grid("three", own.flatMap((result) => [distribution(data, result),
+    grid(own.flatMap((result) => [distribution(data, result),
       convergence(data, result, "mean", "mean"), convergence(data, result, "deviation", "standard deviation")])));
 }
 
@@ -47,17 +48,18 @@ function state(series) {
   return lines.length ? element("p", { className: "warning" }, name + lines.join(" ")) : null;
 }
 
-const titles = new Set(data.series.map((series) => series.title));
-const title = titles.size === 1 ? data.series[0].title : "Studies beside each other";
+const titles = new Set(data.series.map((series) => series.title || series.label));
+const title = titles.size === 1 ? [...titles][0] : "Studies beside each other";
 host.classList.toggle("several", data.series.length > 1);
 host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeSwitch(),
   data.series.length > 1 ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
 section("summary", "Summary", ...data.notes.map((note) => element("p", { className: "warning" }, note)),
   ...data.series.map(state), data.series.length > 0 ? counts(data) : null);
-section("scatter", "Scatter", grid("three", data.pairs.map((pair) => scatter(data, pair))));
+section("scatter", "Scatter", grid(data.pairs.map((pair) => scatter(data, pair))), ellipses(data));
 section("statistics", "Statistics", ...(results.length ? statistics(data, results) : []));
 section("distributions", "Distributions and convergence", sameEverywhere(),
   ...Array.from({ length: partCount }, (_, part) => partOf(part)), partOf(-1));
+section("sensitivities", "Sensitivities", grid(data.sensitivities.map((item) => sensitivity(data, item))));
 section("failed", "Failed samples", failures(data));
 host.append(element("footer", {}, element("p", {},
   `launchdyn ${data.version}. Values stand below a plot where the mouse is; with the keyboard: Tab to a plot, arrows, with ` +

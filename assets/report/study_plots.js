@@ -122,7 +122,7 @@ export function convergence(data, result, which, what) {
 // ---- two results against each other ----
 
 // Points of an ellipse of so many deviations.
-function outlineOf({ mean, semi_axis: [a, b], angle }, deviations) {
+function outlineOf({ mean, semi_axis: [[a], [b]], angle }, deviations) {
   return Array.from({ length: 97 }, (_, i) => {
     const u = deviations * a * Math.cos((i * Math.PI) / 48), v = deviations * b * Math.sin((i * Math.PI) / 48);
     return [mean[0] + u * Math.cos(angle) - v * Math.sin(angle), mean[1] + u * Math.sin(angle) + v * Math.cos(angle)];
@@ -142,10 +142,10 @@ export function scatter(data, pair) {
   const salvo = data.series.some((series) => series.rockets > series.done - series.failed);
   const shown = list.map(({ own, series }) => named(list, series, own.points.length < own.count
     ? `${own.points.length} of ${own.count} points shown` : `${own.count} points`)).join(", ");
-  const plot = chart({
-    title: pair.title, height: 420, equal: true,
-    x: { label: across.axis, range: rangeOf(all.map(([x]) => x)) },
-    y: { label: up.axis, range: rangeOf(all.map(([, y]) => y)) },
+  const x = { label: across.axis, range: rangeOf(all.map(([v]) => v)) };
+  const y = { label: up.axis, range: rangeOf(all.map(([, v]) => v)) };
+  return chart({
+    title: pair.title, equal: true, wide: 2 * (y.range[1] - y.range[0]) < x.range[1] - x.range[0], x, y,
     draw: (place) => [
       ...list.map(({ s }) => svg("path", { class: "points", style: colourOf(s), d: points.filter((p) => p.s === s)
         .map(({ at: [x, y] }) => `M${place.x(x).toFixed(1)} ${place.y(y).toFixed(1)}h0`).join("") })),
@@ -159,10 +159,45 @@ export function scatter(data, pair) {
     },
     csv: () => csvOf(["series", "sample", "rocket", `${pair.x} [${pair.unit}]`, `${pair.y} [${pair.unit}]`],
       points.map((p) => [p.series.label, p.sample, p.rocket, ...p.si])),
+    note: `${shown}; ellipses of one standard deviation and of 95 %`,
   });
-  const note = document.createElement("p");
-  note.className = "shown";
-  note.textContent = `${shown}; ellipses of one standard deviation and of 95 %`;
-  plot.append(note);
-  return plot;
+}
+
+// ---- sensitivities ----
+
+const MOST_FACTORS = 16;
+
+// A bar for each factor and series: the share of the result's variance that it makes alone; none where the
+// estimate is below zero.
+export function sensitivity(data, { name, series }) {
+  const result = describe({ name, unit: "" }), list = having(data, series);
+  const greatest = new Map();
+  for (const { own } of list)
+    for (const [factor, [value]] of own) greatest.set(factor, Math.max(value, greatest.get(factor) ?? -Infinity));
+  const factors = [...greatest.keys()].sort((a, b) => greatest.get(b) - greatest.get(a)).slice(0, MOST_FACTORS);
+  if (factors.length === 0) return null;
+  const left = greatest.size - factors.length, thick = 9, row = 17 + thick * list.length;
+  const bars = factors.flatMap((factor, i) => list.flatMap(({ own, series: of, s }, k) => {
+    const found = own.find(([path]) => path === factor);
+    return found ? [{ factor, of, s, y: i + (17 + thick * k) / row, shares: found[1].map((v) => (v === null ? null : 100 * v)) }] : [];
+  }));
+  const known = bars.flatMap(({ shares }) => shares).filter((v) => v !== null);
+  return chart({
+    title: `${result.label}: factors`, down: true, height: 60 + row * factors.length,
+    x: { label: "share of the variance [%]", range: [0, Math.max(5, ...known) * 1.02] },
+    y: { label: "", range: [factors.length, 0], names: [] },
+    draw: (place) => [
+      ...factors.map((factor, i) => svg("text", { x: place.left + 2, y: place.y(i) + 13 }, factor)),
+      ...bars.flatMap(({ s, y, shares: [value, low, high] }) => {
+        const top = place.y(y), middle = top + thick / 2 - 1, length = Math.max(0.5, place.x(value) - place.x(0));
+        return [svg("rect", { x: place.x(0), width: length, y: top, height: thick - 2, class: "bar", style: colourOf(s) }),
+          ...(low === null ? [] : [svg("line", { x1: place.x(low), x2: place.x(high), y1: middle, y2: middle, class: "whisker" })])];
+      })],
+    count: bars.length,
+    at: (i) => [bars[i].shares[0], bars[i].y + thick / 2 / row],
+    reading: (i) => `${named(list, bars[i].of, bars[i].factor)}: ${withInterval(bars[i].shares)} %`,
+    note: left > 0 ? `${left} factors with smaller shares are not drawn` : "",
+    csv: () => csvOf(["series", "factor", ...["", ", low", ", high"].map((end) => `share of the variance of ${name}${end}`)],
+      list.flatMap(({ own, series: of }) => own.map(([factor, values]) => [of.label, factor, ...values]))),
+  });
 }

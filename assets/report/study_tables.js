@@ -1,6 +1,7 @@
 // The tables of a study: what was run, statistics with a column for each series, failed samples.
 import { readable } from "./data.js";
 import { element } from "./page.js";
+import { describe } from "./study_results.js";
 
 const cell = (content, className = "") => element("td", { className }, content);
 const head = (content, scope = "col", more = {}) => element("th", { scope, ...more }, content);
@@ -16,7 +17,6 @@ export function seriesName(series, index) {
 }
 
 const COUNTS = [
-  ["title", (s) => s.title],
   ["samples kept", (s) => `${s.done} of ${s.samples}`],
   ["failed", (s) => String(s.failed)],
   ["plan", (s) => (s.strata > 1 ? `Latin hypercubes of ${s.strata} samples` : "random")],
@@ -27,7 +27,8 @@ export function counts(data) {
   const several = data.series.length > 1;
   const most = (key) => data.series.map((_, i) => Math.max(0, ...data.results.map(({ series }) => series[i]?.[key] ?? 0)));
   const rockets = most("count"), groups = most("groups");
-  const rows = [...COUNTS, ["rockets of good samples", (s, i) => String(rockets[i])], ["independent groups", (s, i) => String(groups[i])]];
+  const titles = new Set(data.series.map((series) => series.title)).size > 1 ? [["title", (s) => s.title]] : [];
+  const rows = [...titles, ...COUNTS, ["rockets of good samples", (s, i) => String(rockets[i])], ["independent groups", (s, i) => String(groups[i])]];
   return card("What was run", element("table", {},
     several ? element("tr", {}, head(""), ...data.series.map((s, i) => element("th", { scope: "col" }, seriesName(s, i)))) : null,
     ...rows.map(([name, of]) => element("tr", {}, head(name, "row"),
@@ -78,6 +79,22 @@ export function statistics(data, results) {
       [...moments, "skewness", ...quantiles, "least", "greatest"])];
   return [statisticsTable(data, results, "Mean and standard deviation, with 95 % intervals", moments),
     statisticsTable(data, results, "Quantiles", quantiles)];
+}
+
+// Centre, semi-axes and direction of each ellipse.
+export function ellipses(data) {
+  const several = data.series.length > 1;
+  const rows = data.pairs.flatMap((pair) => pair.series.flatMap((own, s) => {
+    if (!own?.ellipse) return [];
+    const { mean, semi_axis: axes, angle } = own.ellipse, { unit, factor } = describe({ name: pair.x, unit: pair.unit });
+    return [element("tr", {}, head(pair.title, "row"), several ? element("td", {}, seriesName(data.series[s], s)) : null,
+      ...mean.map((v) => cell(readable(v * factor))), ...axes.map((v) => estimate(v, factor)),
+      ...axes.map((v) => cell(readable(v[0] * factor * pair.radius, 4))), cell(unit, "unit"),
+      cell(`${readable((angle * 180) / Math.PI, 4)}°`))];
+  }));
+  if (rows.length === 0) return null;
+  const heads = ["", ...(several ? [""] : []), "centre, across", "up", "one deviation, long", "short", "95 %, long", "short", "", "long axis, from across to up"];
+  return card("Ellipses", element("table", {}, element("tr", {}, ...heads.map((name) => head(name))), ...rows));
 }
 
 export function failures(data) {

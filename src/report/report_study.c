@@ -31,6 +31,18 @@ static void point_name(const study_data *data, const study_point *point, char *n
     }
 }
 
+// Tells a series from others with its label: "salvo (2)".
+static void number_label(const study_source *source, study_series *series)
+{
+    size_t length = strlen(series->label);
+    int same = 1;
+    for (const study_series *other = source->series; other < series; other++)
+        same += strncmp(other->label, series->label, length) == 0 &&
+                (other->label[length] == '\0' || strncmp(other->label + length, " (", 2) == 0);
+    if (same > 1)
+        snprintf(series->label + length, sizeof series->label - length, " (%d)", same);
+}
+
 static void add_series(study_source *source, const study_data *data, const char *folder)
 {
     for (int i = 0; i < data->point_count; i++) {
@@ -44,8 +56,10 @@ static void add_series(study_source *source, const study_data *data, const char 
         char name[100], point[140] = "";
         name_of(folder, name, sizeof name);
         point_name(data, series->point, point, sizeof point);
+        bool both = point[0] && source->several;
         snprintf(series->label, sizeof series->label, "%s%s%s", point[0] ? point : name,
-                 point[0] && source->several ? ", " : "", point[0] && source->several ? name : "");
+                 both ? ", " : "", both ? name : "");
+        number_label(source, series);
     }
 }
 
@@ -79,6 +93,14 @@ static void close_studies(study_source *source)
 
 // ---- the file
 
+static const char *title_of(const study_source *source)
+{
+    const study_series *first = &source->series[0];
+    if (source->several)
+        return "Studies beside each other";
+    return *first->data->title ? first->data->title : first->label;
+}
+
 // The page in memory, to be freed.
 static ld_status make_page(study_source *source, char **text, size_t *length, ld_error *error)
 {
@@ -90,9 +112,7 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
         fine = study_write_data(json, source) == LD_OK;
     fine &= json && fclose(json) == 0;
     if (fine) {
-        report_begin_page(page, &study_bundle,
-                          source->several ? "Studies beside each other"
-                                          : source->series[0].data->title,
+        report_begin_page(page, &study_bundle, title_of(source),
                           "This report draws its plots with JavaScript; study.db holds the same "
                           "numbers, and launchdyn study show prints them.");
         report_write_json(page, "data", data, data_length);
@@ -134,9 +154,9 @@ ld_status ld_report_write_studies(const char *const *folder, size_t count, const
     source->report = report;
     open_studies(source, folder, count);
     ld_status status = LD_OK;
-    if (source->study_count == 0)
+    if (source->series_count == 0)
         status = ld_fail(error, LD_ERR_INPUT, "no study to report: %s",
-                         count ? report->note[0] : "no folder is named");
+                         report->note_count ? report->note[0] : "nothing is named that has points");
     if (!status)
         status = write_report(source, file, error);
     close_studies(source);

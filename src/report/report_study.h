@@ -47,6 +47,19 @@ int study_choose_places(size_t groups, int most, size_t *place);
 // only.
 bool study_shows_point(int64_t sample, int rocket, size_t count, size_t most);
 
+// Writes a number with eight digits, enough to draw; null where there is none.
+void study_write_short(FILE *json, double value);
+// One of a list of estimates, each as [value, low, high].
+typedef void study_write_number(FILE *json, double value);
+void study_write_estimate(FILE *json, int index, estimate e, study_write_number *write);
+
+// Reads columns of a series; of a broken one what can be read, which is said once.
+void study_read(study_source *source, study_series *series, const study_column *const *column,
+                int columns);
+
+// Writes the sensitivities of chosen results to all factors, as items of a list.
+void study_write_sensitivities(FILE *json, study_source *source);
+
 // Writes all that the page shows as JSON; notes what cannot be read.
 // @return LD_OK, LD_ERR_MEMORY
 ld_status study_write_data(FILE *json, study_source *source);

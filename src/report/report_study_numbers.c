@@ -4,17 +4,11 @@
 #include "base/random.h"
 #include "report/report_study.h"
 
-static double quantile(const double *sorted, size_t count, double level)
-{
-    double at = level * (double)(count - 1);
-    size_t i = (size_t)at, next = i + 1 < count ? i + 1 : i;
-    return sorted[i] + (at - (double)i) * (sorted[next] - sorted[i]);
-}
-
 // 0: the rule gives none.
 static double bin_width(const double *sorted, size_t count)
 {
-    double middle_half = quantile(sorted, count, 0.75) - quantile(sorted, count, 0.25);
+    double middle_half =
+        sorted_quantile(sorted, count, 0.75) - sorted_quantile(sorted, count, 0.25);
     return 2 * middle_half / cbrt((double)count);
 }
 

@@ -25,8 +25,7 @@ static int most_places(const study_source *source)
 
 // ---- numbers
 
-// Eight digits: enough to draw.
-static void write_short(FILE *json, double value)
+void study_write_short(FILE *json, double value)
 {
     if (isfinite(value))
         fprintf(json, "%.8g", value);
@@ -34,10 +33,7 @@ static void write_short(FILE *json, double value)
         fputs("null", json);
 }
 
-typedef void write_number(FILE *json, double value);
-
-// One of a list of estimates.
-static void write_estimate(FILE *json, int index, estimate e, write_number *write)
+void study_write_estimate(FILE *json, int index, estimate e, study_write_number *write)
 {
     fputs(index ? ",[" : "[", json);
     write(json, e.value);
@@ -62,23 +58,29 @@ static void write_text(FILE *json, const char *name, const char *text)
 
 // ---- reading
 
-// One or two columns of a series; of broken ones what could be read, which is said once.
-static void read_values(study_source *source, study_series *series, const char *const *name,
-                        int columns)
+void study_read(study_source *source, study_series *series, const study_column *const *column,
+                int columns)
 {
-    const study_column *column[2];
     ld_error error;
-    const char *nearest;
-    series->values.count = 0;
-    for (int i = 0; i < columns; i++)
-        if (!(column[i] = study_data_find(series->data, name[i], &nearest)))
-            return;
     if (!study_data_read(series->data, series->point, column, columns, &series->values, &error) ||
         series->broken)
         return;
     series->broken = true;
     report_take_note(source->report, "%.60s is broken, the numbers are of what could be read: %s.",
                      series->label, error.text);
+}
+
+// One or two results of a series.
+static void read_values(study_source *source, study_series *series, const char *const *name,
+                        int columns)
+{
+    const study_column *column[2];
+    const char *nearest;
+    series->values.count = 0;
+    for (int i = 0; i < columns; i++)
+        if (!(column[i] = study_data_find(series->data, name[i], &nearest)))
+            return;
+    study_read(source, series, column, columns);
 }
 
 // ---- one result
@@ -117,10 +119,10 @@ static ld_status write_running(FILE *json, const study_values *values, int most)
         fprintf(json, "%s%ld", i ? "," : "", samples[i]);
     fputs("],\"mean\":[", json);
     for (int i = 0; i < count; i++)
-        write_estimate(json, i, running[i].mean, write_short);
+        study_write_estimate(json, i, running[i].mean, study_write_short);
     fputs("],\"deviation\":[", json);
     for (int i = 0; i < count; i++)
-        write_estimate(json, i, running[i].deviation, write_short);
+        study_write_estimate(json, i, running[i].deviation, study_write_short);
     fputs("]}", json);
     return LD_OK;
 }
@@ -128,15 +130,15 @@ static ld_status write_running(FILE *json, const study_values *values, int most)
 static void write_statistics(FILE *json, const group_statistics *s)
 {
     fprintf(json, "\"count\":%zu,\"groups\":%zu,\"mean\":", s->count, s->groups);
-    write_estimate(json, 0, s->mean, json_write_number);
+    study_write_estimate(json, 0, s->mean, json_write_number);
     fputs(",\"deviation\":", json);
-    write_estimate(json, 0, s->deviation, json_write_number);
+    study_write_estimate(json, 0, s->deviation, json_write_number);
     write_named(json, "skewness", s->skewness);
     write_named(json, "least", s->least);
     write_named(json, "greatest", s->greatest);
     fputs(",\"quantiles\":[", json);
     for (int k = 0; k < STATISTICS_QUANTILES; k++)
-        write_estimate(json, k, s->quantile[k], json_write_number);
+        study_write_estimate(json, k, s->quantile[k], json_write_number);
     fputc(']', json);
 }
 
@@ -150,12 +152,6 @@ static void write_bins(FILE *json, const study_bins *bins, const study_values *s
     fputc(']', json);
 }
 
-static int by_value(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 // Sorts the values of all series, and chooses bins for them.
 static study_bins sort_into_bins(const study_source *source)
 {
@@ -166,7 +162,7 @@ static study_bins sort_into_bins(const study_source *source)
         sorted[i] = values->value ? values->value[0] : NULL;
         count[i] = values->count;
         if (count[i] > 0)
-            qsort(values->value[0], count[i], sizeof(double), by_value);
+            sort_values(values->value[0], count[i]);
     }
     return study_choose_bins(sorted, count, source->series_count);
 }
@@ -241,49 +237,64 @@ static void write_points(FILE *json, const study_values *values, size_t most)
             continue;
         fprintf(json, "%s[%" PRId64 ",%d,", first ? "" : ",", values->sample[i], values->rocket[i]);
         first = false;
-        write_short(json, values->value[0][i]);
+        study_write_short(json, values->value[0][i]);
         fputc(',', json);
-        write_short(json, values->value[1][i]);
+        study_write_short(json, values->value[1][i]);
         fputc(']', json);
     }
     fputc(']', json);
 }
 
-static void write_scatter(FILE *json, const study_values *values, size_t most)
+static ld_status write_ellipse(FILE *json, const study_values *values)
 {
-    fprintf(json, "{\"count\":%zu", values->count);
-    if (values->count >= 3) {
-        covariance_ellipse e;
-        covariance_ellipse_of(values->value[0], values->value[1], values->count, &e);
-        fprintf(json,
-                ",\"ellipse\":{\"mean\":[%.17g,%.17g],\"semi_axis\":[%.17g,%.17g],\"angle\":%.17g}",
-                e.mean[0], e.mean[1], e.semi_axis[0], e.semi_axis[1], e.angle);
-    }
-    write_points(json, values, most);
-    fputc('}', json);
+    covariance_ellipse e;
+    estimate axis[2];
+    double *const *value = values->value;
+    covariance_ellipse_of(value[0], value[1], values->count, &e);
+    ld_status status =
+        covariance_ellipse_intervals(value[0], value[1], values->group, values->count, &e, axis);
+    if (status)
+        return status;
+    fprintf(json, ",\"ellipse\":{\"mean\":[%.17g,%.17g],\"angle\":%.17g,\"semi_axis\":[", e.mean[0],
+            e.mean[1], e.angle);
+    for (int k = 0; k < 2; k++)
+        study_write_estimate(json, k, axis[k], json_write_number);
+    fputs("]}", json);
+    return LD_OK;
 }
 
-static void write_pairs(FILE *json, study_source *source)
+static ld_status write_scatter(FILE *json, const study_values *values, size_t most)
 {
+    fprintf(json, "{\"count\":%zu", values->count);
+    ld_status status = values->count >= 3 ? write_ellipse(json, values) : LD_OK;
+    write_points(json, values, most);
+    fputc('}', json);
+    return status;
+}
+
+static ld_status write_pairs(FILE *json, study_source *source)
+{
+    ld_status status = LD_OK;
     size_t fit =
         (size_t)(BYTES_OF_POINTS / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
     size_t most = fit < MOST_POINTS ? fit : MOST_POINTS;
-    for (size_t p = 0; p < STUDY_PAIRS; p++) {
+    for (size_t p = 0; p < STUDY_PAIRS && !status; p++) {
         const study_pair *pair = &study_pairs[p];
         fprintf(json, "%s\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"",
                 p ? "," : "", pair->title, pair->name[0], pair->name[1], pair->unit);
         fprintf(json, ",\"radius\":%.17g,\"series\":[", ellipse_radius);
-        for (int i = 0; i < source->series_count; i++) {
+        for (int i = 0; i < source->series_count && !status; i++) {
             study_series *series = &source->series[i];
             read_values(source, series, pair->name, 2);
             fputs(i ? ",\n" : "\n", json);
             if (series->values.count)
-                write_scatter(json, &series->values, most);
+                status = write_scatter(json, &series->values, most);
             else
                 fputs("null", json);
         }
         fputs("]}", json);
     }
+    return status;
 }
 
 // ---- the series
@@ -335,7 +346,10 @@ ld_status study_write_data(FILE *json, study_source *source)
     fputs("],\"results\":[", json);
     ld_status status = write_results(json, source);
     fputs("],\"pairs\":[", json);
-    write_pairs(json, source);
+    if (!status)
+        status = write_pairs(json, source);
+    fputs("],\"sensitivities\":[", json);
+    study_write_sensitivities(json, source);
     // last, when all that is broken is known
     fputs("],\"notes\":[", json);
     for (int i = 0; i < source->report->note_count; i++) {

@@ -138,6 +138,11 @@ static int by_value(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
+void sort_values(double *value, size_t count)
+{
+    qsort(value, count, sizeof *value, by_value);
+}
+
 // Fewer groups: resamples are degenerate; more: Student's t does as well.
 enum { RESAMPLES = 999, FEWEST = 8, MOST = 1000 };
 
@@ -152,7 +157,7 @@ static void bootstrap_quantiles(const grouped *self, double t[2])
         double error = linear_error(self, number, sums);
         ratio[b] = error > 0 ? (log(variance(sums)) - all) / error : 0;
     }
-    qsort(ratio, RESAMPLES, sizeof *ratio, by_value);
+    sort_values(ratio, RESAMPLES);
     int beyond = (int)((RESAMPLES + 1) * (1 - confidence) / 2);
     t[0] = ratio[beyond - 1];
     t[1] = ratio[RESAMPLES - beyond];
@@ -174,6 +179,11 @@ static double value_at(const double *sorted, size_t count, double at)
 {
     size_t i = (size_t)at, next = i + 1 < count ? i + 1 : i;
     return sorted[i] + (at - (double)i) * (sorted[next] - sorted[i]);
+}
+
+double sorted_quantile(const double *sorted, size_t count, double level)
+{
+    return value_at(sorted, count, level * (double)(count - 1));
 }
 
 // The t at which the order statistic t (n + 1) of n independent values, as a real number, lies
@@ -218,7 +228,7 @@ static double effective_number(const grouped *self, double limit)
 static estimate quantile_of(const grouped *self, const double *sorted, double q, double reach)
 {
     double n = (double)self->count, tail = (1 - confidence) / 2;
-    estimate result = {value_at(sorted, self->count, q * (n - 1)), NAN, NAN};
+    estimate result = {sorted_quantile(sorted, self->count, q), NAN, NAN};
     double low = fractional_order(reach, q, 1 - tail), high = fractional_order(reach, q, tail);
     if (low * (reach + 1) < 1 || (1 - high) * (reach + 1) < 1)
         return result;
@@ -238,7 +248,7 @@ static ld_status quantiles(const grouped *self, double reach, group_statistics *
     if (!sorted)
         return LD_ERR_MEMORY;
     memcpy(sorted, self->value, self->count * sizeof *sorted);
-    qsort(sorted, self->count, sizeof *sorted, by_value);
+    sort_values(sorted, self->count);
     result->least = sorted[0];
     result->greatest = sorted[self->count - 1];
     for (int k = 0; k < STATISTICS_QUANTILES; k++)

@@ -37,6 +37,11 @@ ld_status statistics_of(const double *value, const int64_t *group, size_t count,
 ld_status moments_of(const double *value, const int64_t *group, size_t count,
                      group_statistics *result);
 
+// Sorts values, the least first.
+void sort_values(double *value, size_t count);
+// Quantile of sorted values, linear between them.
+double sorted_quantile(const double *sorted, size_t count, double level);
+
 // Ellipse of two columns of values: semi-axes of one standard deviation along the main axes, and
 // the angle [rad] of the long one from the first towards the second.
 typedef struct covariance_ellipse {

@@ -81,6 +81,23 @@ async function checkCursor(page, study) {
     near(mean, downrange.reduce((sum, v) => sum + v) / n, 1e-5), text);
 }
 
+// The bars of a result: the longest on top, each as long as its share, the same number below.
+async function checkBars(page) {
+  const data = await dataOf(page), title = "Drift: factors";
+  const [own] = data.sensitivities.find(({ name }) => name === "drift").series;
+  const shares = own.map(([, [value]]) => value).sort((a, b) => b - a);
+  await frame(page, title);
+  const lengths = await page.$$eval(`${panel(title)} rect.bar`, (bars) => bars.map((bar) => bar.getBBox().width));
+  check("a bar for each factor", lengths.length === 3 && shares.length === 3, lengths);
+  check("as long as its share", near(lengths[1] / lengths[0], Math.abs(shares[1] / shares[0]), 1e-3) && shares[0] > 0.9,
+    shares);
+  const bar = await page.locator(`${panel(title)} rect.bar`).first().boundingBox();
+  await page.mouse.move(bar.x + 20, bar.y + bar.height / 2);
+  const text = await readingOf(page, title);
+  check("its number stands below", text.startsWith("rocket.motor.misalignment.y: ") &&
+    near(numbersIn(text)[0], 100 * shares[0], 1e-5), text);
+}
+
 async function checkTable(page) {
   const data = await dataOf(page), result = data.results.find(({ name }) => name === "downrange");
   const cells = await page.$$eval(".statistics tr[title='downrange'] td:not(.unit)", (list) =>
@@ -123,6 +140,7 @@ async function checkOne(browser, study) {
   await checkNoneEmpty(page, 25);
   await checkCursor(page, study);
   await checkTable(page);
+  await checkBars(page);
   await checkKeys(page);
   await checkDownload(page, study);
   await picture(page, "study.png");

@@ -9,6 +9,7 @@
 
 #include "launchdyn/study.h"
 #include "report/report_study.h"
+#include "studies/sensitivity.h"
 
 static int set_up(void **state)
 {
@@ -137,12 +138,6 @@ static void read_numbers(const char *text, double *number, int count)
 enum { SAMPLES = 500, VALUES = 2 * SAMPLES };
 static const int pitch = 8; // its place among the results
 
-static int by_value(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 // Mean and deviation of the values of the first samples.
 static void directly(int samples, double *mean, double *deviation)
 {
@@ -177,7 +172,7 @@ static void test_numbers_are_those_of_the_values(void **state)
     read_numbers(after(series, "\"bins\":["), count, bin_count);
     for (int i = 0; i < VALUES; i++)
         value[i] = value_of(1 + i / 2, 1 + i % 2, pitch);
-    qsort(value, VALUES, sizeof *value, by_value);
+    sort_values(value, VALUES);
     double total = 0, wrong = 0;
     for (int b = 0, i = 0; b < bin_count; b++) {
         int here = 0;
@@ -256,14 +251,41 @@ static void test_numbers_are_those_of_show(void **state)
         expect_line(shown, "%.4g [%.4g, %.4g]", e);
     }
     const char *ellipse = after(after(page, "\"x\":\"downrange\""), "\"ellipse\":");
-    double e[4] = {0};
+    double e[6] = {0};
     read_numbers(after(ellipse, "\"mean\":"), e, 2);
     expect_line(shown, "downrange and drift [m]: centre %.6g, %.6g", e);
-    read_numbers(after(ellipse, "\"semi_axis\":"), e, 2);
-    expect_line(shown, "    semi-axes of one standard deviation %.4g [", e);
-    expect_line(shown, "] and %.4g [", e + 1);
+    read_numbers(after(ellipse, "\"semi_axis\":"), e, 6);
+    expect_line(shown, "    semi-axes of one standard deviation %.4g [%.4g, %.4g]", e);
+    expect_line(shown, "] and %.4g [%.4g, %.4g]", e + 3);
     free(page);
     free(shown);
+}
+
+// A factor that is pitch and something else.
+static void test_sensitivities(void **state)
+{
+    (void)state;
+    make_study("study", "Made up", SAMPLES,
+               "ALTER TABLE rocket ADD \"rocket.mass_error\" REAL;"
+               "UPDATE rocket SET \"rocket.mass_error\" = pitch + sample % 10");
+    char *page = report_one("study", NULL);
+    const char *own = after(after(page, "\"sensitivities\":["), "{\"name\":\"pitch\",\"series\":[");
+    double read[3], x[VALUES], y[VALUES];
+    int64_t sample[VALUES], group[VALUES];
+    read_numbers(after(own, "[[\"rocket.mass_error\","), read, 3);
+    for (int i = 0; i < VALUES; i++) {
+        sample[i] = 1 + i / 2;
+        group[i] = i / 2;
+        y[i] = value_of((int)sample[i], 1 + i % 2, pitch);
+        x[i] = y[i] + (double)(sample[i] % 10);
+    }
+    estimate expected = sensitivity_of(x, y, sample, group, VALUES, true);
+    CHECK_NEAR("sensitivity", read[0], expected.value, 1e-8);
+    CHECK_NEAR("its interval, low", read[1], expected.low, 1e-8);
+    CHECK_NEAR("its interval, high", read[2], expected.high, 1e-8);
+    // variances: 9^2/12 of pitch, (10^2 - 1)/12 of the rest
+    CHECK_NEAR("share that is pitch", read[0], 81.0 / (81 + 99), 0.02);
+    free(page);
 }
 
 // ---- what is drawn
@@ -499,6 +521,7 @@ int main(void)
         TEST(test_numbers_are_those_of_the_values),
         TEST(test_running_estimates),
         TEST(test_numbers_are_those_of_show),
+        TEST(test_sensitivities),
         TEST(test_bins),
         TEST(test_places),
         TEST(test_points_shown),
