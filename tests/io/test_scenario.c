@@ -15,9 +15,9 @@
 
 static const double pi = 3.14159265358979323846;
 static const char *const examples[] = {
-    "fixed.yaml",      "prescribed.yaml", "smooth.yaml",    "straight.yaml",
-    "unbalanced.yaml", "engine.yaml",     "reference.yaml", "ship.yaml",
-    "aircraft.yaml",   "flight.yaml",     "salvo.yaml",     "marching/stationary.yaml",
+    "fixed.yaml",      "prescribed.yaml",    "smooth.yaml",    "straight.yaml",
+    "unbalanced.yaml", "engine.yaml",        "reference.yaml", "ship.yaml",
+    "aircraft.yaml",   "flight.yaml",        "salvo.yaml",     "marching/stationary.yaml",
     "interval.yaml",   "salvo-marching.yaml"};
 enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 
