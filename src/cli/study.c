@@ -42,8 +42,8 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
     ld_status status = run(study, wishes->run.folder, &options, &counts, &error);
     progress_end(&progress);
     if (status == LD_ERR_INTERRUPTED) {
-        command_fail(status, &error);
-        return 128 + progress_signal();
+        int code = command_fail(status, &error);
+        return progress_signal() ? 128 + progress_signal() : code;
     }
     if (!status && !wishes->run.quiet && wishes->shards)
         printf(
