@@ -13,8 +13,13 @@ export function svg(tag, attributes = {}, ...children) {
   return node;
 }
 
-// What is drawn of the series `index` takes its colour from this.
-export const colourOf = (index) => `--series: var(--curve${index % 8})`;
+// What is drawn of the series `index` takes its colour from this: of a few those of the style sheet, of more
+// ones that follow each other.
+const FEW = 8;
+let all = 1;
+export const countSeries = (count) => { all = count; };
+export const colourOf = (index) =>
+  `--series: ${all > FEW ? `hsl(${(300 * index) / (all - 1)} var(--strength))` : `var(--curve${index})`}`;
 
 // A path through points; a point with a value missing is a gap.
 export function pathThrough(points) {

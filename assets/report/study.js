@@ -1,11 +1,14 @@
 // The report of a study, or of several beside each other.
 import { element, themeSwitch } from "./page.js";
-import { convergence, distribution, scatter, sensitivity } from "./study_plots.js";
+import { countSeries } from "./chart.js";
+import { convergence, distributions, scatter, sensitivity } from "./study_plots.js";
 import { describe, partCount, partName } from "./study_results.js";
 import { counts, ellipses, failures, seriesName, statistics } from "./study_tables.js";
 
 const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent);
+const MOST_NAMED = 8; // series in the legend; the table of the summary names them all
+countSeries(data.series.length);
 const results = data.results.map(describe);
 const nav = element("nav");
 
@@ -19,7 +22,7 @@ function section(id, title, ...children) {
 // Two cards in a row, or three where there are more; wide ones have a row of their own.
 const grid = (children) => {
   const shown = children.filter(Boolean), narrow = shown.filter((card) => !card.classList.contains("wide"));
-  return shown.length ? element("div", { className: `grid${narrow.length > 2 ? " three" : ""}` }, ...shown) : null;
+  return shown.length ? element("div", { className: `grid${narrow.length > 2 && data.series.length <= 4 ? " three" : ""}` }, ...shown) : null;
 };
 
 // Whether a result differs between rockets at all.
@@ -29,7 +32,7 @@ function partOf(part) {
   const own = results.filter((result) => result.part === part && scatters(result));
   if (own.length === 0) return null;
   return element("section", { className: "figure" }, element("h3", { className: "heading" }, partName(part)),
-    grid(own.flatMap((result) => [distribution(data, result),
+    grid(own.flatMap((result) => [...distributions(data, result),
       convergence(data, result, "mean", "mean"), convergence(data, result, "deviation", "standard deviation")])));
 }
 
@@ -39,22 +42,29 @@ function sameEverywhere() {
     ? element("p", { className: "shown" }, `The same for all rockets, and without a plot: ${same.join("; ")}.`) : null;
 }
 
-function state(series) {
-  const left = series.samples - series.done, name = data.series.length > 1 ? `${series.label}: ` : "";
-  if (series.done === 0) return element("p", { className: "warning" }, `${name}no sample is there yet.`);
-  const lines = [];
-  if (left > 0) lines.push(`${left} of ${series.samples} samples are still to be run; the numbers are of those that are there.`);
-  if (series.failed === series.done) lines.push("All samples failed: there is nothing to draw.");
-  return lines.length ? element("p", { className: "warning" }, name + lines.join(" ")) : null;
+// What is missing: a line for each series, or one for many of a kind.
+function states() {
+  const some = (what, list) => {
+    if (list.length === 0) return null;
+    const which = data.series.length === 1 ? "" : list.length > 3 ? `${list.length} of ${data.series.length} series: ` : `${list.map(({ label }) => label).join(", ")}: `;
+    return element("p", { className: "warning" }, which + what);
+  };
+  return [
+    some("no sample is there yet.", data.series.filter((series) => series.done === 0)),
+    some("not all samples have been run; the numbers are of those that are there.",
+      data.series.filter((series) => series.done > 0 && series.done < series.samples)),
+    some("all samples failed: there is nothing to draw.", data.series.filter((series) => series.done > 0 && series.failed === series.done)),
+  ];
 }
 
 const titles = new Set(data.series.map((series) => series.title || series.label));
 const title = titles.size === 1 ? [...titles][0] : "Studies beside each other";
 host.classList.toggle("several", data.series.length > 1);
 host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeSwitch(),
-  data.series.length > 1 ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
+  data.series.length > 1 && data.series.length <= MOST_NAMED
+    ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
 section("summary", "Summary", ...data.notes.map((note) => element("p", { className: "warning" }, note)),
-  ...data.series.map(state), data.series.length > 0 ? counts(data) : null);
+  ...states(), data.series.length > 0 ? counts(data) : null);
 section("scatter", "Scatter", grid(data.pairs.map((pair) => scatter(data, pair))), ellipses(data));
 section("statistics", "Statistics", ...(results.length ? statistics(data, results) : []));
 section("distributions", "Distributions and convergence", sameEverywhere(),

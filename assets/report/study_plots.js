@@ -79,8 +79,29 @@ function columns(data, result) {
   });
 }
 
-export const distribution = (data, result) =>
-  (data.series.length > MOST_OVERLAID ? columns : histogram)(data, result);
+// Many series: the standard deviation of each with its interval.
+function deviations(data, result) {
+  const list = having(data, result.series), f = result.factor;
+  const shown = list.map(({ own }) => own.deviation.map((v) => (v === null ? NaN : v * f)));
+  return chart({
+    title: `${result.label}: deviations`,
+    x: { label: "studies or points of a sweep", range: [-0.5, list.length - 0.5], names: list.map(({ series }) => series.label) },
+    y: { label: result.unit ? `standard deviation [${result.unit}]` : "standard deviation", range: rangeOf(shown.flat()) },
+    draw: (place) => shown.flatMap(([value, low, high], i) => {
+      const x = place.x(i);
+      return [svg("circle", { cx: x, cy: place.y(value), r: 4, class: "dot", style: colourOf(list[i].s) }),
+        ...(Number.isFinite(low) ? [svg("line", { x1: x, x2: x, y1: place.y(low), y2: place.y(high), class: "span", style: colourOf(list[i].s) })] : [])];
+    }),
+    count: list.length,
+    at: (i) => [i, shown[i][0]],
+    reading: (i) => `${list[i].series.label}: ${withInterval(list[i].own.deviation, f)}`,
+    csv: () => csvOf(["series", ...["", ", low", ", high"].map((end) => `standard deviation of ${result.name}${end} [${result.si}]`)],
+      list.map(({ series, own }) => [series.label, ...own.deviation])),
+  });
+}
+
+export const distributions = (data, result) =>
+  (data.series.length > MOST_OVERLAID ? [columns(data, result), deviations(data, result)] : [histogram(data, result)]);
 
 // ---- convergence ----
 
@@ -101,11 +122,11 @@ export function convergence(data, result, which, what) {
     return points.length ? pathThrough(points) + "Z" : "";
   };
   return chart({
-    title: `${result.label}: ${what}`,
+    title: `${result.label}: running ${what}`,
     x: { label: "samples", log: true, range: [places[0].n, Math.max(places[places.length - 1].n, places[0].n + 1)] },
     y: { label: result.unit ? `${what} [${result.unit}]` : what, range: rangeOf(settled) },
     draw: (place) => tracks.flatMap((track) => [
-      svg("path", { d: band(track, place), class: "band", style: colourOf(track.s) }),
+      ...(tracks.length > MOST_OVERLAID ? [] : [svg("path", { d: band(track, place), class: "band", style: colourOf(track.s) })]),
       svg("path", { class: "curve", style: colourOf(track.s),
         d: pathThrough(track.n.map((n, i) => [place.x(n), place.y(track.value[i][0])])) })]),
     count: places.length,
@@ -140,8 +161,9 @@ export function scatter(data, pair) {
       ({ s, series, name, r, points: outlineOf(own.ellipse, r).map(([x, y]) => [x * f, y * f]) })));
   const all = [...points.map((p) => p.at), ...ellipses.flatMap((e) => e.points)];
   const salvo = data.series.some((series) => series.rockets > series.done - series.failed);
-  const shown = list.map(({ own, series }) => named(list, series, own.points.length < own.count
-    ? `${own.points.length} of ${own.count} points shown` : `${own.count} points`)).join(", ");
+  const total = (of) => list.reduce((sum, { own }) => sum + of(own), 0);
+  const [drawn, there] = [total((own) => own.points.length), total((own) => own.count)];
+  const shown = drawn < there ? `${drawn} of ${there} points shown` : `${there} points`;
   const x = { label: across.axis, range: rangeOf(all.map(([v]) => v)) };
   const y = { label: up.axis, range: rangeOf(all.map(([, v]) => v)) };
   return chart({
@@ -165,18 +187,18 @@ export function scatter(data, pair) {
 
 // ---- sensitivities ----
 
-const MOST_FACTORS = 16;
+const MOST_FACTORS = 16, MOST_OF_MANY = 6;
 
 // A bar for each factor and series: the share of the result's variance that it makes alone; none where the
 // estimate is below zero.
 export function sensitivity(data, { name, series }) {
-  const result = describe({ name, unit: "" }), list = having(data, series);
+  const result = describe({ name, unit: "" }), list = having(data, series), many = list.length > MOST_OVERLAID;
   const greatest = new Map();
   for (const { own } of list)
     for (const [factor, [value]] of own) greatest.set(factor, Math.max(value, greatest.get(factor) ?? -Infinity));
-  const factors = [...greatest.keys()].sort((a, b) => greatest.get(b) - greatest.get(a)).slice(0, MOST_FACTORS);
+  const factors = [...greatest.keys()].sort((a, b) => greatest.get(b) - greatest.get(a)).slice(0, many ? MOST_OF_MANY : MOST_FACTORS);
   if (factors.length === 0) return null;
-  const left = greatest.size - factors.length, thick = 9, row = 17 + thick * list.length;
+  const left = greatest.size - factors.length, thick = many ? 5 : 9, row = 17 + thick * list.length;
   const bars = factors.flatMap((factor, i) => list.flatMap(({ own, series: of, s }, k) => {
     const found = own.find(([path]) => path === factor);
     return found ? [{ factor, of, s, y: i + (17 + thick * k) / row, shares: found[1].map((v) => (v === null ? null : 100 * v)) }] : [];

@@ -1,4 +1,5 @@
 // The tables of a study: what was run, statistics with a column for each series, failed samples.
+import { colourOf } from "./chart.js";
 import { readable } from "./data.js";
 import { element } from "./page.js";
 import { describe } from "./study_results.js";
@@ -13,26 +14,29 @@ function card(title, table) {
 
 // A swatch of the series' colour before its name.
 export function seriesName(series, index) {
-  return element("span", { className: "series" }, element("i", { style: `background: var(--curve${index % 8})` }), series.label);
+  return element("span", { className: "series" }, element("i", { style: colourOf(index) }), series.label);
 }
 
-const COUNTS = [
-  ["samples kept", (s) => `${s.done} of ${s.samples}`],
-  ["failed", (s) => String(s.failed)],
-  ["plan", (s) => (s.strata > 1 ? `Latin hypercubes of ${s.strata} samples` : "random")],
-  ["version", (s) => s.version],
-];
+const distinct = (data, of) => new Set(data.series.map(of)).size > 1;
 
+// A row for each series: what was run, and how much of it.
 export function counts(data) {
-  const several = data.series.length > 1;
-  const most = (key) => data.series.map((_, i) => Math.max(0, ...data.results.map(({ series }) => series[i]?.[key] ?? 0)));
-  const rockets = most("count"), groups = most("groups");
-  const titles = new Set(data.series.map((series) => series.title)).size > 1 ? [["title", (s) => s.title]] : [];
-  const rows = [...titles, ...COUNTS, ["rockets of good samples", (s, i) => String(rockets[i])], ["independent groups", (s, i) => String(groups[i])]];
-  return card("What was run", element("table", {},
-    several ? element("tr", {}, head(""), ...data.series.map((s, i) => element("th", { scope: "col" }, seriesName(s, i)))) : null,
-    ...rows.map(([name, of]) => element("tr", {}, head(name, "row"),
-      ...data.series.map((s, i) => cell(of(s, i), name === "title" ? "text" : ""))))));
+  const most = (i, key) => Math.max(0, ...data.results.map(({ series }) => series[i]?.[key] ?? 0));
+  const keys = [...new Set(data.series.flatMap(({ swept }) => swept.map(([key]) => key)))];
+  const columns = [
+    ...(distinct(data, (s) => s.title) ? [["title", (s) => s.title, "text"]] : []),
+    ...keys.map((key) => [key, (s) => s.swept.find(([own]) => own === key)?.[1] ?? "", "text"]),
+    ["samples kept", (s) => `${s.done} of ${s.samples}`],
+    ["failed", (s) => String(s.failed)],
+    ["rockets of good samples", (s, i) => String(most(i, "count"))],
+    ["independent groups", (s, i) => String(most(i, "groups"))],
+    ["plan", (s) => (s.strata > 1 ? `Latin hypercubes of ${s.strata} samples` : "random")],
+    ["version", (s) => s.version],
+  ];
+  return card("What was run", element("table", { className: "statistics" },
+    element("tr", {}, head(""), ...columns.map(([name, , className]) => head(name, "col", { className: className ?? "" }))),
+    ...data.series.map((s, i) => element("tr", {}, head(seriesName(s, i), "row"),
+      ...columns.map(([, of, className]) => cell(of(s, i), className))))));
 }
 
 // A value with its interval below, both to two digits of the interval's half.

@@ -20,14 +20,15 @@ static void name_of(const char *folder, char *name, size_t size)
     snprintf(name, size, "%.*s", (int)(end - from), folder + from);
 }
 
-// "15 km/h" of a swept key, several joined by commas.
+// "speed = 15 km/h" where one key is swept, else the point's number.
 static void point_name(const study_data *data, const study_point *point, char *name, size_t size)
 {
-    size_t used = 0;
-    for (int i = 0; i < data->swept_count && used < size; i++) {
-        const char *dot = strrchr(data->swept[i], '.');
-        used += (size_t)snprintf(name + used, size - used, "%s%s = %s", i ? ", " : "",
-                                 dot ? dot + 1 : data->swept[i], point->text[i]);
+    enum { LONGEST = 24 };
+    if (data->swept_count == 1 && strlen(point->text[0]) <= LONGEST) {
+        const char *dot = strrchr(data->swept[0], '.');
+        snprintf(name, size, "%s = %s", dot ? dot + 1 : data->swept[0], point->text[0]);
+    } else if (data->swept_count > 0) {
+        snprintf(name, size, "point %lld", (long long)point->number);
     }
 }
 

@@ -321,6 +321,20 @@ static void write_failures(FILE *json, study_source *source, const study_series 
     free(failed);
 }
 
+// Pairs of a swept key and its value.
+static void write_swept(FILE *json, const study_data *data, const study_point *point)
+{
+    fputs(",\"swept\":[", json);
+    for (int i = 0; i < data->swept_count; i++) {
+        fputs(i ? ",[" : "[", json);
+        json_write_text(json, data->swept[i]);
+        fputc(',', json);
+        json_write_text(json, point->text[i]);
+        fputc(']', json);
+    }
+    fputc(']', json);
+}
+
 static void write_series(FILE *json, study_source *source, const study_series *series)
 {
     const study_point *point = series->point;
@@ -332,6 +346,7 @@ static void write_series(FILE *json, study_source *source, const study_series *s
             ",\"samples\":%" PRId64 ",\"done\":%" PRId64 ",\"failed\":%" PRId64
             ",\"strata\":%" PRId64,
             point->asked, point->done, point->failed, series->data->strata);
+    write_swept(json, series->data, point);
     write_failures(json, source, series);
     fputc('}', json);
 }

@@ -196,7 +196,7 @@ static ld_status count_samples(study_data *data, ld_error *error)
     int64_t asked = samples ? atoll(samples) : 0;
     free(samples);
     for (int i = 0; i < data->point_count; i++)
-        self->point[i].asked = asked;
+        self->point[i].asked = asked / data->point_count;
     snprintf(query, sizeof query,
              "SELECT %s, count(*), count(*) FILTER (WHERE status != 'ok') FROM sample GROUP BY 1",
              self->has_points ? "point" : "1");

@@ -74,9 +74,9 @@ async function checkCursor(page, study) {
     check("a point is that of its sample",
       near(downrange[sample - 1], x, 1e-5) && near(drift[sample - 1], y, 1e-5), text);
   }
-  const box = await frame(page, "Downrange: mean");
+  const box = await frame(page, "Downrange: running mean");
   await page.mouse.move(box.x + box.width - 1, box.y + box.height / 2);
-  const text = await readingOf(page, "Downrange: mean"), [n, mean] = numbersIn(text);
+  const text = await readingOf(page, "Downrange: running mean"), [n, mean] = numbersIn(text);
   check("the last estimate is the mean of all", n === downrange.length &&
     near(mean, downrange.reduce((sum, v) => sum + v) / n, 1e-5), text);
 }

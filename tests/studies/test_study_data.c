@@ -119,7 +119,7 @@ static void test_points(void **state)
     assert_string_equal(data.swept[1], "firing.order");
     assert_string_equal(data.point[0].text[0], "0 km/h");
     assert_string_equal(data.point[1].text[1], "[1, 2]");
-    assert_true(data.point[0].asked == 6 && data.point[0].done == 2 && data.point[0].failed == 1);
+    assert_true(data.point[0].asked == 3 && data.point[0].done == 2 && data.point[0].failed == 1);
     assert_true(data.point[1].done == 2 && data.point[1].failed == 0);
     const study_column *rear = column(&data, "t_rear");
     study_values values = {0};
