@@ -86,6 +86,7 @@ class Replay {
     this.slider = element("input", { type: "range", min: 0, max: SLIDER, step: 1, className: "time",
       oninput: () => { this.pause(); this.show(this.clock.time(this.slider.value / SLIDER)); } });
     this.slider.setAttribute("aria-label", "Time");
+    this.ticks = element("div");
     const speed = element("select", { onchange: () => { this.speed = speed.value === "auto" ? "auto" : Number(speed.value); } },
       ...SPEEDS.map(([value, name]) => element("option", { value }, name)));
     this.amount = element("input", { type: "range", min: 0, max: 3, step: 0.01, className: "amount",
@@ -97,7 +98,7 @@ class Replay {
     host.append(
       element("div", { className: "screen" }, this.canvas, this.photo, this.legend()),
       this.reading,
-      element("div", { className: "timeline" }, this.play, element("div", { className: "ticks" }, this.slider, ...this.ticks())),
+      element("div", { className: "timeline" }, this.play, element("div", { className: "track" }, this.slider, this.ticks)),
       element("div", { className: "controls" },
         element("span", { role: "group" }, "Look at ", ...this.views),
         element("label", {}, "Speed ", speed),
@@ -110,14 +111,14 @@ class Replay {
       item("adaptor", "adaptors"), item("force", "contact forces"));
   }
   // The key instants below the slider, their names in two lines where the ones before leave room.
-  ticks() {
+  nameInstants(width) {
     const { element } = this.tools, free = [-1, -1];
-    return this.marks.map(({ name, t }) => {
-      const share = this.clock.share(t + this.zero), row = free.findIndex((end) => share >= end);
-      if (row >= 0) free[row] = share + 0.012 * name.length;
-      return element("span", { className: row === 1 ? "tick low" : "tick", title: name,
-        style: `left:${(100 * share).toFixed(3)}%` }, row >= 0 ? name : "");
-    });
+    this.ticks.replaceChildren(...this.marks.map(({ name, t }) => {
+      const at = width * this.clock.share(t + this.zero), row = free.findIndex((end) => at >= end);
+      if (row >= 0) free[row] = at + 8 + 6.5 * name.length;
+      return element("span", { className: row === 1 ? "tick low" : "tick", title: name, style: `left:${at.toFixed(1)}px` },
+        row >= 0 ? name : "");
+    }));
   }
   key(event) {
     const row = this.motion.place(this.time).row, step = event.shiftKey ? 10 : 1;
@@ -202,7 +203,7 @@ class Replay {
       words.push(...["y", "z"].map((axis) => `tip ${axis} ${readable(1e3 * state.read(`tip.${axis}`), 3)} mm`));
     if (this.stage.view === "path") words.push(`squares of ${readable(this.stage.map.cell / 1000, 3)} km`);
     else if (this.motion.t.at(-1) < this.time) words.push("launcher as it was when its history ended");
-    this.reading.textContent = words.join("   ");
+    this.reading.textContent = words.join(" · ");
     this.canvas.setAttribute("aria-label", `Replay of the launch: ${words.join(", ")}`);
   }
 
@@ -212,6 +213,7 @@ class Replay {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     this.stage.resize(width, height);
+    this.nameInstants(this.ticks.clientWidth);
     this.show(this.time, true);
   }
   paint() {

@@ -42,8 +42,8 @@ export class Stage {
   }
   groundBelow() {
     if (this.motion.vehicle) return -0.02;
-    const y = this.motion.value("base.y")[0];
-    return y + this.base.low < -0.5 || y + this.base.low > 3 ? y + this.base.low - 0.01 : Math.min(0, y + this.base.low);
+    const foot = this.motion.value("base.y")[0] + this.base.low;
+    return foot > 0.3 ? 0 : foot - 0.01;
   }
   // Deflections by `scale`; gaps as much, as far as they leave something of the adaptors.
   setScale(scale) {
@@ -125,7 +125,7 @@ export class Stage {
     if (this.view === "rocket" && flying) return subtract(flying.center, anchor);
     if (this.view === "rocket" && state.rocket) return inTube(state.rocket.s + 0.5 * Math.max(...motion.adaptors));
     if (this.view === "launcher")
-      return motion.vehicle ? [0.1, state.chassis.r[1] + 0.7, 0] : add(inTube(0.45 * motion.length), [0, -0.3, 0]);
+      return motion.vehicle ? [0.1, state.chassis.r[1] + 0.7, 0] : add(inTube(0.5 * motion.length), [0, -0.1, 0]);
     return inTube(0.55 * motion.length);
   }
   // From where, in the view's own place.
@@ -140,7 +140,7 @@ export class Stage {
       return this.flying[this.watched()] ? scaled(wide * 2.2 * motion.length / 3, [-1.7, 0.9, 3.1])
         : across(scaled(wide * motion.length / 3, [0.5, 1.3, 3.2]));
     if (this.view === "tube") return across(scaled(wide * motion.length / 3, [0.6, 1.6, 6.4]));
-    return scaled(wide * (motion.vehicle ? 1 : motion.length / 6), [4.4, 2.8, 9.9]);
+    return scaled(wide * (motion.vehicle ? 1 : motion.length / 4.6), [4.4, 2.8, 9.9]);
   }
   // Corners of all flights together.
   extent() {

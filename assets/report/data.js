@@ -30,8 +30,11 @@ class Reader {
     for (let i = 0, sum = from; i < length; i++) out[i] = sum += this.count();
     return out;
   }
-  // Single-precision numbers from second differences of their bits, the lowest bytes of all first.
+  // Single-precision numbers from second differences of their bits, the lowest bytes of all first,
+  // on top of an offset.
   floats(length) {
+    const offset = new DataView(this.bytes.buffer, this.bytes.byteOffset + this.at).getFloat64(0, true);
+    this.at += 8;
     const { bytes, at } = this, out = new Array(length);
     const bits = new Uint32Array(1), single = new Float32Array(bits.buffer);
     this.at += 4 * length;
@@ -41,7 +44,7 @@ class Reader {
       step = (step + ((folded >>> 1) ^ -(folded & 1))) | 0;
       before = (before + step) | 0;
       bits[0] = before < 0 ? before ^ 0x80000000 : ~before;
-      out[i] = single[0];
+      out[i] = offset + single[0];
     }
     return out;
   }

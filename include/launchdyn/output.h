@@ -31,8 +31,8 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
 /// Where the rows of the run go: for ld_run_options.sink. Valid as long as `output`.
 const ld_sink *ld_output_sink(ld_output *output);
 
-/// Writes what is left and summary.json, puts all files in place of those of an earlier run, and
-/// frees `output`. Also for runs that ended early: summary->complete tells.
+/// Writes what is left and summary.json, puts all files in place of those of an earlier run, whose
+/// report.html goes, and frees `output`. Also for runs that ended early: summary->complete tells.
 /// @return LD_OK, or LD_ERR_FILE: then the earlier files stand as they were
 ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error);
 

@@ -22,6 +22,7 @@ struct ld_output {
     char *folder;
     size_t made_from; // length of the folder's part that was there before
     char *path[FILES], *part[FILES];
+    char *report; // what launchdyn report made of an earlier run
     history_hdf5 *hdf5;
     history_csv *csv;     // NULL: not wanted
     history_csv *flights; // NULL: not wanted, or none has flown on
@@ -127,6 +128,7 @@ static ld_status set_paths(ld_output *output, const char *folder, ld_error *erro
         output->part[i] = join(folder, file_name[i], ".part");
         fine = output->path[i] && output->part[i];
     }
+    fine = fine && (output->report = join(folder, "report.html", "")) != NULL;
     if (!fine)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
     return LD_OK;
@@ -138,6 +140,7 @@ static void free_output(ld_output *output)
         free(output->path[i]);
         free(output->part[i]);
     }
+    free(output->report);
     free(output->folder);
     free(output);
 }
@@ -197,12 +200,21 @@ static ld_status close_histories(ld_output *output, const ld_summary *summary, l
     return status;
 }
 
-// Takes an earlier run's summary away, then gives every file its name.
+static ld_status take_away(const char *path, ld_error *error)
+{
+    if (unlink(path) != 0 && errno != ENOENT)
+        return ld_fail(error, LD_ERR_FILE, "cannot replace %s: %s", path, strerror(errno));
+    return LD_OK;
+}
+
+// Takes an earlier run's summary and report away, then gives every file its name.
 static ld_status put_in_place(ld_output *output, ld_error *error)
 {
-    if (unlink(output->path[SUMMARY]) != 0 && errno != ENOENT)
-        return ld_fail(error, LD_ERR_FILE, "cannot replace %s: %s", output->path[SUMMARY],
-                       strerror(errno));
+    ld_status status = take_away(output->path[SUMMARY], error);
+    if (!status)
+        status = take_away(output->report, error);
+    if (status)
+        return status;
     for (int i = 0; i < FILES; i++)
         if (rename(output->part[i], output->path[i]) != 0 &&
             (errno != ENOENT || (unlink(output->path[i]) != 0 && errno != ENOENT)))

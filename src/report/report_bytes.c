@@ -24,7 +24,7 @@ ld_status report_write_bytes(FILE *text, const void *bytes, size_t count, ld_err
 {
     uLongf length = compressBound(count);
     unsigned char *deflated = malloc(length);
-    bool fine = deflated && compress2(deflated, &length, bytes, count, 9) == Z_OK;
+    bool fine = deflated && compress2(deflated, &length, bytes, count, 6) == Z_OK;
     if (fine)
         write_base64(text, deflated, length);
     free(deflated);

@@ -95,15 +95,27 @@ static segment segment_from(const thinned *table, size_t first)
     return found;
 }
 
-static double span_of(const double *values, size_t count)
+// The finite values of a column.
+typedef struct range {
+    double first, low, high;
+} range;
+
+static range range_of(const double *values, size_t count)
 {
-    double low = INFINITY, high = -INFINITY;
+    range found = {NAN, INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++)
         if (isfinite(values[i])) {
-            low = fmin(low, values[i]);
-            high = fmax(high, values[i]);
+            found.first = isnan(found.first) ? values[i] : found.first;
+            found.low = fmin(found.low, values[i]);
+            found.high = fmax(found.high, values[i]);
         }
-    return high > low ? high - low : 1;
+    return found;
+}
+
+static double span_of(const double *values, size_t count)
+{
+    range of = range_of(values, count);
+    return of.high > of.low ? of.high - of.low : 1;
 }
 
 // Marks the rows from first to last that straight lines between them need to pass all others within
@@ -187,15 +199,28 @@ static void write_rows(const thinned *table, size_t rows, size_t all, const char
     }
 }
 
-// Second differences, first the lowest bytes of all, then the next.
+// What is taken off the values of a column before they become single precision: its first value
+// where they are large against their span, else nothing. So they keep their digits in a plot too.
+static double offset_of(const double *values, size_t count)
+{
+    range of = range_of(values, count);
+    return of.high - of.low < 0.05 * fmax(fabs(of.low), fabs(of.high)) ? of.first : 0;
+}
+
+// The offset, then second differences, first the lowest bytes of all, then the next.
 static void write_values(const thinned *table, size_t rows, const double *y, const char *keep)
 {
     uint32_t before[2] = {0, 0};
     size_t count = 0;
+    double offset = offset_of(y, rows);
+    uint64_t bits;
+    memcpy(&bits, &offset, sizeof bits);
+    for (int shift = 0; shift < 64; shift += 8)
+        fputc((int)(bits >> shift & 255), table->bytes);
     for (size_t i = 0; i < rows; i++) {
         if (!keep[i])
             continue;
-        uint32_t now = ordered(y[i]);
+        uint32_t now = ordered(y[i] - offset);
         table->value[count++] = folded(now - 2 * before[0] + before[1]);
         before[1] = before[0];
         before[0] = now;

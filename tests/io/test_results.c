@@ -300,19 +300,21 @@ static void test_terminal_table(void **state)
     free(text);
 }
 
-// An earlier run's files stand until the next one is complete, then none of them is left.
+// An earlier run's files, its report too, stand until the next one is complete, then none of them
+// is left.
 static void test_replaces_an_earlier_run(void **state)
 {
     place *here = *state;
     ld_error error = {0};
     ld_output *output;
     write_launch(here, "run", true, 100);
+    printed_by("touch %s", in(here, "run/report.html"));
     assert_int_equal(ld_output_open(in(here, "run"), &here->model, false, &output, &error), LD_OK);
     assert_int_equal(made_run(ld_output_sink(output), 2000, &error), LD_OK);
     assert_true(exists(in(here, "run/history.h5.part")));
     ld_output_discard(output);
     assert_string_equal(printed_by("ls %s", in(here, "run")),
-                        "history.csv\nhistory.h5\nsummary.json");
+                        "history.csv\nhistory.h5\nreport.html\nsummary.json");
     write_launch(here, "run", false, 50);
     assert_string_equal(printed_by("ls %s", in(here, "run")), "history.h5\nsummary.json");
     history_data read;

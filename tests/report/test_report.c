@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "launchdyn/scenario.h"
 #include "report/report_parts.h"
 #include "support/made_launch.h"
 #include "support/scratch.h"
@@ -94,8 +95,13 @@ static void next_sums(const unsigned char **bytes, size_t count, long long sum, 
         sums[i] = sum += (long long)next_count(bytes);
 }
 
-static void next_floats(const unsigned char **bytes, size_t count, float *value)
+// The offset and then the numbers: double and single precision, the lowest byte first as the
+// machines have it that run these tests.
+static void next_floats(const unsigned char **bytes, size_t count, double *value)
 {
+    double offset;
+    memcpy(&offset, *bytes, sizeof offset);
+    *bytes += sizeof offset;
     uint32_t ordered[2] = {0, 0};
     for (size_t i = 0; i < count; i++) {
         uint32_t folded = 0;
@@ -106,7 +112,9 @@ static void next_floats(const unsigned char **bytes, size_t count, float *value)
         ordered[1] = ordered[0];
         ordered[0] = now;
         uint32_t bits = now >> 31 ? now & 0x7fffffff : ~now;
-        memcpy(value + i, &bits, sizeof bits);
+        float single;
+        memcpy(&single, &bits, sizeof bits);
+        value[i] = offset + single;
     }
     *bytes += 4 * count;
 }
@@ -141,7 +149,7 @@ static unsigned char *read_segment(const char *json, const char *part, size_t *c
 
 // A column of one segment: times from its first row and values. Returns how many rows it keeps.
 static size_t read_column(const char *json, const char *part, const char *name, double *t,
-                          float *value)
+                          double *value)
 {
     static long long at[1 << 18], row[1 << 18];
     size_t count, kept = 0;
@@ -161,7 +169,7 @@ static size_t read_column(const char *json, const char *part, const char *name, 
 }
 
 static double times[1 << 18];
-static float values[1 << 18];
+static double values[1 << 18];
 
 // ---- tests ----
 
@@ -326,6 +334,116 @@ static void test_size_is_bounded(void **state)
     CHECK_WITHIN("pixels of 4000", report.pixels, 1, 4);
 }
 
+// ---- the reference launcher: 5 s on the road, then a flight of more than 60 s ----
+
+static void fly(history_data *read)
+{
+    ld_error error = {0};
+    ld_messages messages;
+    ld_model model;
+    ld_output *output = NULL;
+    ld_simulation *simulation = NULL;
+    static ld_summary summary;
+    const char *sets[] = {"run.lead_in=5 s", "platform.elevation.stabiliser.command=55 deg"};
+    if (ld_scenario_read(LD_SOURCE_DIR "/examples/reference.yaml", sets, 2, &model, &messages) ||
+        ld_simulation_create(&model, &simulation, &error) ||
+        ld_output_open(folder, &model, false, &output, &error) ||
+        ld_simulation_run(simulation, &(ld_run_options){.sink = ld_output_sink(output)}, &summary,
+                          &error) ||
+        ld_output_finish(output, &summary, &error) || history_read(in("history.h5"), read, &error))
+        fail_msg("%s", error.text);
+    CHECK_WITHIN("time of flight [s]", summary.rocket[0].flight.time_of_flight, 60, 200);
+    ld_simulation_free(simulation);
+    ld_model_free(&model);
+}
+
+// Largest distance of a column of the results from what the report keeps of it in one phase, in
+// pixels of 4000 over the column's span there.
+static double pixels_off(const history_data *history, const char *json, const char *part,
+                         const char *name, size_t first, size_t rows)
+{
+    const double *t = history_column(history, "t") + first;
+    const double *y = history_column(history, name) + first;
+    double low = INFINITY, high = -INFINITY, worst = 0;
+    for (size_t i = 0; i < rows; i++) {
+        low = fmin(low, y[i]);
+        high = fmax(high, y[i]);
+    }
+    size_t count = read_column(json, part, name, times, values);
+    for (size_t i = 0, k = 0; i < rows && high > low; i++) {
+        while (k + 2 < count && t[i] - t[0] > times[k + 1] + 1e-9)
+            k++;
+        double share = fmin(1, (t[i] - t[0] - times[k]) / (times[k + 1] - times[k]));
+        if (isfinite(y[i]))
+            worst = fmax(worst, fabs(values[k] + share * (values[k + 1] - values[k]) - y[i]));
+    }
+    return high > low ? worst / (high - low) * 4000 : 0;
+}
+
+static void check_part(const history_data *history, const char *json, const char *part,
+                       size_t first, size_t rows)
+{
+    char what[64];
+    double worst = 0;
+    int shown = 0;
+    for (size_t c = 0; c < history->columns; c++) {
+        char key[80];
+        snprintf(key, sizeof key, "[\"%s\",", history->name[c]);
+        if (!strstr(json, key) || strcmp(history->name[c], "t") == 0)
+            continue;
+        shown++;
+        double off = pixels_off(history, json, part, history->name[c], first, rows);
+        worst = fmax(worst, off);
+    }
+    snprintf(what, sizeof what, "%s: largest of %d curves, pixels of 4000", part, shown);
+    CHECK_BELOW(what, worst, 1.01); // a hundredth for single precision
+}
+
+static char *table_of(const history_data *history, int rocket)
+{
+    char *json = NULL;
+    size_t length = 0;
+    report_detail detail = {false, true, 1.0 / 4000};
+    FILE *stream = open_memstream(&json, &length);
+    assert_int_equal(report_write_table(stream, history, rocket, &detail, NULL), LD_OK);
+    fclose(stream);
+    printf("    rocket %d: %zu rows in %zu bytes\n", rocket, history->rows, length);
+    return json;
+}
+
+// All rows of it fit beside the replay; were they too many, no curve would be seen to move.
+static void test_long_lead_in_and_flight(void **state)
+{
+    (void)state;
+    history_data read;
+    ld_report report;
+    fly(&read);
+    clock_t before = clock();
+    char *page = write_report(&report);
+    CHECK_WITHIN("CPU time of the report [s]", (double)(clock() - before) / CLOCKS_PER_SEC, 0, 1);
+    CHECK_WITHIN("bytes", (double)report.bytes, 0.9e6, 2e6);
+    CHECK_WITHIN("pixels that a curve may be moved by", report.pixels, 0, 1);
+    assert_non_null(strstr(page, "id=\"replay\""));
+    free(page);
+
+    const double *phase = history_column(&read, "phase");
+    size_t before_tube = 0, in_tube = 0;
+    while (phase[before_tube] < 1)
+        before_tube++;
+    while (before_tube + in_tube < read.rows && phase[before_tube + in_tube] < 3)
+        in_tube++;
+    char *json = table_of(&read, 0);
+    check_part(&read, json, "before", 0, before_tube);
+    check_part(&read, json, "tube", before_tube, in_tube);
+    CHECK_WITHIN("rows kept in the tube", (double)read_column(json, "tube", "tip.y", times, values),
+                 (double)in_tube, (double)in_tube);
+    free(json);
+    json = table_of(&read.flight[0], 1);
+    check_part(&read.flight[0], json, "flight", 0, read.flight[0].rows);
+    free(json);
+    history_free(&read);
+}
+
 static void expect_note(const ld_report *report, const char *text)
 {
     for (int i = 0; i < report->note_count; i++) {
@@ -407,6 +525,7 @@ int main(void)
         TEST(test_no_text_becomes_code),
         TEST(test_thinning),
         TEST(test_size_is_bounded),
+        TEST(test_long_lead_in_and_flight),
         TEST(test_what_is_missing_is_said),
         TEST(test_part_of_a_run),
     };
