@@ -201,12 +201,57 @@ static void test_ellipse(void **state)
     CHECK_BELOW("angle", e.angle - turn, 1e-15);
 }
 
+// Semi-axes 3 and `across` of normal values turned by 30 deg, of which `rockets` share half the
+// variance.
+static void check_ellipse(int groups, int rockets, double across, double low, double high)
+{
+    enum { MOST = 200 };
+    const double turn = 3.14159265358979323846 / 6, truth[2] = {3, across};
+    double x[MOST], y[MOST], in[2] = {0}, share = rockets > 1 ? sqrt(0.5) : 0;
+    int64_t group[MOST];
+    int count = groups * rockets;
+    for (uint64_t repeat = 0; repeat < REPEATS; repeat++) {
+        for (uint64_t i = 0; i < (uint64_t)count; i++) {
+            uint64_t g = i / (uint64_t)rockets;
+            double along[2];
+            for (uint64_t k = 0; k < 2; k++)
+                along[k] =
+                    truth[k] * (share * normal_quantile(random_uniform(31, k, repeat, g, 0)) +
+                                sqrt(1 - share * share) *
+                                    normal_quantile(random_uniform(31, 2 + k, repeat, i, 0)));
+            x[i] = 10 + along[0] * cos(turn) - along[1] * sin(turn);
+            y[i] = -5 + along[0] * sin(turn) + along[1] * cos(turn);
+            group[i] = (int64_t)g;
+        }
+        covariance_ellipse e;
+        estimate axis[2];
+        covariance_ellipse_of(x, y, (size_t)count, &e);
+        assert_int_equal(covariance_ellipse_intervals(x, y, group, (size_t)count, &e, axis), LD_OK);
+        assert_true(fabs(axis[0].value / e.semi_axis[0] - 1) < 1e-12);
+        assert_true(fabs(axis[1].value / e.semi_axis[1] - 1) < 1e-12);
+        for (int k = 0; k < 2; k++)
+            in[k] += inside(axis[k], truth[k]);
+    }
+    printf("  %d groups of %d, semi-axes 3 and %g\n", groups, rockets, across);
+    CHECK_WITHIN("long one inside [%]", in[0] * 100 / REPEATS, low, high);
+    CHECK_WITHIN("short one inside [%]", in[1] * 100 / REPEATS, low, high);
+}
+
+static void test_coverage_of_ellipses(void **state)
+{
+    (void)state;
+    check_ellipse(60, 1, 1, 93, 97);
+    check_ellipse(20, 6, 1, 93, 97);
+    // nearly round: the axes follow the values' whims
+    check_ellipse(60, 1, 2.7, 91, 98);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coverage), cmocka_unit_test(test_not_by_values),
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_offset),
-        cmocka_unit_test(test_ellipse),
+        cmocka_unit_test(test_ellipse),  cmocka_unit_test(test_coverage_of_ellipses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
