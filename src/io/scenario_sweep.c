@@ -7,12 +7,13 @@
 #include "io/scenario_reader.h"
 #include "model/field.h"
 
-static void refuse(scenario_reader *reader, text_place place, const char *key, const char *format,
+static bool refuse(scenario_reader *reader, text_place place, const char *key, const char *format,
                    const char *detail)
 {
     char path[READER_MAX_PATH];
     snprintf(path, sizeof path, "sweep.%s", key);
     reader_refuse(reader, place, path, format, detail);
+    return false;
 }
 
 // Whether one of the paths is the other, or a key below it.
@@ -36,34 +37,34 @@ static bool is_overridden(const tree_node *root, const char *path, const char *c
     return false;
 }
 
-// Whether `list` is an axis beside those before it.
-static bool is_axis(scenario_reader *reader, const scenario_sweep *before, const tree_node *list,
-                    const char *path)
+// Whether a key can be swept beside those before it.
+static bool may_be_swept(scenario_reader *reader, const scenario_sweep *before,
+                         const tree_node *list, const char *path)
 {
     static const char *const own[] = {"launchdyn", "include", "scatter", "sweep"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (overlap(path, own[i])) {
-            refuse(reader, list->key_at, list->key, "the study itself is not swept%s", "");
-            return false;
-        }
-    for (int i = 0; i < before->count; i++)
-        if (overlap(path, before->axis[i].path)) {
-            refuse(reader, list->key_at, list->key,
-                   strcmp(path, before->axis[i].path) == 0 ? "is the same as %s, which stands above"
-                                                           : "goes over %s, which stands above",
-                   before->axis[i].path);
-            return false;
-        }
-    if (list->kind != NODE_LIST || list->count == 0) {
-        refuse(reader, tree_is_empty(list) ? list->key_at : list->at, list->key,
-               "expected a list of values, such as [0 km/h, 15 km/h]%s", "");
-        return false;
+        if (overlap(path, own[i]))
+            return refuse(reader, list->key_at, list->key, "the study itself is not swept%s", "");
+    for (int i = 0; i < before->count; i++) {
+        const char *other = before->axis[i].path;
+        if (strcmp(path, other) == 0)
+            return refuse(reader, list->key_at, list->key, "is the same as %s, which stands above",
+                          other);
+        if (overlap(path, other))
+            return refuse(reader, list->key_at, list->key, "goes over %s, which stands above",
+                          other);
     }
-    if (strlen(path) >= LD_MAX_PATH) {
-        refuse(reader, list->key_at, list->key, "the path is too long%s", "");
-        return false;
-    }
+    if (strlen(path) >= LD_MAX_PATH)
+        return refuse(reader, list->key_at, list->key, "the path is too long%s", "");
     return true;
+}
+
+static bool has_values(scenario_reader *reader, const tree_node *list)
+{
+    if (list->kind == NODE_LIST && list->count > 0)
+        return true;
+    return refuse(reader, tree_is_empty(list) ? list->key_at : list->at, list->key,
+                  "expected a list of values, such as [0 km/h, 15 km/h]%s", "");
 }
 
 // The scenario that says nothing but value `number` (from 0) of the list; NULL after a message.
@@ -94,8 +95,8 @@ scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const 
     for (const tree_node *list = block->first; list && sweep.axis; list = list->next) {
         char path[READER_MAX_PATH];
         tree_path(root, list->key, path);
-        if (is_overridden(root, path, sets, count) || !is_axis(reader, &sweep, list, path) ||
-            !scenario_with(reader, list, 0))
+        if (is_overridden(root, path, sets, count) || !may_be_swept(reader, &sweep, list, path) ||
+            !has_values(reader, list) || !scenario_with(reader, list, 0))
             continue;
         scenario_axis *axis = &sweep.axis[sweep.count++];
         axis->list = list;
