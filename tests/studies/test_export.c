@@ -197,11 +197,11 @@ static void test_show(void **state)
     (void)state;
     char *text = shown(NULL);
     expect_part(text, "1. base.speed: 0 km/h, firing.order: [2, \"1\"]\n"
-                      "3 of 6 samples, 1 failed\n"
+                      "3 of 3 samples, 1 failed\n"
                       "  1 failed (launch), the first of them 3: the lock held\n"
                       "4 rockets, 2 independent groups");
     expect_part(text, "\n2. base.speed: 15 km/h, firing.order: [1, 2]\n"
-                      "3 of 6 samples, 0 failed\n"
+                      "3 of 3 samples, 0 failed\n"
                       "5 rockets, 3 independent groups");
     // means of all rockets: (0.125 + 0.25 + 2 0.1875)/4 and (38 + 36 + 37 + 37)/4
     expect_part(text, "\nt_rear [s]                 0.1875 +- 0 ");
