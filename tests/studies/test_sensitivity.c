@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "math/distributions.h"
+#include "studies/draw.h"
 #include "studies/sensitivity.h"
 
 enum { REPEATS = 1000, MOST = 2000 };
@@ -13,24 +14,33 @@ static double uniform(uint64_t stream, uint64_t repeat, uint64_t sample, uint64_
     return random_uniform(21, stream, repeat, sample, rocket);
 }
 
-static double normal(uint64_t stream, uint64_t repeat, uint64_t sample, uint64_t rocket)
-{
-    return normal_quantile(uniform(stream, repeat, sample, rocket));
-}
-
 // ---- y = 2 x_1 + 1.5 x_2 + rest e, x_1 of the sample, x_2 of the rocket, x_3, x_4 without
 // influence
 
 typedef struct linear_case {
     const char *name;
     int samples, rockets;
+    int strata; // samples of a hypercube, which is a group; 0: random
     double shared, own, rest;
     double low, high; // [%] asked of x_1 and x_2
     double zero;      // [%] asked of x_3 and x_4, at least
 } linear_case;
 
 static double x[4][MOST], y[MOST];
-static int64_t number[MOST];
+static int64_t number[MOST], group[MOST];
+
+// A number in (0, 1) of sample i, rocket j, in hypercubes or without.
+static double drawn(const linear_case *made, uint64_t stream, uint64_t repeat, uint64_t i,
+                    uint64_t j)
+{
+    double u = uniform(stream, repeat, i, j);
+    if (!made->strata)
+        return u;
+    int64_t at = (int64_t)i - 1, strata = made->strata;
+    uint64_t key[] = {22, stream}, cube = (uint64_t)(at / strata);
+    int64_t stratum = draw_permuted(key, repeat, cube << 8 | j, strata, at % strata);
+    return ((double)stratum + u) / (double)strata;
+}
 
 static size_t make_linear(const linear_case *made, uint64_t repeat)
 {
@@ -38,12 +48,13 @@ static size_t make_linear(const linear_case *made, uint64_t repeat)
     for (uint64_t i = 1; i <= (uint64_t)made->samples; i++)
         for (uint64_t j = 1; j <= (uint64_t)made->rockets; j++, count++) {
             number[count] = (int64_t)i;
-            x[0][count] = normal(1, repeat, i, 0);
-            x[1][count] = normal(2, repeat, i, j);
-            x[2][count] = uniform(3, repeat, i, 0);
-            x[3][count] = normal(4, repeat, i, j);
+            group[count] = made->strata ? ((int64_t)i - 1) / made->strata : (int64_t)i;
+            x[0][count] = normal_quantile(drawn(made, 1, repeat, i, 0));
+            x[1][count] = normal_quantile(drawn(made, 2, repeat, i, j));
+            x[2][count] = drawn(made, 3, repeat, i, 0);
+            x[3][count] = normal_quantile(drawn(made, 4, repeat, i, j));
             y[count] = 7 + made->shared * x[0][count] + made->own * x[1][count] +
-                       made->rest * normal(5, repeat, i, j);
+                       made->rest * normal_quantile(drawn(made, 5, repeat, i, j));
         }
     return count;
 }
@@ -59,7 +70,7 @@ static void check_linear(const linear_case *made)
     for (uint64_t repeat = 0; repeat < REPEATS; repeat++) {
         size_t count = make_linear(made, repeat);
         for (int k = 0; k < 4; k++) {
-            estimate e = sensitivity_of(x[k], y, number, number, count, k % 2);
+            estimate e = sensitivity_of(x[k], y, number, group, count, k % 2);
             in[k] += e.low <= truth[k] && truth[k] <= e.high;
             mean[k] += e.value / REPEATS;
             width[k] += (e.high - e.low) / REPEATS;
@@ -78,12 +89,14 @@ static void test_linear(void **state)
 {
     (void)state;
     static const linear_case made[] = {
-        {"60 samples", 60, 1, 2, 1.5, 0, 93, 97, 95},
-        {"200 samples", 200, 1, 2, 1.5, 0, 93, 97, 95},
-        {"200 samples, noise", 200, 1, 1, 1, 3, 93, 97, 95},
-        {"40 samples of 6", 40, 6, 2, 1.5, 0, 93, 97, 95},
+        {"60 samples", 60, 1, 0, 2, 1.5, 0, 93, 97, 95},
+        {"200 samples", 200, 1, 0, 2, 1.5, 0, 93, 97, 95},
+        {"200 samples, noise", 200, 1, 0, 1, 1, 3, 93, 97, 95},
+        {"40 samples of 6", 40, 6, 0, 2, 1.5, 0, 93, 97, 95},
+        {"10 hypercubes of 20", 200, 1, 20, 2, 1.5, 0, 93, 97, 95},
+        {"5 hypercubes of 100, noise", 500, 1, 100, 1, 1, 3, 93, 97, 95},
         // falls short: ten draws of what is drawn once a sample
-        {"10 samples of 18", 10, 18, 1, 2, 2, 83, 97, 95},
+        {"10 samples of 18", 10, 18, 0, 1, 2, 2, 83, 97, 95},
     };
     for (size_t i = 0; i < sizeof made / sizeof *made; i++)
         check_linear(&made[i]);
