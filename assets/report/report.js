@@ -137,7 +137,7 @@ function startReplay(place, shown, flights) {
   const code = new TextDecoder().decode(inflated(document.getElementById("replay").textContent));
   document.head.append(element("script", { textContent: code }));
   const { table, marks, zero, group } = shown;
-  let leading = false, last = 0;
+  let leading = false, last = 0, wanted = null;
   const replay = window.launchdyn.replay(place, {
     table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets,
     tools: { colour, element, filled, onColours, readable, rowAt },
@@ -150,8 +150,17 @@ function startReplay(place, shown, flights) {
       leading = false;
     },
   });
-  group.followers.push({ point: (time) => { if (!leading && !replay.playing) replay.show(zero + time, true); } });
-  window.launchdyn.current = replay;
+  // every plot says where the shared cursor is: one picture for all of them
+  const follow = () => {
+    if (!replay.playing) replay.show(zero + wanted, true);
+    wanted = null;
+  };
+  group.followers.push({ point: (time) => {
+    if (leading) return;
+    if (wanted === null) requestAnimationFrame(follow);
+    wanted = time;
+  } });
+  window.launchdyn.current = replay; // for tests, and for whoever looks into the page
 }
 
 function showReplay(place, shown, flights) {

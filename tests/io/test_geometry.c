@@ -4,11 +4,9 @@
 
 #include <stdlib.h>
 
-#include "io/history.h"
-#include "launchdyn/output.h"
-#include "launchdyn/scenario.h"
 #include "math/quaternion.h"
 #include "math/rotation_vector.h"
+#include "support/example_run.h"
 #include "support/scratch.h"
 
 enum { MOST_MODES = 64 };
@@ -27,23 +25,8 @@ static int tear_down(void **state)
 
 static void run_example(const char *name, const char *const *sets, size_t count, history_data *read)
 {
-    char path[256];
-    ld_error error = {0};
-    ld_messages messages;
-    ld_model model;
-    ld_output *output = NULL;
-    ld_simulation *simulation = NULL;
     static ld_summary summary;
-    snprintf(path, sizeof path, "%s/examples/%s", LD_SOURCE_DIR, name);
-    if (ld_scenario_read(path, sets, count, &model, &messages) ||
-        ld_simulation_create(&model, &simulation, &error) ||
-        ld_output_open(folder, &model, false, &output, &error) ||
-        ld_simulation_run(simulation, &(ld_run_options){.sink = ld_output_sink(output)}, &summary,
-                          &error) ||
-        ld_output_finish(output, &summary, &error) || history_read(in("history.h5"), read, &error))
-        fail_msg("%s", error.text);
-    ld_simulation_free(simulation);
-    ld_model_free(&model);
+    example_run(folder, name, sets, count, &summary, read);
 }
 
 static double at(const history_data *read, const char *name, size_t row)

@@ -165,6 +165,15 @@ async function checkControls(page, run) {
   await drawn(page);
   const pointed = (await legend(page, "#table0-tip .uplot"))[0];
   check("the plots' cursor leads the replay", Math.abs((await now()) - pointed) < 3e-4, `${pointed} and ${await now()}`);
+  await page.locator(".stage").scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => window.launchdyn.current.stage.seen);
+  const box = await page.locator(".stage").boundingBox(), still = await look(page);
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 120, box.y + box.height / 2 + 30, { steps: 3 });
+  await page.mouse.up();
+  const turned = await look(page);
+  check("the mouse turns it", turned.sum !== still.sum && turned.tube > 500, `${turned.tube} points of the tube`);
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   check("a picture is there for paper",
     await page.$eval(".photo", (photo) => photo.src.startsWith("data:image/png") && photo.src.length > 5000));

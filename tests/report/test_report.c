@@ -7,8 +7,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "launchdyn/scenario.h"
 #include "report/report_parts.h"
+#include "support/example_run.h"
 #include "support/made_launch.h"
 #include "support/scratch.h"
 
@@ -336,27 +336,6 @@ static void test_size_is_bounded(void **state)
 
 // ---- the reference launcher: 5 s on the road, then a flight of more than 60 s ----
 
-static void fly(history_data *read)
-{
-    ld_error error = {0};
-    ld_messages messages;
-    ld_model model;
-    ld_output *output = NULL;
-    ld_simulation *simulation = NULL;
-    static ld_summary summary;
-    const char *sets[] = {"run.lead_in=5 s", "platform.elevation.stabiliser.command=55 deg"};
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/reference.yaml", sets, 2, &model, &messages) ||
-        ld_simulation_create(&model, &simulation, &error) ||
-        ld_output_open(folder, &model, false, &output, &error) ||
-        ld_simulation_run(simulation, &(ld_run_options){.sink = ld_output_sink(output)}, &summary,
-                          &error) ||
-        ld_output_finish(output, &summary, &error) || history_read(in("history.h5"), read, &error))
-        fail_msg("%s", error.text);
-    CHECK_WITHIN("time of flight [s]", summary.rocket[0].flight.time_of_flight, 60, 200);
-    ld_simulation_free(simulation);
-    ld_model_free(&model);
-}
-
 // Largest distance of a column of the results from what the report keeps of it in one phase, in
 // pixels of 4000 over the column's span there.
 static double pixels_off(const history_data *history, const char *json, const char *part,
@@ -417,7 +396,10 @@ static void test_long_lead_in_and_flight(void **state)
     (void)state;
     history_data read;
     ld_report report;
-    fly(&read);
+    static ld_summary summary;
+    const char *sets[] = {"run.lead_in=5 s", "platform.elevation.stabiliser.command=55 deg"};
+    example_run(folder, "reference.yaml", sets, 2, &summary, &read);
+    CHECK_WITHIN("time of flight [s]", summary.rocket[0].flight.time_of_flight, 60, 200);
     clock_t before = clock();
     char *page = write_report(&report);
     CHECK_WITHIN("CPU time of the report [s]", (double)(clock() - before) / CLOCKS_PER_SEC, 0, 1);
