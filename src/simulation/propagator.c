@@ -29,8 +29,12 @@ void simulation_input(const ld_simulation *self, double t, const double *y, laun
 static bool all_finite(int n, const double *y)
 {
     double sum[4] = {0};
-    for (int i = 0; i < n; i++)
-        sum[i & 3] += 0 * y[i];
+    int i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (int k = 0; k < 4; k++)
+            sum[k] += 0 * y[i + k];
+    for (; i < n; i++)
+        sum[0] += 0 * y[i];
     return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0;
 }
 
