@@ -1,6 +1,7 @@
 // The run: start, ignition, release, adaptors leaving, end; rows out at the output steps.
 #include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,13 +46,20 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
     return LD_OK;
 }
 
+// Makes it empty, but for the columns' texts, which are many and mean nothing until they are
+// counted.
+static void clear(ld_simulation *self)
+{
+    memset(self, 0, offsetof(ld_simulation, column));
+}
+
 static void release(ld_simulation *self)
 {
     launcher_free(&self->launcher);
     flight_free(&self->flight);
     for (int i = 0; i < self->motor_count; i++)
         motor_free(&self->motor_of[i]);
-    memset(self, 0, sizeof *self);
+    clear(self);
 }
 
 ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)
@@ -66,7 +74,7 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
         self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
         if (!self)
             return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
-        memset(self, 0, sizeof *self);
+        clear(self);
         *simulation = self;
     }
     self->model = model;

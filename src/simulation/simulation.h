@@ -35,12 +35,13 @@ struct ld_simulation {
     int64_t fallbacks; // evaluations in which the overall form did not hold
     double worst_condition;
 
-    int column_count;
-    ld_column column[LD_MAX_COLUMNS];
-    char column_text[LD_MAX_COLUMNS][2][96]; // names and descriptions of columns that are counted
     double cpu_seconds_setup;
     int mode_count;
     ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
+
+    int column_count;
+    ld_column column[LD_MAX_COLUMNS];
+    char column_text[LD_MAX_COLUMNS][2][96]; // names and descriptions of columns that are counted
 };
 
 // Makes *simulation (NULL: a new one) that of `model`, as ld_simulation_create does but without the
