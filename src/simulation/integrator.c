@@ -7,6 +7,8 @@
 #include <string.h>
 #include <sundials/sundials_version.h>
 
+#include "math/vec3.h"
+
 #if SUNDIALS_VERSION_MAJOR < 7
 #define LD_NO_COMMUNICATOR NULL
 #else
@@ -125,34 +127,56 @@ static double vector_wrms_norm(N_Vector x, N_Vector w)
     return sqrt(sum / (double)NV_LENGTH_S(x));
 }
 
+enum { MOST_VECTORS = 16 };
+
 // Four elements wherever they lie.
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 
-// z may be x[0] (the library's contract), so the sum of an element is complete before it is stored.
-static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector z)
+// pz may be px[0] (the library's contract), so the sum of an element is complete before it is
+// stored.
+LD_INLINE void combine(const int count, const double *weight, N_Vector *x, size_t n, double *pz)
 {
-    const double *px[16];
-    double *pz = data(z);
-    sunindextype n = NV_LENGTH_S(z), i = 0;
-    if (count < 1 || count > 16)
-        return -1;
-    for (int k = 0; k < count; k++)
+    const double *px[MOST_VECTORS];
+    double c[MOST_VECTORS];
+    for (int k = 0; k < count; k++) {
         px[k] = data(x[k]);
-    for (; i + 8 <= n; i += 8) {
-        four first = c[0] * *(const four *)(px[0] + i),
-             second = c[0] * *(const four *)(px[0] + i + 4);
-        for (int k = 1; k < count; k++) {
-            first += c[k] * *(const four *)(px[k] + i);
-            second += c[k] * *(const four *)(px[k] + i + 4);
-        }
-        *(four *)(pz + i) = first;
-        *(four *)(pz + i + 4) = second;
+        c[k] = weight[k];
+    }
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4) {
+        four sum = c[0] * *(const four *)(px[0] + i);
+        for (int k = 1; k < count; k++)
+            sum += c[k] * *(const four *)(px[k] + i);
+        *(four *)(pz + i) = sum;
     }
     for (; i < n; i++) {
         double sum = c[0] * px[0][i];
         for (int k = 1; k < count; k++)
             sum += c[k] * px[k][i];
         pz[i] = sum;
+    }
+}
+
+// One instance for each count that a method of six stages has, one for any.
+static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector z)
+{
+    size_t n = (size_t)NV_LENGTH_S(z);
+    if (count < 1 || count > MOST_VECTORS)
+        return -1;
+    switch (count) {
+#define CASE(k)                                                                                    \
+    case k:                                                                                        \
+        combine(k, c, x, n, data(z));                                                              \
+        break
+        CASE(2);
+        CASE(3);
+        CASE(4);
+        CASE(5);
+        CASE(6);
+        CASE(7);
+#undef CASE
+    default:
+        combine(count, c, x, n, data(z));
     }
     return 0;
 }
