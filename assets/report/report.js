@@ -208,5 +208,6 @@ host.append(element("footer", {}, element("p", {},
   "Tab to a plot, arrows move the cursor, + and - zoom, Escape shows all. " +
   (data.pixels === 0 ? `All ${rows} rows of the results are here, `
     : `Of ${rows} rows those are here that curves need (none is moved by more than ` +
-      `${readable(data.pixels)} of 4000 pixels, in any phase of the run), `) + "to 7 digits.")));
+      `${readable(data.pixels)} of 4000 pixels of the height that it takes in ${data.overAll ? "all" : "each phase"} ` +
+      "of the run), ") + "to 7 digits.")));
 document.documentElement.dataset.ready = "yes";

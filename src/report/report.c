@@ -89,11 +89,25 @@ static ld_status make_page(const report_source *source, const report_detail *det
     return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;
 }
 
-// As fine as it fits: all rows, or all in the tube and else a pixel of 4000, then fewer.
+// The next best: all rows in the tube and else those that a pixel of 4000 needs; a pixel in the
+// tube too; a pixel of what curves are in all the run, not in each phase; more pixels.
+static void coarsen(report_detail *detail)
+{
+    if (detail->whole || detail->whole_tube) {
+        detail->whole_tube = detail->whole;
+        detail->whole = false;
+    } else if (!detail->over_all) {
+        detail->over_all = true;
+    } else {
+        detail->pixel *= 2;
+    }
+}
+
+// As fine as it fits.
 static ld_status make_page_that_fits(report_source *source, char **text, size_t *length,
                                      ld_error *error)
 {
-    report_detail detail = {true, true, 1.0 / 4000};
+    report_detail detail = {.whole = true, .whole_tube = true, .pixel = 1.0 / 4000};
     for (;;) {
         ld_status status = make_page(source, &detail, text, length, error);
         source->report->pixels = detail.whole ? 0 : detail.pixel * 4000;
@@ -105,10 +119,7 @@ static ld_status make_page_that_fits(report_source *source, char **text, size_t 
         if (detail.pixel > 0.1)
             return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
                            REPORT_BYTES);
-        if (!detail.whole && !detail.whole_tube)
-            detail.pixel *= 2;
-        detail.whole_tube = detail.whole;
-        detail.whole = false;
+        coarsen(&detail);
     }
 }
 

@@ -92,9 +92,10 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
 {
     fputs("{\"title\":", json);
     json_write_text(json, title_of(source));
-    fprintf(json, ",\"version\":\"%s\",\"pixels\":%.17g,\"history\":%d,\"complete\":%d", LD_VERSION,
-            detail->whole ? 0 : detail->pixel * 4000, source->has_history,
-            source->history.complete);
+    fprintf(json,
+            ",\"version\":\"%s\",\"pixels\":%.17g,\"overAll\":%d,\"history\":%d,\"complete\":%d",
+            LD_VERSION, detail->whole ? 0 : detail->pixel * 4000, detail->over_all,
+            source->has_history, source->history.complete);
     fputs(",\"stopped\":", json);
     json_write_text(json, source->history.stopped ? source->history.stopped : "");
     fputs(",\"notes\":[", json);

@@ -28,7 +28,8 @@ typedef struct report_source {
 // How finely curves are kept.
 typedef struct report_detail {
     bool whole, whole_tube; // every row; every row while a rocket is in the tube
-    double pixel;           // elsewhere a curve is moved by this share of its span, at most
+    double pixel;           // elsewhere a curve is moved by this share of its span, at most,
+    bool over_all;          // of that over all rows, not in the phase of the run at hand
 } report_detail;
 
 // Figures of a launch, or of a flight, by index from 0; NULL after the last.

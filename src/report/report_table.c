@@ -48,6 +48,7 @@ typedef struct thinned {
     const double *t, *phase; // phase may be NULL
     size_t *column;          // [columns] those that are shown
     size_t columns;
+    double *span;    // [columns] what they are over all rows
     char *keep;      // [columns][rows] of the segment at hand
     char *any;       // [rows] kept by some column
     uint32_t *value; // [rows] of one column, coded
@@ -147,13 +148,27 @@ static void thin_stretch(const double *t, const double *y, size_t first, size_t 
     }
 }
 
+// The height that a column takes: in a phase, or in all.
+static double height_of(const thinned *table, const segment *part, size_t column)
+{
+    if (table->detail->over_all)
+        return table->span[column];
+    return span_of(values_of(table, column) + part->first, part->last - part->first + 1);
+}
+
+// By how much a column of a phase may be moved, all in all [its unit].
+static double bound_of(const thinned *table, const segment *part, size_t column)
+{
+    return part->whole ? 0 : table->detail->pixel * height_of(table, part, column);
+}
+
 // Marks the rows that one column needs: each stretch with values is thinned by itself, and the
 // first row without a value keeps the gap.
-static void thin(const thinned *table, const segment *part, const double *y, char *keep)
+static void thin(const thinned *table, const segment *part, size_t column, char *keep)
 {
     size_t rows = part->last - part->first + 1;
-    const double *t = table->t + part->first;
-    double bound = table->detail->pixel * span_of(y, rows);
+    const double *t = table->t + part->first, *y = values_of(table, column) + part->first;
+    double bound = 15.0 / 16 * bound_of(table, part, column); // the rest is for rounding
     memset(keep, part->whole, rows);
     for (size_t first = 0; first < rows && !part->whole; first++) {
         size_t last = first;
@@ -207,12 +222,21 @@ static double offset_of(const double *values, size_t count)
     return of.high - of.low < 0.05 * fmax(fabs(of.low), fabs(of.high)) ? of.first : 0;
 }
 
-// The offset, then second differences, first the lowest bytes of all, then the next.
-static void write_values(const thinned *table, size_t rows, const double *y, const char *keep)
+// The power of two that values are rounded to: by a sixteenth of the bound, at most. Digits that a
+// curve does not need are zeros then.
+static double step_of(double bound)
 {
+    return bound > 0 ? exp2(floor(log2(bound / 8))) : 0;
+}
+
+// The offset, then second differences, first the lowest bytes of all, then the next.
+static void write_values(const thinned *table, const segment *part, size_t column)
+{
+    const char *keep = table->keep + column * table->history->rows;
+    const double *y = values_of(table, column) + part->first;
+    size_t rows = part->last - part->first + 1, count = 0;
     uint32_t before[2] = {0, 0};
-    size_t count = 0;
-    double offset = offset_of(y, rows);
+    double offset = offset_of(y, rows), step = step_of(bound_of(table, part, column));
     uint64_t bits;
     memcpy(&bits, &offset, sizeof bits);
     for (int shift = 0; shift < 64; shift += 8)
@@ -220,7 +244,8 @@ static void write_values(const thinned *table, size_t rows, const double *y, con
     for (size_t i = 0; i < rows; i++) {
         if (!keep[i])
             continue;
-        uint32_t now = ordered(y[i] - offset);
+        double value = y[i] - offset;
+        uint32_t now = ordered(step > 0 ? step * nearbyint(value / step) : value);
         table->value[count++] = folded(now - 2 * before[0] + before[1]);
         before[1] = before[0];
         before[0] = now;
@@ -237,7 +262,7 @@ static size_t thin_all(const thinned *table, const segment *part)
     memset(table->any, 0, rows);
     for (size_t c = 0; c < table->columns; c++) {
         char *keep = table->keep + c * table->history->rows;
-        thin(table, part, values_of(table, c) + part->first, keep);
+        thin(table, part, c, keep);
         for (size_t i = 0; i < rows; i++)
             table->any[i] |= keep[i];
     }
@@ -259,7 +284,7 @@ static ld_status write_segment(thinned *table, const segment *part, ld_error *er
     for (size_t c = 0; c < table->columns; c++) {
         const char *keep = table->keep + c * table->history->rows;
         write_rows(table, rows, kept, keep);
-        write_values(table, rows, values_of(table, c) + part->first, keep);
+        write_values(table, part, c);
     }
     ld_status status = fclose(table->bytes) == 0
                            ? report_write_bytes(table->json, bytes, length, error)
@@ -276,6 +301,8 @@ static ld_status write_table(thinned *table, int rocket, ld_error *error)
     for (size_t i = 0; i < history->columns; i++)
         if (is_shown(history->name[i], flight))
             table->column[table->columns++] = i;
+    for (size_t c = 0; c < table->columns; c++)
+        table->span[c] = span_of(values_of(table, c), history->rows);
     fprintf(table->json, "{\"kind\":\"%s\",\"rocket\":%d,\"columns\":[",
             flight ? "flight" : "launch", rocket);
     for (size_t c = 0; c < table->columns; c++) {
@@ -308,13 +335,15 @@ ld_status report_write_table(FILE *json, const history_data *history, int rocket
                      .t = history_column(history, "t"),
                      .phase = history_column(history, "phase")};
     table.column = malloc((history->columns + 1) * sizeof *table.column);
+    table.span = malloc((history->columns + 1) * sizeof *table.span);
     table.keep = malloc(history->columns * rows + 1);
     table.any = malloc(rows + 1);
     table.value = malloc((rows + 1) * sizeof *table.value);
-    bool fine = table.column && table.keep && table.any && table.value;
+    bool fine = table.column && table.span && table.keep && table.any && table.value;
     ld_status status = fine ? write_table(&table, rocket, error)
                             : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     free(table.column);
+    free(table.span);
     free(table.keep);
     free(table.any);
     free(table.value);

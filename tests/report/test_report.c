@@ -279,7 +279,7 @@ static void test_thinning(void **state)
     char *json = NULL;
     size_t length = 0;
     FILE *stream = open_memstream(&json, &length);
-    report_detail detail = {false, true, 1.0 / 4000};
+    report_detail detail = {.whole_tube = true, .pixel = 1.0 / 4000};
     assert_int_equal(report_write_table(stream, &history, 0, &detail, NULL), LD_OK);
     fclose(stream);
 
@@ -382,7 +382,7 @@ static char *table_of(const history_data *history, int rocket)
 {
     char *json = NULL;
     size_t length = 0;
-    report_detail detail = {false, true, 1.0 / 4000};
+    report_detail detail = {.whole_tube = true, .pixel = 1.0 / 4000};
     FILE *stream = open_memstream(&json, &length);
     assert_int_equal(report_write_table(stream, history, rocket, &detail, NULL), LD_OK);
     fclose(stream);
