@@ -71,7 +71,7 @@ function drawAxes(spec, place) {
     const fits = x.names.every((name) => name.length * 6.5 < each);
     x.names.forEach((name, i) => text(fits ? name : String(i + 1), [place.x(i), bottom + 15], "middle"));
   } else {
-    const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - left) / 60));
+    const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - left) / 48));
     for (const v of steps) {
       line(place.x(v), TOP, place.x(v), bottom);
       const end = place.x(v) > right - 12;

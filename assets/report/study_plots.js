@@ -181,7 +181,7 @@ export function scatter(data, pair) {
     },
     csv: () => csvOf(["series", "sample", "rocket", `${pair.x} [${pair.unit}]`, `${pair.y} [${pair.unit}]`],
       points.map((p) => [p.series.label, p.sample, p.rocket, ...p.si])),
-    note: `${shown}; ellipses of one standard deviation and of 95 %`,
+    note: `${shown}; ellipses of one standard deviation and of 95\u00a0%`,
   });
 }
 

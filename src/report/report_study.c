@@ -121,12 +121,28 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
     }
     fine &= page && fclose(page) == 0;
     free(data);
-    if (!fine)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
-    return *length <= REPORT_BYTES
-               ? LD_OK
-               : ld_fail(error, LD_ERR_INPUT, "the studies are too many for a report of %d bytes",
-                         REPORT_BYTES);
+    return fine ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+}
+
+// With as many points, places and sensitivities as fit.
+static ld_status make_page_that_fits(study_source *source, char **text, size_t *length,
+                                     ld_error *error)
+{
+    int notes = source->report->note_count;
+    for (source->share = 1;; source->share /= 2) {
+        ld_status status = make_page(source, text, length, error);
+        if (status || *length <= REPORT_BYTES)
+            return status;
+        if (source->share < 0.1)
+            return ld_fail(error, LD_ERR_INPUT, "the studies are too many for a report of %d bytes",
+                           REPORT_BYTES);
+        free(*text);
+        *text = NULL;
+        // said again by the next one
+        source->report->note_count = notes;
+        for (int i = 0; i < source->series_count; i++)
+            source->series[i].broken = false;
+    }
 }
 
 static ld_status write_report(study_source *source, const char *file, ld_error *error)
@@ -134,7 +150,7 @@ static ld_status write_report(study_source *source, const char *file, ld_error *
     char *text = NULL;
     size_t length = 0;
     locale_t before = numeric_locale_enter();
-    ld_status status = make_page(source, &text, &length, error);
+    ld_status status = make_page_that_fits(source, &text, &length, error);
     numeric_locale_leave(before);
     if (!status)
         status = report_write_file(file, text, length, error);

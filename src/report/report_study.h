@@ -22,6 +22,7 @@ typedef struct study_series {
 typedef struct study_source {
     bool several; // folders were named
     int study_count, series_count;
+    double share; // of what grows with the number of series, as much as fits
     study_data study[REPORT_SERIES];
     study_series series[REPORT_SERIES];
     ld_report *report; // takes notes

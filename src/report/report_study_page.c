@@ -9,7 +9,7 @@
 
 // Bytes for what grows with the number of series; the rest of a report fits beside them.
 enum {
-    BYTES_OF_PLACES = 800000,
+    BYTES_OF_PLACES = 600000,
     BYTES_OF_A_PLACE = 70,
     BYTES_OF_POINTS = 400000,
     BYTES_OF_A_POINT = 40,
@@ -19,7 +19,8 @@ enum {
 
 static int most_places(const study_source *source)
 {
-    int fit = BYTES_OF_PLACES / (BYTES_OF_A_PLACE * STUDY_RESULTS * source->series_count);
+    double bytes = source->share * BYTES_OF_PLACES;
+    int fit = (int)(bytes / (BYTES_OF_A_PLACE * STUDY_RESULTS * source->series_count));
     return fit < REPORT_PLACES ? fit : REPORT_PLACES;
 }
 

@@ -6,9 +6,11 @@
 #include "report/report_study.h"
 #include "studies/sensitivity.h"
 
-static const char *const results[] = {"pitch",        "yaw",       "pitch_rate", "yaw_rate",
-                                      "muzzle_speed", "spin_rate", "t_rear",     "apogee",
-                                      "downrange",    "drift",     "tip.pitch",  "tip.yaw"};
+// The most wanted first: of many series and factors there is no room for all.
+static const char *const results[] = {"pitch",     "yaw",    "pitch_rate",   "yaw_rate",
+                                      "downrange", "drift",  "muzzle_speed", "spin_rate",
+                                      "apogee",    "t_rear", "tip.pitch",    "tip.yaw"};
+enum { RESULTS = sizeof results / sizeof *results, MOST_ESTIMATES = 4000 };
 
 // The column of a result, then those of all factors; to be freed. *count becomes how many; NULL:
 // the study has no such result, or no memory.
@@ -70,23 +72,24 @@ static void write_series(FILE *json, study_source *source, study_series *series,
     free(column);
 }
 
-// Of more estimates there is no room.
-static bool are_too_many(const study_source *source)
+static int count_estimates(const study_source *source)
 {
-    enum { MOST = 4000 };
     int count = 0;
     for (int s = 0; s < source->series_count; s++)
         count += source->series[s].data->column_count - source->series[s].data->result_count;
-    return count * (int)(sizeof results / sizeof *results) > MOST;
+    return count;
 }
 
 void study_write_sensitivities(FILE *json, study_source *source)
 {
-    if (are_too_many(source)) {
-        report_take_note(source->report, "Sensitivities of so many series are left out.");
-        return;
-    }
-    for (size_t i = 0; i < sizeof results / sizeof *results; i++) {
+    int each = count_estimates(source), most = (int)(source->share * MOST_ESTIMATES);
+    int fit = each > 0 ? most / each : RESULTS;
+    if (fit < RESULTS)
+        report_take_note(source->report,
+                         "Sensitivities are those of the first %d of %d results: "
+                         "for more series and factors there is no room.",
+                         fit, RESULTS);
+    for (int i = 0; i < RESULTS && i < fit; i++) {
         fprintf(json, "%s\n{\"name\":\"%s\",\"series\":[", i ? "," : "", results[i]);
         for (int s = 0; s < source->series_count; s++) {
             fputs(s ? ",\n" : "\n", json);
