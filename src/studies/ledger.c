@@ -50,7 +50,9 @@ static void look_at_rule(study_ledger *self)
 {
     ld_error error;
     ld_study_counts *counts = self->counts;
-    ld_status status = until_holds(self->study, self->folder, self->look, &counts->enough, &error);
+    ld_status status = store_settle(&self->store, true, &error);
+    if (!status)
+        status = until_holds(self->study, self->folder, self->look, &counts->enough, &error);
     self->decided = counts->enough || self->look >= self->last;
     if (!status && self->decided) {
         self->last = counts->samples = self->look;
@@ -96,11 +98,11 @@ static bool is_not_to_be_kept(const study_record *record)
 static ld_status put_all(study_ledger *self, const study_record *const *record, int count,
                          ld_error *error)
 {
-    ld_status status = store_begin(&self->store, error);
+    ld_status status = LD_OK;
     for (int i = 0; i < count && !status; i++)
         if (!is_not_to_be_kept(record[i]))
             status = store_put(&self->store, record[i], error);
-    return store_end(&self->store, status, error);
+    return status ? status : store_settle(&self->store, false, error);
 }
 
 static void keep(study_ledger *self, const study_record *const *record, int count)
@@ -180,8 +182,13 @@ void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
 ld_status ledger_close(study_ledger *self)
 {
     bool interrupted = !ledger_goes_on(self) && self->counts->done < self->counts->samples;
-    if (self->open)
+    if (self->open) {
+        ld_error error;
+        ld_status status = store_settle(&self->store, true, &error);
+        if (status && !interrupted)
+            stop(self, status, &error);
         store_close(&self->store);
+    }
     if (self->status || !interrupted)
         return self->status;
     return ld_fail(self->error, LD_ERR_INTERRUPTED,

@@ -2,18 +2,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <time.h>
 #include <unistd.h>
 
-#include "base/random.h"
 #include "io/folder.h"
-#include "launchdyn/scenario.h"
-
-#define FORMAT "2"
 
 ld_status store_fail(const study_store *self, const char *what, ld_error *error)
 {
@@ -37,8 +33,8 @@ ld_status store_execute(study_store *self, const char *text, ld_error *error)
 }
 
 // "INSERT INTO table VALUES (?, ?, ...)"
-static sqlite3_stmt *prepare_insert(study_store *self, const char *table, int columns,
-                                    ld_error *error)
+sqlite3_stmt *store_prepare_insert(study_store *self, const char *table, int columns,
+                                   ld_error *error)
 {
     char *text = NULL;
     size_t length;
@@ -55,79 +51,11 @@ static sqlite3_stmt *prepare_insert(study_store *self, const char *table, int co
     return statement;
 }
 
-static bool step(sqlite3_stmt *statement)
+bool store_step(sqlite3_stmt *statement)
 {
     int result = sqlite3_step(statement);
     sqlite3_reset(statement);
     return result == SQLITE_DONE;
-}
-
-// ---- what is written once
-
-// The scenario as text in which nothing is left out but when to stop: the rule, and the number of
-// samples where more may be added.
-static char *identity_of(const ld_model *model)
-{
-    char *text = NULL;
-    size_t length;
-    ld_model same = *model;
-    FILE *stream = open_memstream(&text, &length);
-    if (!stream)
-        return NULL;
-    if (same.scatter.plan == LD_PLAN_RANDOM)
-        same.scatter.samples = 1;
-    same.scatter.until_count = 0;
-    ld_model_print(&same, stream);
-    return fclose(stream) == 0 ? text : NULL;
-}
-
-static bool is_of_rocket(const study_store *self, int factor)
-{
-    return self->study->nominal->scatter.factor[factor].per_rocket;
-}
-
-static ld_status make_tables(study_store *self, ld_error *error)
-{
-    const ld_scatter *scatter = &self->study->nominal->scatter;
-    char *text = NULL;
-    size_t length;
-    FILE *stream = open_memstream(&text, &length);
-    if (!stream)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
-    fputs("CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-          "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER NOT NULL, "
-          "status TEXT NOT NULL, reason TEXT",
-          stream);
-    for (int i = 0; i < scatter->factor_count; i++)
-        if (!is_of_rocket(self, i))
-            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
-    fputs("); CREATE TABLE point (point INTEGER PRIMARY KEY", stream);
-    for (int i = 0; i < self->study->nominal->sweep_count; i++)
-        fprintf(stream, ", \"%s\" TEXT NOT NULL", self->study->nominal->sweep[i].path);
-    fputs("); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER",
-          stream);
-    for (int i = 0; i < scatter->factor_count; i++)
-        if (is_of_rocket(self, i))
-            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
-    for (const study_result *r = study_results; r->name; r++)
-        fprintf(stream, ", \"%s\" REAL", r->name);
-    fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID;", stream);
-    ld_status status = fclose(stream) == 0 ? store_execute(self, text, error) : LD_ERR_MEMORY;
-    free(text);
-    return status;
-}
-
-static ld_status set_text(study_store *self, const char *name, const char *value, ld_error *error)
-{
-    sqlite3_stmt *insert =
-        store_prepare(self, "INSERT OR REPLACE INTO study (name, value) VALUES (?, ?)", error);
-    if (!insert)
-        return LD_ERR_FILE;
-    sqlite3_bind_text(insert, 1, name, -1, SQLITE_STATIC);
-    sqlite3_bind_text(insert, 2, value, -1, SQLITE_STATIC);
-    int result = sqlite3_step(insert);
-    sqlite3_finalize(insert);
-    return result == SQLITE_DONE ? LD_OK : store_fail(self, "write", error);
 }
 
 char *store_text(study_store *self, const char *name)
@@ -141,105 +69,6 @@ char *store_text(study_store *self, const char *name)
         value = strdup((const char *)sqlite3_column_text(select, 0));
     sqlite3_finalize(select);
     return value;
-}
-
-static ld_status put_points(study_store *self, ld_error *error)
-{
-    const ld_model *model = self->study->nominal;
-    sqlite3_stmt *insert = prepare_insert(self, "point", 1 + model->sweep_count, error);
-    bool good = insert != NULL;
-    for (int point = 1; point <= self->study->points && good; point++) {
-        sqlite3_bind_int(insert, 1, point);
-        for (int i = 0; i < model->sweep_count; i++)
-            sqlite3_bind_text(insert, 2 + i,
-                              model->sweep[i].value[ld_scenario_value(model, point, i)], -1,
-                              SQLITE_STATIC);
-        good = step(insert);
-    }
-    sqlite3_finalize(insert);
-    return good ? LD_OK : store_fail(self, "write", error);
-}
-
-static ld_status fill_new(study_store *self, const char *identity, ld_error *error)
-{
-    char hash[32];
-    snprintf(hash, sizeof hash, "%016" PRIx64, random_stream(identity));
-    ld_status status = make_tables(self, error);
-    if (!status)
-        status = put_points(self, error);
-    if (!status)
-        status = set_text(self, "format", FORMAT, error);
-    if (!status)
-        status = set_text(self, "version", LD_VERSION, error);
-    if (!status)
-        status = set_text(self, "hash", hash, error);
-    if (!status)
-        status = set_text(self, "scenario", identity, error);
-    return status;
-}
-
-// The first line in which the texts differ, cut for a message.
-static void first_difference(const char *before, const char *now, char line[96])
-{
-    size_t i = 0, start = 0;
-    for (; before[i] && before[i] == now[i]; i++)
-        start = now[i] == '\n' ? i + 1 : start;
-    start += strspn(now + start, " ");
-    size_t length = strcspn(now + start, "\n");
-    snprintf(line, 96, "%.*s", (int)(length < 95 ? length : 95), now + start);
-}
-
-// Refuses a folder that holds something else.
-static ld_status compare(study_store *self, const char *identity, ld_error *error)
-{
-    char *before = store_text(self, "scenario"), *version = store_text(self, "version"), line[96];
-    char *format = store_text(self, "format");
-    ld_status status = LD_OK;
-    if (format && strcmp(format, FORMAT) != 0) {
-        status =
-            ld_fail(error, LD_ERR_INPUT, "%s is of another format; use another folder", self->path);
-    } else if (!before || !version || !format) {
-        status = ld_fail(error, LD_ERR_FILE, "%s holds no study", self->path);
-    } else if (strcmp(before, identity) != 0) {
-        first_difference(before, identity, line);
-        status = ld_fail(error, LD_ERR_INPUT,
-                         "%s holds the study of another scenario, which differs first in \"%s\"; "
-                         "use another folder",
-                         self->path, line);
-    } else if (strcmp(version, LD_VERSION) != 0) {
-        status = ld_fail(error, LD_ERR_INPUT,
-                         "%s was begun by launchdyn %s, this is %s; use another folder", self->path,
-                         version, LD_VERSION);
-    }
-    free(before);
-    free(version);
-    free(format);
-    return status;
-}
-
-static ld_status set_number(study_store *self, const char *name, int64_t value, ld_error *error)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%" PRId64, value);
-    return set_text(self, name, text, error);
-}
-
-static ld_status begin_or_compare(study_store *self, const char *identity, ld_error *error)
-{
-    const ld_scatter *scatter = &self->study->nominal->scatter;
-    sqlite3_stmt *tables =
-        store_prepare(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", error);
-    if (!tables)
-        return LD_ERR_FILE;
-    bool there = sqlite3_step(tables) == SQLITE_ROW;
-    sqlite3_finalize(tables);
-    ld_status status = there ? compare(self, identity, error) : fill_new(self, identity, error);
-    if (!status)
-        status = set_number(self, "samples", self->study->samples, error);
-    int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;
-    if (!status)
-        status = set_number(self, "strata", strata, error);
-    return status;
 }
 
 // ---- opening
@@ -278,23 +107,23 @@ static ld_status prepare_all(study_store *self, ld_error *error)
 {
     int of_rocket = 0, factors = self->study->nominal->scatter.factor_count;
     for (int i = 0; i < factors; i++)
-        of_rocket += is_of_rocket(self, i);
+        of_rocket += store_is_of_rocket(self, i);
     self->row = calloc((size_t)factors + 1, sizeof *self->row);
     if (!self->row)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's factors");
-    self->begin = store_prepare(self, "BEGIN IMMEDIATE", error);
-    self->commit = store_prepare(self, "COMMIT", error);
-    self->insert_sample = prepare_insert(self, "sample", 4 + factors - of_rocket, error);
-    self->insert_rocket = prepare_insert(self, "rocket", 3 + of_rocket + STUDY_RESULTS, error);
+    self->insert_sample = store_prepare_insert(self, "sample", 4 + factors - of_rocket, error);
+    self->insert_rocket =
+        store_prepare_insert(self, "rocket", 3 + of_rocket + STUDY_RESULTS, error);
     self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
-    bool all =
-        self->begin && self->commit && self->insert_sample && self->insert_rocket && self->find;
+    bool all = self->insert_sample && self->insert_rocket && self->find;
     return all ? LD_OK : LD_ERR_FILE;
 }
 
 static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
 {
-    if (sqlite3_open(self->path, &self->database) != SQLITE_OK)
+    // one thread at a time
+    const int mode = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    if (sqlite3_open_v2(self->path, &self->database, mode, NULL) != SQLITE_OK)
         return store_fail(self, "open", error);
     sqlite3_busy_timeout(self->database, PATIENCE);
     self->journal = journal;
@@ -304,6 +133,170 @@ static ld_status open_database(study_store *self, store_journal journal, ld_erro
                              : "PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = NORMAL",
                          error);
 }
+
+// ---- samples
+
+ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *error)
+{
+    sqlite3_stmt *count = store_prepare(
+        self,
+        "SELECT count(*), count(*) FILTER (WHERE status != 'ok'), (SELECT value FROM study WHERE "
+        "name = 'samples') FROM sample",
+        error);
+    *counts = (ld_study_counts){0};
+    if (!count)
+        return LD_ERR_FILE;
+    bool read = sqlite3_step(count) == SQLITE_ROW;
+    if (read) {
+        counts->done = sqlite3_column_int64(count, 0);
+        counts->failed = sqlite3_column_int64(count, 1);
+        counts->samples = sqlite3_column_int64(count, 2);
+    }
+    sqlite3_finalize(count);
+    return read ? LD_OK : store_fail(self, "read", error);
+}
+
+ld_status store_set_samples(study_store *self, int64_t samples, ld_error *error)
+{
+    return store_set_number(self, "samples", samples, error);
+}
+
+ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error)
+{
+    *there = false;
+    if (number > self->greatest)
+        return LD_OK;
+    sqlite3_bind_int64(self->find, 1, number);
+    int result = sqlite3_step(self->find);
+    sqlite3_reset(self->find);
+    *there = result == SQLITE_ROW;
+    return result == SQLITE_ROW || result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
+}
+
+static void bind_number(sqlite3_stmt *statement, int column, double value)
+{
+    if (isnan(value))
+        sqlite3_bind_null(statement, column);
+    else
+        sqlite3_bind_double(statement, column, value);
+}
+
+// Binds the factors of the sample (rocket 0) or of a rocket; returns the next free column.
+static int bind_factors(study_store *self, sqlite3_stmt *statement, int column, int64_t number,
+                        int rocket)
+{
+    const study_sampler *sampler = &self->study->sampler[study_point_of(self->study, number)];
+    sampler_values(sampler, study_draw_of(self->study, number), rocket, self->row);
+    for (int i = 0; i < sampler->factor_count; i++)
+        if (store_is_of_rocket(self, i) == (rocket > 0))
+            bind_number(statement, column++, self->row[i]);
+    return column;
+}
+
+static bool put_sample(study_store *self, const study_record *record)
+{
+    sqlite3_stmt *insert = self->insert_sample;
+    sqlite3_bind_int64(insert, 1, record->number);
+    sqlite3_bind_int(insert, 2, study_point_of(self->study, record->number) + 1);
+    sqlite3_bind_text(insert, 3, ld_status_name((ld_status)record->outcome), -1, SQLITE_STATIC);
+    if (record->outcome)
+        sqlite3_bind_text(insert, 4, record->reason, -1, SQLITE_TRANSIENT);
+    else
+        sqlite3_bind_null(insert, 4);
+    bind_factors(self, insert, 5, record->number, 0);
+    return store_step(insert);
+}
+
+static bool put_rocket(study_store *self, const study_record *record, int rocket)
+{
+    sqlite3_stmt *insert = self->insert_rocket;
+    const study_rocket *of = &record->rocket[rocket - 1];
+    sqlite3_bind_int64(insert, 1, record->number);
+    sqlite3_bind_int(insert, 2, rocket);
+    sqlite3_bind_int64(insert, 3, of->tube);
+    int column = bind_factors(self, insert, 4, record->number, rocket);
+    for (int i = 0; i < STUDY_RESULTS; i++)
+        bind_number(insert, column + i, of->result[i]);
+    return store_step(insert);
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static bool insert_record(study_store *self, const study_record *record)
+{
+    bool good = put_sample(self, record);
+    for (int i = 1; i <= record->rockets && good; i++)
+        good = put_rocket(self, record, i);
+    return good;
+}
+
+// Inserts what is pending; an earlier run may have committed some of it.
+static ld_status insert_pending(study_store *self, ld_error *error)
+{
+    ld_status status = LD_OK;
+    for (int i = 0; i < self->pending.count && !status; i++) {
+        const study_record *record = pending_read(&self->pending, i);
+        bool there;
+        status = store_has(self, record->number, &there, error);
+        if (!status && !there && !insert_record(self, record))
+            status = store_fail(self, "write", error);
+    }
+    return status;
+}
+
+ld_status store_settle(study_store *self, bool at_once, ld_error *error)
+{
+    const double often = 0.1; // [s]
+    if (self->pending.count == 0 || (!at_once && now() - self->settled < often))
+        return LD_OK;
+    ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
+    if (!status)
+        status = insert_pending(self, error);
+    if (!status)
+        status = store_execute(self, "COMMIT", error);
+    if (!status)
+        pending_clear(&self->pending);
+    else if (!sqlite3_get_autocommit(self->database))
+        sqlite3_exec(self->database, "ROLLBACK", NULL, NULL, NULL);
+    self->settled = now();
+    return status;
+}
+
+ld_status store_put(study_store *self, const study_record *record, ld_error *error)
+{
+    ld_status status = LD_OK;
+    if (self->pending.count == PENDING_MOST)
+        status = store_settle(self, true, error);
+    if (!status)
+        pending_add(&self->pending, record);
+    return status;
+}
+
+static ld_status open_pending(study_store *self, ld_error *error)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%.*s.pending", (int)(strlen(self->path) - strlen(".db")),
+             self->path);
+    ld_status status = pending_open(&self->pending, path, self->study->rockets, error);
+    self->greatest = INT64_MAX;
+    if (!status)
+        status = store_settle(self, true, error);
+    sqlite3_stmt *greatest =
+        status ? NULL : store_prepare(self, "SELECT max(sample) FROM sample", error);
+    if (!greatest)
+        return LD_ERR_FILE;
+    sqlite3_step(greatest);
+    self->greatest = sqlite3_column_int64(greatest, 0);
+    sqlite3_finalize(greatest);
+    return LD_OK;
+}
+
+// ---- the whole of it
 
 static ld_status open_locked(study_store *self, const char *folder, int shard, int shards,
                              store_journal journal, ld_error *error)
@@ -318,24 +311,19 @@ static ld_status open_locked(study_store *self, const char *folder, int shard, i
 ld_status store_open(study_store *self, const char *folder, int shard, int shards,
                      const ld_study *study, store_journal journal, ld_error *error)
 {
-    char made[4096], *identity = NULL;
+    char made[4096];
     size_t there = 0;
     *self = (study_store){.study = study, .lock = -1};
     snprintf(made, sizeof made, "%s", folder);
     ld_status status = folder_make(made, &there, error);
     if (!status)
         status = open_locked(self, folder, shard, shards, journal, error);
-    if (!status && !(identity = identity_of(study->nominal)))
-        status = ld_fail(error, LD_ERR_MEMORY, "no memory for the scenario's text");
     if (!status)
-        status = store_execute(self, "BEGIN IMMEDIATE", error);
-    if (!status)
-        status = begin_or_compare(self, identity, error);
-    if (!status)
-        status = store_execute(self, "COMMIT", error);
+        status = store_begin(self, error);
     if (!status)
         status = prepare_all(self, error);
-    free(identity);
+    if (!status)
+        status = open_pending(self, error);
     if (status)
         store_close(self);
     return status;
@@ -372,120 +360,14 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
 void store_close(study_store *self)
 {
     free(self->row);
-    sqlite3_finalize(self->begin);
-    sqlite3_finalize(self->commit);
     sqlite3_finalize(self->insert_sample);
     sqlite3_finalize(self->insert_rocket);
     sqlite3_finalize(self->find);
     if (self->journal == STORE_ROLLBACK) // takes the empty journal away
         sqlite3_exec(self->database, "PRAGMA journal_mode = DELETE", NULL, NULL, NULL);
     sqlite3_close(self->database);
+    pending_close(&self->pending);
     if (self->lock >= 0)
         close(self->lock);
     *self = (study_store){.lock = -1};
-}
-
-// ---- samples
-
-ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *error)
-{
-    sqlite3_stmt *count = store_prepare(
-        self,
-        "SELECT count(*), count(*) FILTER (WHERE status != 'ok'), (SELECT value FROM study WHERE "
-        "name = 'samples') FROM sample",
-        error);
-    *counts = (ld_study_counts){0};
-    if (!count)
-        return LD_ERR_FILE;
-    bool read = sqlite3_step(count) == SQLITE_ROW;
-    if (read) {
-        counts->done = sqlite3_column_int64(count, 0);
-        counts->failed = sqlite3_column_int64(count, 1);
-        counts->samples = sqlite3_column_int64(count, 2);
-    }
-    sqlite3_finalize(count);
-    return read ? LD_OK : store_fail(self, "read", error);
-}
-
-ld_status store_set_samples(study_store *self, int64_t samples, ld_error *error)
-{
-    return set_number(self, "samples", samples, error);
-}
-
-ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error)
-{
-    sqlite3_bind_int64(self->find, 1, number);
-    int result = sqlite3_step(self->find);
-    sqlite3_reset(self->find);
-    *there = result == SQLITE_ROW;
-    return result == SQLITE_ROW || result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
-}
-
-static void bind_number(sqlite3_stmt *statement, int column, double value)
-{
-    if (isnan(value))
-        sqlite3_bind_null(statement, column);
-    else
-        sqlite3_bind_double(statement, column, value);
-}
-
-// Binds the factors of the sample (rocket 0) or of a rocket; returns the next free column.
-static int bind_factors(study_store *self, sqlite3_stmt *statement, int column, int64_t number,
-                        int rocket)
-{
-    const study_sampler *sampler = &self->study->sampler[study_point_of(self->study, number)];
-    sampler_values(sampler, study_draw_of(self->study, number), rocket, self->row);
-    for (int i = 0; i < sampler->factor_count; i++)
-        if (is_of_rocket(self, i) == (rocket > 0))
-            bind_number(statement, column++, self->row[i]);
-    return column;
-}
-
-static bool put_sample(study_store *self, const study_record *record)
-{
-    sqlite3_stmt *insert = self->insert_sample;
-    sqlite3_bind_int64(insert, 1, record->number);
-    sqlite3_bind_int(insert, 2, study_point_of(self->study, record->number) + 1);
-    sqlite3_bind_text(insert, 3, ld_status_name((ld_status)record->outcome), -1, SQLITE_STATIC);
-    if (record->outcome)
-        sqlite3_bind_text(insert, 4, record->reason, -1, SQLITE_TRANSIENT);
-    else
-        sqlite3_bind_null(insert, 4);
-    bind_factors(self, insert, 5, record->number, 0);
-    return step(insert);
-}
-
-static bool put_rocket(study_store *self, const study_record *record, int rocket)
-{
-    sqlite3_stmt *insert = self->insert_rocket;
-    const study_rocket *of = &record->rocket[rocket - 1];
-    sqlite3_bind_int64(insert, 1, record->number);
-    sqlite3_bind_int(insert, 2, rocket);
-    sqlite3_bind_int64(insert, 3, of->tube);
-    int column = bind_factors(self, insert, 4, record->number, rocket);
-    for (int i = 0; i < STUDY_RESULTS; i++)
-        bind_number(insert, column + i, of->result[i]);
-    return step(insert);
-}
-
-ld_status store_begin(study_store *self, ld_error *error)
-{
-    return step(self->begin) ? LD_OK : store_fail(self, "write", error);
-}
-
-ld_status store_put(study_store *self, const study_record *record, ld_error *error)
-{
-    bool good = put_sample(self, record);
-    for (int i = 1; i <= record->rockets && good; i++)
-        good = put_rocket(self, record, i);
-    return good ? LD_OK : store_fail(self, "write", error);
-}
-
-ld_status store_end(study_store *self, ld_status status, ld_error *error)
-{
-    if (!status && !step(self->commit))
-        status = store_fail(self, "write", error);
-    if (status && !sqlite3_get_autocommit(self->database))
-        sqlite3_exec(self->database, "ROLLBACK", NULL, NULL, NULL);
-    return status;
 }

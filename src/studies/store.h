@@ -11,6 +11,7 @@
 #include <sqlite3.h>
 
 #include "launchdyn/study.h"
+#include "studies/pending.h"
 #include "studies/record.h"
 #include "studies/study.h"
 
@@ -20,11 +21,14 @@ typedef enum store_journal { STORE_AHEAD, STORE_ROLLBACK } store_journal;
 
 typedef struct study_store {
     sqlite3 *database;
-    sqlite3_stmt *begin, *commit, *insert_sample, *insert_rocket, *find;
+    sqlite3_stmt *insert_sample, *insert_rocket, *find;
     const ld_study *study;
     double *row; // [factors]
     store_journal journal;
-    int lock; // descriptor of the locked file, -1: none
+    study_pending pending; // records put that are not settled
+    double settled;        // [s] when, on a clock of its own
+    int64_t greatest;      // number kept when it was opened
+    int lock;              // descriptor of the locked file, -1: none
     char path[4096];
 } study_store;
 
@@ -36,6 +40,7 @@ ld_status store_open(study_store *self, const char *folder, int shard, int shard
 ld_status store_open_to_read(study_store *self, const char *folder, ld_error *error);
 // Opens study.db, which may be new and empty, to add what shards hold.
 ld_status store_open_to_merge(study_store *self, const char *folder, ld_error *error);
+// What is not settled waits in its file.
 void store_close(study_store *self);
 
 // The text of that name in the table `study`, to be freed; NULL where there is none.
@@ -47,17 +52,28 @@ ld_status store_set_samples(study_store *self, int64_t samples, ld_error *error)
 // Whether the sample is kept already.
 ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error);
 
-// A transaction: begin, put records, end. What came before decides whether the end keeps it all or
-// nothing, and is returned if it is an error.
-ld_status store_begin(study_store *self, ld_error *error);
+// Keeps a record; it outlives a kill at once and a loss of power when it is settled.
 ld_status store_put(study_store *self, const study_record *record, ld_error *error);
-ld_status store_end(study_store *self, ld_status status, ld_error *error);
+// Commits what was put, where a tenth of a second has gone by since the last time, or now.
+ld_status store_settle(study_store *self, bool now, ld_error *error);
 
 // Fails with the database's own words.
 ld_status store_fail(const study_store *self, const char *what, ld_error *error);
 // A statement, NULL after an error.
 sqlite3_stmt *store_prepare(study_store *self, const char *text, ld_error *error);
 ld_status store_execute(study_store *self, const char *text, ld_error *error);
+// "INSERT INTO table VALUES (?, ?, ...)"
+sqlite3_stmt *store_prepare_insert(study_store *self, const char *table, int columns,
+                                   ld_error *error);
+// Steps a statement that gives no rows.
+bool store_step(sqlite3_stmt *statement);
+ld_status store_set_number(study_store *self, const char *name, int64_t value, ld_error *error);
+// Makes the tables, or refuses those of another study.
+ld_status store_begin(study_store *self, ld_error *error);
+static inline bool store_is_of_rocket(const study_store *self, int factor)
+{
+    return self->study->nominal->scatter.factor[factor].per_rocket;
+}
 // Opens and locks the lock file of the database at `path`; *lock -1: it could not be.
 ld_status store_lock(const char *path, int *lock, ld_error *error);
 

@@ -77,64 +77,170 @@ static void run_to_its_end(const ld_study *study, const char *name, int threads)
     assert_int_equal(status, 0);
 }
 
-// Which samples the database holds: kept[number].
-static void read_kept(const char *name, bool kept[SAMPLES + 1])
+static bool no_more(void *self)
+{
+    (void)self;
+    return false;
+}
+
+// Which samples folder "killed" holds: kept[number]. Opening it settles what was left, as soon as
+// the last process has ended.
+static void read_kept(const ld_study *study, bool kept[SAMPLES + 1])
 {
     sqlite3 *database;
     sqlite3_stmt *select;
     char path[160];
-    snprintf(path, sizeof path, "%s/study.db", in(name));
+    ld_error error;
+    ld_study_counts counts;
+    ld_study_options none = {.go_on = no_more};
+    ld_status status;
+    for (int i = 0;
+         (status = ld_study_run(study, in("killed"), &none, &counts, &error)) == LD_ERR_INPUT;
+         i++) {
+        assert_true(i < 1000);
+        usleep(10000);
+    }
+    assert_true(status == LD_OK || status == LD_ERR_INTERRUPTED);
+    snprintf(path, sizeof path, "%s/study.db", in("killed"));
     memset(kept, 0, SAMPLES + 1);
-    if (access(path, R_OK) != 0)
-        return;
     assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
-    if (sqlite3_prepare_v2(database, "SELECT sample FROM sample", -1, &select, NULL) == SQLITE_OK)
-        while (sqlite3_step(select) == SQLITE_ROW)
-            kept[sqlite3_column_int64(select, 0)] = true;
+    assert_int_equal(sqlite3_prepare_v2(database, "SELECT sample FROM sample", -1, &select, NULL),
+                     SQLITE_OK);
+    while (sqlite3_step(select) == SQLITE_ROW)
+        kept[sqlite3_column_int64(select, 0)] = true;
     sqlite3_finalize(select);
     sqlite3_close(database);
 }
 
-static void test_killed(void **state)
+// What the kills of a study have shown.
+typedef struct kill_log {
+    bool kept[SAMPLES + 1];
+    int64_t lost, gaps, most_gaps;
+    int hit; // kills while it was at work
+} kill_log;
+
+// After a kill; `reported`: samples that were said to be kept.
+static void look(kill_log *log, const ld_study *study, int64_t reported)
+{
+    bool now[SAMPLES + 1];
+    int64_t count = 0, last = 0;
+    read_kept(study, now);
+    for (int k = 1; k <= SAMPLES; k++) {
+        log->lost += log->kept[k] && !now[k];
+        count += now[k];
+        last = now[k] ? k : last;
+    }
+    // of the numbers, handed out in rising order, only those that were running are missing
+    log->lost += reported > count ? reported - count : 0;
+    log->gaps += last - count;
+    log->most_gaps = last - count > log->most_gaps ? last - count : log->most_gaps;
+    memcpy(log->kept, now, sizeof now);
+}
+
+static void check_log(const kill_log *log, int kills, int workers)
+{
+    printf("    killed %d times while at work, of %d; %lld gaps in all\n", log->hit, kills,
+           (long long)log->gaps);
+    CHECK_BELOW("samples lost after they were kept", (double)log->lost, 0.5);
+    CHECK_BELOW("gaps below the last one kept, the most", (double)log->most_gaps, workers - 0.5);
+    assert_true(log->hit >= kills / 2);
+}
+
+static int kills(void)
+{
+    return getenv("LD_KILLS") ? atoi(getenv("LD_KILLS")) : 6;
+}
+
+static void test_threads_killed(void **state)
 {
     (void)state;
     ld_study *study = study_of(text);
-    bool before[SAMPLES + 1] = {0}, after[SAMPLES + 1];
-    int kills = getenv("LD_KILLS") ? atoi(getenv("LD_KILLS")) : 6, hit = 0;
-    int64_t lost = 0, repeated = 0, most = 0;
+    kill_log log = {0};
     run_to_its_end(study, "whole", 1);
-    for (int i = 0; i < kills; i++) {
-        int reports;
+    for (int i = 0; i < kills(); i++) {
+        int reports, status;
         pid_t child = start(study, "killed", THREADS, &reports);
         // so that on the average all kills together leave a little to be done
         double u = random_uniform(11, 0, (uint64_t)i, 0, 0);
-        int64_t wanted = (int64_t)(u * 2 * SAMPLES / kills), done;
+        int64_t wanted = (int64_t)(u * 2 * SAMPLES / kills()), done;
         while (wanted-- > 0 && read(reports, &done, sizeof done) == sizeof done)
             ;
         usleep((useconds_t)(1e4 * random_uniform(12, 0, (uint64_t)i, 0, 0)));
         kill(child, SIGKILL);
-        int64_t reported = drain(reports), count = 0, last = 0;
-        int status;
+        int64_t reported = drain(reports);
         waitpid(child, &status, 0);
-        hit += WIFSIGNALED(status);
-        read_kept("killed", after);
-        for (int k = 1; k <= SAMPLES; k++) {
-            lost += before[k] && !after[k];
-            count += after[k];
-            last = after[k] ? k : last;
-        }
-        // what was said to be kept is there; of the numbers handed out in rising order only those
-        // that were running are missing
-        lost += reported > count ? reported - count : 0;
-        repeated += last - count;
-        most = last - count > most ? last - count : most;
-        memcpy(before, after, sizeof after);
+        log.hit += WIFSIGNALED(status);
+        look(&log, study, reported);
     }
-    printf("    killed %d times while at work, of %d\n", hit, kills);
-    CHECK_BELOW("samples lost after they were kept", (double)lost, 0.5);
-    CHECK_BELOW("gaps below the last one kept, the most", (double)most, THREADS - 0.5);
-    printf("    %lld such gaps in all\n", (long long)repeated);
-    assert_true(hit >= kills / 2);
+    check_log(&log, kills(), THREADS);
+    run_to_its_end(study, "killed", THREADS);
+    expect_same_tables("whole", "killed");
+    ld_study_free(study);
+}
+
+// ---- processes of MPI
+
+static pid_t start_mpi(const char *file)
+{
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+        setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+        setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+        setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
+        setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
+        if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr))
+            _exit(1);
+        execlp("mpirun", "mpirun", "-n", "3", LD_BINARY_DIR "/launchdyn-mpi", "study", file,
+               "--quiet", "--out", in("killed"), (char *)NULL);
+        _exit(1);
+    }
+    return child;
+}
+
+// Kills mpirun and what it has started; returns whether it was at work.
+static bool kill_mpi(pid_t launcher)
+{
+    char command[64];
+    int process, processes[8], count = 0, status;
+    snprintf(command, sizeof command, "pgrep -P %d", launcher);
+    FILE *list = popen(command, "r");
+    assert_non_null(list);
+    while (count < 8 && fscanf(list, "%d", &process) == 1)
+        processes[count++] = process;
+    pclose(list);
+    kill(launcher, SIGKILL);
+    for (int i = 0; i < count; i++)
+        kill(processes[i], SIGKILL);
+    waitpid(launcher, &status, 0);
+    return WIFSIGNALED(status) && count > 0;
+}
+
+static void test_processes_killed(void **state)
+{
+    (void)state;
+    if (access(LD_BINARY_DIR "/launchdyn-mpi", X_OK) != 0 ||
+        system("command -v mpirun pgrep >/dev/null") != 0)
+        skip();
+    ld_study *study = study_of(text);
+    kill_log log = {0};
+    char file[160], command[256];
+    snprintf(file, sizeof file, "%s.yaml", in("killed"));
+    FILE *stream = fopen(file, "w");
+    assert_non_null(stream);
+    fprintf(stream, "include: %s/examples/%s", LD_SOURCE_DIR, strchr(text, ' ') + 1);
+    fclose(stream);
+    snprintf(command, sizeof command, "rm -r %s", in("killed"));
+    assert_int_equal(system(command), 0);
+    for (int i = 0; i < kills(); i++) {
+        pid_t launcher = start_mpi(file);
+        // it takes a while to begin
+        usleep((useconds_t)(4e5 + 6e5 * random_uniform(13, 0, (uint64_t)i, 0, 0)));
+        log.hit += kill_mpi(launcher);
+        look(&log, study, 0);
+    }
+    check_log(&log, kills(), 3);
     run_to_its_end(study, "killed", THREADS);
     expect_same_tables("whole", "killed");
     ld_study_free(study);
@@ -142,6 +248,7 @@ static void test_killed(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_killed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_threads_killed),
+                                       cmocka_unit_test(test_processes_killed)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

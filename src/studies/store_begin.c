@@ -1,0 +1,185 @@
+// What a study's database says once: tables, points, the scenario; and whether it is that of this
+// scenario.
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "launchdyn/scenario.h"
+#include "studies/store.h"
+
+#define FORMAT "2"
+
+// The scenario as text in which nothing is left out but when to stop: the rule, and the number of
+// samples where more may be added.
+static char *identity_of(const ld_model *model)
+{
+    char *text = NULL;
+    size_t length;
+    ld_model same = *model;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return NULL;
+    if (same.scatter.plan == LD_PLAN_RANDOM)
+        same.scatter.samples = 1;
+    same.scatter.until_count = 0;
+    ld_model_print(&same, stream);
+    return fclose(stream) == 0 ? text : NULL;
+}
+
+static ld_status make_tables(study_store *self, ld_error *error)
+{
+    const ld_scatter *scatter = &self->study->nominal->scatter;
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
+    fputs("CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+          "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER NOT NULL, "
+          "status TEXT NOT NULL, reason TEXT",
+          stream);
+    for (int i = 0; i < scatter->factor_count; i++)
+        if (!store_is_of_rocket(self, i))
+            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
+    fputs("); CREATE TABLE point (point INTEGER PRIMARY KEY", stream);
+    for (int i = 0; i < self->study->nominal->sweep_count; i++)
+        fprintf(stream, ", \"%s\" TEXT NOT NULL", self->study->nominal->sweep[i].path);
+    fputs("); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER",
+          stream);
+    for (int i = 0; i < scatter->factor_count; i++)
+        if (store_is_of_rocket(self, i))
+            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
+    for (const study_result *r = study_results; r->name; r++)
+        fprintf(stream, ", \"%s\" REAL", r->name);
+    fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID;", stream);
+    ld_status status = fclose(stream) == 0 ? store_execute(self, text, error) : LD_ERR_MEMORY;
+    free(text);
+    return status;
+}
+
+static ld_status set_text(study_store *self, const char *name, const char *value, ld_error *error)
+{
+    sqlite3_stmt *insert =
+        store_prepare(self, "INSERT OR REPLACE INTO study (name, value) VALUES (?, ?)", error);
+    if (!insert)
+        return LD_ERR_FILE;
+    sqlite3_bind_text(insert, 1, name, -1, SQLITE_STATIC);
+    sqlite3_bind_text(insert, 2, value, -1, SQLITE_STATIC);
+    int result = sqlite3_step(insert);
+    sqlite3_finalize(insert);
+    return result == SQLITE_DONE ? LD_OK : store_fail(self, "write", error);
+}
+
+static ld_status put_points(study_store *self, ld_error *error)
+{
+    const ld_model *model = self->study->nominal;
+    sqlite3_stmt *insert = store_prepare_insert(self, "point", 1 + model->sweep_count, error);
+    bool good = insert != NULL;
+    for (int point = 1; point <= self->study->points && good; point++) {
+        sqlite3_bind_int(insert, 1, point);
+        for (int i = 0; i < model->sweep_count; i++)
+            sqlite3_bind_text(insert, 2 + i,
+                              model->sweep[i].value[ld_scenario_value(model, point, i)], -1,
+                              SQLITE_STATIC);
+        good = store_step(insert);
+    }
+    sqlite3_finalize(insert);
+    return good ? LD_OK : store_fail(self, "write", error);
+}
+
+static ld_status fill_new(study_store *self, const char *identity, ld_error *error)
+{
+    char hash[32];
+    snprintf(hash, sizeof hash, "%016" PRIx64, random_stream(identity));
+    ld_status status = make_tables(self, error);
+    if (!status)
+        status = put_points(self, error);
+    if (!status)
+        status = set_text(self, "format", FORMAT, error);
+    if (!status)
+        status = set_text(self, "version", LD_VERSION, error);
+    if (!status)
+        status = set_text(self, "hash", hash, error);
+    if (!status)
+        status = set_text(self, "scenario", identity, error);
+    return status;
+}
+
+// The first line in which the texts differ, cut for a message.
+static void first_difference(const char *before, const char *now, char line[96])
+{
+    size_t i = 0, start = 0;
+    for (; before[i] && before[i] == now[i]; i++)
+        start = now[i] == '\n' ? i + 1 : start;
+    start += strspn(now + start, " ");
+    size_t length = strcspn(now + start, "\n");
+    snprintf(line, 96, "%.*s", (int)(length < 95 ? length : 95), now + start);
+}
+
+// Refuses a folder that holds something else.
+static ld_status compare(study_store *self, const char *identity, ld_error *error)
+{
+    char *before = store_text(self, "scenario"), *version = store_text(self, "version"), line[96];
+    char *format = store_text(self, "format");
+    ld_status status = LD_OK;
+    if (format && strcmp(format, FORMAT) != 0) {
+        status =
+            ld_fail(error, LD_ERR_INPUT, "%s is of another format; use another folder", self->path);
+    } else if (!before || !version || !format) {
+        status = ld_fail(error, LD_ERR_FILE, "%s holds no study", self->path);
+    } else if (strcmp(before, identity) != 0) {
+        first_difference(before, identity, line);
+        status = ld_fail(error, LD_ERR_INPUT,
+                         "%s holds the study of another scenario, which differs first in \"%s\"; "
+                         "use another folder",
+                         self->path, line);
+    } else if (strcmp(version, LD_VERSION) != 0) {
+        status = ld_fail(error, LD_ERR_INPUT,
+                         "%s was begun by launchdyn %s, this is %s; use another folder", self->path,
+                         version, LD_VERSION);
+    }
+    free(before);
+    free(version);
+    free(format);
+    return status;
+}
+
+ld_status store_set_number(study_store *self, const char *name, int64_t value, ld_error *error)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%" PRId64, value);
+    return set_text(self, name, text, error);
+}
+
+static ld_status begin_or_compare(study_store *self, const char *identity, ld_error *error)
+{
+    const ld_scatter *scatter = &self->study->nominal->scatter;
+    sqlite3_stmt *tables =
+        store_prepare(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", error);
+    if (!tables)
+        return LD_ERR_FILE;
+    bool there = sqlite3_step(tables) == SQLITE_ROW;
+    sqlite3_finalize(tables);
+    ld_status status = there ? compare(self, identity, error) : fill_new(self, identity, error);
+    if (!status)
+        status = store_set_number(self, "samples", self->study->samples, error);
+    int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;
+    if (!status)
+        status = store_set_number(self, "strata", strata, error);
+    return status;
+}
+
+ld_status store_begin(study_store *self, ld_error *error)
+{
+    char *identity = identity_of(self->study->nominal);
+    if (!identity)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the scenario's text");
+    ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
+    if (!status)
+        status = begin_or_compare(self, identity, error);
+    if (!status)
+        status = store_execute(self, "COMMIT", error);
+    free(identity);
+    return status;
+}
