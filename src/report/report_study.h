@@ -59,7 +59,8 @@ void study_read(study_source *source, study_series *series, const study_column *
                 int columns);
 
 // Writes the sensitivities of chosen results to all factors, as items of a list.
-void study_write_sensitivities(FILE *json, study_source *source);
+// @return LD_OK, LD_ERR_MEMORY
+ld_status study_write_sensitivities(FILE *json, study_source *source);
 
 // Writes all that the page shows as JSON; notes what cannot be read.
 // @return LD_OK, LD_ERR_MEMORY

@@ -1,8 +1,6 @@
 // What the report of studies shows, as JSON. All statistics are computed here, none in the page.
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "io/json_text.h"
 #include "report/report_study.h"
@@ -276,8 +274,8 @@ static ld_status write_scatter(FILE *json, const study_values *values, size_t mo
 static ld_status write_pairs(FILE *json, study_source *source)
 {
     ld_status status = LD_OK;
-    size_t fit =
-        (size_t)(BYTES_OF_POINTS / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
+    double bytes = source->share * BYTES_OF_POINTS;
+    size_t fit = (size_t)(bytes / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
     size_t most = fit < MOST_POINTS ? fit : MOST_POINTS;
     for (size_t p = 0; p < STUDY_PAIRS && !status; p++) {
         const study_pair *pair = &study_pairs[p];
@@ -305,9 +303,9 @@ static void write_failures(FILE *json, study_source *source, const study_series 
     enum { LEAST_EACH = 5 };
     int most = MOST_FAILURES / source->series_count, count = 0;
     most = most > LEAST_EACH ? most : LEAST_EACH;
-    study_failed *failed = calloc((size_t)most, sizeof *failed);
+    study_failed failed[MOST_FAILURES];
     ld_error error;
-    if (failed && study_data_failed(series->data, series->point, failed, most, &count, &error))
+    if (study_data_failed(series->data, series->point, failed, most, &count, &error))
         report_take_note(source->report, "%.60s: failed samples cannot be read: %s.", series->label,
                          error.text);
     fputs(",\"failures\":[", json);
@@ -319,7 +317,6 @@ static void write_failures(FILE *json, study_source *source, const study_series 
         fputc(']', json);
     }
     fputc(']', json);
-    free(failed);
 }
 
 // Pairs of a swept key and its value.
@@ -365,7 +362,8 @@ ld_status study_write_data(FILE *json, study_source *source)
     if (!status)
         status = write_pairs(json, source);
     fputs("],\"sensitivities\":[", json);
-    study_write_sensitivities(json, source);
+    if (!status)
+        status = study_write_sensitivities(json, source);
     // last, when all that is broken is known
     fputs("],\"notes\":[", json);
     for (int i = 0; i < source->report->note_count; i++) {

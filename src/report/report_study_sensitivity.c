@@ -12,30 +12,20 @@ static const char *const results[] = {"pitch",     "yaw",    "pitch_rate",   "ya
                                       "apogee",    "t_rear", "tip.pitch",    "tip.yaw"};
 enum { RESULTS = sizeof results / sizeof *results, MOST_ESTIMATES = 4000 };
 
-// The column of a result, then those of all factors; to be freed. *count becomes how many; NULL:
-// the study has no such result, or no memory.
-static const study_column **columns_for(const study_data *data, const char *result, int *count)
+// Fills in the column of a result, then those of all factors but seeds. Returns how many, 0 where
+// the study has no such result.
+static int list_columns(const study_data *data, const char *result, const study_column **column)
 {
     const char *nearest;
+    int count = 0;
     const study_column *found = study_data_find(data, result, &nearest);
-    const study_column **column =
-        found ? malloc((size_t)(data->column_count + 1) * sizeof(void *)) : NULL;
-    if (!column)
-        return NULL;
-    *count = 0;
-    column[(*count)++] = found;
+    if (!found)
+        return 0;
+    column[count++] = found;
     for (int i = 0; i < data->column_count; i++)
         if (data->column[i].factor && !data->column[i].seed)
-            column[(*count)++] = &data->column[i];
-    return column;
-}
-
-static bool scatters(const double *value, size_t count)
-{
-    for (size_t i = 1; i < count; i++)
-        if (value[i] != value[0])
-            return true;
-    return false;
+            column[count++] = &data->column[i];
+    return count;
 }
 
 // Pairs of a factor's path and the estimate of its sensitivity.
@@ -57,19 +47,16 @@ static void write_factors(FILE *json, const study_values *values, const study_co
     }
 }
 
-static void write_series(FILE *json, study_source *source, study_series *series, const char *result)
+static void write_series(FILE *json, study_source *source, study_series *series, const char *result,
+                         const study_column **column)
 {
-    int count = 0;
-    const study_column **column = columns_for(series->data, result, &count);
+    int count = list_columns(series->data, result, column);
     fputc('[', json);
-    if (column && count > 1) {
+    if (count > 1) {
         study_read(source, series, column, count);
-        const study_values *values = &series->values;
-        if (values->count > 0 && scatters(values->value[0], values->count))
-            write_factors(json, values, column, count);
+        write_factors(json, &series->values, column, count);
     }
     fputc(']', json);
-    free(column);
 }
 
 static int count_estimates(const study_source *source)
@@ -80,10 +67,22 @@ static int count_estimates(const study_source *source)
     return count;
 }
 
-void study_write_sensitivities(FILE *json, study_source *source)
+static int most_columns(const study_source *source)
+{
+    int most = 0;
+    for (int s = 0; s < source->series_count; s++)
+        if (source->series[s].data->column_count > most)
+            most = source->series[s].data->column_count;
+    return most;
+}
+
+ld_status study_write_sensitivities(FILE *json, study_source *source)
 {
     int each = count_estimates(source), most = (int)(source->share * MOST_ESTIMATES);
     int fit = each > 0 ? most / each : RESULTS;
+    const study_column **column = malloc((size_t)(most_columns(source) + 1) * sizeof(void *));
+    if (!column)
+        return LD_ERR_MEMORY;
     if (fit < RESULTS)
         report_take_note(source->report,
                          "Sensitivities are those of the first %d of %d results: "
@@ -93,8 +92,10 @@ void study_write_sensitivities(FILE *json, study_source *source)
         fprintf(json, "%s\n{\"name\":\"%s\",\"series\":[", i ? "," : "", results[i]);
         for (int s = 0; s < source->series_count; s++) {
             fputs(s ? ",\n" : "\n", json);
-            write_series(json, source, &source->series[s], results[i]);
+            write_series(json, source, &source->series[s], results[i], column);
         }
         fputs("]}", json);
     }
+    free(column);
+    return LD_OK;
 }
