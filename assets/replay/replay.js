@@ -53,7 +53,7 @@ class Replay {
     this.build(host);
     this.stage = new Stage(this.canvas, this.motion, this.ways, this.rockets);
     this.speed = "auto";
-    this.playing = false;
+    this.playing = null;
     this.setScale(usualScale(this.motion));
     new ResizeObserver(() => this.fit()).observe(this.canvas);
     new IntersectionObserver(([entry]) => {
@@ -66,7 +66,8 @@ class Replay {
     this.time = this.opening();
     this.fit();
   }
-  // Where the replay stands at first: the first rocket on its way through the tube.
+  // Where the replay stands at first: the first rocket on its way through the tube. It plays from
+  // shortly before ignition then, as after its end.
   opening() {
     const { ignition, rear } = this.rockets[0] ?? {};
     return Number.isFinite(ignition) ? ignition + 0.75 * (rear ?? 0) : this.clock.first;
@@ -160,21 +161,22 @@ class Replay {
     else this.start();
   }
   start() {
-    if (this.time >= this.clock.last) this.time = Math.max(this.clock.first, (this.rockets[0]?.ignition ?? 0) - 0.005);
-    this.playing = true;
+    if (this.time >= this.clock.last || this.time === this.opening())
+      this.time = Math.max(this.clock.first, (this.rockets[0]?.ignition ?? 0) - 0.005);
     this.play.textContent = "Pause";
     let before = performance.now();
     const step = (now) => {
-      if (!this.playing) return;
-      const passed = Math.min(0.1, (now - before) / 1000);
+      if (this.playing !== step) return;
+      const passed = Math.min(0.1, Math.max(0, now - before) / 1000);
       before = now;
       this.advance(passed);
       requestAnimationFrame(step);
     };
+    this.playing = step; // the one that goes on
     requestAnimationFrame(step);
   }
   pause() {
-    this.playing = false;
+    this.playing = null;
     this.play.textContent = "Play";
   }
   advance(passed) {

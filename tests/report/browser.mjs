@@ -139,6 +139,13 @@ async function checkDrawn(page, run, adaptors) {
 
 async function checkControls(page, run) {
   const now = () => page.evaluate(() => window.launchdyn.current.time - window.launchdyn.current.zero);
+  await page.evaluate(() => {
+    const replay = window.launchdyn.current;
+    replay.show(replay.opening());
+    replay.play.click();
+    replay.play.click();
+  });
+  check("from where it stands at first it plays from before ignition", (await now()) === Math.max(run.column.get("t")[0], -0.005), await now());
   await look(page, show(0.05));
   await page.focus(".stage");
   const before = await now();
@@ -153,6 +160,16 @@ async function checkControls(page, run) {
   const stood = await now();
   await drawn(page);
   check("the space bar starts it and stops it", stood > before && (await now()) === stood, `${before} to ${stood}`);
+  for (const [speed, share] of [["auto", 1 / 50], [String(1 / 1000), 1 / 1000], ["1", 1]]) {
+    await page.selectOption(".controls select", speed);
+    const step = await page.evaluate(() => {
+      const replay = window.launchdyn.current, from = replay.zero + 0.05;
+      replay.show(from);
+      replay.advance(0.01);
+      return replay.time - from;
+    });
+    check(`a hundredth of a second at the speed ${speed}`, near(step, 0.01 * share, 1e-6), step);
+  }
   await page.locator(".amount").fill("2");
   check("the slider scales the deflection", (await page.evaluate(() => window.launchdyn.current.stage.scale)) === 100 &&
     (await page.textContent(".scale")).startsWith("× 100"));
