@@ -34,38 +34,10 @@ typedef enum follower_state { RUNNING, ASKING, SENT_HOME, GONE } follower_state;
 typedef struct leader {
     study_ledger *ledger;
     int processes;
-    follower_state *state;      // [processes], of all but the first
-    study_record **inbox;       // [processes]
-    const study_record **fresh; // [processes] of the inbox, to be kept
+    follower_state *state; // [processes], of all but the first
+    study_record *record;  // the message that came last
     size_t record_size;
 } leader;
-
-static void leader_free(leader *self)
-{
-    for (int i = 0; self->inbox && i < self->processes; i++)
-        free(self->inbox[i]);
-    free(self->state);
-    free(self->inbox);
-    free(self->fresh);
-}
-
-static ld_status leader_create(leader *self, const ld_study *study, study_ledger *ledger,
-                               ld_error *error)
-{
-    *self = (leader){.ledger = ledger, .record_size = record_size(study->rockets)};
-    MPI_Comm_size(MPI_COMM_WORLD, &self->processes);
-    size_t count = (size_t)self->processes;
-    self->state = calloc(count, sizeof *self->state);
-    self->inbox = calloc(count, sizeof *self->inbox);
-    self->fresh = calloc(count, sizeof *self->fresh);
-    bool enough = self->state && self->inbox && self->fresh;
-    for (size_t i = 1; i < count && enough; i++)
-        enough = (self->inbox[i] = calloc(1, self->record_size)) != NULL;
-    if (enough)
-        return LD_OK;
-    leader_free(self);
-    return ld_fail(error, LD_ERR_MEMORY, "no memory for %d processes", self->processes);
-}
 
 static void answer(leader *self, int follower, int64_t number, follower_state next)
 {
@@ -73,27 +45,24 @@ static void answer(leader *self, int follower, int64_t number, follower_state ne
     self->state[follower] = next;
 }
 
-// Takes in what has come, and keeps it in one transaction; returns how many messages there were.
+// Takes in and keeps what has come; returns how many messages there were.
 static int receive(leader *self)
 {
-    int received = 0, fresh = 0;
-    while (received < self->processes - 1) {
+    int received = 0;
+    for (;;) {
         MPI_Status about;
         int there;
         MPI_Iprobe(MPI_ANY_SOURCE, TAG_RECORD, MPI_COMM_WORLD, &there, &about);
         if (!there)
-            break;
+            return received;
         int from = about.MPI_SOURCE;
-        study_record *record = self->inbox[from];
-        MPI_Recv(record, (int)self->record_size, MPI_BYTE, from, TAG_RECORD, MPI_COMM_WORLD,
+        MPI_Recv(self->record, (int)self->record_size, MPI_BYTE, from, TAG_RECORD, MPI_COMM_WORLD,
                  MPI_STATUS_IGNORE);
         self->state[from] = self->state[from] == SENT_HOME ? GONE : ASKING;
-        if (record->number > 0 || record->outcome)
-            self->fresh[fresh++] = record;
+        if (self->record->number > 0 || self->record->outcome)
+            ledger_keep(self->ledger, self->record);
         received++;
     }
-    ledger_keep(self->ledger, self->fresh, fresh);
-    return received;
 }
 
 // Answers those who ask; where the study stops, everybody.
@@ -134,10 +103,12 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
                          ld_study_counts *counts, ld_error *error)
 {
     study_ledger ledger;
-    leader all;
-    ld_status status = leader_create(&all, study, &ledger, error);
-    if (status) {
-        fprintf(stderr, "launchdyn-mpi: %s\n", error->text);
+    leader all = {.ledger = &ledger, .record_size = record_size(study->rockets)};
+    MPI_Comm_size(MPI_COMM_WORLD, &all.processes);
+    all.state = calloc((size_t)all.processes, sizeof *all.state);
+    all.record = calloc(1, all.record_size);
+    if (!all.state || !all.record) {
+        fputs("launchdyn-mpi: no memory for the records of samples\n", stderr);
         MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
     }
     study_calm_blas();
@@ -152,11 +123,19 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
     }
     // alone, or without a second thread
     worker_run_all(study, &ledger);
-    leader_free(&all);
+    free(all.state);
+    free(all.record);
     return ledger_close(&ledger);
 }
 
 // ---- every other process
+
+static bool is_answered(void)
+{
+    int there;
+    MPI_Iprobe(0, TAG_NUMBER, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+    return there;
+}
 
 typedef struct follower {
     bool (*go_on)(void *);
@@ -172,33 +151,22 @@ static bool is_wanted(void *argument)
     follower *self = argument;
     double now = MPI_Wtime();
     if (now - self->looked > often) {
-        int there;
-        MPI_Iprobe(0, TAG_NUMBER, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
-        self->sent_home = there;
+        self->sent_home = is_answered();
         self->looked = now;
     }
     return !self->sent_home && self->go_on(self->self);
 }
 
-static int64_t next_number(void)
-{
-    MPI_Request request;
-    int64_t number;
-    int there = 0;
-    patience waiting = {MPI_Wtime()};
-    MPI_Irecv(&number, 1, MPI_INT64_T, 0, TAG_NUMBER, MPI_COMM_WORLD, &request);
-    for (;;) {
-        MPI_Test(&request, &there, MPI_STATUS_IGNORE);
-        if (there)
-            return number;
-        pause_a_little(&waiting);
-    }
-}
-
+// Sends a record and waits for the number that answers it.
 static int64_t send(const study_record *record)
 {
+    int64_t number;
     MPI_Send(record, (int)record_size(record->rockets), MPI_BYTE, 0, TAG_RECORD, MPI_COMM_WORLD);
-    return next_number();
+    patience waiting = {MPI_Wtime()};
+    while (!is_answered())
+        pause_a_little(&waiting);
+    MPI_Recv(&number, 1, MPI_INT64_T, 0, TAG_NUMBER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return number;
 }
 
 void mpi_study_follow(const ld_study *study, bool (*go_on)(void *), void *self)

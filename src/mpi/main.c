@@ -11,6 +11,7 @@
 #include "cli/study.h"
 #include "launchdyn/scenario.h"
 #include "mpi/hand_out.h"
+#include "studies/study.h"
 
 static const command study_command = {
     "study", "FILE", "Run the samples of a study on all processes that mpirun has started", NULL,
@@ -60,6 +61,10 @@ static int read_everywhere(const char *file, char **sets, int process, ld_study 
             command_complain("process %d cannot read %s as process 0 does", failed, file);
         return EXIT_INPUT;
     }
+    ld_error error;
+    status = study_check(*study, &error);
+    if (status)
+        return command_fail(status, &error);
     if (is_everywhere(identity(*study)))
         return 0;
     command_complain("the processes read different scenarios from %s, or are of different versions",

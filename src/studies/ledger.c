@@ -89,51 +89,42 @@ int64_t ledger_next(study_ledger *self)
 
 // ---- keeping
 
-// Of an outcome that is not the sample's own.
-static bool is_not_to_be_kept(const study_record *record)
+static ld_status put(study_ledger *self, const study_record *record, ld_error *error)
 {
-    return record->outcome == LD_ERR_INTERRUPTED || record->outcome == LD_ERR_MEMORY;
+    ld_status status = store_put(&self->store, record, error);
+    if (status)
+        return status;
+    // where it stops and a reader is in the way, the next run settles it
+    status = store_settle(&self->store, false, error);
+    return ledger_goes_on(self) ? status : LD_OK;
 }
 
-static ld_status put_all(study_ledger *self, const study_record *const *record, int count,
-                         ld_error *error)
-{
-    ld_status status = LD_OK;
-    for (int i = 0; i < count && !status; i++)
-        if (!is_not_to_be_kept(record[i]))
-            status = store_put(&self->store, record[i], error);
-    return status ? status : store_settle(&self->store, false, error);
-}
-
-static void keep(study_ledger *self, const study_record *const *record, int count)
+static void keep(study_ledger *self, const study_record *record)
 {
     ld_error error;
-    ld_status status = put_all(self, record, count, &error);
-    if (status && ledger_goes_on(self))
-        stop(self, status, &error);
-    for (int i = 0; i < count; i++) {
-        self->running -= record[i]->number > 0;
-        if (record[i]->outcome == LD_ERR_INTERRUPTED) {
-            self->stopped = true;
-        } else if (record[i]->outcome == LD_ERR_MEMORY) {
-            status = ld_fail(&error, LD_ERR_MEMORY, "%s", record[i]->reason);
-            stop(self, status, &error);
-        } else if (!status) {
-            self->counts->done++;
-            self->counts->now++;
-            self->counts->failed += record[i]->outcome != LD_OK;
-        }
+    self->running -= record->number > 0;
+    if (record->outcome == LD_ERR_INTERRUPTED) {
+        self->stopped = true;
+        return;
     }
+    ld_status status = record->outcome == LD_ERR_MEMORY
+                           ? ld_fail(&error, LD_ERR_MEMORY, "%s", record->reason)
+                           : put(self, record, &error);
+    if (status) {
+        stop(self, status, &error);
+        return;
+    }
+    self->counts->done++;
+    self->counts->now++;
+    self->counts->failed += record->outcome != LD_OK;
     if (self->options->progress)
         self->options->progress(self->options->self, self->counts);
 }
 
-void ledger_keep(study_ledger *self, const study_record *const *record, int count)
+void ledger_keep(study_ledger *self, const study_record *record)
 {
-    if (count == 0)
-        return;
 #pragma omp critical(ledger)
-    keep(self, record, count);
+    keep(self, record);
 }
 
 // ---- from begin to end

@@ -36,8 +36,8 @@ ld_status ledger_close(study_ledger *self);
 // The number of a sample to be run; 0: no more; LEDGER_WAIT: it is not known yet, ask again.
 int64_t ledger_next(study_ledger *self);
 enum { LEDGER_WAIT = -1 };
-// Keeps `count` records in one transaction; an outcome that is not the sample's stops the study.
-void ledger_keep(study_ledger *self, const study_record *const *record, int count);
+// Keeps a record; an outcome that is not the sample's stops the study.
+void ledger_keep(study_ledger *self, const study_record *record);
 // Stops: what runs is not waited for.
 void ledger_stop(study_ledger *self, ld_status status, const ld_error *error);
 // Whether samples are still wanted; `self` is a ledger.

@@ -92,7 +92,7 @@ void worker_run_all(const ld_study *study, study_ledger *ledger)
             continue;
         }
         worker_run(&worker, number, ledger_goes_on, ledger);
-        ledger_keep(ledger, (const study_record *[]){worker.record}, 1);
+        ledger_keep(ledger, worker.record);
     }
     worker_free(&worker);
 }
