@@ -1,5 +1,6 @@
 // Long studies: memory that does not grow with the number of samples, and the size of what is kept.
 // LD_LONG_STUDY: samples (default 2000). Each runs in a child, whose memory is its own.
+// ctest: slow
 #include "support/study_run.h"
 
 #include <sys/resource.h>
