@@ -135,7 +135,7 @@ static double share_in_samples(const ld_study *study)
         double before = now();
         worker_run(&worker, number, ledger_goes_on, &ledger);
         inside += now() - before;
-        ledger_keep(&ledger, (const study_record *[]){worker.record}, 1);
+        ledger_keep(&ledger, worker.record);
     }
     worker_free(&worker);
     if (ledger_close(&ledger))
