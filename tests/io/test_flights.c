@@ -13,18 +13,6 @@
 enum { FLIGHTS = 2, ROWS = 1500, COLUMNS = 6 };
 
 static const double degree = 0.017453292519943295;
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 static const ld_column columns[] = {
     {"t", "s", ""},        {"center.x", "m", ""},          {"center.z", "m", ""},
     {"altitude", "m", ""}, {"angle_of_attack", "rad", ""}, {"rocket.pitch", "rad", ""}};
@@ -286,7 +274,7 @@ static void test_figures_of_flights(void **state)
     history_free(&read[1]);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, scratch_make, scratch_remove)
 
 int main(void)
 {

@@ -11,18 +11,6 @@
 
 enum { MOST_MODES = 64 };
 
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 static void run_example(const char *name, const char *const *sets, size_t count, history_data *read)
 {
     static ld_summary summary;
@@ -230,7 +218,7 @@ static void test_without(void **state)
     history_free(&read);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, scratch_make, scratch_remove)
 
 int main(void)
 {

@@ -12,22 +12,15 @@
 // A made-up run of 160 ms in `folder`/run.
 static int set_up(void **state)
 {
-    (void)state;
     static ld_model model;
     static ld_summary summary;
     ld_output *output = NULL;
-    if (scratch_make())
+    if (scratch_make(state))
         return -1;
     made_model(&model);
     made_summary(&summary, 1);
     return ld_output_open(in("run"), &model, false, &output, NULL) ||
            made_run(ld_output_sink(output), 1605, NULL) || ld_output_finish(output, &summary, NULL);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
 }
 
 static int run(const char *format, const char *path)
@@ -310,7 +303,7 @@ static void test_without_gnuplot(void **state)
     assert_int_not_equal(access(in("x.svg.part"), F_OK), 0);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, scratch_remove)
 
 int main(void)
 {

@@ -12,18 +12,6 @@
 #include "support/made_launch.h"
 #include "support/scratch.h"
 
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 // Results of a made-up run in the folder; `name` of the third adaptor and title as they are given.
 static void make_results(size_t rows, const char *title, const char *name)
 {
@@ -498,7 +486,7 @@ static void test_part_of_a_run(void **state)
     free(page);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, scratch_make, scratch_remove)
 
 int main(void)
 {

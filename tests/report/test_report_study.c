@@ -11,18 +11,6 @@
 #include "report/report_study.h"
 #include "studies/sensitivity.h"
 
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 // ---- studies made up
 
 // What result number k of rocket r of sample i is, as SQL and in C.
@@ -523,7 +511,7 @@ static void test_damaged(void **state)
     free(page);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, scratch_make, scratch_remove)
 
 int main(void)
 {

@@ -30,17 +30,10 @@
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (scratch_make())
+    if (scratch_make(state))
         return -1;
     write_database("sweep", SWEEP);
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return scratch_remove();
 }
 
 static char *read_text(const char *path)
@@ -236,5 +229,5 @@ int main(void)
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_show),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

@@ -11,18 +11,6 @@
 
 enum { SAMPLES = 80, THREADS = 2 };
 
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 static const char text[] = "include: fixed.yaml\n"
                            "scatter:\n"
                            "  samples: 80\n"
@@ -250,5 +238,5 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_threads_killed),
                                        cmocka_unit_test(test_processes_killed)};
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -8,18 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 static const char text[] = "include: flight.yaml\n"
                            "run: {flight_tolerance: 1e-4}\n"
                            "scatter:\n"
@@ -74,5 +62,5 @@ static void test_long_study(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_long_study)};
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -9,18 +9,6 @@
 
 #include "launchdyn/simulation.h"
 
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 #define LAUNCH                                                                                     \
     "include: fixed.yaml\n"                                                                        \
     "scatter:\n"                                                                                   \
@@ -365,5 +353,5 @@ int main(void)
         cmocka_unit_test(test_rockets_of_a_salvo),
         cmocka_unit_test(test_size),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -7,18 +7,6 @@
 #include "studies/statistics.h"
 #include "studies/study_data.h"
 
-static int make_folder(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 static study_data open_data(const char *name)
 {
     study_data data;
@@ -246,5 +234,5 @@ int main(void)
         cmocka_unit_test(test_order),    cmocka_unit_test(test_half_width),
         cmocka_unit_test(test_refusals),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -6,18 +6,6 @@
 #include "studies/study_data.h"
 #include "studies/until.h"
 
-static int set_up(void **state)
-{
-    (void)state;
-    return scratch_make();
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return scratch_remove();
-}
-
 #define SWEEP                                                                                      \
     "include: fixed.yaml\n"                                                                        \
     "sweep:\n  rocket.mass: [59 kg, 61 kg]\n  base.elevation: [10 deg, 20 deg, 30 deg]\n"
@@ -206,5 +194,5 @@ int main(void)
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_until),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -18,16 +18,18 @@ static const char *in(const char *name)
     return chosen;
 }
 
-// Makes the folder, new and empty. 0, or -1 where it cannot be made.
-static int scratch_make(void)
+// Makes the folder, new and empty, before a group of tests. 0, or -1 where it cannot be made.
+static int scratch_make(void **state)
 {
+    (void)state;
     strcpy(folder, "/tmp/launchdyn-test-XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 
-// Removes it with all that is in it.
-static int scratch_remove(void)
+// Removes it with all that is in it, after them.
+static int scratch_remove(void **state)
 {
+    (void)state;
     char command[128];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command);
