@@ -82,7 +82,7 @@ static int study_file(const char *file, study_wishes *wishes)
     if (command_read_study(file, wishes->run.sets, &study))
         return EXIT_INPUT;
     int code = EXIT_INPUT;
-    if (wishes->only)
+    if (wishes->only != ALL_SAMPLES)
         code = run_one(study, wishes);
     else if (wishes->run.folder)
         code = study_run_all(study, wishes, ld_study_run);
@@ -125,9 +125,26 @@ static bool read_shard(const char *text, study_wishes *wishes)
     return false;
 }
 
+// What keeps these options from being those of a study to be run; NULL: nothing.
+static const char *wrong_to_run(const char *file, const study_wishes *wishes)
+{
+    enum { MOST_THREADS = 1024 };
+    if (strcmp(file, "show") == 0 || strcmp(file, "export") == 0 || strcmp(file, "merge") == 0)
+        return "study show, study export and study merge want DIR";
+    if (wishes->csv || wishes->hdf5)
+        return "--csv and --hdf5 are options of study export DIR";
+    if (wishes->view.what || wishes->view.sensitivity)
+        return "--what and --sensitivity are options of study show DIR";
+    if (wishes->shards && wishes->only != ALL_SAMPLES)
+        return "--only and --shard do not go together";
+    if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
+        return "--jobs wants a number from 1 to 1024";
+    return NULL;
+}
+
 int command_study(const command *self, int argc, const char **argv)
 {
-    study_wishes wishes = {.threads = 1};
+    study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
     char *shard = NULL, *what = NULL;
     int sensitivity = 0;
     const struct poptOption options[] = {
@@ -155,6 +172,9 @@ int command_study(const command *self, int argc, const char **argv)
             code = study_folder(file, line.word[1], &wishes);
         } else if (line.count > 2) {
             command_complain("study wants %s; see launchdyn study --help", self->arguments);
+            code = EXIT_INPUT;
+        } else if (wrong_to_run(file, &wishes)) {
+            command_complain("%s", wrong_to_run(file, &wishes));
             code = EXIT_INPUT;
         } else {
             code = study_file(file, &wishes);

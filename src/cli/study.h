@@ -2,13 +2,17 @@
 #ifndef LD_CLI_STUDY_H
 #define LD_CLI_STUDY_H
 
+#include <limits.h>
+
 #include "cli/run.h"
 #include "launchdyn/study.h"
+
+enum { ALL_SAMPLES = INT_MIN };
 
 typedef struct study_wishes {
     run_wishes run; // overrides, folder, quiet
     int threads;
-    int only; // sample, 0: all
+    int only; // sample, or ALL_SAMPLES
     int shard, shards;
     ld_study_view view;
     char *csv, *hdf5; // tables to be written

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "math/distributions.h"
 #include "model/field.h"
 
 // Where a walk along the keys of a path has come to.
@@ -214,6 +215,16 @@ bool factor_may_be_per_rocket(const ld_factor *factor)
     return strncmp(factor->path, "rocket.", 7) == 0;
 }
 
+// Whether a normal distribution about the nominal value has something between its bounds.
+static bool has_values_between(const ld_factor *factor, double nominal)
+{
+    double low = (factor->between[0] - nominal) / factor->deviation;
+    double high = (factor->between[1] - nominal) / factor->deviation;
+    // on the side where the distribution function is accurate
+    return low > 0 ? normal_cumulative(-low) > normal_cumulative(-high)
+                   : normal_cumulative(high) > normal_cumulative(low);
+}
+
 bool factor_is_possible(const ld_model *model, const ld_factor *factor, const field_place *place,
                         char *why, size_t size)
 {
@@ -232,6 +243,9 @@ bool factor_is_possible(const ld_model *model, const ld_factor *factor, const fi
         text = "has no value in this scenario about which to scatter";
     else if (factor->distribution == LD_LOGNORMAL && nominal <= 0)
         text = "a lognormal distribution needs a value > 0 in the scenario";
+    else if (factor->distribution == LD_NORMAL && !isnan(factor->between[0]) &&
+             !has_values_between(factor, nominal))
+        text = "so far from the value in the scenario a normal distribution has nothing to keep";
     if (text)
         snprintf(why, size, "%s", text);
     return !text;

@@ -22,12 +22,24 @@ static bool read_name(const char *path, int *shard, int *shards)
            length > 0 && name[length] == '\0' && *shard >= 1 && *shard <= *shards;
 }
 
+// The pattern of the shards' names, in which what the folder's name has of wildcards is none.
+static void shard_pattern(const char *folder, char pattern[4096])
+{
+    size_t length = 0;
+    for (const char *c = folder; *c && length < 4000; c++) {
+        if (strchr("*?[\\", *c))
+            pattern[length++] = '\\';
+        pattern[length++] = *c;
+    }
+    strcpy(pattern + length, "/shard-*-of-*.db");
+}
+
 static ld_status list_shards(shard_list *self, const char *folder, ld_error *error)
 {
     char pattern[4096];
     int shard, shards;
     *self = (shard_list){0};
-    snprintf(pattern, sizeof pattern, "%.4000s/shard-*-of-*.db", folder);
+    shard_pattern(folder, pattern);
     if (glob(pattern, 0, NULL, &self->found) != 0)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no shards of a study", folder);
     bool first = true;
@@ -119,7 +131,8 @@ static ld_status merge_file(study_store *self, const char *path, ld_error *error
     bool attached = sqlite3_step(attach) == SQLITE_DONE;
     sqlite3_finalize(attach);
     if (!attached)
-        return store_fail(self, "add to", error);
+        return ld_fail(error, LD_ERR_FILE, "cannot read %s: %s", path,
+                       sqlite3_errmsg(self->database));
     ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
     if (!status)
         status = add_part(self, path, error);
@@ -185,7 +198,13 @@ static ld_status print_state(study_store *self, const shard_list *list, FILE *st
                              ld_error *error)
 {
     ld_study_counts counts;
-    ld_status status = store_count(self, &counts, error);
+    char *begun;
+    ld_status status = ask(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", &begun, error);
+    if (!status && !begun)
+        status = ld_fail(error, LD_ERR_INPUT, "no shard beside %s has begun", self->path);
+    free(begun);
+    if (!status)
+        status = store_count(self, &counts, error);
     if (status)
         return status;
     fprintf(stream, "%s: %" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n", self->path,

@@ -19,11 +19,11 @@ static uint64_t *digest_in(const study_pending *self, int index)
     return (uint64_t *)(void *)(self->slot + (size_t)index * self->slot_size);
 }
 
-// FNV-1a by words: tells what was not written whole.
-static uint64_t digest(const study_record *record)
+// FNV-1a by words: tells what was not written whole, or for another study.
+static uint64_t digest(const study_pending *self, const study_record *record)
 {
     const unsigned char *bytes = (const unsigned char *)record;
-    uint64_t hash = 0xcbf29ce484222325u;
+    uint64_t hash = 0xcbf29ce484222325u ^ self->key;
     for (size_t i = 0; i < record_size(record->rockets); i += sizeof hash) {
         uint64_t word;
         memcpy(&word, bytes + i, sizeof word);
@@ -36,13 +36,14 @@ static bool is_whole(const study_pending *self, int index)
 {
     const study_record *record = record_in(self, index);
     return record->number > 0 && record->rockets >= 0 && record->rockets <= self->rockets &&
-           *digest_in(self, index) == digest(record);
+           *digest_in(self, index) == digest(self, record);
 }
 
-ld_status pending_open(study_pending *self, const char *path, int64_t rockets, ld_error *error)
+ld_status pending_open(study_pending *self, const char *path, uint64_t key, int64_t rockets,
+                       ld_error *error)
 {
-    *self =
-        (study_pending){.slot_size = sizeof(uint64_t) + record_size(rockets), .rockets = rockets};
+    *self = (study_pending){
+        .slot_size = sizeof(uint64_t) + record_size(rockets), .rockets = rockets, .key = key};
     snprintf(self->path, sizeof self->path, "%s", path);
     size_t size = PENDING_MOST * self->slot_size;
     int file = open(path, O_CREAT | O_RDWR | O_CLOEXEC, 0666);
@@ -75,7 +76,7 @@ void pending_close(study_pending *self)
 void pending_add(study_pending *self, const study_record *record)
 {
     memcpy(record_in(self, self->count), record, record_size(record->rockets));
-    *digest_in(self, self->count) = digest(record);
+    *digest_in(self, self->count) = digest(self, record);
     self->count++;
 }
 

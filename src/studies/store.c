@@ -9,6 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/random.h"
 #include "io/folder.h"
 
 ld_status store_fail(const study_store *self, const char *what, ld_error *error)
@@ -282,7 +283,10 @@ static ld_status open_pending(study_store *self, ld_error *error)
     char path[4096];
     snprintf(path, sizeof path, "%.*s.pending", (int)(strlen(self->path) - strlen(".db")),
              self->path);
-    ld_status status = pending_open(&self->pending, path, self->study->rockets, error);
+    char *hash = store_text(self, "hash");
+    uint64_t key = random_stream(hash ? hash : "") ^ random_stream(LD_VERSION);
+    free(hash);
+    ld_status status = pending_open(&self->pending, path, key, self->study->rockets, error);
     self->greatest = INT64_MAX;
     if (!status)
         status = store_settle(self, true, error);

@@ -106,15 +106,17 @@ static ld_status fill_new(study_store *self, const char *identity, ld_error *err
     return status;
 }
 
-// The first line in which the texts differ, cut for a message.
+// The first line in which the texts differ, as it is now or, where there is none, was; cut for a
+// message.
 static void first_difference(const char *before, const char *now, char line[96])
 {
     size_t i = 0, start = 0;
     for (; before[i] && before[i] == now[i]; i++)
         start = now[i] == '\n' ? i + 1 : start;
-    start += strspn(now + start, " ");
-    size_t length = strcspn(now + start, "\n");
-    snprintf(line, 96, "%.*s", (int)(length < 95 ? length : 95), now + start);
+    const char *text = now[start] && now[start] != '\n' ? now + start : before + start;
+    text += strspn(text, " ");
+    size_t length = strcspn(text, "\n");
+    snprintf(line, 96, "%.*s", (int)(length < 95 ? length : 95), text);
 }
 
 // Refuses a folder that holds something else.

@@ -113,6 +113,24 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn plot x -o x.svg", 2, "no results in x");
 }
 
+static void test_wrong_words_of_a_study(void **state)
+{
+    (void)state;
+#define STUDY "launchdyn study examples/salvo.yaml --out x "
+    expect_complaint(STUDY "--only 0", 2, "there is no sample 0: they go from 1 to 10\n");
+    expect_complaint(STUDY "--only 11", 2, "there is no sample 11");
+    expect_complaint(STUDY "--only 2 --shard 1/2", 2, "--only and --shard do not go together");
+    expect_complaint(STUDY "--shard 4/3", 2, "--shard wants I/N, from 1/N to N/N, not 4/3\n");
+    expect_complaint(STUDY "-j 0", 2, "--jobs wants a number from 1 to 1024\n");
+    expect_complaint(STUDY "-j 1000000", 2, "--jobs wants a number from 1 to 1024\n");
+    expect_complaint(STUDY "--csv x.csv", 2, "are options of study export DIR\n");
+    expect_complaint(STUDY "--sensitivity", 2, "are options of study show DIR\n");
+    expect_complaint("launchdyn study show", 2, "study merge want DIR\n");
+    expect_complaint("launchdyn study shwo x", 2, "study knows show DIR, export DIR and merge DIR");
+    expect_complaint("launchdyn study examples/salvo.yaml", 2, "study wants --out DIR");
+    assert_int_equal(run("test -e x"), 1);
+}
+
 static void test_run_writes_results(void **state)
 {
     (void)state;
@@ -375,6 +393,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_help_and_version),
         TEST(test_wrong_words),
+        TEST(test_wrong_words_of_a_study),
         TEST(test_run_writes_results),
         TEST(test_report),
         TEST(test_table_alone_writes_nothing),

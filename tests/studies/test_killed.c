@@ -166,6 +166,40 @@ static void test_threads_killed(void **state)
     ld_study_free(study);
 }
 
+static void end_at_once(void *self, const ld_study_counts *counts)
+{
+    (void)self;
+    if (counts->done == 2)
+        raise(SIGKILL);
+}
+
+// What waits for its commit is not taken for another study's, whose database was taken away.
+static void test_pending_of_another_study(void **state)
+{
+    (void)state;
+    ld_study *study = study_of(text), *other = study_with(text, "scatter.seed=2");
+    char command[160];
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        ld_error error;
+        ld_study_counts counts;
+        ld_study_options options = {.threads = 1, .progress = end_at_once};
+        ld_study_run(study, in("left"), &options, &counts, &error);
+        _exit(0);
+    }
+    int status;
+    waitpid(child, &status, 0);
+    assert_true(WIFSIGNALED(status));
+    snprintf(command, sizeof command, "cd %s && test -s study.pending && rm study.db*", in("left"));
+    assert_int_equal(system(command), 0);
+    run_to_its_end(other, "left", THREADS);
+    run_to_its_end(other, "other", THREADS);
+    expect_same_tables("other", "left");
+    ld_study_free(study);
+    ld_study_free(other);
+}
+
 // ---- processes of MPI
 
 static pid_t start_mpi(const char *file)
@@ -237,6 +271,7 @@ static void test_processes_killed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_threads_killed),
+                                       cmocka_unit_test(test_pending_of_another_study),
                                        cmocka_unit_test(test_processes_killed)};
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -89,6 +89,12 @@ static void test_refusals(void **state)
              *plain = study_of("include: fixed.yaml\n");
     expect_refusal(other, "one", "mass: 61 kg");
     expect_refusal(plain, "plain", "neither scatter nor sweep");
+    // the one in the folder says more
+    ld_study *swept =
+        study_with(LAUNCH "sweep: {rocket.mass: [60 kg, 61 kg]}\n", "scatter.samples=1");
+    study_run(swept, "swept", 1);
+    expect_refusal(study, "swept", "differs first in \"sweep:\"");
+    ld_study_free(swept);
     // more samples of the plan `random` are the same study
     ld_study_counts counts = study_run(more, "one", 2);
     assert_true(counts.done == 26 && counts.now == 2);
@@ -245,6 +251,16 @@ static void test_shards(void **state)
     assert_int_equal(run_shard(other, 1, 4, &counts, NULL, NULL), LD_OK);
     expect_merge("shards", LD_ERR_INPUT, "of different studies: in their scenario");
     expect_merge("one", LD_ERR_INPUT, "no shards");
+    // wildcards in the folder's name are letters; a shard killed as it began holds nothing
+    char command[256];
+    snprintf(command, sizeof command, "mkdir '%s' && touch '%s/shard-2-of-3.db'", in("new[1]*"),
+             in("new[1]*"));
+    assert_int_equal(system(command), 0);
+    expect_merge("new[1]*", LD_ERR_INPUT, "has begun");
+    snprintf(command, sizeof command, "echo text, not a database >'%s/shard-2-of-3.db'",
+             in("new[1]*"));
+    assert_int_equal(system(command), 0);
+    expect_merge("new[1]*", LD_ERR_FILE, "shard-2-of-3.db: file is not a database");
     ld_study_free(study);
     ld_study_free(other);
 }
