@@ -111,13 +111,15 @@ class Replay {
     return element("div", { className: "key" }, item("tube", "tube"), item("rocket", "rocket"),
       item("adaptor", "adaptors"), item("force", "contact forces"));
   }
-  // The key instants below the slider, their names in two lines where the ones before leave room.
+  // The key instants below the slider, their names in two lines where the ones before leave room,
+  // before the line where there is none behind it.
   nameInstants(width) {
     const { element } = this.tools, free = [-1, -1];
     this.ticks.replaceChildren(...this.marks.map(({ name, t }) => {
       const at = width * this.clock.share(t + this.zero), row = free.findIndex((end) => at >= end);
-      if (row >= 0) free[row] = at + 8 + 6.5 * name.length;
-      return element("span", { className: row === 1 ? "tick low" : "tick", title: name, style: `left:${at.toFixed(1)}px` },
+      const room = 8 + 6.5 * name.length, side = at + room > width ? " end" : "";
+      if (row >= 0) free[row] = at + room;
+      return element("span", { className: (row === 1 ? "tick low" : "tick") + side, title: name, style: `left:${at.toFixed(1)}px` },
         row >= 0 ? name : "");
     }));
   }
@@ -179,10 +181,16 @@ class Replay {
     this.playing = null;
     this.play.textContent = "Play";
   }
+  // Goes on by a time of the clock on the wall, each phase at its own speed.
   advance(passed) {
-    const speed = this.speed === "auto" ? AUTOMATIC[this.clock.partAt(this.time).name] : this.speed;
-    const time = Math.min(this.clock.last, this.time + speed * passed);
-    this.show(time);
+    let time = this.time;
+    for (const { name, to } of this.clock.parts) {
+      if (time >= to) continue;
+      const speed = this.speed === "auto" ? AUTOMATIC[name] : this.speed, used = Math.min(passed, (to - time) / speed);
+      time = used < passed ? to : time + speed * used;
+      passed -= used;
+    }
+    this.show(Math.min(this.clock.last, time));
     if (time >= this.clock.last) this.pause();
   }
   // Shows an instant on the run's clock; `quiet`: tells nobody.
@@ -197,10 +205,10 @@ class Replay {
   read() {
     const { readable } = this.tools, { state } = this.stage, part = this.clock.partAt(this.time);
     const words = [`t ${readable(this.time - this.zero, 6)} s`];
-    if (state.rocket)
+    if (state.rocket && part.name !== "flight")
       words.push(`travel ${readable(state.rocket.s, 4)} m`, `speed ${readable(state.read("rocket.s_dot"), 4)} m/s`);
     const flying = this.stage.flying[this.stage.watched()];
-    if (flying) words.push(`height ${readable(flying.center[1], 4)} m`);
+    if (flying) words.push(`height ${readable(Math.round(1e3 * flying.center[1]) / 1e3 + 0, 4)} m`);
     if (part.name !== "flight")
       words.push(...["y", "z"].map((axis) => `tip ${axis} ${readable(1e3 * state.read(`tip.${axis}`), 3)} mm`));
     if (this.stage.view === "path") words.push(`squares of ${readable(this.stage.map.cell / 1000, 3)} km`);

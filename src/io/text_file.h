@@ -2,6 +2,7 @@
 #ifndef LD_IO_TEXT_FILE_H
 #define LD_IO_TEXT_FILE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -12,5 +13,9 @@
 // directory".
 ld_status text_file_read(const char *path, size_t limit, char **text, size_t *length,
                          ld_error *error);
+
+// Whether a file is to be written under a temporary name, which then becomes its own: not where
+// something else than a file is, as /dev/stdout.
+bool text_file_is_replaced(const char *path);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/numeric_locale.h"
@@ -144,6 +145,9 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     memset(report, 0, sizeof *report);
     if (strlen(folder) + 32 > REPORT_PATH_SIZE || (file && strlen(file) + 8 > REPORT_PATH_SIZE))
         return ld_fail(error, LD_ERR_INPUT, "the name of the folder or the report is too long");
+    struct stat about;
+    if (stat(folder, &about) == 0 && !S_ISDIR(about.st_mode))
+        return ld_fail(error, LD_ERR_INPUT, "%.400s is no folder", folder);
     report_source *source = calloc(1, sizeof *source);
     if (!source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "io/text_file.h"
+
 // Text between tags.
 static void write_text(FILE *page, const char *text)
 {
@@ -65,7 +67,8 @@ void report_end_page(FILE *page, const report_bundle *bundle)
 ld_status report_write_file(const char *file, const char *text, size_t length, ld_error *error)
 {
     char part[REPORT_PATH_SIZE + 8];
-    snprintf(part, sizeof part, "%s.part", file);
+    bool replaced = text_file_is_replaced(file);
+    snprintf(part, sizeof part, "%s%s", file, replaced ? ".part" : "");
     FILE *stream = fopen(part, "wb");
     bool fine = stream && fwrite(text, 1, length, stream) == length;
     int number = errno;
@@ -73,10 +76,10 @@ ld_status report_write_file(const char *file, const char *text, size_t length, l
         number = errno;
         fine = false;
     }
-    if (fine && rename(part, file) == 0)
+    if (fine && (!replaced || rename(part, file) == 0))
         return LD_OK;
     number = fine ? errno : number;
-    if (stream)
+    if (stream && replaced)
         unlink(part);
     return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
 }

@@ -4,10 +4,10 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/numeric_locale.h"
+#include "io/text_file.h"
 #include "launchdyn/study.h"
 #include "studies/store.h"
 
@@ -136,15 +136,13 @@ static ld_status export_csv(const export_table *table, const char *file, const c
 typedef ld_status table_writer(const export_table *table, const char *file, const char *name,
                                ld_error *error);
 
-// Under a temporary name beside the file, which then gets its own; what is not a file (/dev/stdout)
-// is written at once.
+// Under a temporary name beside the file, which then gets its own, where it is a file.
 static ld_status write_file(export_table *table, table_writer *write, const char *file,
                             ld_error *error)
 {
     char part[4096];
-    struct stat there;
     sqlite3_reset(table->row);
-    if (stat(file, &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
+    if (!text_file_is_replaced(file))
         return write(table, file, file, error);
     if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
         return ld_fail(error, LD_ERR_INPUT, "the table's name is too long");

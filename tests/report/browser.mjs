@@ -170,6 +170,16 @@ async function checkControls(page, run) {
     });
     check(`a hundredth of a second at the speed ${speed}`, near(step, 0.01 * share, 1e-6), step);
   }
+  await page.selectOption(".controls select", "auto");
+  const entered = await page.evaluate(() => {
+    const replay = window.launchdyn.current, { from } = replay.clock.parts.find(({ name }) => name === "tube");
+    replay.show(from - 0.004);
+    replay.advance(0.1);
+    return replay.time - from;
+  });
+  check("one step from before the tube into it, each at its speed", near(entered, 0.096 / 50, 1e-6), entered);
+  check("no name of an instant stands beyond the slider", await page.$$eval(".tick", (ticks) =>
+    ticks.every((tick) => tick.getBoundingClientRect().right <= tick.closest(".track").getBoundingClientRect().right + 1)));
   await page.locator(".amount").fill("2");
   check("the slider scales the deflection", (await page.evaluate(() => window.launchdyn.current.stage.scale)) === 100 &&
     (await page.textContent(".scale")).startsWith("× 100"));
@@ -245,6 +255,10 @@ async function checkLooks(browser) {
   await page.click("#theme");
   check("the switch makes it light", (await paper(page)) === "rgb(255, 255, 255)");
   check("flight and vehicle are there", (await page.$("#table1-trajectory")) && (await page.$("#table0-wheels")));
+  await look(page, show(1000));
+  const said = await page.textContent(".replay .reading");
+  check("in flight nothing is said of the tube, on the ground the height is none",
+    !/travel|tip/.test(said) && said.includes("height 0 m"), said);
   await page.context().close();
 }
 

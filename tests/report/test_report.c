@@ -461,6 +461,11 @@ static void test_what_is_missing_is_said(void **state)
     expect_note(&report, "There is no history.h5");
     assert_int_equal(ld_report_write(folder, in("none/x.html"), &report, &error), LD_ERR_FILE);
     assert_non_null(strstr(error.text, "No such file or directory"));
+    assert_int_equal(ld_report_write(folder, "/dev/full", &report, &error), LD_ERR_FILE);
+    assert_string_equal(error.text, "cannot write /dev/full: No space left on device");
+    assert_int_equal(ld_report_write(in("summary.json"), NULL, &report, &error), LD_ERR_INPUT);
+    printf("    %s\n", error.text);
+    assert_non_null(strstr(error.text, "summary.json is no folder"));
 }
 
 // What a killed run leaves.
