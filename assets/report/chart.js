@@ -2,7 +2,7 @@
 // the values it is at, and its data as CSV.
 import { readable } from "./data.js";
 import { download, element } from "./page.js";
-import { ticks } from "./ticks.js";
+import { tickTexts, ticks } from "./ticks.js";
 
 const HEIGHT = 240, LEAST = 170, MOST = 420, RIGHT = 14, TOP = 14, BOTTOM = 42;
 
@@ -47,13 +47,6 @@ function logTicks(low, high) {
   return out.filter((v) => v >= low && v <= high);
 }
 
-// Ticks to so many digits that neighbours differ.
-function tickText(v, step) {
-  if (Math.abs(v) < step / 1e6) return "0";
-  const digits = Math.ceil(Math.log10(Math.abs(v) / step)) + 2;
-  return String(Number(v.toPrecision(Math.min(15, Math.max(1, digits)))));
-}
-
 // Where values lie on an axis; pixels from `from` to `to`.
 function scale({ range, log }, from, to) {
   const f = log ? Math.log10 : (v) => v;
@@ -72,16 +65,18 @@ function drawAxes(spec, place) {
     x.names.forEach((name, i) => text(fits ? name : String(i + 1), [place.x(i), bottom + 15], "middle"));
   } else {
     const steps = x.log ? logTicks(...x.range) : ticks(...x.range, Math.max(2, (right - left) / 48));
-    for (const v of steps) {
+    const texts = tickTexts(steps);
+    for (const [i, v] of steps.entries()) {
       line(place.x(v), TOP, place.x(v), bottom);
       const end = place.x(v) > right - 12;
-      text(x.log ? readable(v) : tickText(v, steps[1] - steps[0] || 1), [place.x(v) + (end ? 12 : 0), bottom + 15], end ? "end" : "middle");
+      text(x.log ? readable(v) : texts[i], [place.x(v) + (end ? 12 : 0), bottom + 15], end ? "end" : "middle");
     }
   }
   const steps = y.names ? [] : ticks(...y.range, 5);
-  for (const v of steps) {
+  const texts = tickTexts(steps);
+  for (const [i, v] of steps.entries()) {
     line(left, place.y(v), right, place.y(v));
-    text(tickText(v, steps[1] - steps[0] || 1), [left - 5, place.y(v) + 4], "end");
+    text(texts[i], [left - 5, place.y(v) + 4], "end");
   }
   text(x.label, [(left + right) / 2, place.height - 8], "middle", { class: "axis" });
   text(y.label, [-(TOP + bottom) / 2, 12], "middle", { class: "axis", transform: "rotate(-90)" });

@@ -2,7 +2,7 @@
 // cursor of the plots over time.
 import { filled, readable, rowAt } from "./data.js";
 import { colour, curveColour, element, onColours } from "./page.js";
-import { ticks } from "./ticks.js";
+import { tickTexts, ticks } from "./ticks.js";
 
 const HEIGHT = 230, LEFT = 74, RIGHT = 14, TOP = 12, BOTTOM = 46;
 
@@ -43,16 +43,19 @@ export function pathPlot(shown, group, marks, host) {
     ctx.font = "11px sans-serif";
     ctx.textAlign = "center";
     ctx.textBaseline = "top";
-    for (const v of ticks(...place.range[0], Math.max(2, (right - LEFT) / 80))) {
+    const across = ticks(...place.range[0], Math.max(2, (right - LEFT) / 80)), up = ticks(...place.range[1], 5);
+    tickTexts(across).forEach((text, i) => {
+      const v = across[i];
       ctx.strokeRect(place.x(v), TOP, 0, bottom - TOP);
-      ctx.fillText(readable(v), place.x(v), bottom + 5);
-    }
+      ctx.fillText(text, place.x(v), bottom + 5);
+    });
     ctx.textAlign = "right";
     ctx.textBaseline = "middle";
-    for (const v of ticks(...place.range[1], 5)) {
+    tickTexts(up).forEach((text, i) => {
+      const v = up[i];
       ctx.strokeRect(LEFT, place.y(v), right - LEFT, 0);
-      ctx.fillText(readable(v), LEFT - 6, place.y(v));
-    }
+      ctx.fillText(text, LEFT - 6, place.y(v));
+    });
     ctx.font = "12px sans-serif";
     ctx.textAlign = "center";
     ctx.fillText(panel.x.label, (LEFT + right) / 2, HEIGHT - 12);

@@ -6,3 +6,13 @@ export function ticks(low, high, count) {
   for (let k = Math.ceil(low / step); k * step <= high; k++) out.push(k * step);
   return out;
 }
+
+// Texts of ticks, to so many digits that neighbours differ.
+export function tickTexts(values) {
+  const step = values[1] - values[0] || 1;
+  return values.map((v) => {
+    if (Math.abs(v) < step / 1e6) return "0";
+    const digits = Math.ceil(Math.log10(Math.abs(v) / step)) + 2;
+    return String(Number(v.toPrecision(Math.min(15, Math.max(1, digits)))));
+  });
+}

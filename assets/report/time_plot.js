@@ -2,6 +2,7 @@
 import uPlot from "uplot";
 import { filled, readable, rowAt } from "./data.js";
 import { colour, curveColour, onColours } from "./page.js";
+import { tickTexts } from "./ticks.js";
 
 const HEIGHT = 230, LABEL_GAP = 14;
 
@@ -59,6 +60,7 @@ function axis(label, grid) {
     label, labelSize: 18, labelFont: "12px sans-serif", font: "11px sans-serif",
     stroke: () => colour("ink"), grid: { stroke: () => colour("grid"), width: 1, show: grid },
     ticks: { stroke: () => colour("grid"), width: 1, size: 4 },
+    values: (u, values) => tickTexts(values),
   };
 }
 
