@@ -104,10 +104,12 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
         return finish(ld_study_show(folder, &wishes->view, stdout, &error), &error);
     if (strcmp(verb, "merge") == 0)
         return finish(ld_study_merge(folder, stdout, &error), &error);
-    if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5))
+    bool same = wishes->csv && wishes->hdf5 && strcmp(wishes->csv, wishes->hdf5) == 0;
+    if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5) && !same)
         return finish(ld_study_export(folder, wishes->csv, wishes->hdf5, &error), &error);
     if (strcmp(verb, "export") == 0)
-        command_complain("study export wants --csv FILE or --hdf5 FILE");
+        command_complain(same ? "study export wants a file each for --csv and --hdf5"
+                              : "study export wants --csv FILE or --hdf5 FILE");
     else
         command_complain("study knows show DIR, export DIR and merge DIR, not %s", verb);
     return EXIT_INPUT;

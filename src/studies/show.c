@@ -68,6 +68,8 @@ static ld_status choose_columns(shown *self, ld_error *error)
         status = what ? status : LD_OK; // of the choice, what there is
     }
     free(names);
+    if (!status && what && self->count == 0)
+        return ld_fail(error, LD_ERR_INPUT, "\"%s\" names no result", what);
     return status;
 }
 

@@ -342,6 +342,39 @@ ld_status store_open_to_merge(study_store *self, const char *folder, ld_error *e
     return status;
 }
 
+// The file as a URI with a query, to be freed; NULL: no memory.
+static char *file_uri(const char *path, const char *query)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream)
+        return NULL;
+    fputs("file:", stream);
+    for (; *path; path++)
+        fprintf(stream, strchr("%?#", *path) ? "%%%02x" : "%c", (unsigned char)*path);
+    fprintf(stream, "?%s", query);
+    return fclose(stream) == 0 ? text : NULL;
+}
+
+// A database in WAL mode wants its side files, which a reader may have to make; where it may not
+// and none is there, nobody writes.
+static int open_to_read(study_store *self, const char *folder)
+{
+    char log[sizeof self->path + 8], *name;
+    snprintf(log, sizeof log, "%s-wal", self->path);
+    if (access(folder, W_OK) == 0)
+        return sqlite3_open_v2(self->path, &self->database, SQLITE_OPEN_READWRITE, NULL);
+    if (access(log, F_OK) == 0)
+        return sqlite3_open_v2(self->path, &self->database, SQLITE_OPEN_READONLY, NULL);
+    name = file_uri(self->path, "immutable=1");
+    int result =
+        name ? sqlite3_open_v2(name, &self->database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, NULL)
+             : SQLITE_NOMEM;
+    free(name);
+    return result;
+}
+
 ld_status store_open_to_read(study_store *self, const char *folder, ld_error *error)
 {
     *self = (study_store){.lock = -1};
@@ -349,9 +382,8 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
     if (access(self->path, R_OK) != 0)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no study: cannot read %s: %s", folder,
                        self->path, strerror(errno));
-    // a database in WAL mode wants its side files, which a reader may have to make
     ld_status status = LD_OK;
-    if (sqlite3_open_v2(self->path, &self->database, SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK ||
+    if (open_to_read(self, folder) != SQLITE_OK ||
         sqlite3_busy_timeout(self->database, PATIENCE) != SQLITE_OK ||
         sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM study", NULL,
                      NULL, NULL) != SQLITE_OK)

@@ -357,6 +357,28 @@ static void test_size(void **state)
     ld_study_free(study);
 }
 
+// Somebody who may read the folder, not write it, sees the study; nothing is left beside it.
+static void test_shown_to_others(void **state)
+{
+    (void)state;
+    ld_study *study = study_of(launch);
+    study_run(study, "others #1", 1);
+    assert_int_equal(chmod(folder, 0755) | chmod(in("others #1"), 0555), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        ld_error error = {0};
+        FILE *nowhere = fopen("/dev/null", "w");
+        bool other = geteuid() != 0 || setuid(65534) == 0;
+        _exit(!nowhere || !other || ld_study_show(in("others #1"), NULL, nowhere, &error) != LD_OK);
+    }
+    int result;
+    assert_int_equal(waitpid(child, &result, 0), child);
+    assert_int_equal(result, 0);
+    assert_int_equal(chmod(in("others #1"), 0755), 0);
+    assert_int_not_equal(access(in("others #1/study.db-wal"), F_OK), 0);
+    ld_study_free(study);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -367,6 +389,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_rockets_of_a_salvo),
+        cmocka_unit_test(test_shown_to_others),
         cmocka_unit_test(test_size),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
