@@ -1,5 +1,6 @@
 // First-order sensitivities against models whose answers are known, and how often they lie inside
 // the intervals stated.
+// ctest: slow
 #include "support/check.h"
 
 #include "base/random.h"

@@ -1,5 +1,6 @@
 // Statistics of a linear model y = a + b x_1 + c x_2 of normal factors, whose answers are known,
 // and how often they lie inside the intervals stated.
+// ctest: slow
 #include "support/check.h"
 
 #include <stdlib.h>
