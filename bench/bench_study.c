@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "bench_sample.h"
+#include "bench_scratch.h"
 #include "launchdyn/study.h"
 #include "simulation/simulation.h"
 #include "studies/worker.h"
@@ -84,21 +85,6 @@ static double wall_now(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void make_folder(char folder[32])
-{
-    strcpy(folder, "/tmp/launchdyn-bench-XXXXXX");
-    if (!mkdtemp(folder))
-        exit(1);
-}
-
-static void remove_folder(const char *folder)
-{
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    if (system(command))
-        exit(1);
 }
 
 // Wall seconds of a whole study.

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "bench_sample.h"
+#include "bench_scratch.h"
 #include "launchdyn/study.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
@@ -117,12 +118,11 @@ static void compare(const char *base, const char *scratch, int strata, int hyper
 int main(int argc, char **argv)
 {
     int strata = argc > 1 ? atoi(argv[1]) : 40, hypercubes = argc > 2 ? atoi(argv[2]) : 20;
-    char scratch[] = "/tmp/launchdyn-hypercube-XXXXXX", command[64];
+    char scratch[32];
     if (strata < 2 || hypercubes < 3)
         stop("two samples and three hypercubes at least");
-    if (!mkdtemp(scratch))
-        stop("no folder");
+    make_folder(scratch);
     compare(argc > 3 ? argv[3] : "fixed.yaml", scratch, strata, hypercubes);
-    snprintf(command, sizeof command, "rm -r %s", scratch);
-    return system(command);
+    remove_folder(scratch);
+    return 0;
 }

@@ -502,10 +502,9 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
         break;
     case FIELD_FACTORS:
     case FIELD_CORRELATED:
-    case FIELD_UNTIL:
-        break; // they are about all the rest: scenario_fill_scatter()
-    case FIELD_SWEEP:
-        break; // see sweep_find()
+    case FIELD_UNTIL: // about all the rest: scenario_fill_scatter()
+    case FIELD_SWEEP: // see sweep_find()
+        break;
     case FIELD_LATER:
         reader_refuse(reader, value->key_at, path, "not simulated yet");
         break;

@@ -66,8 +66,9 @@ static ld_status ask(study_store *self, const char *query, char **answer, ld_err
     if (!select)
         return LD_ERR_FILE;
     int result = sqlite3_step(select);
-    if (result == SQLITE_ROW)
-        *answer = strdup((const char *)sqlite3_column_text(select, 0));
+    const char *text = result == SQLITE_ROW ? (const char *)sqlite3_column_text(select, 0) : NULL;
+    if (text)
+        *answer = strdup(text);
     sqlite3_finalize(select);
     return result == SQLITE_ROW || result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
 }
@@ -79,7 +80,7 @@ static ld_status begin_as(study_store *self, ld_error *error)
     ld_status status =
         ask(self, "SELECT group_concat(sql, ';') FROM part.sqlite_master WHERE sql NOT NULL",
             &tables, error);
-    if (!status)
+    if (!status && tables)
         status = store_execute(self, tables, error);
     free(tables);
     if (!status)
@@ -168,7 +169,8 @@ static ld_status print_unfinished(study_store *self, const char *path, int64_t s
     ld_status status = ask(self, query, &text, error);
     if (status)
         return status;
-    int64_t kept = atoll(text), all = samples < shard ? 0 : (samples - shard) / shards + 1;
+    int64_t kept = text ? atoll(text) : 0,
+            all = samples < shard ? 0 : (samples - shard) / shards + 1;
     free(text);
     if (kept < all)
         fprintf(stream, "  shard %d of %d lacks %" PRId64 " of its %" PRId64 " samples%s\n", shard,

@@ -101,12 +101,11 @@ static ld_status find_factors(ld_study *self, ld_error *error)
 
 static ld_status read_study(const study_source *from, ld_study **out, ld_messages *messages)
 {
-    const char *name = from->path ? from->path : from->name;
     ld_study *self = calloc(1, sizeof *self);
     ld_error error = {LD_ERR_MEMORY, "no memory for the study"};
     *messages = (ld_messages){0};
     if (!self)
-        return add_message(messages, name, LD_ERR_MEMORY, error.text);
+        return add_message(messages, from->name, LD_ERR_MEMORY, error.text);
     self->nominal = calloc(1, sizeof *self->nominal);
     ld_status status = self->nominal ? read_point(from, 0, self->nominal, messages) : LD_ERR_MEMORY;
     if (!status)
@@ -118,13 +117,14 @@ static ld_status read_study(const study_source *from, ld_study **out, ld_message
         return LD_OK;
     }
     ld_study_free(self);
-    return messages->count > 0 ? status : add_message(messages, name, status, error.text);
+    return messages->count > 0 ? status : add_message(messages, from->name, status, error.text);
 }
 
 ld_status ld_study_read(const char *path, const char *const *sets, size_t count, ld_study **study,
                         ld_messages *messages)
 {
-    return read_study(&(study_source){.path = path, .sets = sets, .count = count}, study, messages);
+    return read_study(&(study_source){.path = path, .name = path, .sets = sets, .count = count},
+                      study, messages);
 }
 
 ld_status ld_study_read_text(const char *text, size_t length, const char *name, const char *folder,

@@ -378,6 +378,9 @@ static void test_points_of_a_sweep(void **state)
 static void test_size_is_bounded(void **state)
 {
     (void)state;
+#ifdef LD_SANITIZED
+    skip(); // a minute there
+#endif
     char more[8192] = "INSERT INTO sample SELECT sample + 10000, 'launch', printf('%.300c', 'x'), "
                       "1 FROM sample; ALTER TABLE point ADD key TEXT;",
          *end = more + strlen(more);
