@@ -98,7 +98,9 @@ static inline void check_stopped(ld_model *model, listener *ear, ld_status statu
     assert_true(matches(out.error.text, sentence));
     assert_string_equal(out.summary.stopped, out.error.text);
     assert_false(out.summary.complete);
-    CHECK_BELOW("ended [s]", out.summary.t_end - t_end, 6e-4);
+    // a tube that whips does so a millisecond earlier or later with the bits of its modes, which
+    // LAPACK makes differently on other processors
+    CHECK_BELOW("ended [s]", out.summary.t_end - t_end, 2e-3);
     assert_int_equal(ear->begun, 1);
     assert_true(ear->ascending);
     assert_true(ear->first == -lead_in);

@@ -24,6 +24,8 @@ static double norm3(const double *a)
 }
 
 // Largest differences, relative to the largest acceleration of the kind and to the largest force.
+// The rocket's accelerations are the tube's and the relative ones together, of which both may be
+// large where their sum is not: the tube's count too.
 static void compare(const launching_system *system, const launching_case *c,
                     const launching_output *out, const dense_launch_output *dense, agreement *worst)
 {
@@ -37,8 +39,10 @@ static void compare(const launching_system *system, const launching_case *c,
     worst->eta = fmax(worst->eta, relative3(dense->a, out->a, norm3(dense->a)));
     worst->eta = fmax(worst->eta, relative3(dense->w_dot, out->w_dot, norm3(dense->w_dot)));
     worst->eta = fmax(worst->eta, modal_error / modal);
-    worst->V = fmax(worst->V, relative3(dense->a_O1, out->a_O1, norm3(dense->a_O1)));
-    worst->V = fmax(worst->V, relative3(dense->alpha_B, out->alpha_B, norm3(dense->alpha_B)));
+    double a = norm3(dense->a_O1) + norm3(dense->a);
+    double alpha = norm3(dense->alpha_B) + norm3(dense->w_dot);
+    worst->V = fmax(worst->V, relative3(dense->a_O1, out->a_O1, a));
+    worst->V = fmax(worst->V, relative3(dense->alpha_B, out->alpha_B, alpha));
     worst->slot = fmax(worst->slot, fabs(dense->slot_force - out->N) / force);
     worst->lock = fmax(worst->lock, fabs(dense->lock_force - out->lock_force) / force);
     for (int i = 0; i < system->adaptor_count; i++)
@@ -54,8 +58,7 @@ static void compare(const launching_system *system, const launching_case *c,
 typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
                                        const launching_phase *, const double *, launching_output *);
 
-static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name,
-                            double bound)
+static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name)
 {
     launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
     dense_launch dense;
@@ -77,11 +80,11 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
         compare(system, &c, &out, &reference, &worst);
     }
     printf("  %s, %d states:\n", name, count);
-    CHECK_BELOW("tube accelerations", worst.eta, bound);
-    CHECK_BELOW("rocket accelerations", worst.V, bound);
-    CHECK_BELOW("slot force", worst.slot, bound);
-    CHECK_BELOW("lock force", worst.lock, bound);
-    CHECK_BELOW("contact forces", worst.contact, bound);
+    CHECK_BELOW("tube accelerations", worst.eta, 1e-11);
+    CHECK_BELOW("rocket accelerations", worst.V, 1e-11);
+    CHECK_BELOW("slot force", worst.slot, 6e-11);
+    CHECK_BELOW("lock force", worst.lock, 6e-11);
+    CHECK_BELOW("contact forces", worst.contact, 6e-11);
     CHECK_BELOW("force and moment on the base", worst.base, 1e-12);
     dense_launch_free(&dense);
     launching_free(system);
@@ -102,7 +105,7 @@ static void reduced_equals_dense(void **state)
         char name[64];
         model.tubes.modes.bending = modes[i];
         snprintf(name, sizeof name, "reduced, %d bending modes a plane", modes[i]);
-        check_agreement(&model, launching_evaluate, 500, name, 6e-11);
+        check_agreement(&model, launching_evaluate, 500, name);
     }
     reference_model_free(&model);
 }
@@ -139,7 +142,7 @@ static void overall_equals_dense(void **state)
         model.tubes.modes.bending = modes[i];
         worst_condition = 0;
         snprintf(name, sizeof name, "overall 19 x 19, %d bending modes a plane", modes[i]);
-        check_agreement(&model, overall, 500, name, 6e-11);
+        check_agreement(&model, overall, 500, name);
         printf("    condition of the tube's transfer matrix up to %.2g\n", worst_condition);
     }
     reference_model_free(&model);
@@ -152,32 +155,31 @@ static void options_equal_dense(void **state)
     reference_model(&model);
     model.tubes.modes.bending = 4;
     model.tubes.modes.axial = 2;
-    check_agreement(&model, launching_evaluate, 200, "reduced, axial modes", 6e-11);
-    check_agreement(&model, overall, 200, "overall, axial modes", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "reduced, axial modes");
+    check_agreement(&model, overall, 200, "overall, axial modes");
     model.tubes.modes.axial = 0;
-    check_agreement(&model, general, 200, "reduced from the general matrix", 6e-11);
+    check_agreement(&model, general, 200, "reduced from the general matrix");
     model.tubes.modes.span = LD_SPAN_FREE_FREE;
     model.tubes.support[0].rotational_stiffness[1] = 5e5; // not isotropic
     model.tubes.point_mass_count = 1;
     model.tubes.point_mass[0] = (ld_point_mass){.at = 1.5, .mass = 0.4};
-    check_agreement(&model, launching_evaluate, 200, "free-free span, point mass, uneven support",
-                    6e-11);
+    check_agreement(&model, launching_evaluate, 200, "free-free span, point mass, uneven support");
     model.rocket.contact.law = LD_CONTACT_LANKARANI_NIKRAVESH;
     model.rocket.contact.exponent = 1.5;
-    check_agreement(&model, launching_evaluate, 200, "lankarani-nikravesh, n = 1.5", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "lankarani-nikravesh, n = 1.5");
     model.rocket.contact.law = LD_CONTACT_KELVIN_VOIGT;
     model.rocket.contact.damping = 2e4;
-    check_agreement(&model, launching_evaluate, 200, "kelvin-voigt", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "kelvin-voigt");
     model.rocket.contact.law = LD_CONTACT_BILATERAL;
-    check_agreement(&model, launching_evaluate, 200, "bilateral", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "bilateral");
     model.rocket.contact.law = LD_CONTACT_HUNT_CROSSLEY;
     model.tubes.slot.kind = LD_SLOT_NONE;
-    check_agreement(&model, launching_evaluate, 200, "no slot (the lock holds the roll)", 6e-11);
-    check_agreement(&model, overall, 200, "no slot, overall", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "no slot (the lock holds the roll)");
+    check_agreement(&model, overall, 200, "no slot, overall");
     model.tubes.slot.kind = LD_SLOT_HELIX;
     free(model.tubes.slot.angle.data);
     model.tubes.slot.angle = reference_table(3, 2, (double[]){0, 0, 1, 0.05, 3, 0.3});
-    check_agreement(&model, launching_evaluate, 200, "slot angle from a table", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "slot angle from a table");
     reference_model_free(&model);
 }
 

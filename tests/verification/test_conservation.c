@@ -138,15 +138,15 @@ static void momenta_and_energy(bool springs, const double momentum[4], const dou
 static void free_without_contact(void **state)
 {
     (void)state;
-    momenta_and_energy(false, (double[4]){1.5e-6, 1.5e-8, 4e-9, 6e-12},
-                       (double[4]){2e-5, 4e-7, 8e-9, 1e-11});
+    momenta_and_energy(false, (double[4]){1.5e-6, 1.5e-8, 4e-9, 3e-11},
+                       (double[4]){2e-5, 4e-7, 8e-9, 4e-11});
 }
 
 static void free_with_springs(void **state)
 {
     (void)state;
-    momenta_and_energy(true, (double[4]){1.5e-6, 1.5e-8, 4e-9, 1e-11},
-                       (double[4]){2e-5, 3e-7, 8e-9, 1e-11});
+    momenta_and_energy(true, (double[4]){1.5e-6, 1.5e-8, 4e-9, 3e-11},
+                       (double[4]){2e-5, 3e-7, 8e-9, 4e-11});
 }
 
 // The slot's power and drift, with and without the projection after each step.
