@@ -381,7 +381,10 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     double step = simulation->model->run.coupling_step;
     while (self->t_first + (double)self->exchanges * step <= t + 1e-9 * step)
         self->exchanges++;
-    self->t_next = fmin(t_stop, self->t_first + (double)self->exchanges * step);
+    // a stop that the next exchange misses by rounding is that exchange: the accelerations that
+    // frames go on with would be noise over such a step
+    double next = self->t_first + (double)self->exchanges * step;
+    self->t_next = next > t_stop - 1e-9 * step ? t_stop : next;
 
     memcpy(self->from, y, (size_t)launcher->state_count * sizeof(double));
     split_base(self, y, orientating, marching);

@@ -59,6 +59,20 @@ static void second_order(void **state)
     reference_model_free(&model);
 }
 
+// Exchanges that fall on the corner of the thrust but for rounding (0.1 s of lead-in, 10 ms).
+static void exchange_at_a_corner(void **state)
+{
+    (void)state;
+    ld_model model;
+    marching_model(&model);
+    ld_summary together = launch(&model);
+    model.run.coupling_step = 0.05e-3;
+    ld_summary apart = launch(&model);
+    CHECK_BELOW("exit attitude and rates at 0.05 ms [rad/s]", distance(&apart, &together), 1e-6);
+    CHECK_NEAR("t_front [s]", apart.rocket[0].t_front, together.rocket[0].t_front, 4e-9);
+    reference_model_free(&model);
+}
+
 // A step that does not divide the lead-in: ignition is an exchange besides.
 static void any_step(void **state)
 {
@@ -77,6 +91,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(second_order),
+        cmocka_unit_test(exchange_at_a_corner),
         cmocka_unit_test(any_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
