@@ -202,8 +202,9 @@ void ld_simulation_free(ld_simulation *simulation);
 typedef struct ld_run_options {
     const ld_sink *sink; ///< rows of the history at the output steps and at the key instants
     void *self;
-    /// Called about every millisecond of physics with the share done (0 to 1, an estimate);
-    /// return false to stop: the run then ends with LD_ERR_INTERRUPTED and keeps what it has.
+    /// Called about every millisecond of a launch and every 50 ms of a flight with the share done
+    /// (0 to 1, an estimate); return false to stop: the run then ends with LD_ERR_INTERRUPTED and
+    /// keeps what it has.
     bool (*progress)(void *self, double share);
 } ld_run_options;
 
