@@ -22,7 +22,7 @@ typedef struct ld_output ld_output;
 
 /// Opens the results of a run in `folder`, which is made, with its parents, where it is not there.
 /// @param model  kept by reference: title and names of the adaptors
-/// @param csv    also write history.csv
+/// @param csv    also write history.csv and, where rockets fly on, flights.csv
 /// @param output opened: end it with ld_output_finish() or ld_output_discard()
 /// @return LD_OK, LD_ERR_FILE (with the reason, nothing left behind) or LD_ERR_MEMORY
 ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld_output **output,

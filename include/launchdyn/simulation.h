@@ -191,7 +191,10 @@ typedef struct ld_summary {
 
 typedef struct ld_simulation ld_simulation;
 
-/// Builds a simulation from a model (kept by reference: it must outlive the simulation).
+/// Builds a simulation from a model (kept by reference: it must outlive the simulation) that has
+/// been read from a scenario or has passed ld_model_check().
+/// @return LD_OK; LD_ERR_INPUT (modes or sections that make no tube, ...), LD_ERR_NUMERIC or
+///         LD_ERR_MEMORY
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **simulation, ld_error *error);
 void ld_simulation_free(ld_simulation *simulation);
 
@@ -199,15 +202,19 @@ void ld_simulation_free(ld_simulation *simulation);
 typedef struct ld_run_options {
     const ld_sink *sink; ///< rows of the history at the output steps and at the key instants
     void *self;
-    /// Called about every millisecond of physics with the share done (0 to 1, an estimate);
-    /// return false to stop: the run then ends with LD_ERR_INTERRUPTED and keeps what it has.
+    /// Called about every millisecond of a launch and every 50 ms of a flight with the share done
+    /// (0 to 1, an estimate); return false to stop: the run then ends with LD_ERR_INTERRUPTED and
+    /// keeps what it has.
     bool (*progress)(void *self, double share);
 } ld_run_options;
 
 /// Runs from the start to the end that the model asks for. On failure the summary holds what was
 /// reached and why it stopped. Running again starts afresh and gives the same bits.
-/// @return LD_OK; LD_ERR_LAUNCH (never released, stuck, jammed), LD_ERR_NUMERIC,
-///         LD_ERR_INTERRUPTED, or what the sink returned.
+/// @return LD_OK; LD_ERR_INPUT (a start or a motion that the model cannot have: a wheel in the air,
+/// a
+///         stabiliser too weak or unstable, a base's table that ends too early), LD_ERR_LAUNCH
+///         (never released, stuck, jammed, not landed, beyond a table), LD_ERR_NUMERIC,
+///         LD_ERR_MEMORY, LD_ERR_INTERRUPTED, or what the sink returned.
 ld_status ld_simulation_run(ld_simulation *simulation, const ld_run_options *options,
                             ld_summary *summary, ld_error *error);
 

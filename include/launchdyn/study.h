@@ -60,8 +60,7 @@ typedef struct ld_study_options {
 /// the bit for any number of threads and any interruption.
 /// @param counts filled in any case
 /// @return LD_OK; LD_ERR_INPUT (nothing varies; the folder holds another scenario's study, or
-/// another
-///         program works on it), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_INTERRUPTED
+///         another program works on it), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_INTERRUPTED
 ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study_options *options,
                        ld_study_counts *counts, ld_error *error);
 
