@@ -48,7 +48,7 @@ static void read_back(const char *name, char *text, size_t size)
 static int run(const char *line)
 {
     char command[1024];
-    snprintf(command, sizeof command, "cd %s; PATH=.:$PATH; { %s; } >.out 2>.err </dev/null",
+    snprintf(command, sizeof command, "cd %s && PATH=.:$PATH && { %s; } >.out 2>.err </dev/null",
              shell.folder, line);
     int status = system(command);
     shell.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
