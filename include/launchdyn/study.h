@@ -26,6 +26,8 @@ ld_status ld_study_read(const char *path, const char *const *sets, size_t count,
 ld_status ld_study_read_text(const char *text, size_t length, const char *name, const char *folder,
                              const char *const *sets, size_t count, ld_study **study,
                              ld_messages *messages);
+/// From texts that have been read before, as ld_scenario_read_source().
+ld_status ld_study_read_source(ld_source *source, ld_study **study, ld_messages *messages);
 void ld_study_free(ld_study *study);
 
 /// The scenario's model, of a sweep the nominal one.
