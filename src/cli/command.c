@@ -64,7 +64,8 @@ bool command_line_read(command_line *line, const command *self, int argc, const 
         *code = 0;
     } else if (found < -1) {
         complain_option(line->context, options, found);
-    } else if (count == COMMAND_WORDS ? line->count == 0 : line->count != (size_t)count) {
+    } else if (count == COMMAND_WORDS ? line->count == 0
+                                      : count >= 0 && line->count != (size_t)count) {
         command_complain("%s wants %s; see launchdyn %s --help", self->name, self->arguments,
                          self->name);
     } else {
@@ -102,6 +103,12 @@ ld_status command_read(const char *file, char **sets, int point, ld_model *model
     ld_status status = ld_scenario_read_point(file, (const char *const *)sets, count_sets(sets),
                                               point, model, &messages);
     return print_messages(status, &messages);
+}
+
+ld_status command_read_source(ld_source *source, int point, ld_model *model)
+{
+    ld_messages messages = {0};
+    return print_messages(ld_scenario_read_source(source, point, model, &messages), &messages);
 }
 
 ld_status command_read_study(const char *file, char **sets, ld_study **study)

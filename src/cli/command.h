@@ -56,7 +56,7 @@ typedef struct command_line {
     size_t count;
 } command_line;
 
-enum { COMMAND_WORDS = -1 }; // one word or more
+enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 
 // Reads the options and `count` words; argv[0] is "launchdyn NAME". Returns true to go on, then
 // command_line_end() is due; false to end with *code.
@@ -80,12 +80,13 @@ int command_on_model(const command *self, int argc, const char **argv,
                      const struct poptOption *options, char ***sets,
                      int (*work)(const ld_model *model, void *data), void *data);
 
-// The parts of it: the study or the model of the file with its overrides at a point of its sweep
-// (0: the nominal one), after messages LD_ERR_INPUT or another; `work` on the nominal one; the end
-// of the overrides.
+// The parts of it: the study or the model of the file with its overrides, or the model of texts, at
+// a point of its sweep (0: the nominal one), after messages LD_ERR_INPUT or another; `work` on the
+// nominal one; the end of the overrides.
 ld_status command_read(const char *file, char **sets, int point, ld_model *model);
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
+ld_status command_read_source(ld_source *source, int point, ld_model *model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 void command_free_sets(char **sets);
 
