@@ -119,6 +119,20 @@ ld_status command_read_study(const char *file, char **sets, ld_study **study)
     return print_messages(status, &messages);
 }
 
+ld_status command_read_study_source(ld_source *source, ld_study **study)
+{
+    ld_messages messages = {0};
+    return print_messages(ld_study_read_source(source, study, &messages), &messages);
+}
+
+void command_tell_difference(const char *folder, const ld_origin *origin)
+{
+    char text[1024];
+    if (ld_origin_differs(origin, text, sizeof text))
+        command_complain("note: %s was computed otherwise, which may change the last digits: %s",
+                         folder, text);
+}
+
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data)
 {

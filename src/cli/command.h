@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "launchdyn/model.h"
+#include "launchdyn/origin.h"
 #include "launchdyn/status.h"
 #include "launchdyn/study.h"
 
@@ -70,6 +71,9 @@ void command_complain(const char *format, ...) LD_PRINTF(1, 2);
 // Prints the error and returns the exit code that belongs to its status.
 int command_fail(ld_status status, const ld_error *error);
 
+// Says on stderr what is another program than the one that made the results in a folder.
+void command_tell_difference(const char *folder, const ld_origin *origin);
+
 // Writes the report of the results in `folder` (file NULL: into it), says what is missing in them
 // and, unless quiet, what was written. Returns the exit code.
 int command_write_report(const char *folder, const char *file, bool quiet);
@@ -88,6 +92,7 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
                     void *data);
 ld_status command_read_source(ld_source *source, int point, ld_model *model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
+ld_status command_read_study_source(ld_source *source, ld_study **study);
 void command_free_sets(char **sets);
 
 #endif

@@ -91,15 +91,6 @@ static int run_sample(const ld_model *point, int number, run_wishes *wishes)
     return code;
 }
 
-// Says what is another program than the one that made the results.
-static void tell_difference(const char *folder, const ld_origin *origin)
-{
-    char text[1024];
-    if (ld_origin_differs(origin, text, sizeof text))
-        command_complain("note: %s was computed otherwise, which may change the last digits: %s",
-                         folder, text);
-}
-
 // Runs what the results in a folder are of, from the texts that they keep.
 static int run_again(const char *folder, run_wishes *wishes)
 {
@@ -113,7 +104,7 @@ static int run_again(const char *folder, run_wishes *wishes)
     if (!origin.source) {
         command_complain("%s cannot be run again: its model was not read from a scenario", folder);
     } else if (command_read_source(origin.source, origin.point, &model) == LD_OK) {
-        tell_difference(folder, &origin);
+        command_tell_difference(folder, &origin);
         code = origin.sample > 0 ? run_sample(&model, origin.sample, wishes)
                                  : run_model(&model, wishes);
         ld_model_free(&model);

@@ -130,6 +130,39 @@ static void test_a_sample(void **state)
     expect_same("s/sample-8", "-q");
 }
 
+// A study from its folder alone, with texts that are gone: the same table, whoever runs it.
+static void test_a_study(void **state)
+{
+    (void)state;
+    must("mkdir -p made && cp examples/fixed.yaml made");
+    write_text("made/fall.eng", "; \xe9\nM 1 1 0 20 32 x\n0.01 15000\n2.5 15000\n2.6 0\n");
+    write_text("made/study.yaml",
+               "include: fixed.yaml\n"
+               "rocket: {motor: {thrust: fall.eng}}\n"
+               "sweep: {rocket.mass: [59 kg, 61 kg]}\n"
+               "scatter: {samples: 4, factors: {base.elevation: {normal: 1 deg}}}\n");
+    must("launchdyn study made/study.yaml --out s -q --set base.azimuth='2 deg' && "
+         "launchdyn study export s --csv s.csv >/dev/null && rm -r made && mkdir away && "
+         "mv s away/s && rm -f away/s/study.lock");
+    must("launchdyn study --again away/s --out t -q && launchdyn study export t --csv t.csv "
+         ">/dev/null && cmp s.csv t.csv && [ $(wc -l <t.csv) = 9 ]");
+    assert_string_equal(shell.err, "");
+    must(
+        "launchdyn study --again away/s --out u --shard 1/2 -q; launchdyn study --again t --out u "
+        "--shard 2/2 -q; launchdyn study merge u >/dev/null; launchdyn study --again u --out v -q; "
+        "launchdyn study export v --csv v.csv >/dev/null && cmp s.csv v.csv");
+    must("launchdyn study --again away/s --only 3 --out w -q && launchdyn run --again w/sample-3 "
+         "--out x -q && cmp w/sample-3/history.h5 x/history.h5");
+    expect_complaint("launchdyn study --again none --out y", 2, "none holds no study");
+    must("mkdir bad && echo text >bad/study.db");
+    expect_complaint("launchdyn study --again bad --out y", 2,
+                     "bad/study.db is no study, or is damaged\n");
+    expect_complaint("launchdyn study --again t --out y --set gravity=1", 2,
+                     "neither words nor --set");
+    expect_complaint("launchdyn study show --again t", 2, "neither words nor --set");
+    expect_complaint("launchdyn study", 2, "study wants ");
+}
+
 // Results of another program are run all the same; one line says what is another.
 static void test_another_program(void **state)
 {
@@ -246,9 +279,13 @@ static void test_origin_reads_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_a_run_of_many_files), TEST(test_names_do_not_tell_where),
-        TEST(test_standard_input),      TEST(test_a_sample),
-        TEST(test_another_program),     TEST(test_damaged_and_foreign_folders),
+        TEST(test_a_run_of_many_files),
+        TEST(test_names_do_not_tell_where),
+        TEST(test_standard_input),
+        TEST(test_a_sample),
+        TEST(test_a_study),
+        TEST(test_another_program),
+        TEST(test_damaged_and_foreign_folders),
         TEST(test_origin_reads_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
