@@ -274,6 +274,59 @@ static void test_origin_reads_back(void **state)
     ld_model_free(&model);
 }
 
+// What a page holds under a name, as JSON in the file page.json.
+#define DATA_OF(page, name)                                                                        \
+    "tr -d '\\n' <" page " | sed 's/.*id=\"" name "\">//; s/<\\/script>.*//' >page.json; "
+
+static void test_reports(void **state)
+{
+    (void)state;
+    must("launchdyn run examples/engine.yaml --set rocket.mass='61 kg' --out a --report -q && "
+         "launchdyn check examples/engine.yaml --set rocket.mass='61 kg' >checked");
+    must(
+        DATA_OF("a/report.html",
+                "origin") "jq -rj .scenario page.json | cmp - checked && "
+                          "jq -rj '.files[2][1]' page.json | cmp - examples/reference-motor.eng && "
+                          "jq -r '[.set[0], .files[][0], .program[0][1]] | join(\" \")' page.json");
+    assert_string_equal(shell.out, "rocket.mass=61 kg engine.yaml fixed.yaml reference-motor.eng "
+                                   "0.1.0\n");
+    // the summary in the page goes without the texts
+    must(
+        DATA_OF("a/report.html", "summary") "jq -r '[.title, .program.version, .scenario, .source] "
+                                            "| tostring' page.json");
+    assert_string_equal(shell.out, "[\"Reference launcher with a thrust curve from a file\","
+                                   "\"0.1.0\",null,null]\n");
+    // long texts are left out, and the report stays small
+    must("{ cat examples/fixed.yaml; yes '# much to be said of nothing at all' | head -n 50000; } "
+         ">long.yaml; launchdyn run long.yaml --out b --report -q && launchdyn report b");
+    must(DATA_OF("b/report.html",
+                 "origin") "jq -c '[.files[0], (.scenario | length > 500)]' "
+                           "page.json; wc -c <b/report.html >size; [ $(cat size) -lt 2000000 ]");
+    assert_string_equal(shell.out, "[[\"long.yaml\",null],true]\n");
+    must("launchdyn run --again b --out c -q && cmp b/history.h5 c/history.h5");
+}
+
+static void test_reports_of_studies(void **state)
+{
+    (void)state;
+    write_text("study.yaml", "include: examples/fixed.yaml\n"
+                             "sweep: {base.azimuth: [0 deg, 1 deg]}\n"
+                             "scatter:\n  samples: 6\n  seed: 4\n  plan: lhs\n  replicates: 2\n"
+                             "  factors:\n    rocket.mass_error: {normal: 0.2 kg, within: 3}\n"
+                             "    base.elevation: {uniform: +-1 deg}\n");
+    must("launchdyn study study.yaml --out s -q && launchdyn report s >/dev/null && "
+         "launchdyn check study.yaml >checked");
+    must(DATA_OF("s/report.html", "data") "jq -rj '.studies[0].origin.scenario' page.json | "
+                                          "cmp - checked && jq -c '.studies[0] | .plan, .factors, "
+                                          ".origin.files[1][0]' page.json");
+    assert_string_equal(
+        shell.out, "[[\"plan\",\"2 Latin hypercubes of 3 samples\"],[\"seed\",\"4\"],"
+                   "[\"swept\",\"base.azimuth, 2 values\"]]\n"
+                   "[[\"rocket.mass_error\",\"normal: 0.2 kg, within: 3\",\"each rocket\"],"
+                   "[\"base.elevation\",\"uniform: +-0.017453292519943295 rad\",\"each sample\"]]\n"
+                   "\"examples/fixed.yaml\"\n");
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, shell_make, shell_remove)
 
 int main(void)
@@ -287,6 +340,8 @@ int main(void)
         TEST(test_another_program),
         TEST(test_damaged_and_foreign_folders),
         TEST(test_origin_reads_back),
+        TEST(test_reports),
+        TEST(test_reports_of_studies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
