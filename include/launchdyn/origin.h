@@ -40,10 +40,6 @@ ld_status ld_origin_of(const ld_model *model, ld_origin *origin, ld_error *error
 ///         LD_ERR_MEMORY
 ld_status ld_origin_read(const char *folder, ld_origin *origin, ld_error *error);
 
-/// Reads it back from the study in `folder`; otherwise as ld_origin_read(). Where several programs
-/// have worked on it, what differs between them is there several times.
-ld_status ld_origin_read_study(const char *folder, ld_origin *origin, ld_error *error);
-
 /// Says in what of version, commit, compiler, processor and libraries this program is another one
 /// than that of the results, "version 0.1.0, here 0.2.0; ..."; what is too long is cut.
 /// @return whether there is any difference

@@ -105,7 +105,7 @@ static int study_again(const char *folder, study_wishes *wishes)
     ld_study *study = NULL;
     ld_origin origin;
     ld_error error;
-    ld_status status = ld_origin_read_study(folder, &origin, &error);
+    ld_status status = ld_study_read_origin(folder, &origin, &error);
     if (status)
         return command_fail(status, &error);
     int code = EXIT_INPUT;

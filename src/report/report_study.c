@@ -80,7 +80,7 @@ static void open_studies(study_source *source, const char *const *folder, size_t
             continue;
         }
         // a study of an earlier version keeps none
-        if (ld_origin_read_study(folder[i], &source->origin[source->study_count], &error))
+        if (ld_study_read_origin(folder[i], &source->origin[source->study_count], &error))
             source->origin[source->study_count] = (ld_origin){0};
         source->folder[source->study_count++] = folder[i];
         add_series(source, data, folder[i]);

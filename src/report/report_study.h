@@ -3,7 +3,7 @@
 #define LD_REPORT_REPORT_STUDY_H
 
 #include "io/study_results.h"
-#include "launchdyn/origin.h"
+#include "launchdyn/study.h"
 #include "report/report_html.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"

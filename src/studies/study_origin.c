@@ -77,7 +77,7 @@ static ld_status read_origin(study_store *store, ld_origin *origin, ld_error *er
                                 : ld_fail(error, LD_ERR_MEMORY, "no memory for the study's name");
 }
 
-ld_status ld_origin_read_study(const char *folder, ld_origin *origin, ld_error *error)
+ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *error)
 {
     study_store store;
     *origin = (ld_origin){0};
