@@ -1,6 +1,7 @@
 // The report of a run: summary first, then the plots of each table of numbers.
 import { decodeTable, filled, inflated, readable, rowAt } from "./data.js";
 import { colour, download, element, onColours, themeSwitch } from "./page.js";
+import { originBlock } from "./origin.js";
 import { csvOf, instantsOf, panelsOf } from "./panels.js";
 import { pathPlot } from "./path_plot.js";
 import { showSummary } from "./summary.js";
@@ -201,6 +202,13 @@ const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i,
 if (launch)
   showReplay(place, shown[tables.indexOf(launch)],
     data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && table.rocket === i + 1 && table.t.length > 0)));
+
+const origin = document.getElementById("origin");
+if (origin) {
+  host.append(element("h2", { id: "origin-heading" }, "Origin"),
+    originBlock(JSON.parse(origin.textContent), "run --again"));
+  nav.append(element("a", { href: "#origin-heading" }, "Origin"));
+}
 
 const rows = tables.reduce((sum, table) => sum + table.full, 0);
 host.append(element("footer", {}, element("p", {},

@@ -1,9 +1,10 @@
 // The report of a study, or of several beside each other.
 import { element, themeSwitch } from "./page.js";
 import { countSeries } from "./chart.js";
+import { originBlock } from "./origin.js";
 import { convergence, distributions, scatter, sensitivity } from "./study_plots.js";
 import { describe, partCount, partName } from "./study_results.js";
-import { counts, ellipses, failures, seriesName, statistics } from "./study_tables.js";
+import { counts, ellipses, failures, plans, seriesName, statistics } from "./study_tables.js";
 
 const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -71,6 +72,9 @@ section("distributions", "Distributions and convergence", sameEverywhere(),
   ...Array.from({ length: partCount }, (_, part) => partOf(part)), partOf(-1));
 section("sensitivities", "Sensitivities", grid(data.sensitivities.map((item) => sensitivity(data, item))));
 section("failed", "Failed samples", failures(data));
+section("plan", "Plan and factors", ...plans(data));
+section("origin", "Origin", ...data.studies.filter((study) => study.origin).flatMap((study) => [
+  data.studies.length > 1 ? element("h3", {}, study.label) : null, originBlock(study.origin, "study --again")]));
 host.append(element("footer", {}, element("p", {},
   `launchdyn ${data.version}. Values stand below a plot where the mouse is; with the keyboard: Tab to a plot, arrows, with ` +
   "Shift by ten, Home and End move the cursor, Escape takes it away. Intervals hold 95 % and count independent groups of " +

@@ -39,6 +39,20 @@ export function counts(data) {
       ...columns.map(([, of, className]) => cell(of(s, i), className))))));
 }
 
+// What each study was asked to do: its plan, and its factors with their distributions.
+export function plans(data) {
+  const title = (study, what) => (data.studies.length > 1 ? `${what} of ${study.label}` : what);
+  const rows = (lines) => lines.map(([name, ...texts]) =>
+    element("tr", {}, head(name, "row"), ...texts.map((text) => cell(text, "text"))));
+  return data.studies.filter((study) => study.plan).flatMap((study) => [
+    card(title(study, "Plan"), element("table", { className: "statistics" }, ...rows(study.plan),
+      ...rows(study.correlated.map((group) => ["correlated", group.join(", ")])))),
+    study.factors.length ? card(title(study, "Factors"), element("table", { className: "statistics" },
+      element("tr", {}, head(""), head("distribution", "col", { className: "text" }), head("drawn for", "col", { className: "text" })),
+      ...rows(study.factors))) : null,
+  ]);
+}
+
 // A value with its interval below, both to two digits of the interval's half.
 function estimate([value, low, high], factor) {
   if (low === null) return element("td", {}, readable(value * factor));

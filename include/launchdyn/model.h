@@ -621,6 +621,27 @@ typedef struct ld_sweep_axis {
     char **value; ///< [count] as written, in one line of YAML
 } ld_sweep_axis;
 
+/// A file that a scenario was read from: the scenario itself, one that it includes, a table.
+typedef struct ld_source_file {
+    char *name;    ///< as seen from the scenario's folder; of the scenario without its folder
+    char *text;    ///< with a zero after its end
+    size_t length; ///< of the text
+} ld_source_file;
+
+/// All that a scenario was read from, so that it can be read again without its files.
+typedef struct ld_source {
+    char *name;   ///< of the scenario, in messages
+    char *folder; ///< where files that it names are looked for; NULL: `file` has all there are
+    size_t file_count;
+    ld_source_file **file; ///< [file_count] the scenario first
+    size_t set_count;
+    char **set; ///< [set_count] overrides (as of --set)
+    int users;  ///< models that share it
+} ld_source;
+
+/// Gives one share of it up; the last one frees it. May be NULL.
+void ld_source_free(ld_source *source);
+
 typedef struct ld_model {
     char *title;
     double gravity; ///< [m/s2]
@@ -640,6 +661,9 @@ typedef struct ld_model {
     int sweep_count;
     ld_sweep_axis *sweep; ///< for studies, owned by the model; its points are read by
                           ///< ld_scenario_read_point()
+    ld_source *source;    ///< what it was read from, shared; NULL: filled by hand
+    int point;            ///< of the sweep that its values are those of; 0: nominal
+    int sample;           ///< whose drawn numbers it has, of its point; 0: nominal
 } ld_model;
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
@@ -653,7 +677,8 @@ void ld_model_init(ld_model *model);
 /// end at the tip (landing). The scenario reader has done it already.
 void ld_model_complete(ld_model *model);
 
-/// Frees the title, the tables and what `model` owns for studies, and resets it to the defaults.
+/// Frees the title, the tables, what `model` owns for studies and its share of `source`, and resets
+/// it to the defaults.
 void ld_model_free(ld_model *model);
 
 /// Checks that the values of `model` fit together and are finite and in range; for models filled by

@@ -68,6 +68,13 @@ ld_status ld_scenario_read_text_point(const char *text, size_t length, const cha
                                       const char *folder, const char *const *sets, size_t count,
                                       int point, ld_model *model, ld_messages *messages);
 
+/// Reads a point (0: the nominal values) from texts that have been read before, model.source of
+/// another model or that of results (ld_origin_read()); files that are not among them are read, and
+/// added, where the source has a folder.
+/// @param source the model gets a share of it
+ld_status ld_scenario_read_source(ld_source *source, int point, ld_model *model,
+                                  ld_messages *messages);
+
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again.
 void ld_model_print(const ld_model *model, FILE *stream);
 

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "launchdyn/model.h"
+#include "launchdyn/origin.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/status.h"
 
@@ -26,6 +27,8 @@ ld_status ld_study_read(const char *path, const char *const *sets, size_t count,
 ld_status ld_study_read_text(const char *text, size_t length, const char *name, const char *folder,
                              const char *const *sets, size_t count, ld_study **study,
                              ld_messages *messages);
+/// From texts that have been read before, as ld_scenario_read_source().
+ld_status ld_study_read_source(ld_source *source, ld_study **study, ld_messages *messages);
 void ld_study_free(ld_study *study);
 
 /// The scenario's model, of a sweep the nominal one.
@@ -69,6 +72,10 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
 /// @return LD_OK; LD_ERR_INPUT (no shards, or of different studies, or another program works on
 ///         study.db), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status ld_study_merge(const char *folder, FILE *stream, ld_error *error);
+
+/// Reads where the study in `folder` comes from, as ld_origin_read() of a run. Where several
+/// programs have worked on it, what differs between them is there several times.
+ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *error);
 
 /// What is shown of a study; NULL or zeros: the usual.
 typedef struct ld_study_view {

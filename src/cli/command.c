@@ -64,7 +64,8 @@ bool command_line_read(command_line *line, const command *self, int argc, const 
         *code = 0;
     } else if (found < -1) {
         complain_option(line->context, options, found);
-    } else if (count == COMMAND_WORDS ? line->count == 0 : line->count != (size_t)count) {
+    } else if (count == COMMAND_WORDS ? line->count == 0
+                                      : count >= 0 && line->count != (size_t)count) {
         command_complain("%s wants %s; see launchdyn %s --help", self->name, self->arguments,
                          self->name);
     } else {
@@ -104,12 +105,32 @@ ld_status command_read(const char *file, char **sets, int point, ld_model *model
     return print_messages(status, &messages);
 }
 
+ld_status command_read_source(ld_source *source, int point, ld_model *model)
+{
+    ld_messages messages = {0};
+    return print_messages(ld_scenario_read_source(source, point, model, &messages), &messages);
+}
+
 ld_status command_read_study(const char *file, char **sets, ld_study **study)
 {
     ld_messages messages = {0};
     ld_status status =
         ld_study_read(file, (const char *const *)sets, count_sets(sets), study, &messages);
     return print_messages(status, &messages);
+}
+
+ld_status command_read_study_source(ld_source *source, ld_study **study)
+{
+    ld_messages messages = {0};
+    return print_messages(ld_study_read_source(source, study, &messages), &messages);
+}
+
+void command_tell_difference(const char *folder, const ld_origin *origin)
+{
+    char text[1024];
+    if (ld_origin_differs(origin, text, sizeof text))
+        command_complain("note: %s was computed otherwise, which may change the last digits: %s",
+                         folder, text);
 }
 
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),

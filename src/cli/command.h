@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "launchdyn/model.h"
+#include "launchdyn/origin.h"
 #include "launchdyn/status.h"
 #include "launchdyn/study.h"
 
@@ -56,7 +57,7 @@ typedef struct command_line {
     size_t count;
 } command_line;
 
-enum { COMMAND_WORDS = -1 }; // one word or more
+enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 
 // Reads the options and `count` words; argv[0] is "launchdyn NAME". Returns true to go on, then
 // command_line_end() is due; false to end with *code.
@@ -70,6 +71,9 @@ void command_complain(const char *format, ...) LD_PRINTF(1, 2);
 // Prints the error and returns the exit code that belongs to its status.
 int command_fail(ld_status status, const ld_error *error);
 
+// Says on stderr what is another program than the one that made the results in a folder.
+void command_tell_difference(const char *folder, const ld_origin *origin);
+
 // Writes the report of the results in `folder` (file NULL: into it), says what is missing in them
 // and, unless quiet, what was written. Returns the exit code.
 int command_write_report(const char *folder, const char *file, bool quiet);
@@ -80,13 +84,15 @@ int command_on_model(const command *self, int argc, const char **argv,
                      const struct poptOption *options, char ***sets,
                      int (*work)(const ld_model *model, void *data), void *data);
 
-// The parts of it: the study or the model of the file with its overrides at a point of its sweep
-// (0: the nominal one), after messages LD_ERR_INPUT or another; `work` on the nominal one; the end
-// of the overrides.
+// The parts of it: the study or the model of the file with its overrides, or the model of texts, at
+// a point of its sweep (0: the nominal one), after messages LD_ERR_INPUT or another; `work` on the
+// nominal one; the end of the overrides.
 ld_status command_read(const char *file, char **sets, int point, ld_model *model);
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
+ld_status command_read_source(ld_source *source, int point, ld_model *model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
+ld_status command_read_study_source(ld_source *source, ld_study **study);
 void command_free_sets(char **sets);
 
 #endif

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/run.h"
+#include "launchdyn/origin.h"
 #include "launchdyn/output.h"
 #include "launchdyn/simulation.h"
 
@@ -78,19 +79,80 @@ int run_model(const ld_model *model, void *data)
     return status == LD_ERR_INTERRUPTED ? 128 + progress_signal() : code;
 }
 
+static int run_sample(const ld_model *point, int number, run_wishes *wishes)
+{
+    ld_sample *sample = NULL;
+    ld_error error;
+    ld_status status = ld_sample_create(point, number, &sample, &error);
+    if (status)
+        return command_fail(status, &error);
+    int code = run_model(ld_sample_model(sample), wishes);
+    ld_sample_free(sample);
+    return code;
+}
+
+// Runs what the results in a folder are of, from the texts that they keep.
+static int run_again(const char *folder, run_wishes *wishes)
+{
+    ld_model model;
+    ld_origin origin;
+    ld_error error;
+    ld_status status = ld_origin_read(folder, &origin, &error);
+    if (status)
+        return command_fail(status, &error);
+    int code = EXIT_INPUT;
+    if (!origin.source) {
+        command_complain("%s cannot be run again: its model was not read from a scenario", folder);
+    } else if (command_read_source(origin.source, origin.point, &model) == LD_OK) {
+        command_tell_difference(folder, &origin);
+        code = origin.sample > 0 ? run_sample(&model, origin.sample, wishes)
+                                 : run_model(&model, wishes);
+        ld_model_free(&model);
+    }
+    ld_origin_free(&origin);
+    return code;
+}
+
+static int run_words(const command *self, const command_line *line, const char *again,
+                     run_wishes *wishes)
+{
+    if (again && (line->count > 0 || wishes->sets))
+        command_complain("--again FOLDER repeats what is in FOLDER: neither a FILE nor --set goes "
+                         "with it");
+    else if (again)
+        return run_again(again, wishes);
+    else if (line->count != 1)
+        command_complain("run wants %s; see launchdyn run --help", self->arguments);
+    else
+        return command_on_file(line->word[0], wishes->sets, run_model, wishes);
+    return EXIT_INPUT;
+}
+
 int command_run(const command *self, int argc, const char **argv)
 {
     run_wishes wishes = {0};
+    char *again = NULL;
     const struct poptOption options[] = {
         COMMAND_SETS(&wishes.sets),
         {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
          "Write summary.json and history.h5 into this folder", "DIR"},
+        {"again", '\0', POPT_ARG_STRING, &again, 0,
+         "In place of FILE: run what the results in this folder are of, from the texts that they "
+         "keep",
+         "FOLDER"},
         {"csv", '\0', POPT_ARG_NONE, &wishes.csv, 0, "Write history.csv there too", NULL},
         {"report", '\0', POPT_ARG_NONE, &wishes.report, 0, "Write report.html there too", NULL},
         {"quiet", 'q', POPT_ARG_NONE, &wishes.quiet, 0, "Print nothing but errors", NULL},
         COMMAND_HELP,
         COMMAND_END};
-    int code = command_on_model(self, argc, argv, options, &wishes.sets, run_model, &wishes);
+    command_line line;
+    int code = 0;
+    if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {
+        code = run_words(self, &line, again, &wishes);
+        command_line_end(&line);
+    }
+    command_free_sets(wishes.sets);
     free(wishes.folder);
+    free(again);
     return code;
 }

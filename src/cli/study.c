@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/study.h"
+#include "launchdyn/origin.h"
 
 void study_wishes_free(study_wishes *wishes)
 {
@@ -76,11 +77,9 @@ static int run_one(const ld_study *study, study_wishes *wishes)
     return code;
 }
 
-static int study_file(const char *file, study_wishes *wishes)
+// Runs a study, which is freed.
+static int study_do(ld_study *study, study_wishes *wishes)
 {
-    ld_study *study = NULL;
-    if (command_read_study(file, wishes->run.sets, &study))
-        return EXIT_INPUT;
     int code = EXIT_INPUT;
     if (wishes->only != ALL_SAMPLES)
         code = run_one(study, wishes);
@@ -89,6 +88,34 @@ static int study_file(const char *file, study_wishes *wishes)
     else
         command_complain("study wants --out DIR, the folder that keeps it");
     ld_study_free(study);
+    return code;
+}
+
+static int study_file(const char *file, study_wishes *wishes)
+{
+    ld_study *study = NULL;
+    if (command_read_study(file, wishes->run.sets, &study))
+        return EXIT_INPUT;
+    return study_do(study, wishes);
+}
+
+// The study that a folder holds, from the texts that it keeps.
+static int study_again(const char *folder, study_wishes *wishes)
+{
+    ld_study *study = NULL;
+    ld_origin origin;
+    ld_error error;
+    ld_status status = ld_study_read_origin(folder, &origin, &error);
+    if (status)
+        return command_fail(status, &error);
+    int code = EXIT_INPUT;
+    if (!origin.source) {
+        command_complain("%s cannot be run again: its model was not read from a scenario", folder);
+    } else if (command_read_study_source(origin.source, &study) == LD_OK) {
+        command_tell_difference(folder, &origin);
+        code = study_do(study, wishes);
+    }
+    ld_origin_free(&origin);
     return code;
 }
 
@@ -128,9 +155,13 @@ static bool read_shard(const char *text, study_wishes *wishes)
 }
 
 // What keeps these options from being those of a study to be run; NULL: nothing.
-static const char *wrong_to_run(const char *file, const study_wishes *wishes)
+static const char *wrong_to_run(const char *file, const char *again, const study_wishes *wishes)
 {
     enum { MOST_THREADS = 1024 };
+    if (again && (file || wishes->run.sets))
+        return "--again FOLDER repeats what is in FOLDER: neither words nor --set go with it";
+    if (again)
+        file = "";
     if (strcmp(file, "show") == 0 || strcmp(file, "export") == 0 || strcmp(file, "merge") == 0)
         return "study show, study export and study merge want DIR";
     if (wishes->csv || wishes->hdf5)
@@ -147,10 +178,13 @@ static const char *wrong_to_run(const char *file, const study_wishes *wishes)
 int command_study(const command *self, int argc, const char **argv)
 {
     study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
-    char *shard = NULL, *what = NULL;
+    char *shard = NULL, *what = NULL, *again = NULL;
     int sensitivity = 0;
     const struct poptOption options[] = {
         STUDY_OPTIONS(&wishes),
+        {"again", '\0', POPT_ARG_STRING, &again, 0,
+         "In place of FILE: run the study that is in this folder, from the texts that it keeps",
+         "FOLDER"},
         {"jobs", 'j', POPT_ARG_INT, &wishes.threads, 0, "Samples that run side by side (1)", "N"},
         {"only", '\0', POPT_ARG_INT, &wishes.only, 0,
          "Run sample N alone, with its history in DIR/sample-N", "N"},
@@ -165,26 +199,27 @@ int command_study(const command *self, int argc, const char **argv)
         COMMAND_END};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
-        const char *file = line.word[0];
+    if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {
+        const char *file = line.count > 0 ? line.word[0] : NULL;
         wishes.view = (ld_study_view){.what = what, .sensitivity = sensitivity};
         if (shard && !read_shard(shard, &wishes)) {
             code = EXIT_INPUT;
-        } else if (line.count == 2) {
+        } else if (line.count == 2 && !again) {
             code = study_folder(file, line.word[1], &wishes);
-        } else if (line.count > 2) {
+        } else if (!again && line.count != 1) {
             command_complain("study wants %s; see launchdyn study --help", self->arguments);
             code = EXIT_INPUT;
-        } else if (wrong_to_run(file, &wishes)) {
-            command_complain("%s", wrong_to_run(file, &wishes));
+        } else if (wrong_to_run(file, again, &wishes)) {
+            command_complain("%s", wrong_to_run(file, again, &wishes));
             code = EXIT_INPUT;
         } else {
-            code = study_file(file, &wishes);
+            code = again ? study_again(again, &wishes) : study_file(file, &wishes);
         }
         command_line_end(&line);
     }
     study_wishes_free(&wishes);
     free(shard);
     free(what);
+    free(again);
     return code;
 }

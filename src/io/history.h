@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "launchdyn/origin.h"
 #include "launchdyn/results.h"
 #include "launchdyn/simulation.h"
 #include "launchdyn/status.h"
@@ -15,6 +16,8 @@ typedef struct history_hdf5 history_hdf5;
 // Creates the file at `path`; `title` becomes an attribute.
 ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 **history,
                               ld_error *error);
+// Where the run comes from, right after the creation.
+ld_status history_hdf5_origin(history_hdf5 *history, const ld_origin *origin, ld_error *error);
 // What does not change in the run: group geometry, one array each. Before the columns.
 ld_status history_hdf5_geometry(history_hdf5 *history, const ld_array *arrays, size_t count,
                                 ld_error *error);

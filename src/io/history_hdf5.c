@@ -4,6 +4,7 @@
 
 #include "io/hdf5_support.h"
 #include "io/history.h"
+#include "io/origin.h"
 
 // Rows in a block and in a chunk of the file. A column of the block is a little longer than that,
 // so that the columns do not fall on the same lines of the processor's cache.
@@ -76,6 +77,14 @@ ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 
         close_all(created);
     else
         *history = created;
+    hdf5_quiet_end(&quiet);
+    return status;
+}
+
+ld_status history_hdf5_origin(history_hdf5 *history, const ld_origin *origin, ld_error *error)
+{
+    hdf5_quiet quiet = hdf5_quiet_begin();
+    ld_status status = origin_write_hdf5(history->file, origin) ? LD_OK : failed(history, error);
     hdf5_quiet_end(&quiet);
     return status;
 }

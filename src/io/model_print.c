@@ -2,6 +2,7 @@
 #include <locale.h>
 
 #include "io/scenario_reader.h"
+#include "io/scenario_text.h"
 #include "io/study_results.h"
 #include "model/field.h"
 
@@ -226,18 +227,24 @@ static void print_distribution(FILE *stream, const ld_factor *factor, const char
     }
 }
 
+// With its unit in the model.
+static void print_factor(FILE *stream, const ld_model *model, const ld_factor *factor)
+{
+    field_place place;
+    char why[384];
+    field_locate(model, factor->path, &place, why, sizeof why);
+    print_distribution(stream, factor, place.row && place.row->unit ? place.row->unit : "");
+}
+
 static void print_factors(FILE *stream, const field_row *f, const ld_scatter *scatter, int depth)
 {
     fputc('\n', stream);
     for (int i = 0; i < field_switch(scatter, f); i++) {
         const ld_factor *factor = &scatter->factor[i];
-        field_place place;
-        char why[384];
         // scatter is a part of the model whose numbers it names
         const ld_model *model = (const void *)((const char *)scatter - offsetof(ld_model, scatter));
-        field_locate(model, factor->path, &place, why, sizeof why);
         fprintf(stream, "%*s%s: {", depth * 2, "", factor->path);
-        print_distribution(stream, factor, place.row && place.row->unit ? place.row->unit : "");
+        print_factor(stream, model, factor);
         fprintf(stream, "%s}\n",
                 factor_may_be_per_rocket(factor) && !factor->per_rocket ? ", per: sample" : "");
     }
@@ -273,16 +280,21 @@ static double percent(double share)
     return low / 100 == share ? low : high;
 }
 
+static void print_statistic(FILE *stream, const ld_until *until)
+{
+    const study_result *result = study_result_named(until->result);
+    double value = until->relative ? percent(until->half_width) : until->half_width;
+    fprintf(stream, "%s.%s: ", until->result,
+            until->statistic == LD_STATISTIC_MEAN ? "mean" : "deviation");
+    print_number(stream, &value, 1, until->relative ? "%" : result ? result->unit : "");
+}
+
 static void print_until(FILE *stream, const ld_scatter *scatter, int depth)
 {
     fputc('\n', stream);
     for (int i = 0; i < scatter->until_count; i++) {
-        const ld_until *until = &scatter->until[i];
-        const study_result *result = study_result_named(until->result);
-        double value = until->relative ? percent(until->half_width) : until->half_width;
-        fprintf(stream, "%*s%s.%s: ", depth * 2, "", until->result,
-                until->statistic == LD_STATISTIC_MEAN ? "mean" : "deviation");
-        print_number(stream, &value, 1, until->relative ? "%" : result ? result->unit : "");
+        fprintf(stream, "%*s", depth * 2, "");
+        print_statistic(stream, &scatter->until[i]);
         fputc('\n', stream);
     }
 }
@@ -356,4 +368,29 @@ void ld_model_print(const ld_model *model, FILE *stream)
     print_block(stream, &scenario_block, model, 0);
     uselocale(before);
     freelocale(plain);
+}
+
+// A stream into `text`, which holds "" where it cannot be; closed with its end marked.
+static FILE *open_text(char *text, size_t size)
+{
+    memset(text, 0, size);
+    return fmemopen(text, size - 1, "w");
+}
+
+void scenario_factor_text(const ld_model *model, const ld_factor *factor, char *text, size_t size)
+{
+    FILE *stream = open_text(text, size);
+    if (!stream)
+        return;
+    print_factor(stream, model, factor);
+    fclose(stream);
+}
+
+void scenario_until_text(const ld_until *until, char *text, size_t size)
+{
+    FILE *stream = open_text(text, size);
+    if (!stream)
+        return;
+    print_statistic(stream, until);
+    fclose(stream);
 }

@@ -145,6 +145,21 @@ static void free_output(ld_output *output)
     free(output);
 }
 
+static ld_status create_hdf5(ld_output *output, ld_error *error)
+{
+    const char *title = output->model->title;
+    ld_origin origin;
+    ld_status status =
+        history_hdf5_create(output->part[HDF5], title ? title : "", &output->hdf5, error);
+    if (!status)
+        status = ld_origin_of(output->model, &origin, error);
+    if (status)
+        return status;
+    status = history_hdf5_origin(output->hdf5, &origin, error);
+    ld_origin_free(&origin);
+    return status;
+}
+
 ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld_output **output,
                          ld_error *error)
 {
@@ -160,8 +175,7 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
     if (!status)
         status = folder_make(opened->folder, &opened->made_from, error);
     if (!status)
-        status = history_hdf5_create(opened->part[HDF5], model->title ? model->title : "",
-                                     &opened->hdf5, error);
+        status = create_hdf5(opened, error);
     if (!status && csv)
         status = history_csv_create(opened->part[CSV], &opened->csv, error);
     if (status)

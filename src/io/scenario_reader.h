@@ -27,6 +27,7 @@ typedef struct text_source {
     size_t length;
     const char *folder; // where files that it names are looked for
     int first_line;     // number of its first line: 1, of an override its own number
+    const char *within; // folder as seen from the scenario's
 } text_source;
 
 typedef struct text_place {
@@ -64,6 +65,7 @@ typedef struct scenario_reader {
     memory_pool pool;
     unit_system *units;
     int nodes;
+    ld_source *source; // what has been read so far
 } scenario_reader;
 
 // Memory that lives as long as the reader; NULL (and no_memory) without.
@@ -161,11 +163,10 @@ bool quantity_read(scenario_reader *reader, const struct field_row *f, text_plac
 // message.
 bool table_file_read(scenario_reader *reader, const struct field_row *f, text_place place,
                      const char *path, const char *name, ld_table *table);
-// The name of a file beside the one that names it, in the pool.
-char *reader_beside(scenario_reader *reader, const char *folder, const char *name);
-// A file as a source, in the pool; NULL after a message at `place`.
+// The file that the text at `place` names, read once in a run and kept in reader->source; NULL
+// after a message at `place`.
 text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
-                         const char *file_name);
+                         const char *name);
 
 // Reads a number in plain decimal notation at the start of `text` and returns its end; NULL if
 // there is none, or none that is finite and normal: then `reason` says why, or is NULL.

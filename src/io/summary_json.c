@@ -5,6 +5,7 @@
 
 #include "io/json_text.h"
 #include "io/numeric_locale.h"
+#include "io/origin.h"
 #include "launchdyn/output.h"
 
 // A JSON text on its way to a file: indented by two blanks a level, commas as they are needed.
@@ -320,11 +321,22 @@ static void write_statistics(json_writer *json, const ld_statistics *statistics)
     json_close(json, '}');
 }
 
-static void write_summary(json_writer *json, const ld_model *model, const ld_summary *summary)
+// Last of all, and the scenario's texts last of that: a report leaves them out of what it shows.
+static void write_texts(json_writer *json, const ld_origin *origin)
+{
+    json_text(json, "scenario", origin->scenario);
+    json_key(json, "source");
+    origin_write_source(json->file, origin);
+}
+
+static void write_summary(json_writer *json, const ld_model *model, const ld_summary *summary,
+                          const ld_origin *origin)
 {
     json_open(json, NULL, '{');
     json_text(json, "title", model->title ? model->title : "");
     json_text(json, "version", LD_VERSION);
+    json_key(json, "program");
+    origin_write_program(json->file, origin);
     write_end(json, summary);
     json_open(json, "rockets", '[');
     for (int i = 0; i < summary->rocket_count; i++)
@@ -336,6 +348,7 @@ static void write_summary(json_writer *json, const ld_model *model, const ld_sum
         write_modes(json, summary);
     }
     write_statistics(json, &summary->statistics);
+    write_texts(json, origin);
     json_close(json, '}');
     fputc('\n', json->file);
 }
@@ -344,16 +357,21 @@ ld_status ld_summary_write(const char *path, const ld_model *model, const ld_sum
                            ld_error *error)
 {
     json_writer json = {.file = fopen(path, "w")};
+    ld_origin origin;
     if (!json.file)
         return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    ld_status status = ld_origin_of(model, &origin, error);
     locale_t before = numeric_locale_enter();
-    write_summary(&json, model, summary);
+    if (!status)
+        write_summary(&json, model, summary, &origin);
     numeric_locale_leave(before);
+    ld_origin_free(&origin);
     bool wrong = fflush(json.file) != 0 || ferror(json.file);
     int number = errno;
     wrong |= fclose(json.file) != 0;
-    if (!wrong)
+    if (!status && !wrong)
         return LD_OK;
     unlink(path);
-    return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(number));
+    return status ? status
+                  : ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(number));
 }

@@ -275,8 +275,7 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
 bool table_file_read(scenario_reader *reader, const field_row *f, text_place place,
                      const char *path, const char *name, ld_table *table)
 {
-    char *file_name = reader_beside(reader, place.source->folder, name);
-    text_source *opened = file_name ? reader_open(reader, place, path, file_name) : NULL;
+    text_source *opened = reader_open(reader, place, path, name);
     line_reader lines = {.reader = reader, .path = path, .source = opened};
     if (!opened)
         return false;

@@ -13,6 +13,7 @@ void ld_model_init(ld_model *model)
 void ld_model_free(ld_model *model)
 {
     field_release(&scenario_block, model);
+    ld_source_free(model->source);
     ld_model_init(model);
 }
 

@@ -10,7 +10,7 @@
 #include "io/text_file.h"
 #include "report/report_parts.h"
 
-enum { MOST_SUMMARY = 1 << 20 };
+enum { MOST_SUMMARY = 1 << 28 };
 
 // ---- the results ----
 
@@ -53,6 +53,17 @@ static void read_history(report_source *source, const char *folder)
         report_take_note(source->report, "The history has no rows.");
 }
 
+// Takes the last members away, the texts of the scenario, which the report has from the history.
+static void cut_texts(report_source *source)
+{
+    static const char first[] = ",\n  \"scenario\": ";
+    char *from = strstr(source->summary, first);
+    if (!from)
+        return;
+    strcpy(from, "\n}\n");
+    source->summary_length = strlen(source->summary);
+}
+
 static void read_summary(report_source *source, const char *folder)
 {
     char path[REPORT_PATH_SIZE];
@@ -60,6 +71,8 @@ static void read_summary(report_source *source, const char *folder)
     join(path, folder, "summary.json");
     if (text_file_read(path, MOST_SUMMARY, &source->summary, &source->summary_length, &error))
         report_take_note(source->report, "No summary: summary.json %s.", error.text);
+    else
+        cut_texts(source);
 }
 
 static void free_source(report_source *source)
@@ -68,6 +81,7 @@ static void free_source(report_source *source)
     for (int i = 0; i < source->rocket_count; i++)
         history_free(&source->rocket[i]);
     free(source->summary);
+    ld_origin_free(&source->origin);
 }
 
 // ---- the file ----
@@ -154,6 +168,8 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     source->report = report;
     read_history(source, folder);
     read_summary(source, folder);
+    // results of an earlier version keep none
+    source->has_origin = ld_origin_read(folder, &source->origin, error) == LD_OK;
     join(usual, folder, "report.html");
     ld_status status = report_add_replay(&source->history, error);
     if (!status && !source->has_history && !source->summary)

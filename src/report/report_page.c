@@ -1,6 +1,9 @@
 // The page of a report: what it shows as JSON, and the page around that.
 #include "io/json_text.h"
+#include "report/report_origin.h"
 #include "report/report_parts.h"
+
+#include <stdlib.h>
 
 static void write_curves(FILE *json, const plot_panel *panel)
 {
@@ -129,6 +132,19 @@ static ld_status write_replay(FILE *page, const report_source *source, ld_error 
     return status;
 }
 
+static void write_origin(FILE *page, const ld_origin *origin)
+{
+    char *json = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&json, &length);
+    if (!stream)
+        return;
+    report_write_origin(stream, origin, REPORT_ORIGIN_BYTES);
+    if (fclose(stream) == 0)
+        report_write_json(page, "origin", json, length);
+    free(json);
+}
+
 ld_status report_write_page(FILE *page, const report_source *source, const char *data,
                             size_t length, ld_error *error)
 {
@@ -138,6 +154,8 @@ ld_status report_write_page(FILE *page, const report_source *source, const char 
     if (source->summary)
         report_write_json(page, "summary", source->summary, source->summary_length);
     report_write_json(page, "data", data, length);
+    if (source->has_origin)
+        write_origin(page, &source->origin);
     ld_status status = write_replay(page, source, error);
     report_end_page(page, &run_bundle);
     return status;

@@ -8,6 +8,7 @@
 
 #include "io/history.h"
 #include "io/plot.h"
+#include "launchdyn/origin.h"
 #include "launchdyn/report.h"
 #include "launchdyn/status.h"
 #include "report/report_html.h"
@@ -22,6 +23,8 @@ typedef struct report_source {
     history_data rocket[REPORT_ROCKETS]; // tube and instants
     char *summary;                       // text of summary.json, NULL: there is none
     size_t summary_length;
+    bool has_origin;
+    ld_origin origin;
     ld_report *report; // takes notes
 } report_source;
 

@@ -79,7 +79,10 @@ static void open_studies(study_source *source, const char *const *folder, size_t
             report_take_note(source->report, "%.230s.", error.text);
             continue;
         }
-        source->study_count++;
+        // a study of an earlier version keeps none
+        if (ld_study_read_origin(folder[i], &source->origin[source->study_count], &error))
+            source->origin[source->study_count] = (ld_origin){0};
+        source->folder[source->study_count++] = folder[i];
         add_series(source, data, folder[i]);
     }
 }
@@ -88,8 +91,10 @@ static void close_studies(study_source *source)
 {
     for (int i = 0; i < source->series_count; i++)
         study_values_free(&source->series[i].values);
-    for (int i = 0; i < source->study_count; i++)
+    for (int i = 0; i < source->study_count; i++) {
         study_data_close(&source->study[i]);
+        ld_origin_free(&source->origin[i]);
+    }
 }
 
 // ---- the file

@@ -3,6 +3,7 @@
 #define LD_REPORT_REPORT_STUDY_H
 
 #include "io/study_results.h"
+#include "launchdyn/study.h"
 #include "report/report_html.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
@@ -24,6 +25,8 @@ typedef struct study_source {
     int study_count, series_count;
     double share; // of what grows with the number of series, as much as fits
     study_data study[REPORT_SERIES];
+    ld_origin origin[REPORT_SERIES]; // of each study; empty where it is not known
+    const char *folder[REPORT_SERIES];
     study_series series[REPORT_SERIES];
     ld_report *report; // takes notes
 } study_source;
@@ -57,6 +60,9 @@ void study_write_estimate(FILE *json, int index, estimate e, study_write_number 
 // Reads columns of a series; of a broken one what can be read, which is said once.
 void study_read(study_source *source, study_series *series, const study_column *const *column,
                 int columns);
+
+// Writes what study number `index` was asked to do and where it comes from, an item of a list.
+void study_write_plan(FILE *json, const study_source *source, int index);
 
 // Writes the sensitivities of chosen results to all factors, as items of a list.
 // @return LD_OK, LD_ERR_MEMORY

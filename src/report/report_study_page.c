@@ -356,6 +356,11 @@ ld_status study_write_data(FILE *json, study_source *source)
         fputs(i ? ",\n" : "\n", json);
         write_series(json, source, &source->series[i]);
     }
+    fputs("],\"studies\":[", json);
+    for (int i = 0; i < source->study_count; i++) {
+        fputs(i ? ",\n" : "\n", json);
+        study_write_plan(json, source, i);
+    }
     fputs("],\"results\":[", json);
     ld_status status = write_results(json, source);
     fputs("],\"pairs\":[", json);

@@ -91,6 +91,20 @@ static ld_status begin_as(study_store *self, ld_error *error)
     return status;
 }
 
+// Adds the programs that have worked on the attached database; one of an earlier version names
+// none.
+static ld_status add_programs(study_store *self, ld_error *error)
+{
+    char *named;
+    ld_status status =
+        ask(self, "SELECT 1 FROM part.sqlite_master WHERE name = 'origin'", &named, error);
+    if (!status && named)
+        status = store_execute(self, "INSERT OR IGNORE INTO main.origin SELECT * FROM part.origin",
+                               error);
+    free(named);
+    return status;
+}
+
 static ld_status add_part(study_store *self, const char *path, ld_error *error)
 {
     char *begun = NULL, *here = NULL, *differs = NULL;
@@ -117,6 +131,8 @@ static ld_status add_part(study_store *self, const char *path, ld_error *error)
             "FROM main.study WHERE name = 'samples' UNION SELECT value FROM part.study WHERE name "
             "= 'samples')) WHERE name = 'samples'",
             error);
+    if (!status && begun)
+        status = add_programs(self, error);
     free(begun);
     free(here);
     free(differs);

@@ -1,5 +1,6 @@
 // A study's database, SQLite. Tables:
-//   study   (name, value): format, version, hash, scenario, samples (of all points), strata
+//   study   (name, value): format, version, hash, scenario, resolved, samples (of all points),
+//   strata origin  (kind, name, text): facts of each `program`, texts of each `file` and `set`
 //   point   (point, then a text for each swept key)
 //   sample  (sample, point, status, reason, then the factors drawn once a sample)
 //   rocket  (sample, rocket, tube, then the factors drawn for every rocket, then the results)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "launchdyn/origin.h"
 #include "launchdyn/scenario.h"
 #include "studies/store.h"
 
@@ -147,6 +148,61 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
     return status;
 }
 
+// ---- where the study comes from
+
+static ld_status insert_origin(study_store *self, const char *kind, const char *name,
+                               const char *text, size_t length, ld_error *error)
+{
+    sqlite3_stmt *insert =
+        store_prepare(self, "INSERT OR IGNORE INTO origin VALUES (?, ?, ?)", error);
+    if (!insert)
+        return LD_ERR_FILE;
+    sqlite3_bind_text(insert, 1, kind, -1, SQLITE_STATIC);
+    sqlite3_bind_text(insert, 2, name, -1, SQLITE_STATIC);
+    sqlite3_bind_blob(insert, 3, text, (int)length, SQLITE_STATIC);
+    int result = sqlite3_step(insert);
+    sqlite3_finalize(insert);
+    return result == SQLITE_DONE ? LD_OK : store_fail(self, "write", error);
+}
+
+static ld_status put_source(study_store *self, const ld_source *source, ld_error *error)
+{
+    ld_status status =
+        store_execute(self, "DELETE FROM origin WHERE kind IN ('file', 'set')", error);
+    for (size_t i = 0; source && i < source->file_count && !status; i++) {
+        const ld_source_file *file = source->file[i];
+        status = insert_origin(self, "file", file->name, file->text, file->length, error);
+    }
+    for (size_t i = 0; source && i < source->set_count && !status; i++) {
+        char number[24];
+        snprintf(number, sizeof number, "%zu", i + 1);
+        status = insert_origin(self, "set", number, source->set[i], strlen(source->set[i]), error);
+    }
+    return status;
+}
+
+// The texts are those of the last time; of programs that have worked on it all are kept.
+static ld_status put_origin(study_store *self, ld_error *error)
+{
+    ld_origin origin;
+    ld_status status = ld_origin_of(self->study->nominal, &origin, error);
+    if (status)
+        return status;
+    status = store_execute(self,
+                           "CREATE TABLE IF NOT EXISTS origin (kind TEXT NOT NULL, name TEXT NOT "
+                           "NULL, text BLOB NOT NULL, UNIQUE (kind, name, text))",
+                           error);
+    for (size_t i = 0; i < origin.fact_count && !status; i++)
+        status = insert_origin(self, "program", origin.fact[i].name, origin.fact[i].text,
+                               strlen(origin.fact[i].text), error);
+    if (!status)
+        status = put_source(self, origin.source, error);
+    if (!status)
+        status = set_text(self, "resolved", origin.scenario, error);
+    ld_origin_free(&origin);
+    return status;
+}
+
 ld_status store_set_number(study_store *self, const char *name, int64_t value, ld_error *error)
 {
     char text[32];
@@ -169,6 +225,8 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
     int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;
     if (!status)
         status = store_set_number(self, "strata", strata, error);
+    if (!status)
+        status = put_origin(self, error);
     return status;
 }
 

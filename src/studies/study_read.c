@@ -5,24 +5,6 @@
 #include "launchdyn/scenario.h"
 #include "studies/study.h"
 
-// Where the scenario comes from.
-typedef struct study_source {
-    const char *path; // NULL: the text
-    const char *text, *name, *folder;
-    size_t length;
-    const char *const *sets;
-    size_t count;
-} study_source;
-
-static ld_status read_point(const study_source *from, int point, ld_model *model,
-                            ld_messages *messages)
-{
-    return from->path
-               ? ld_scenario_read_point(from->path, from->sets, from->count, point, model, messages)
-               : ld_scenario_read_text_point(from->text, from->length, from->name, from->folder,
-                                             from->sets, from->count, point, model, messages);
-}
-
 // Adds to a message which point it is about: " (point 5 of the sweep, rocket.mass: 61 kg)".
 static void name_point(ld_message *message, const ld_model *model, int point)
 {
@@ -59,7 +41,7 @@ static ld_status add_message(ld_messages *messages, const char *file, ld_status 
     return status;
 }
 
-static ld_status read_points(ld_study *self, const study_source *from, ld_messages *messages)
+static ld_status read_points(ld_study *self, ld_messages *messages)
 {
     const ld_model *nominal = self->nominal;
     if (nominal->sweep_count == 0) {
@@ -73,7 +55,8 @@ static ld_status read_points(ld_study *self, const study_source *from, ld_messag
         return LD_ERR_MEMORY;
     for (; self->points < points; self->points++) {
         int point = self->points + 1;
-        ld_status status = read_point(from, point, &self->model[point - 1], messages);
+        ld_status status =
+            ld_scenario_read_source(nominal->source, point, &self->model[point - 1], messages);
         for (size_t i = 0; status && i < messages->count; i++)
             name_point(&messages->item[i], nominal, point);
         if (status)
@@ -99,17 +82,23 @@ static ld_status find_factors(ld_study *self, ld_error *error)
     return LD_OK;
 }
 
-static ld_status read_study(const study_source *from, ld_study **out, ld_messages *messages)
+// The study of a nominal model that was read with this status; takes the model. `name`: for
+// messages.
+static ld_status make_study(ld_status status, ld_model *nominal, const char *name, ld_study **out,
+                            ld_messages *messages)
 {
     ld_study *self = calloc(1, sizeof *self);
     ld_error error = {LD_ERR_MEMORY, "no memory for the study"};
-    *messages = (ld_messages){0};
-    if (!self)
-        return add_message(messages, from->name, LD_ERR_MEMORY, error.text);
-    self->nominal = calloc(1, sizeof *self->nominal);
-    ld_status status = self->nominal ? read_point(from, 0, self->nominal, messages) : LD_ERR_MEMORY;
-    if (!status)
-        status = read_points(self, from, messages);
+    if (self)
+        self->nominal = calloc(1, sizeof *self->nominal);
+    if (status || !self || !self->nominal) {
+        if (!status)
+            ld_model_free(nominal);
+        status = status ? status : LD_ERR_MEMORY;
+    } else {
+        *self->nominal = *nominal;
+        status = read_points(self, messages);
+    }
     if (!status)
         status = find_factors(self, &error);
     if (!status) {
@@ -117,27 +106,32 @@ static ld_status read_study(const study_source *from, ld_study **out, ld_message
         return LD_OK;
     }
     ld_study_free(self);
-    return messages->count > 0 ? status : add_message(messages, from->name, status, error.text);
+    return messages->count > 0 ? status : add_message(messages, name, status, error.text);
 }
 
 ld_status ld_study_read(const char *path, const char *const *sets, size_t count, ld_study **study,
                         ld_messages *messages)
 {
-    return read_study(&(study_source){.path = path, .name = path, .sets = sets, .count = count},
-                      study, messages);
+    ld_model nominal;
+    ld_status status = ld_scenario_read(path, sets, count, &nominal, messages);
+    return make_study(status, &nominal, path, study, messages);
 }
 
 ld_status ld_study_read_text(const char *text, size_t length, const char *name, const char *folder,
                              const char *const *sets, size_t count, ld_study **study,
                              ld_messages *messages)
 {
-    return read_study(&(study_source){.text = text,
-                                      .length = length,
-                                      .name = name,
-                                      .folder = folder,
-                                      .sets = sets,
-                                      .count = count},
-                      study, messages);
+    ld_model nominal;
+    ld_status status =
+        ld_scenario_read_text(text, length, name, folder, sets, count, &nominal, messages);
+    return make_study(status, &nominal, name, study, messages);
+}
+
+ld_status ld_study_read_source(ld_source *source, ld_study **study, ld_messages *messages)
+{
+    ld_model nominal;
+    ld_status status = ld_scenario_read_source(source, 0, &nominal, messages);
+    return make_study(status, &nominal, source->name, study, messages);
 }
 
 void ld_study_free(ld_study *self)

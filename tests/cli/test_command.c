@@ -1,76 +1,9 @@
 // The command as a user meets it: what it prints, its exit codes, the files it leaves.
 #include "support/check.h"
+#include "support/shell.h"
 
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
-
-// What a line of shell gave, in a folder of its own where `launchdyn` is the command just built and
-// examples/ the scenarios of the tree.
-static struct {
-    char folder[64];
-    int code;
-    char out[1 << 14], err[1 << 14];
-} shell;
-
-static int set_up(void **state)
-{
-    (void)state;
-    char command[512];
-    strcpy(shell.folder, "/tmp/launchdyn-command-XXXXXX");
-    if (!mkdtemp(shell.folder))
-        return -1;
-    snprintf(command, sizeof command, "cd %s && ln -s %s/launchdyn . && ln -s %s/examples .",
-             shell.folder, LD_BINARY_DIR, LD_SOURCE_DIR);
-    return system(command);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", shell.folder);
-    return system(command);
-}
-
-static void read_back(const char *name, char *text, size_t size)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", shell.folder, name);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    text[fread(text, 1, size - 1, file)] = '\0';
-    fclose(file);
-}
-
-static int run(const char *line)
-{
-    char command[1024];
-    snprintf(command, sizeof command, "cd %s; PATH=.:$PATH; { %s; } >.out 2>.err </dev/null",
-             shell.folder, line);
-    int status = system(command);
-    shell.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    read_back(".out", shell.out, sizeof shell.out);
-    read_back(".err", shell.err, sizeof shell.err);
-    return shell.code;
-}
-
-static void expect_in(const char *text, const char *part)
-{
-    if (!strstr(text, part))
-        fail_msg("\"%s\" is not in:\n%s", part, text);
-}
-
-// A line that ends with `code`, prints nothing on stdout and this on stderr.
-static void expect_complaint(const char *line, int code, const char *text)
-{
-    run(line);
-    if (shell.code != code || *shell.out)
-        fail_msg("%s: code %d, printed \"%s\" and \"%s\"", line, shell.code, shell.out, shell.err);
-    expect_in(shell.err, text);
-}
 
 static void test_help_and_version(void **state)
 {
@@ -386,7 +319,7 @@ static void test_wind(void **state)
                      2, "a wind is shown at a height from 0 m on");
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, shell_make, shell_remove)
 
 int main(void)
 {

@@ -1,5 +1,5 @@
 // Any text, read as a scenario, ends with messages or with a model that prints and reads back to
-// the same bits. Text before a zero byte is an override.
+// the same bits, as it does from the texts that it keeps. Text before a zero byte is an override.
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,6 +49,24 @@ static void check_model(const ld_model *model)
     free(text);
 }
 
+// The texts that the model keeps, and no file, give the same model.
+static void check_source(const ld_model *model)
+{
+    ld_model again;
+    ld_messages messages;
+    char *folder = model->source->folder;
+    model->source->folder = NULL;
+    ld_status status = ld_scenario_read_source(model->source, 0, &again, &messages);
+    model->source->folder = folder;
+    if (status != LD_OK) {
+        ld_messages_print(&messages, stderr);
+        abort();
+    }
+    if (!same_model(model, &again))
+        abort();
+    ld_model_free(&again);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const char *text = (const char *)data, *zero = memchr(data, 0, size);
@@ -62,6 +80,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (status == LD_OK) {
         check_model(&model);
+        check_source(&model);
         ld_model_free(&model);
     }
     print_messages(&messages);

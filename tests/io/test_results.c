@@ -227,8 +227,14 @@ static void test_summary_is_json(void **state)
     static const struct {
         const char *filter, *printed;
     } expected[] = {
-        {"keys_unsorted|join(\",\")", "title,version,t_end,complete,stopped,notes,rockets,"
-                                      "equilibrium,energy,modes,statistics"},
+        {"keys_unsorted|join(\",\")",
+         "title,version,program,t_end,complete,stopped,notes,"
+         "rockets,equilibrium,energy,modes,statistics,scenario,source"},
+        {".program|[.version, .commit]|tostring", "[\"0.1.0\",\"unknown\"]"},
+        {".program|keys_unsorted|join(\",\")",
+         "version,commit,compiler,processor,C library,SUNDIALS,"
+         "LAPACK,BLAS,HDF5,SQLite,libyaml,UDUNITS,zlib"},
+        {".source|tostring", "null"}, // filled by hand
         {".rockets[0]|keys_unsorted|join(\",\")",
          "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,muzzle_speed,inertial_speed,"
          "spin_rate,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,max_contact_force,"

@@ -24,6 +24,18 @@ async function checkCursor(page, run, selector, columns) {
   }
 }
 
+// What the folded block says, against the files and the summary.
+async function checkOrigin(page, run) {
+  const [understood, file] = await page.$$eval(".origin pre", (blocks) => blocks.map((block) => block.textContent));
+  const { scenario, program, source } = JSON.parse(readFileSync(join(run.out, "summary.json"), "utf8"));
+  check("the scenario as it was understood", understood.length > 500 && understood === scenario, understood.length);
+  check("the scenario's own text", file === source.files[0].text && file.includes("adaptors:"), file.length);
+  const cells = await page.$$eval(".origin td", (list) => list.map((cell) => cell.textContent));
+  check("program and libraries", cells.length >= 13 && cells.join() === Object.values(program).join(), cells.join(", "));
+  const open = await page.$$eval(".origin details[open]", (list) => list.length);
+  check("all of it is folded", open === 0, open);
+}
+
 async function checkLaunch(browser) {
   const run = runOf("fixed.yaml");
   console.log("fixed.yaml");
@@ -33,6 +45,7 @@ async function checkLaunch(browser) {
     [".panel", ".plot canvas"].map((selector) => document.querySelectorAll(selector).length));
   check("plots, each with a canvas", counts[0] >= 30 && counts[0] === counts[1], counts);
   await checkNoneEmpty(page);
+  await checkOrigin(page, run);
   await checkCursor(page, run, "#table0-tip .panel", [["tip.y", 1e3], ["tip.z", 1e3]]);
   await checkCursor(page, run, "#table0-contact .panel",
     [["contact.rear.force", 1e-3], ["contact.middle.force", 1e-3], ["contact.front.force", 1e-3]]);

@@ -1,0 +1,101 @@
+// What a study was asked to do: plan, factors with their distributions, sweep.
+#include <stdarg.h>
+#include <string.h>
+
+#include "io/json_text.h"
+#include "io/scenario_text.h"
+#include "launchdyn/scenario.h"
+#include "report/report_origin.h"
+#include "report/report_study.h"
+
+// A pair of texts, the second made by fprintf.
+static void write_line(FILE *json, bool *first, const char *name, const char *format, ...)
+    LD_PRINTF(4, 5);
+
+static void write_line(FILE *json, bool *first, const char *name, const char *format, ...)
+{
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    fputs(*first ? "[" : ",[", json);
+    *first = false;
+    json_write_text(json, name);
+    fputc(',', json);
+    json_write_text(json, text);
+    fputc(']', json);
+}
+
+static void write_plan(FILE *json, const ld_model *model)
+{
+    const ld_scatter *scatter = &model->scatter;
+    bool first = true;
+    fputs("\"plan\":[", json);
+    if (scatter->present && scatter->plan == LD_PLAN_LHS)
+        write_line(json, &first, "plan", "%d Latin hypercube%s of %d samples", scatter->replicates,
+                   scatter->replicates == 1 ? "" : "s", scatter->samples / scatter->replicates);
+    else if (scatter->present)
+        write_line(json, &first, "plan", "random, %d samples", scatter->samples);
+    if (scatter->present)
+        write_line(json, &first, "seed", "%d", scatter->seed);
+    for (int i = 0; i < scatter->until_count; i++) {
+        char text[256];
+        scenario_until_text(&scatter->until[i], text, sizeof text);
+        write_line(json, &first, "until half the 95 % interval is at most", "%s", text);
+    }
+    for (int i = 0; i < model->sweep_count; i++)
+        write_line(json, &first, "swept", "%s, %d values", model->sweep[i].path,
+                   model->sweep[i].count);
+    fputc(']', json);
+}
+
+static void write_factors(FILE *json, const ld_model *model)
+{
+    const ld_scatter *scatter = &model->scatter;
+    fputs(",\"factors\":[", json);
+    for (int i = 0; i < scatter->factor_count; i++) {
+        char text[512];
+        scenario_factor_text(model, &scatter->factor[i], text, sizeof text);
+        fputs(i ? ",\n[" : "[", json);
+        json_write_text(json, scatter->factor[i].path);
+        fputc(',', json);
+        json_write_text(json, text);
+        fprintf(json, ",\"each %s\"]", scatter->factor[i].per_rocket ? "rocket" : "sample");
+    }
+    fputs("],\"correlated\":[", json);
+    for (int g = 0; g < scatter->correlated_count; g++) {
+        const ld_correlated *group = &scatter->correlated[g];
+        fputs(g ? ",[" : "[", json);
+        for (int i = 0; i < group->count; i++) {
+            fputs(i ? "," : "", json);
+            json_write_text(json, scatter->factor[group->factor[i]].path);
+        }
+        fputc(']', json);
+    }
+    fputc(']', json);
+}
+
+void study_write_plan(FILE *json, const study_source *source, int index)
+{
+    const study_data *data = &source->study[index];
+    const ld_origin *origin = &source->origin[index];
+    const char *text = origin->scenario ? origin->scenario : data->scenario;
+    ld_model model;
+    ld_messages messages;
+    fputs("{\"label\":", json);
+    json_write_text(json, data->title && *data->title ? data->title : source->folder[index]);
+    if (!ld_scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages)) {
+        fputc(',', json);
+        write_plan(json, &model);
+        write_factors(json, &model);
+        ld_model_free(&model);
+    } else {
+        ld_messages_free(&messages);
+    }
+    if (origin->scenario) {
+        fputs(",\"origin\":", json);
+        report_write_origin(json, origin, REPORT_ORIGIN_BYTES / (size_t)source->study_count);
+    }
+    fputc('}', json);
+}

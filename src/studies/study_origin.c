@@ -1,0 +1,94 @@
+// Where a study comes from, read back from its database.
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/origin.h"
+#include "model/source.h"
+#include "studies/store.h"
+
+static char *copy_of(const char *text, size_t length)
+{
+    char *copy = malloc(length + 1);
+    if (!copy)
+        return NULL;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+// Takes one row; false: no memory.
+static bool take(ld_origin *origin, const char *kind, const char *name, const char *text,
+                 size_t length)
+{
+    char *own = copy_of(text, length);
+    bool fine = own != NULL;
+    if (own && strcmp(kind, "file") == 0) {
+        fine = source_add(origin->source, name, own, length) != NULL;
+        own = NULL;
+    } else if (own && strcmp(kind, "set") == 0) {
+        fine = source_add_set(origin->source, own);
+    } else if (own) {
+        fine = origin_add_fact(origin, name, own);
+    }
+    free(own);
+    return fine;
+}
+
+static ld_status read_rows(study_store *store, ld_origin *origin, ld_error *error)
+{
+    bool fine = true;
+    sqlite3_stmt *row =
+        store_prepare(store, "SELECT kind, name, text FROM origin ORDER BY rowid", error);
+    if (!row)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "%.300s does not say where it comes from: it is of an earlier version",
+                       store->path);
+    while (fine && sqlite3_step(row) == SQLITE_ROW) {
+        const char *kind = (const char *)sqlite3_column_text(row, 0);
+        const char *name = (const char *)sqlite3_column_text(row, 1);
+        const char *text = sqlite3_column_blob(row, 2);
+        fine = kind && name &&
+               take(origin, kind, name, text ? text : "", (size_t)sqlite3_column_bytes(row, 2));
+    }
+    sqlite3_finalize(row);
+    return fine ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the texts of the study");
+}
+
+static ld_status read_origin(study_store *store, ld_origin *origin, ld_error *error)
+{
+    origin->source = source_new("", NULL);
+    origin->scenario = store_text(store, "resolved");
+    if (!origin->source)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the texts of the study");
+    ld_status status = read_rows(store, origin, error);
+    if (status)
+        return status;
+    if (!origin->scenario)
+        return ld_fail(error, LD_ERR_INPUT, "%.300s is damaged: its scenario cannot be read",
+                       store->path);
+    if (origin->source->file_count == 0) {
+        ld_source_free(origin->source);
+        origin->source = NULL;
+        return LD_OK;
+    }
+    free(origin->source->name);
+    origin->source->name = strdup(origin->source->file[0]->name);
+    return origin->source->name ? LD_OK
+                                : ld_fail(error, LD_ERR_MEMORY, "no memory for the study's name");
+}
+
+ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *error)
+{
+    study_store store;
+    *origin = (ld_origin){0};
+    ld_status status = store_open_to_read(&store, folder, error);
+    if (status)
+        return status == LD_ERR_FILE ? ld_fail(error, LD_ERR_INPUT,
+                                               "%.300s/study.db is no study, or is damaged", folder)
+                                     : status;
+    status = read_origin(&store, origin, error);
+    store_close(&store);
+    if (status)
+        ld_origin_free(origin);
+    return status;
+}
