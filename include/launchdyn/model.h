@@ -144,7 +144,8 @@ typedef struct ld_environment {
     ld_site site;
     ld_atmosphere atmosphere;
     ld_ground_kind ground;
-    double ground_height; ///< [m] y of the ground plane
+    double ground_height; ///< [m] y of the ground's plane, on a round Earth its height above sphere
+                          ///< or ellipsoid; NaN: see ld_model_complete()
     ld_wind wind;
 } ld_environment;
 
@@ -650,7 +651,8 @@ void ld_model_init(ld_model *model);
 /// radii or areas; the firings of an order of tubes; where it is NaN, rocket.propellant = full.mass
 /// - empty.mass and run.stuck_time = end of the thrust table + 1 s; of a flight alone, what its
 /// rocket lacks: a motor (absent), empty values (as the full ones), the mass centre (0), and the
-/// end at the tip (landing). The scenario reader has done it already.
+/// end at the tip (landing); the ground's height where it is NaN (0, on a round Earth the site's
+/// altitude). The scenario reader has done it already.
 void ld_model_complete(ld_model *model);
 
 /// Frees the title, the tables and what `model` owns for studies, and resets it to the defaults.

@@ -270,6 +270,8 @@ static void check_complete(model_checker *checker, const ld_model *model)
 ld_status ld_model_check(const ld_model *model, ld_error *error)
 {
     model_checker checker = {model, error, LD_OK};
+    if (isnan(model->environment.ground_height))
+        refuse(&checker, "environment.ground", "not computed; call ld_model_complete()");
     check_block(&checker, "", &scenario_block, model);
     if (checker.status == LD_OK)
         model_check_rules(model, refuse_rule, &checker);
