@@ -72,6 +72,16 @@ static void expect_complaint(const char *line, int code, const char *text)
     expect_in(shell.err, text);
 }
 
+// No number of what was printed is a negative one rounded to nothing: " -0.000".
+static void expect_no_negative_zero(void)
+{
+    for (const char *at = shell.out; (at = strstr(at, " -0")); at++) {
+        const char *end = at + 2 + strspn(at + 2, "0.");
+        if (strspn(end, "0123456789e") == 0)
+            fail_msg("%.*s in:\n%s", (int)(end - at), at, shell.out);
+    }
+}
+
 static void test_help_and_version(void **state)
 {
     (void)state;
@@ -170,7 +180,12 @@ static void test_report(void **state)
 static void test_table_alone_writes_nothing(void **state)
 {
     (void)state;
+    assert_int_equal(run("launchdyn run examples/flight.yaml --set flight.rate='0 0 0 rad/s' --set "
+                         "rocket.aerodynamics.fin_cant='0 deg'"),
+                     0);
+    expect_no_negative_zero();
     assert_int_equal(run("launchdyn run examples/fixed.yaml && ls"), 0);
+    expect_no_negative_zero();
     expect_in(shell.out, "examples\nlaunchdyn\n");
     assert_int_equal(run("launchdyn run examples/fixed.yaml --quiet"), 0);
     assert_string_equal(shell.out, "");
