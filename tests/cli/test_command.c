@@ -98,6 +98,16 @@ static void test_help_and_version(void **state)
     expect_in(shell.out, "--set PATH=VALUE");
     assert_int_equal(run("launchdyn plot -h"), 0);
     expect_in(shell.out, "tip-rate");
+    // what takes no options has the help of all
+    assert_int_equal(run("launchdyn help --help >b; launchdyn help -h >c; launchdyn version --help "
+                         ">d; launchdyn help help >e; cmp a b && cmp a c && cmp a d && cmp a e"),
+                     0);
+    expect_complaint("launchdyn help --halp", 2, "unknown option --halp");
+    // a space at least between a command's arguments and what it does
+    assert_int_equal(run("launchdyn help | grep -E 'DIR[A-Z]|FILE[A-Z]|\\][A-Z]'"), 1);
+    assert_int_equal(run("launchdyn help"), 0);
+    expect_in(shell.out, "  study   FILE | show DIR | export DIR | merge DIR\n"
+                         "                     Run the samples of a scattered scenario");
 }
 
 static void test_wrong_words(void **state)
