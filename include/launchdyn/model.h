@@ -34,6 +34,7 @@ enum {
     LD_MAX_GUSTS = 16,
     LD_MAX_NAME = 64,
     LD_MAX_PATH = 128,
+    LD_MAX_TOGETHER = 8,
     LD_MAX_CHOICES = 32,
     LD_MAX_UNTIL = 16,
     LD_MAX_CORRELATED = 16,
@@ -563,10 +564,17 @@ typedef enum ld_distribution {
     LD_EACH_SAMPLE, ///< a whole number of the key's range, another one in each sample
 } ld_distribution;
 
+/// Several keys under one name, which always have the same value.
+typedef struct ld_together {
+    int count; ///< 0: not several
+    char path[LD_MAX_TOGETHER][LD_MAX_PATH];
+} ld_together;
+
 /// One scattered number of the scenario. Units are those of the key, in SI.
 typedef struct ld_factor {
     char path[LD_MAX_PATH]; ///< keys joined by dots; list members by name, else by number from 1;
-                            ///< components of vectors by .w, .x, .y, .z
+                            ///< components of vectors by .w, .x, .y, .z; of several: their name
+    ld_together together;
     ld_distribution distribution;
     double deviation;  ///< normal: standard deviation; lognormal: that of the logarithm [-]
     double within;     ///< [-] normal: kept within so many standard deviations; NaN: not
@@ -617,7 +625,8 @@ typedef struct ld_scatter {
 /// One key of the scenario that a study varies: a sweep is the product of its axes, the first
 /// varying most slowly.
 typedef struct ld_sweep_axis {
-    char path[LD_MAX_PATH]; ///< list members by name, else by number from 1
+    char path[LD_MAX_PATH]; ///< list members by name, else by number from 1; of several: their name
+    ld_together together;
     int count;
     char **value; ///< [count] as written, in one line of YAML
 } ld_sweep_axis;

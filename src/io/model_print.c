@@ -226,6 +226,14 @@ static void print_distribution(FILE *stream, const ld_factor *factor, const char
     }
 }
 
+// "paths: [one, other], " of several keys under one name.
+static void print_together(FILE *stream, const ld_together *together)
+{
+    for (int i = 0; i < together->count; i++)
+        fprintf(stream, "%s%s", i ? ", " : "paths: [", together->path[i]);
+    fputs(together->count ? "], " : "", stream);
+}
+
 static void print_factors(FILE *stream, const field_row *f, const ld_scatter *scatter, int depth)
 {
     fputc('\n', stream);
@@ -235,8 +243,9 @@ static void print_factors(FILE *stream, const field_row *f, const ld_scatter *sc
         char why[384];
         // scatter is a part of the model whose numbers it names
         const ld_model *model = (const void *)((const char *)scatter - offsetof(ld_model, scatter));
-        field_locate(model, factor->path, &place, why, sizeof why);
+        field_locate(model, factor_path(factor, 0), &place, why, sizeof why);
         fprintf(stream, "%*s%s: {", depth * 2, "", factor->path);
+        print_together(stream, &factor->together);
         print_distribution(stream, factor, place.row && place.row->unit ? place.row->unit : "");
         fprintf(stream, "%s}\n",
                 factor_may_be_per_rocket(factor) && !factor->per_rocket ? ", per: sample" : "");
@@ -292,10 +301,13 @@ static void print_sweep(FILE *stream, const ld_model *model, int depth)
     fputc('\n', stream);
     for (int i = 0; i < model->sweep_count; i++) {
         const ld_sweep_axis *axis = &model->sweep[i];
-        fprintf(stream, "%*s%s: [", depth * 2, "", axis->path);
+        bool several = axis->together.count > 0;
+        fprintf(stream, "%*s%s: %s", depth * 2, "", axis->path, several ? "{" : "");
+        print_together(stream, &axis->together);
+        fputs(several ? "values: [" : "[", stream);
         for (int k = 0; k < axis->count; k++)
             fprintf(stream, "%s%s", k ? ", " : "", axis->value[k]);
-        fprintf(stream, "]\n");
+        fputs(several ? "]}\n" : "]\n", stream);
     }
 }
 

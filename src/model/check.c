@@ -119,13 +119,11 @@ static void check_list(model_checker *checker, const char *path, const field_row
 
 static void check_factors(model_checker *checker, const ld_scatter *scatter)
 {
-    field_place place;
     char path[LD_MAX_PATH + 24], why[384];
     for (int i = 0; i < scatter->factor_count; i++) {
         const ld_factor *factor = &scatter->factor[i];
         snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH - 1, factor->path);
-        if (!field_locate(checker->model, factor->path, &place, why, sizeof why) ||
-            !factor_is_possible(checker->model, factor, &place, why, sizeof why))
+        if (!factor_is_possible(checker->model, factor, why, sizeof why))
             refuse(checker, path, why);
     }
 }

@@ -987,7 +987,8 @@ static const field_row scatter_fields[] = {
      .doc = "independent hypercubes of samples/replicates each; intervals come from them"},
     {"factors", .kind = FIELD_FACTORS, .offset = offsetof(ld_scatter, factor),
      .other = offsetof(ld_scatter, factor_count), .required = true,
-     .doc = "what is scattered: any number of the scenario by its path"},
+     .doc = "what is scattered: any number of the scenario by its path, several by `paths` under a "
+            "name"},
     {"correlated", .kind = FIELD_CORRELATED, .offset = offsetof(ld_scatter, correlated),
      .other = offsetof(ld_scatter, correlated_count), .initial_doc = "none",
      .doc = "groups of factors that depend on one another"},
