@@ -119,7 +119,8 @@ class Replay {
       const at = width * this.clock.share(t + this.zero), row = free.findIndex((end) => at >= end);
       const room = 8 + 6.5 * name.length, side = at + room > width ? " end" : "";
       if (row >= 0) free[row] = at + room;
-      return element("span", { className: (row === 1 ? "tick low" : "tick") + side, title: name, style: `left:${at.toFixed(1)}px` },
+      const kind = ["tick bare", "tick", "tick low"][row + 1];
+      return element("span", { className: kind + side, title: name, style: `left:${at.toFixed(1)}px` },
         row >= 0 ? name : "");
     }));
   }

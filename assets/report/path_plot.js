@@ -74,15 +74,16 @@ export function pathPlot(shown, group, marks, host) {
     ctx.fill();
   };
 
-  // A name only where the names before leave room.
+  // A name beside its dot, above or below, where the names before leave room.
   const drawMarks = (ctx) => {
     const named = [];
     for (const mark of marks) {
       const row = rowAt(t, mark.t);
       if (row < first || row > last || !Number.isFinite(x[row]) || !Number.isFinite(y[row])) continue;
       dot(ctx, row, colour("mark"));
-      const left = place.x(x[row]) + 6, top = place.y(y[row]) - 7;
-      if (named.some(([l, t0]) => Math.abs(l - left) < 50 && Math.abs(t0 - top) < 12)) continue;
+      const left = place.x(x[row]) + 6, top = [-7, 7].map((down) => place.y(y[row]) + down)
+        .find((at) => !named.some(([l, t0]) => Math.abs(l - left) < 50 && Math.abs(t0 - at) < 12));
+      if (top === undefined) continue;
       named.push([left, top]);
       ctx.textAlign = left > canvas.clientWidth - 50 ? "right" : "left";
       ctx.fillText(mark.name, ctx.textAlign === "left" ? left : left - 12, top);

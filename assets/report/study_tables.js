@@ -26,7 +26,7 @@ export function counts(data) {
   const columns = [
     ...(distinct(data, (s) => s.title) ? [["title", (s) => s.title, "text"]] : []),
     ...keys.map((key) => [key, (s) => s.swept.find(([own]) => own === key)?.[1] ?? "", "text"]),
-    ["samples kept", (s) => `${s.done} of ${s.samples}`],
+    ["samples kept", (s) => (s.done > s.samples ? `${s.done}, ${s.samples} asked for` : `${s.done} of ${s.samples}`)],
     ["failed", (s) => String(s.failed)],
     ["rockets of good samples", (s, i) => String(most(i, "count"))],
     ["independent groups", (s, i) => String(most(i, "groups"))],
@@ -53,13 +53,16 @@ export function plans(data) {
   ]);
 }
 
+// Without the sign of a negative that rounds to nothing.
+const fixed = (value, decimals) => value.toFixed(decimals).replace(/^-(?=[0.]*$)/, "");
+
 // A value with its interval below, both to two digits of the interval's half.
 function estimate([value, low, high], factor) {
   if (low === null) return element("td", {}, readable(value * factor));
   const half = Math.abs((high - low) * factor) / 2, scale = Math.floor(Math.log10(half));
   const text = (v) => {
     if (half === 0 || Math.abs(v * factor) >= 1e7) return readable(v * factor);
-    return Math.abs(value * factor) < 1e-4 ? (v * factor).toExponential(2) : (v * factor).toFixed(Math.max(0, 1 - scale));
+    return Math.abs(value * factor) < 1e-4 ? (v * factor).toExponential(2) : fixed(v * factor, Math.max(0, 1 - scale));
   };
   return element("td", {}, text(value), element("small", {}, `${text(low)} … ${text(high)}`));
 }

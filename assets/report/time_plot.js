@@ -17,10 +17,11 @@ function alignedData({ table, panel, curves, zero }) {
   })];
 }
 
-// Lines at the key instants, named at their tops where the name before leaves room.
+// Lines at the key instants, named at their tops; one that would go through the name before begins
+// below it. A name that has no room is left out.
 function drawInstants(u, marks) {
-  const { ctx, bbox } = u, scale = devicePixelRatio;
-  let free = -Infinity;
+  const { ctx, bbox } = u, scale = devicePixelRatio, bottom = bbox.top + bbox.height;
+  let free = -Infinity, below = bbox.top;
   ctx.save();
   ctx.font = `${11 * scale}px sans-serif`;
   ctx.textBaseline = "top";
@@ -31,18 +32,20 @@ function drawInstants(u, marks) {
   for (const mark of marks) {
     const x = Math.round(u.valToPos(mark.t, "x", true));
     if (x < bbox.left || x > bbox.left + bbox.width) continue;
+    const top = x < free ? below : bbox.top, end = top + 6 * scale + ctx.measureText(mark.name).width;
     ctx.beginPath();
-    ctx.moveTo(x, bbox.top);
-    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.moveTo(x, top);
+    ctx.lineTo(x, bottom);
     ctx.stroke();
-    if (x < free) continue;
+    if (end > bottom) continue;
     ctx.save();
-    ctx.translate(x + 2 * scale, bbox.top + 3 * scale);
+    ctx.translate(x + 2 * scale, top + 3 * scale);
     ctx.rotate(Math.PI / 2);
     ctx.translate(0, -LABEL_GAP * scale);
     ctx.fillText(mark.name, 0, 0);
     ctx.restore();
     free = x + LABEL_GAP * scale;
+    below = end;
   }
   ctx.restore();
 }

@@ -34,6 +34,7 @@ enum {
     LD_MAX_GUSTS = 16,
     LD_MAX_NAME = 64,
     LD_MAX_PATH = 128,
+    LD_MAX_TOGETHER = 8,
     LD_MAX_CHOICES = 32,
     LD_MAX_UNTIL = 16,
     LD_MAX_CORRELATED = 16,
@@ -144,7 +145,8 @@ typedef struct ld_environment {
     ld_site site;
     ld_atmosphere atmosphere;
     ld_ground_kind ground;
-    double ground_height; ///< [m] y of the ground plane
+    double ground_height; ///< [m] y of the ground's plane, on a round Earth its height above sphere
+                          ///< or ellipsoid; NaN: see ld_model_complete()
     ld_wind wind;
 } ld_environment;
 
@@ -562,10 +564,17 @@ typedef enum ld_distribution {
     LD_EACH_SAMPLE, ///< a whole number of the key's range, another one in each sample
 } ld_distribution;
 
+/// Several keys under one name, which always have the same value.
+typedef struct ld_together {
+    int count; ///< 0: not several
+    char path[LD_MAX_TOGETHER][LD_MAX_PATH];
+} ld_together;
+
 /// One scattered number of the scenario. Units are those of the key, in SI.
 typedef struct ld_factor {
     char path[LD_MAX_PATH]; ///< keys joined by dots; list members by name, else by number from 1;
-                            ///< components of vectors by .w, .x, .y, .z
+                            ///< components of vectors by .w, .x, .y, .z; of several: their name
+    ld_together together;
     ld_distribution distribution;
     double deviation;  ///< normal: standard deviation; lognormal: that of the logarithm [-]
     double within;     ///< [-] normal: kept within so many standard deviations; NaN: not
@@ -616,7 +625,8 @@ typedef struct ld_scatter {
 /// One key of the scenario that a study varies: a sweep is the product of its axes, the first
 /// varying most slowly.
 typedef struct ld_sweep_axis {
-    char path[LD_MAX_PATH]; ///< list members by name, else by number from 1
+    char path[LD_MAX_PATH]; ///< list members by name, else by number from 1; of several: their name
+    ld_together together;
     int count;
     char **value; ///< [count] as written, in one line of YAML
 } ld_sweep_axis;
@@ -674,7 +684,8 @@ void ld_model_init(ld_model *model);
 /// radii or areas; the firings of an order of tubes; where it is NaN, rocket.propellant = full.mass
 /// - empty.mass and run.stuck_time = end of the thrust table + 1 s; of a flight alone, what its
 /// rocket lacks: a motor (absent), empty values (as the full ones), the mass centre (0), and the
-/// end at the tip (landing). The scenario reader has done it already.
+/// end at the tip (landing); the ground's height where it is NaN (0, on a round Earth the site's
+/// altitude). The scenario reader has done it already.
 void ld_model_complete(ld_model *model);
 
 /// Frees the title, the tables, what `model` owns for studies and its share of `source`, and resets

@@ -19,16 +19,16 @@ extern "C" {
 enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES };
 
 /// Free flight of one rocket, of its mass centre in I against the ground; NaN where it has not
-/// landed, or has not flown. The launch point is the projection of the rear adaptor at ignition (of
-/// a flight alone: at its start).
+/// landed, or has not flown. The launch point has x and z of the rear adaptor at ignition (of a
+/// flight alone: at its start). A height is y on a flat Earth, else above sphere or ellipsoid.
 typedef struct ld_flight_summary {
-    double apogee;              ///< [m] greatest y
+    double apogee;              ///< [m] greatest height
     double downrange, drift;    ///< [m] x and z of the impact from the launch point
     double range;               ///< [m] distance of the two
     double t_impact;            ///< [s] from ignition
     double time_of_flight;      ///< [s] from t_rear, or from the start of a flight alone
     double impact_speed;        ///< [m/s]
-    double impact_angle;        ///< [rad] of the velocity below the horizontal
+    double impact_angle;        ///< [rad] of the velocity below the horizontal there
     double max_mach;            ///< [-]
     double max_angle_of_attack; ///< [rad] at the ends of the steps
 } ld_flight_summary;

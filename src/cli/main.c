@@ -56,9 +56,14 @@ static void print_commands(FILE *stream)
     fputs("launchdyn simulates how a rocket leaves a flexible tube on a fixed or moving base.\n\n"
           "Usage: launchdyn COMMAND [OPTION...] ...\n\n",
           stream);
-    for (int i = 0; i < COMMANDS; i++)
-        fprintf(stream, "  %-8s%-11s%s\n", commands[i].name, commands[i].arguments,
-                commands[i].summary);
+    enum { NAME = 8, ARGUMENTS = 11 };
+    for (int i = 0; i < COMMANDS; i++) {
+        const command *c = &commands[i];
+        fprintf(stream, "  %-*s%-*s", NAME, c->name, ARGUMENTS, c->arguments);
+        if (strlen(c->arguments) >= ARGUMENTS)
+            fprintf(stream, "\n%*s", 2 + NAME + ARGUMENTS, "");
+        fprintf(stream, "%s\n", c->summary);
+    }
     fputs("\n\"launchdyn COMMAND --help\" lists the options of a command.\n", stream);
 }
 
@@ -70,10 +75,15 @@ static int start(const command *chosen, int argc, const char **argv)
     return chosen->run(chosen, argc, argv);
 }
 
+static bool asks_for_help(const char *word)
+{
+    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+}
+
 static int command_help(const command *self, int argc, const char **argv)
 {
     (void)self;
-    if (argc < 2) {
+    if (argc < 2 || asks_for_help(argv[1])) {
         print_commands(stdout);
         return 0;
     }
@@ -90,8 +100,11 @@ static int command_help(const command *self, int argc, const char **argv)
 
 static int command_version(const command *self, int argc, const char **argv)
 {
-    (void)self, (void)argc, (void)argv;
-    puts("launchdyn " LD_VERSION);
+    (void)self;
+    if (argc > 1 && asks_for_help(argv[1]))
+        print_commands(stdout);
+    else
+        puts("launchdyn " LD_VERSION);
     return 0;
 }
 
@@ -103,7 +116,7 @@ static int dispatch(int argc, const char **argv)
         return EXIT_INPUT;
     }
     const char *name = argv[1];
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
+    if (asks_for_help(name))
         name = "help";
     else if (strcmp(name, "--version") == 0)
         name = "version";

@@ -6,19 +6,26 @@
 
 enum { MOST = 4 * LD_MAX_MODES };
 
+// As "%.4f" prints it, without the sign of what rounds to nothing.
+static double to_four_decimals(double value)
+{
+    return value > -0.5e-4 && value < 0 ? 0 : value;
+}
+
 static void print_modes(const char *title, const ld_mode *modes, int count)
 {
     printf("%s\n       frequency [Hz]  damping ratio [%%]  shape\n", title);
     for (int i = 0; i < count; i++)
-        printf("%4d %16.4f %18.4f  %s\n", i + 1, modes[i].frequency, modes[i].damping * 100,
-               modes[i].shape);
+        printf("%4d %16.4f %18.4f  %s\n", i + 1, modes[i].frequency,
+               to_four_decimals(modes[i].damping * 100), modes[i].shape);
 }
 
 static void print_poles(const ld_pole *poles, int count)
 {
     puts("Its eigenvalues with damping\n           real [1/s]  imaginary [rad/s]  shape");
     for (int i = 0; i < count; i++)
-        printf("%4d %16.6g %18.6g  %s\n", i + 1, poles[i].real, poles[i].imaginary, poles[i].shape);
+        printf("%4d %16.6g %18.6g  %s\n", i + 1, poles[i].real + 0.0, poles[i].imaginary + 0.0,
+               poles[i].shape);
 }
 
 static ld_status list_modes(const ld_model *model, ld_error *error)

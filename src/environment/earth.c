@@ -112,6 +112,16 @@ double earth_altitude(const earth *self, v3 r)
     return height(self, p, r.z, sine, cosine);
 }
 
+double earth_height(const earth *self, v3 r, v3 *up)
+{
+    *up = v3_make(0, 1, 0);
+    if (self->flat)
+        return r.y;
+    geodetic place = earth_geodetic(self, r);
+    *up = m3_column(earth_local_axes(place.latitude, place.longitude), 1);
+    return place.altitude;
+}
+
 m3 earth_turn(const earth *self, double t)
 {
     if (self->flat)

@@ -44,6 +44,10 @@ m3 earth_local_axes(double latitude, double longitude);
 // only); flat: that of the site plus y.
 double earth_altitude(const earth *self, v3 r);
 
+// Height of the point r of C that counts against the ground, and the direction `up` in which it
+// grows, in C: y on a flat Earth, else the altitude above sphere or ellipsoid.
+double earth_height(const earth *self, v3 r, v3 *up);
+
 // A_CE at time t: turn about z by the angle the Earth has gone since t = 0; flat: identity.
 m3 earth_turn(const earth *self, double t);
 

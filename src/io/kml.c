@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printed.h"
 #include "environment/earth.h"
 #include "io/numeric_locale.h"
 
@@ -148,8 +149,9 @@ ld_status kml_row(kml_file *file, const double *values, ld_error *error)
 {
     geodetic place = place_of(file, values);
     locale_t before = numeric_locale_enter();
-    fprintf(file->stream, "%.9f,%.9f,%.3f\n", place.longitude * DEGREES, place.latitude * DEGREES,
-            values[file->column[ALTITUDE]]);
+    fprintf(file->stream, "%.9f,%.9f,%.3f\n", printed_fixed(place.longitude * DEGREES, 9),
+            printed_fixed(place.latitude * DEGREES, 9),
+            printed_fixed(values[file->column[ALTITUDE]], 3));
     numeric_locale_leave(before);
     return state_of(file, error);
 }

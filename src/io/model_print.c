@@ -227,12 +227,21 @@ static void print_distribution(FILE *stream, const ld_factor *factor, const char
     }
 }
 
-// With its unit in the model.
+// "paths: [one, other], " of several keys under one name.
+static void print_together(FILE *stream, const ld_together *together)
+{
+    for (int i = 0; i < together->count; i++)
+        fprintf(stream, "%s%s", i ? ", " : "paths: [", together->path[i]);
+    fputs(together->count ? "], " : "", stream);
+}
+
+// Its keys where it has a name of its own, its distribution with the unit in the model.
 static void print_factor(FILE *stream, const ld_model *model, const ld_factor *factor)
 {
     field_place place;
     char why[384];
-    field_locate(model, factor->path, &place, why, sizeof why);
+    field_locate(model, factor_path(factor, 0), &place, why, sizeof why);
+    print_together(stream, &factor->together);
     print_distribution(stream, factor, place.row && place.row->unit ? place.row->unit : "");
 }
 
@@ -304,10 +313,13 @@ static void print_sweep(FILE *stream, const ld_model *model, int depth)
     fputc('\n', stream);
     for (int i = 0; i < model->sweep_count; i++) {
         const ld_sweep_axis *axis = &model->sweep[i];
-        fprintf(stream, "%*s%s: [", depth * 2, "", axis->path);
+        bool several = axis->together.count > 0;
+        fprintf(stream, "%*s%s: %s", depth * 2, "", axis->path, several ? "{" : "");
+        print_together(stream, &axis->together);
+        fputs(several ? "values: [" : "[", stream);
         for (int k = 0; k < axis->count; k++)
             fprintf(stream, "%s%s", k ? ", " : "", axis->value[k]);
-        fprintf(stream, "]\n");
+        fputs(several ? "]}\n" : "]\n", stream);
     }
 }
 

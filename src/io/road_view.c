@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printed.h"
 #include "environment/road.h"
 #include "io/chart.h"
 #include "io/columns.h"
@@ -156,8 +157,10 @@ static void print_heights(const ld_road_view *view, FILE *stream)
     }
     fprintf(stream, "\nHeight [mm]%18s%12s\n", "left", "right");
     fprintf(stream, "  rms about the mean%9.3f%12.3f\n", 1e3 * rms[0], 1e3 * rms[1]);
-    fprintf(stream, "  lowest%21.3f%12.3f\n", 1e3 * low[0], 1e3 * low[1]);
-    fprintf(stream, "  highest%20.3f%12.3f\n", 1e3 * high[0], 1e3 * high[1]);
+    fprintf(stream, "  lowest%21.3f%12.3f\n", printed_fixed(1e3 * low[0], 3),
+            printed_fixed(1e3 * low[1], 3));
+    fprintf(stream, "  highest%20.3f%12.3f\n", printed_fixed(1e3 * high[0], 3),
+            printed_fixed(1e3 * high[1], 3));
 }
 
 void ld_road_view_print(const ld_road_view *view, FILE *stream)

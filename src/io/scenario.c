@@ -198,7 +198,7 @@ static void check_values(scenario_reader *reader, const tree_node *file,
             if (root && !reader->no_memory)
                 scenario_fill_values(reader, root, &model);
             ld_model_free(&model);
-            reader_keep_messages(reader, messages, sweep->axis[i].path);
+            reader_keep_messages(reader, messages, &sweep->axis[i].keys);
             pool_return(reader, before);
         }
 }

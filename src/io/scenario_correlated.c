@@ -27,6 +27,15 @@ static bool refuse(const group_reader *self, const tree_node *node, const char *
     return false;
 }
 
+// Number of the factor with that path, or name of several; -1: there is none.
+static int find_factor(const ld_scatter *scatter, const char *path)
+{
+    for (int i = 0; i < scatter->factor_count; i++)
+        if (strcmp(scatter->factor[i].path, path) == 0)
+            return i;
+    return -1;
+}
+
 static bool read_factor(const group_reader *self, const tree_node *name)
 {
     const ld_scatter *scatter = &self->model->scatter;
@@ -35,16 +44,18 @@ static bool read_factor(const group_reader *self, const tree_node *name)
     snprintf(key, sizeof key, "factors.%d", self->group->count + 1);
     if (name->kind != NODE_SCALAR)
         return refuse(self, name, key, "expected the path of a factor%s", "");
-    if (!field_locate(self->model, name->text, &place, why, sizeof why))
+    int factor = find_factor(scatter, name->text);
+    if (factor < 0 && !field_locate(self->model, name->text, &place, why, sizeof why))
         return refuse(self, name, key, "%s", why);
-    name_suggestion best = suggestion_begin(name->text);
-    for (int i = 0; i < scatter->factor_count; i++) {
-        if (strcmp(scatter->factor[i].path, place.path) == 0) {
-            self->group->factor[self->group->count++] = i;
-            return true;
-        }
-        suggestion_offer(&best, scatter->factor[i].path);
+    if (factor < 0)
+        factor = find_factor(scatter, place.path);
+    if (factor >= 0) {
+        self->group->factor[self->group->count++] = factor;
+        return true;
     }
+    name_suggestion best = suggestion_begin(name->text);
+    for (int i = 0; i < scatter->factor_count; i++)
+        suggestion_offer(&best, scatter->factor[i].path);
     if (best.name)
         return refuse(self, name, key, "is not scattered, did you mean \"%s\"?", best.name);
     return refuse(self, name, key, "is none of scatter.factors%s", "");

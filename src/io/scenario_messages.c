@@ -156,13 +156,22 @@ static bool is_same(const ld_message *a, const ld_message *b)
            strcmp(a->path, b->path) == 0 && strcmp(a->text, b->text) == 0;
 }
 
-void reader_keep_messages(scenario_reader *reader, size_t count, const char *path)
+static bool is_about(const ld_message *message, const ld_together *keys)
+{
+    bool about = false;
+    for (int i = 0; i < keys->count; i++)
+        about |= is_at_or_below(message->path, keys->path[i]) ||
+                 is_at_or_below(keys->path[i], message->path);
+    return about;
+}
+
+void reader_keep_messages(scenario_reader *reader, size_t count, const ld_together *keys)
 {
     ld_messages *messages = reader->messages;
     size_t kept = count;
     for (size_t i = count; i < messages->count && !reader->no_memory; i++) {
         ld_message *m = &messages->item[i];
-        bool wanted = is_at_or_below(m->path, path) || is_at_or_below(path, m->path);
+        bool wanted = is_about(m, keys);
         for (size_t k = 0; wanted && k < kept; k++)
             wanted = !is_same(m, &messages->item[k]);
         if (wanted)

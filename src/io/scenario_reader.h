@@ -83,9 +83,9 @@ void reader_refuse(scenario_reader *reader, text_place place, const char *path, 
 // block around it.
 bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path);
 
-// Of the messages after the first `count`, keeps those about `path`, a key below it or a block
-// around it that do not stand there already.
-void reader_keep_messages(scenario_reader *reader, size_t count, const char *path);
+// Of the messages after the first `count`, keeps those about one of the keys, a key below it or a
+// block around it that do not stand there already.
+void reader_keep_messages(scenario_reader *reader, size_t count, const ld_together *keys);
 
 // Puts the messages into the order of the text.
 void reader_finish_messages(scenario_reader *reader);
@@ -134,10 +134,16 @@ void fill_until(scenario_reader *reader, const tree_node *map, ld_scatter *scatt
 // A text in double quotes.
 void scenario_print_text(FILE *stream, const char *text);
 
-// A key that is swept: its values, and its path in full.
+// The list `paths` of a block that sets several keys under one name, its key; NULL after a message
+// about the block, whose own path is given.
+const tree_node *together_paths(scenario_reader *reader, const tree_node *block, const char *path);
+
+// What is swept: one key, or several together, and its values.
 typedef struct scenario_axis {
-    const tree_node *list; // of values; its key is the path as written
-    char path[LD_MAX_PATH];
+    const tree_node *node;  // its key is the path as written, or the name of several
+    const tree_node *paths; // of several as written, or NULL
+    const tree_node *list;  // of values
+    ld_together keys;       // the path in full, or those of several
 } scenario_axis;
 
 typedef struct scenario_sweep {

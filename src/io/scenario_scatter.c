@@ -20,7 +20,7 @@ typedef struct factor_reader {
 static const char *const distribution_names[] = {"normal", "uniform", "lognormal", "discrete",
                                                  "each"};
 enum { DISTRIBUTIONS = sizeof distribution_names / sizeof *distribution_names };
-static const char *const other_names[] = {"within", "between", "weights", "per"};
+static const char *const other_names[] = {"within", "between", "weights", "per", "paths"};
 enum { OTHERS = sizeof other_names / sizeof *other_names };
 
 static const field_range any = {-INFINITY, INFINITY, 1, 1}, positive = {0, INFINITY, 1, 1},
@@ -225,6 +225,49 @@ static bool check_keys(const factor_reader *self)
     return good;
 }
 
+// Finds what the factor scatters: the key with its path, or those of `paths` under its name; false
+// after a message.
+static bool find_numbers(factor_reader *self, const ld_model *model, field_place *first)
+{
+    ld_factor *factor = self->factor;
+    const tree_node *node = self->map;
+    char why[384], path[256];
+    bool several = node->kind == NODE_MAP && tree_member(node, "paths");
+    const tree_node *paths = several ? together_paths(self->reader, node, self->path) : NULL;
+    if (!several && !field_locate(model, node->key, first, why, sizeof why))
+        reader_refuse(self->reader, node->key_at, self->path, "%s", why);
+    else if (!several)
+        memcpy(factor->path, first->path, sizeof factor->path);
+    if (!several || !paths)
+        return factor->path[0] != '\0';
+    for (const tree_node *entry = paths->first; entry; entry = entry->next) {
+        field_place place;
+        int count = factor->together.count;
+        if (!field_locate(model, entry->text, &place, why, sizeof why)) {
+            snprintf(path, sizeof path, "%s.paths.%d", self->path, count + 1);
+            reader_refuse(self->reader, entry->at, path, "%s", why);
+            return false;
+        }
+        if (count == 0)
+            *first = place;
+        memcpy(factor->together.path[count], place.path, sizeof place.path);
+        factor->together.count++;
+    }
+    snprintf(factor->path, sizeof factor->path, "%s", node->key);
+    return true;
+}
+
+// Whether the value in the scenario of one of the factor's numbers was refused already.
+static bool has_refused_numbers(const factor_reader *self)
+{
+    scenario_reader *reader = self->reader;
+    bool refused = false;
+    for (int i = 0; i < factor_numbers(self->factor); i++)
+        refused |=
+            reader_has_refused(reader, reader->messages->count, factor_path(self->factor, i));
+    return refused;
+}
+
 static void read_factor(scenario_reader *reader, const tree_node *node, const ld_model *model,
                         ld_factor *factor)
 {
@@ -235,11 +278,8 @@ static void read_factor(scenario_reader *reader, const tree_node *node, const ld
     memset(factor, 0, sizeof *factor);
     factor->within = factor->between[0] = factor->between[1] = factor->spread = NAN;
     factor->deviation = NAN;
-    if (!field_locate(model, node->key, &place, why, sizeof why)) {
-        reader_refuse(reader, node->key_at, self.path, "%s", why);
+    if (!find_numbers(&self, model, &place))
         return;
-    }
-    memcpy(factor->path, place.path, sizeof factor->path);
     if (node->kind != NODE_MAP) {
         reader_refuse(reader, node->at, self.path,
                       "expected a distribution, such as {normal: 1 %s}",
@@ -255,23 +295,36 @@ static void read_factor(scenario_reader *reader, const tree_node *node, const ld
         return;
     if (per)
         factor->per_rocket = strcmp(per->text, "rocket") == 0;
-    if (!reader_has_refused(reader, reader->messages->count, factor->path) &&
-        !factor_is_possible(model, factor, &place, why, sizeof why))
+    if (!has_refused_numbers(&self) && !factor_is_possible(model, factor, why, sizeof why))
         reader_refuse(reader, node->key_at, self.path, "%s", why);
 }
 
-// Refuses a number that is scattered twice.
-static void refuse_double(scenario_reader *reader, const tree_node *node, const ld_scatter *scatter,
-                          int count)
+// Refuses number `number` of the last factor where it is one of factor `i` too, below `end`.
+static void refuse_same(scenario_reader *reader, const tree_node *node, const ld_scatter *scatter,
+                        int last, int number, int i, int end)
 {
-    for (int i = 0; i < count; i++)
-        if (scatter->factor[count].path[0] &&
-            strcmp(scatter->factor[i].path, scatter->factor[count].path) == 0) {
-            char path[LD_MAX_PATH + 64];
-            snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH, node->key);
-            reader_refuse(reader, node->key_at, path, "is the same as %s, which stands above",
-                          scatter->factor[i].path);
-        }
+    const char *own = factor_path(&scatter->factor[last], number);
+    for (int k = 0; k < end; k++) {
+        char path[LD_MAX_PATH + 64];
+        if (strcmp(factor_path(&scatter->factor[i], k), own) != 0)
+            continue;
+        snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH, node->key);
+        if (scatter->factor[last].together.count)
+            reader_refuse(reader, node->key_at, path, "%s stands above already", own);
+        else
+            reader_refuse(reader, node->key_at, path, "is the same as %s, which stands above", own);
+    }
+}
+
+// Refuses a number that is scattered twice, by the last factor or by one before it.
+static void refuse_double(scenario_reader *reader, const tree_node *node, const ld_scatter *scatter,
+                          int last)
+{
+    const ld_factor *factor = &scatter->factor[last];
+    for (int number = 0; factor->path[0] && number < factor_numbers(factor); number++)
+        for (int i = 0; i <= last; i++)
+            refuse_same(reader, node, scatter, last, number, i,
+                        i < last ? factor_numbers(&scatter->factor[i]) : number);
 }
 
 static void fill_factors(scenario_reader *reader, const tree_node *factors, ld_model *model)

@@ -37,44 +37,116 @@ static bool is_overridden(const tree_node *root, const char *path, const char *c
     return false;
 }
 
-// Whether a key can be swept beside those before it.
-static bool may_be_swept(scenario_reader *reader, const scenario_sweep *before,
-                         const tree_node *list, const char *path)
+// Whether a key of the axis can be swept beside those of the axis `other`.
+static bool goes_beside(scenario_reader *reader, const scenario_axis *axis,
+                        const scenario_axis *other, const char *path)
 {
-    static const char *const own[] = {"launchdyn", "include", "scatter", "sweep"};
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (overlap(path, own[i]))
-            return refuse(reader, list->key_at, list->key, "the study itself is not swept%s", "");
-    for (int i = 0; i < before->count; i++) {
-        const char *other = before->axis[i].path;
-        if (strcmp(path, other) == 0)
-            return refuse(reader, list->key_at, list->key, "is the same as %s, which stands above",
-                          other);
-        if (overlap(path, other))
-            return refuse(reader, list->key_at, list->key, "goes over %s, which stands above",
-                          other);
+    const tree_node *node = axis->node;
+    for (int k = 0; k < other->keys.count; k++) {
+        const char *above = other->keys.path[k];
+        if (axis->paths && overlap(path, above))
+            return refuse(reader, node->key_at, node->key,
+                          "%s, or what holds it or lies in it, stands above already", path);
+        if (strcmp(path, above) == 0)
+            return refuse(reader, node->key_at, node->key, "is the same as %s, which stands above",
+                          above);
+        if (overlap(path, above))
+            return refuse(reader, node->key_at, node->key, "goes over %s, which stands above",
+                          above);
     }
-    if (strlen(path) >= LD_MAX_PATH)
-        return refuse(reader, list->key_at, list->key, "the path is too long%s", "");
     return true;
 }
 
-static bool has_values(scenario_reader *reader, const tree_node *list)
+// Whether a key can be swept beside those before it, on its own axis too.
+static bool may_be_swept(scenario_reader *reader, const scenario_sweep *before,
+                         const scenario_axis *axis, const char *path)
 {
-    if (list->kind == NODE_LIST && list->count > 0)
-        return true;
-    return refuse(reader, tree_is_empty(list) ? list->key_at : list->at, list->key,
-                  "expected a list of values, such as [0 km/h, 15 km/h]%s", "");
+    static const char *const own[] = {"launchdyn", "include", "scatter", "sweep"};
+    const tree_node *node = axis->node;
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (overlap(path, own[i]))
+            return refuse(reader, node->key_at, node->key, "the study itself is not swept%s", "");
+    for (int i = 0; i < before->count; i++)
+        if (!goes_beside(reader, axis, &before->axis[i], path))
+            return false;
+    if (strlen(path) >= LD_MAX_PATH)
+        return refuse(reader, node->key_at, node->key, "the path is too long%s", "");
+    return goes_beside(reader, axis, axis, path);
 }
 
-// The scenario that says nothing but value `number` (from 0) of the list; NULL after a message.
-static tree_node *scenario_with(scenario_reader *reader, const tree_node *list, int number)
+static bool has_values(scenario_reader *reader, const scenario_axis *axis)
 {
-    const tree_node *value = list->first;
+    const tree_node *list = axis->list;
+    if (list && list->kind == NODE_LIST && list->count > 0)
+        return true;
+    return refuse(reader, !list || tree_is_empty(list) ? axis->node->key_at : list->at,
+                  axis->node->key, "expected a list of values, such as [0 km/h, 15 km/h]%s", "");
+}
+
+// Lays value `number` (from 0) of the list on the key that is written `path` at that place.
+static tree_node *lay_on(scenario_reader *reader, tree_node *root, const scenario_axis *axis,
+                         int number, const char *path, text_place at)
+{
+    const tree_node *value = axis->list->first;
     while (number-- > 0)
         value = value->next;
     tree_node *copy = tree_copy(reader, value);
-    return copy ? tree_at_path(reader, list->key, list->key_at, copy) : NULL;
+    tree_node *over = copy ? tree_at_path(reader, path, at, copy) : NULL;
+    return over && root ? tree_merge(reader, root, over, "") : over;
+}
+
+// Whether each key is a path on which a value can be laid.
+static bool can_be_laid(scenario_reader *reader, const scenario_axis *axis)
+{
+    if (!axis->paths)
+        return lay_on(reader, NULL, axis, 0, axis->node->key, axis->node->key_at) != NULL;
+    for (const tree_node *entry = axis->paths->first; entry; entry = entry->next)
+        if (!lay_on(reader, NULL, axis, 0, entry->text, entry->at))
+            return false;
+    return true;
+}
+
+// Adds a key, written so, to the axis; false after a message, or where an override has it.
+static bool add_key(scenario_reader *reader, const tree_node *root, const scenario_sweep *before,
+                    const char *const *sets, size_t count, scenario_axis *axis, const char *written)
+{
+    char path[READER_MAX_PATH];
+    tree_path(root, written, path);
+    if (is_overridden(root, path, sets, count) || !may_be_swept(reader, before, axis, path))
+        return false;
+    snprintf(axis->keys.path[axis->keys.count++], LD_MAX_PATH, "%s", path);
+    return true;
+}
+
+// Refuses keys of a block of several beside `paths` and `values`.
+static bool has_known_keys(scenario_reader *reader, const tree_node *node)
+{
+    for (const tree_node *member = node->first; member; member = member->next)
+        if (strcmp(member->key, "paths") != 0 && strcmp(member->key, "values") != 0)
+            return refuse(reader, member->key_at, node->key,
+                          "unknown key %s; expected paths and values", member->key);
+    return true;
+}
+
+// What the member `node` of the sweep varies; false after a message, or where an override has it.
+static bool read_axis(scenario_reader *reader, const tree_node *root, const scenario_sweep *before,
+                      const char *const *sets, size_t count, const tree_node *node,
+                      scenario_axis *axis)
+{
+    bool several = node->kind == NODE_MAP && tree_member(node, "paths");
+    char path[READER_MAX_PATH];
+    *axis = (scenario_axis){.node = node, .list = several ? tree_member(node, "values") : node};
+    if (!several)
+        return add_key(reader, root, before, sets, count, axis, node->key) &&
+               has_values(reader, axis) && can_be_laid(reader, axis);
+    snprintf(path, sizeof path, "sweep.%s", node->key);
+    axis->paths = together_paths(reader, node, path);
+    const tree_node *entry = axis->paths ? axis->paths->first : NULL;
+    for (; entry; entry = entry->next)
+        if (!add_key(reader, root, before, sets, count, axis, entry->text))
+            return false;
+    return axis->paths && has_known_keys(reader, node) && has_values(reader, axis) &&
+           can_be_laid(reader, axis);
 }
 
 scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const char *const *sets,
@@ -92,16 +164,12 @@ scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const 
         return sweep;
     }
     sweep.axis = pool_take(reader, (size_t)block->count * sizeof *sweep.axis);
-    for (const tree_node *list = block->first; list && sweep.axis; list = list->next) {
-        char path[READER_MAX_PATH];
-        tree_path(root, list->key, path);
-        if (is_overridden(root, path, sets, count) || !may_be_swept(reader, &sweep, list, path) ||
-            !has_values(reader, list) || !scenario_with(reader, list, 0))
+    for (const tree_node *node = block->first; node && sweep.axis; node = node->next) {
+        scenario_axis *axis = &sweep.axis[sweep.count];
+        if (!read_axis(reader, root, &sweep, sets, count, node, axis))
             continue;
-        scenario_axis *axis = &sweep.axis[sweep.count++];
-        axis->list = list;
-        snprintf(axis->path, sizeof axis->path, "%.*s", LD_MAX_PATH - 1, path);
-        points = points > LD_MAX_POINTS ? points : points * list->count;
+        sweep.count++;
+        points = points > LD_MAX_POINTS ? points : points * axis->list->count;
     }
     if (points > LD_MAX_POINTS) {
         reader_refuse(reader, block->key_at, "sweep", "has more than %d points", LD_MAX_POINTS);
@@ -113,8 +181,12 @@ scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const 
 tree_node *sweep_lay(scenario_reader *reader, tree_node *root, const scenario_axis *axis,
                      int number)
 {
-    tree_node *over = scenario_with(reader, axis->list, number);
-    return over ? tree_merge(reader, root, over, "") : root;
+    const tree_node *entry = axis->paths ? axis->paths->first : NULL;
+    tree_node *laid =
+        entry ? root : lay_on(reader, root, axis, number, axis->node->key, axis->node->key_at);
+    for (; entry && laid; entry = entry->next)
+        laid = lay_on(reader, laid, axis, number, entry->text, entry->at);
+    return laid ? laid : root;
 }
 
 // ---- values as text
@@ -183,9 +255,13 @@ void sweep_fill(scenario_reader *reader, const scenario_sweep *sweep, ld_model *
     model->sweep = calloc((size_t)sweep->count, sizeof *model->sweep);
     reader->no_memory = reader->no_memory || !model->sweep;
     for (int i = 0; i < sweep->count && !reader->no_memory; i++) {
-        const tree_node *list = sweep->axis[i].list;
+        const scenario_axis *from = &sweep->axis[i];
+        const tree_node *list = from->list;
         ld_sweep_axis *axis = &model->sweep[model->sweep_count++];
-        memcpy(axis->path, sweep->axis[i].path, sizeof axis->path);
+        snprintf(axis->path, sizeof axis->path, "%s",
+                 from->paths ? from->node->key : from->keys.path[0]);
+        if (from->paths)
+            axis->together = from->keys;
         axis->value = calloc((size_t)list->count, sizeof *axis->value);
         reader->no_memory = !axis->value;
         for (const tree_node *value = list->first; value && !reader->no_memory;

@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/printed.h"
 #include "launchdyn/output.h"
 
 static const double degree = 0.017453292519943295; // [rad]
@@ -9,14 +10,15 @@ static const double degree = 0.017453292519943295; // [rad]
 static void line(FILE *stream, const char *name, double value, int digits, const char *unit)
 {
     if (isfinite(value))
-        fprintf(stream, "  %-22s %12.*f %s\n", name, digits, value, unit);
+        fprintf(stream, "  %-22s %12.*f %s\n", name, digits, printed_fixed(value, digits), unit);
 }
 
 static void line_of_two(FILE *stream, const char *name, double first, double second, int digits,
                         const char *unit)
 {
     if (isfinite(first) && isfinite(second))
-        fprintf(stream, "  %-22s %12.*f %12.*f %s\n", name, digits, first, digits, second, unit);
+        fprintf(stream, "  %-22s %12.*f %12.*f %s\n", name, digits, printed_fixed(first, digits),
+                digits, printed_fixed(second, digits), unit);
 }
 
 // Frequencies of one kind of shape a line; the kinds in the order in which they first occur.
@@ -101,8 +103,8 @@ static void print_flight(const ld_rocket_summary *rocket, FILE *stream)
     line(stream, "largest Mach number", flight->max_mach, 4, "");
     line(stream, "largest angle of attack", flight->max_angle_of_attack / degree, 3, "deg");
     if (!isfinite(flight->t_impact))
-        fprintf(stream, "  %-22s %12.3f %12.3f %12.3f m\n", "mass centre at the end", r[0], r[1],
-                r[2]);
+        fprintf(stream, "  %-22s %12.3f %12.3f %12.3f m\n", "mass centre at the end",
+                printed_fixed(r[0], 3), printed_fixed(r[1], 3), printed_fixed(r[2], 3));
 }
 
 static void print_cost(const ld_summary *summary, bool launch, FILE *stream)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printed.h"
 #include "environment/turbulence.h"
 #include "environment/wind.h"
 #include "io/chart.h"
@@ -231,7 +232,7 @@ static void print_profile(const ld_wind_view *view, FILE *stream)
     for (size_t i = 0; i < LEVELS; i += (LEVELS - 1) / 10) {
         fprintf(stream, "\n  %8.4g  ", view->profile.s[i]);
         for (int axis = 0; axis < AXES; axis++)
-            fprintf(stream, "%12.3f", view->profile.v[axis][i]);
+            fprintf(stream, "%12.3f", printed_fixed(view->profile.v[axis][i], 3));
     }
     fputc('\n', stream);
 }

@@ -119,13 +119,11 @@ static void check_list(model_checker *checker, const char *path, const field_row
 
 static void check_factors(model_checker *checker, const ld_scatter *scatter)
 {
-    field_place place;
     char path[LD_MAX_PATH + 24], why[384];
     for (int i = 0; i < scatter->factor_count; i++) {
         const ld_factor *factor = &scatter->factor[i];
         snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH - 1, factor->path);
-        if (!field_locate(checker->model, factor->path, &place, why, sizeof why) ||
-            !factor_is_possible(checker->model, factor, &place, why, sizeof why))
+        if (!factor_is_possible(checker->model, factor, why, sizeof why))
             refuse(checker, path, why);
     }
 }
@@ -270,6 +268,8 @@ static void check_complete(model_checker *checker, const ld_model *model)
 ld_status ld_model_check(const ld_model *model, ld_error *error)
 {
     model_checker checker = {model, error, LD_OK};
+    if (isnan(model->environment.ground_height))
+        refuse(&checker, "environment.ground", "not computed; call ld_model_complete()");
     check_block(&checker, "", &scenario_block, model);
     if (checker.status == LD_OK)
         model_check_rules(model, refuse_rule, &checker);

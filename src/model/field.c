@@ -314,7 +314,7 @@ void field_expectation(const field_row *field, char *text, size_t size)
         table_expectation(field->table, text, size);
         return;
     case FIELD_FACTORS:
-        snprintf(text, size, "a block of paths, each with its distribution");
+        snprintf(text, size, "a block of paths or names, each with its distribution");
         return;
     case FIELD_CORRELATED:
         snprintf(text, size, "a list of blocks, each with the keys factors and matrix");
@@ -324,7 +324,7 @@ void field_expectation(const field_row *field, char *text, size_t size)
                  field->count);
         return;
     case FIELD_SWEEP:
-        snprintf(text, size, "a block of paths, each with a list of values");
+        snprintf(text, size, "a block of paths or names, each with a list of values");
         return;
     case FIELD_LATER:
         snprintf(text, size, "nothing yet");

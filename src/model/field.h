@@ -152,10 +152,12 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
 double field_get(const ld_model *model, const field_place *place);
 void field_set(ld_model *model, const field_place *place, double value);
 
-// Whether the factor's distribution goes with the number that it scatters; false: `why` says why
+// How many numbers a factor scatters, and the path of each.
+int factor_numbers(const ld_factor *factor);
+const char *factor_path(const ld_factor *factor, int number);
+// Whether its numbers are there and the factor's distribution goes with them; false: `why` says why
 // not.
-bool factor_is_possible(const ld_model *model, const ld_factor *factor, const field_place *place,
-                        char *why, size_t size);
+bool factor_is_possible(const ld_model *model, const ld_factor *factor, char *why, size_t size);
 // Whether the factors of a group can be correlated as it says; false: `why` says why not.
 bool correlated_is_possible(const ld_scatter *scatter, const ld_correlated *group, char *why,
                             size_t size);

@@ -8,6 +8,7 @@ void ld_model_init(ld_model *model)
     field_initialise(&scenario_block, model);
     model->firing_count = 1;
     model->firing[0] = (ld_firing){.tube = 1};
+    model->environment.ground_height = NAN;
 }
 
 void ld_model_free(ld_model *model)
@@ -70,6 +71,10 @@ static void complete_firing(ld_model *model)
 
 void ld_model_complete(ld_model *model)
 {
+    ld_environment *environment = &model->environment;
+    if (isnan(environment->ground_height))
+        environment->ground_height =
+            environment->earth.kind == LD_EARTH_FLAT ? 0 : environment->site.altitude;
     complete_firing(model);
     ld_tubes *tubes = &model->tubes;
     ld_rocket *rocket = &model->rocket;

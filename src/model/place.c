@@ -210,9 +210,22 @@ void field_set(ld_model *model, const field_place *place, double value)
 
 // ---- factors
 
+int factor_numbers(const ld_factor *factor)
+{
+    return factor->together.count ? factor->together.count : 1;
+}
+
+const char *factor_path(const ld_factor *factor, int number)
+{
+    return factor->together.count ? factor->together.path[number] : factor->path;
+}
+
 bool factor_may_be_per_rocket(const ld_factor *factor)
 {
-    return strncmp(factor->path, "rocket.", 7) == 0;
+    bool below = true;
+    for (int i = 0; i < factor_numbers(factor); i++)
+        below &= strncmp(factor_path(factor, i), "rocket.", 7) == 0;
+    return below;
 }
 
 // Whether a normal distribution about the nominal value has something between its bounds.
@@ -225,12 +238,42 @@ static bool has_values_between(const ld_factor *factor, double nominal)
                    : normal_cumulative(high) > normal_cumulative(low);
 }
 
-bool factor_is_possible(const ld_model *model, const ld_factor *factor, const field_place *place,
+// Whether values lie about that of the scenario.
+static bool is_about_nominal(const ld_factor *factor)
+{
+    return factor->distribution == LD_NORMAL || factor->distribution == LD_LOGNORMAL ||
+           (factor->distribution == LD_UNIFORM && isnan(factor->between[0]));
+}
+
+// Whether the numbers of the factor after the first are alike and have its value in the scenario,
+// where that counts.
+static bool go_together(const ld_model *model, const ld_factor *factor, const field_place *first,
                         char *why, size_t size)
 {
+    for (int i = 1; i < factor_numbers(factor); i++) {
+        field_place place;
+        if (!field_locate(model, factor_path(factor, i), &place, why, size))
+            return false;
+        const char *unit = first->row->unit ? first->row->unit : "";
+        const char *own = place.row->unit ? place.row->unit : "", *text = NULL;
+        if (strcmp(unit, own) != 0 || place.whole != first->whole)
+            text = "are not of one kind";
+        else if (is_about_nominal(factor) && field_get(model, &place) != field_get(model, first))
+            text = "have not the same value in the scenario, about which to scatter";
+        if (text) {
+            snprintf(why, size, "%s and %s %s", first->path, place.path, text);
+            return false;
+        }
+    }
+    return true;
+}
+
+// Whether the distribution goes with one of the factor's numbers.
+static bool goes_with(const ld_model *model, const ld_factor *factor, const field_place *place,
+                      char *why, size_t size)
+{
     double nominal = field_get(model, place);
-    bool about = factor->distribution == LD_NORMAL || factor->distribution == LD_LOGNORMAL ||
-                 (factor->distribution == LD_UNIFORM && isnan(factor->between[0]));
+    bool about = is_about_nominal(factor);
     const char *text = NULL;
     if (place->whole && factor->distribution != LD_DISCRETE &&
         factor->distribution != LD_EACH_SAMPLE)
@@ -249,6 +292,14 @@ bool factor_is_possible(const ld_model *model, const ld_factor *factor, const fi
     if (text)
         snprintf(why, size, "%s", text);
     return !text;
+}
+
+bool factor_is_possible(const ld_model *model, const ld_factor *factor, char *why, size_t size)
+{
+    field_place first;
+    return field_locate(model, factor_path(factor, 0), &first, why, size) &&
+           goes_with(model, factor, &first, why, size) &&
+           go_together(model, factor, &first, why, size);
 }
 
 bool correlated_factorise(const ld_correlated *group,

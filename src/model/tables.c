@@ -174,8 +174,10 @@ static const field_row environment_fields[] = {
      .doc = "added to the temperature of us1976, at unchanged pressure"},
     {"ground", CHOICE(ld_model, environment.ground, ground_words),
      .other = offsetof(ld_model, environment.ground_height), .unit = "m",
-     .range = {-1e5, 1e5, 0, 0}, .initial_doc = "0 m", DEFAULT(LD_GROUND_PLANE),
-     .doc = "y of the ground plane, on which free flight ends"},
+     .range = {-1e5, 1e7, 0, 0}, .initial_doc = "0 m, or the site's altitude",
+     DEFAULT(LD_GROUND_PLANE),
+     .doc = "where free flight ends: y of a plane on a flat Earth, else the height above sphere or "
+            "ellipsoid, by default that of the site"},
     {"wind", BLOCK(ld_model, environment.wind, wind_block), .initial_doc = "none",
      SWITCH(ld_model, environment.wind.present, wind_words), .other_is_bool = true,
      .doc = "velocity of the air in free flight, where it goes to"},
@@ -985,7 +987,8 @@ static const field_row scatter_fields[] = {
      .doc = "independent hypercubes of samples/replicates each; intervals come from them"},
     {"factors", .kind = FIELD_FACTORS, .offset = offsetof(ld_scatter, factor),
      .other = offsetof(ld_scatter, factor_count), .required = true,
-     .doc = "what is scattered: any number of the scenario by its path"},
+     .doc = "what is scattered: any number of the scenario by its path, several by `paths` under a "
+            "name"},
     {"correlated", .kind = FIELD_CORRELATED, .offset = offsetof(ld_scatter, correlated),
      .other = offsetof(ld_scatter, correlated_count), .initial_doc = "none",
      .doc = "groups of factors that depend on one another"},

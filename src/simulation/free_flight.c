@@ -144,7 +144,7 @@ static void watch(flight_run *run, double t, const double *y)
 {
     const flight_system *system = run->job->system;
     flight_flow flow = flight_flow_at(system, t, y);
-    run->apogee = fmax(run->apogee, flight_center(system, t, y).r.y);
+    run->apogee = fmax(run->apogee, flight_height(system, y));
     if (flow.airspeed > 0 && flow.density > 0)
         run->tilted = fmax(run->tilted, flow.angle_of_attack);
     if (isnan(run->t_tumbling) && system->aerodynamics.present && flow.density > 0 &&
@@ -190,11 +190,11 @@ static ld_status report_progress(flight_run *run, double t, const double *y)
     if (!job->options || !job->options->progress || t < run->next_progress)
         return LD_OK;
     run->next_progress = t + 0.05;
-    earth_motion center = flight_center(job->system, t, y);
     double g = 9.8, left = job->t_end - t;
     if (isinf(left)) {
-        double height = fmax(0, center.r.y - job->system->ground);
-        left = (center.v.y + sqrt(center.v.y * center.v.y + 2 * g * height)) / g;
+        double height = fmax(0, flight_height(job->system, y) - job->system->ground);
+        double rate = flight_height_rate(job->system, &run->phase, t, y);
+        left = (rate + sqrt(rate * rate + 2 * g * height)) / g;
     }
     double gone = t - job->t_start, share = gone > 0 ? gone / (gone + left) : 0;
     if (!job->options->progress(job->options->self, share))
@@ -224,9 +224,8 @@ static double touch_ground(flight_run *run, double t, double *y)
 {
     const flight_system *system = run->job->system;
     for (int i = 0; i < 4; i++) {
-        double height, rate;
-        flight_height(system, &run->phase, t, y, &height, &rate);
-        double h = (system->ground - height) / rate;
+        double rate = flight_height_rate(system, &run->phase, t, y);
+        double h = (system->ground - flight_height(system, y)) / rate;
         if (!(fabs(h) < 0.01) || fabs(h) < 1e-14)
             break;
         small_step(run, t, h, y);
@@ -246,7 +245,12 @@ static void record_impact(flight_run *run, double t, const double *y)
     flight->t_impact = t - job->t_ignition;
     flight->time_of_flight = t - job->t_start;
     flight->impact_speed = v3_norm(center.v);
-    flight->impact_angle = atan2(-center.v.y, hypot(center.v.x, center.v.z));
+    v3 v = center.v; // ahead, up, to the side
+    if (!job->system->earth.flat) {
+        v3 ned = flight_place_at(job->system, t, y, m3_identity()).velocity_ned;
+        v = v3_make(ned.x, -ned.z, ned.y);
+    }
+    flight->impact_angle = atan2(-v.y, hypot(v.x, v.z));
 }
 
 static void record_final(const flight_run *run, double t, const double *y, ld_final_state *final)
@@ -288,10 +292,11 @@ static double crossing(flight_run *run, bool rate, double a, double b)
     for (int i = 0; i < 60; i++) {
         // of the first two the ends, then a new point between them
         for (int k = i ? 2 : 0; k < (i ? 3 : 2); k++) {
-            double y[DORMAND_PRINCE_STATES], height, y_dot;
+            const flight_system *system = run->job->system;
+            double y[DORMAND_PRINCE_STATES];
             dormand_prince_between(&run->steps, t[k], y);
-            flight_height(run->job->system, &run->phase, t[k], y, &height, &y_dot);
-            f[k] = rate ? y_dot : height - run->job->system->ground;
+            f[k] = rate ? flight_height_rate(system, &run->phase, t[k], y)
+                        : flight_height(system, y) - system->ground;
         }
         if (i) {
             bool other = f[2] * f[1] < 0;
@@ -310,10 +315,10 @@ static double crossing(flight_run *run, bool rate, double a, double b)
 // The highest point within the last step, NaN without.
 static double find_apex(flight_run *run)
 {
-    double height, before, after;
+    const flight_system *system = run->job->system;
     const dormand_prince *steps = &run->steps;
-    flight_height(run->job->system, &run->phase, steps->t0, steps->y0, &height, &before);
-    flight_height(run->job->system, &run->phase, steps->t, steps->y, &height, &after);
+    double before = flight_height_rate(system, &run->phase, steps->t0, steps->y0);
+    double after = flight_height_rate(system, &run->phase, steps->t, steps->y);
     return before > 0 && after < 0 ? crossing(run, true, steps->t0, steps->t) : NAN;
 }
 
@@ -322,11 +327,9 @@ static bool land(flight_run *run, double apex)
 {
     const flight_system *system = run->job->system;
     dormand_prince *steps = &run->steps;
-    double height, rate, y[DORMAND_PRINCE_STATES];
-    if (!system->has_ground)
-        return false;
-    flight_height(system, &run->phase, steps->t, steps->y, &height, &rate);
-    if (height > system->ground || rate > 0)
+    double y[DORMAND_PRINCE_STATES];
+    if (!system->has_ground || flight_height(system, steps->y) > system->ground ||
+        flight_height_rate(system, &run->phase, steps->t, steps->y) > 0)
         return false;
     double t = crossing(run, false, isnan(apex) ? steps->t0 : apex, steps->t);
     dormand_prince_retake(steps, t);
@@ -374,7 +377,7 @@ static ld_status after_step(flight_run *run, bool stopped)
     if (!isnan(apex)) {
         double y[DORMAND_PRINCE_STATES];
         dormand_prince_between(&run->steps, apex, y);
-        run->apogee = fmax(run->apogee, flight_center(run->job->system, apex, y).r.y);
+        run->apogee = fmax(run->apogee, flight_height(run->job->system, y));
         status = write_rows(run, apex);
         if (!status)
             status = write_row(run, apex, y);
@@ -422,15 +425,16 @@ static ld_status begin(flight_run *run, const double *y)
     memcpy(start, y, FLIGHT_STATES * sizeof(double));
     set_tolerances(run);
     dormand_prince_start(&run->steps, job->t_start, start);
-    double height = flight_center(job->system, job->t_start, y).r.y;
+    double height = flight_height(job->system, y);
     run->apogee = height;
     run->t_limit = job->t_start + job->model->run.flight_limit;
     watch(run, job->t_start, y);
     if (job->system->has_ground && height < job->system->ground)
         return ld_fail(run->error, LD_ERR_LAUNCH,
-                       "the flight begins below the ground: the mass centre is at y = %.6g m, the "
+                       "the flight begins below the ground: the mass centre is at %s %.6g m, the "
                        "ground at %.6g m",
-                       height, job->system->ground);
+                       job->system->earth.flat ? "y =" : "an altitude of", height,
+                       job->system->ground);
     ld_status status = check_table(run);
     return status ? status : write_row(run, job->t_start, y);
 }

@@ -225,8 +225,11 @@ static ld_status print_state(study_store *self, const shard_list *list, FILE *st
         status = store_count(self, &counts, error);
     if (status)
         return status;
-    fprintf(stream, "%s: %" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n", self->path,
-            counts.done, counts.samples, counts.failed);
+    fprintf(stream,
+            counts.done > counts.samples
+                ? "%s: %" PRId64 " samples kept, %" PRId64 " asked for, %" PRId64 " failed\n"
+                : "%s: %" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n",
+            self->path, counts.done, counts.samples, counts.failed);
     for (size_t i = 0; i < list->found.gl_pathc && !status; i++)
         status = print_unfinished(self, list->found.gl_pathv[i], counts.samples, stream, error);
     if (!status && counts.done < counts.samples)

@@ -4,25 +4,42 @@
 
 #include "studies/draw.h"
 
+// Finds the numbers of factor `i`, whose first place is known.
+static bool find_places(study_sampler *self, int i, char *why, size_t size)
+{
+    const ld_factor *factor = &self->nominal->scatter.factor[i];
+    field_place *place = &self->place[self->first[i]];
+    for (int k = 0; k < factor_numbers(factor); k++)
+        if (!field_locate(self->nominal, factor_path(factor, k), &place[k], why, size))
+            return false;
+    self->nominal_value[i] = field_get(self->nominal, place);
+    return true;
+}
+
 ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error *error)
 {
     const ld_scatter *scatter = &nominal->scatter;
     char why[384];
     *self = (study_sampler){.nominal = nominal, .factor_count = scatter->factor_count};
     size_t count = (size_t)scatter->factor_count + 1;
-    self->place = calloc(count, sizeof *self->place);
+    int places = 0;
+    self->first = calloc(count, sizeof *self->first);
     self->nominal_value = calloc(count, sizeof *self->nominal_value);
-    if (!self->place || !self->nominal_value) {
+    for (int i = 0; self->first && i < scatter->factor_count; i++) {
+        self->first[i] = places;
+        places += factor_numbers(&scatter->factor[i]);
+    }
+    self->place = calloc((size_t)places + 1, sizeof *self->place);
+    if (!self->place || !self->first || !self->nominal_value) {
         sampler_free(self);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's factors");
     }
     for (int i = 0; i < scatter->factor_count; i++) {
-        const char *path = scatter->factor[i].path;
-        if (!field_locate(nominal, path, &self->place[i], why, sizeof why)) {
+        if (!find_places(self, i, why, sizeof why)) {
             sampler_free(self);
-            return ld_fail(error, LD_ERR_INPUT, "scatter.factors.%s: %s", path, why);
+            return ld_fail(error, LD_ERR_INPUT, "scatter.factors.%s: %s", scatter->factor[i].path,
+                           why);
         }
-        self->nominal_value[i] = field_get(nominal, &self->place[i]);
     }
     return LD_OK;
 }
@@ -30,6 +47,7 @@ ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error 
 void sampler_free(study_sampler *self)
 {
     free(self->place);
+    free(self->first);
     free(self->nominal_value);
     *self = (study_sampler){0};
 }
@@ -43,7 +61,7 @@ void sampler_values(const study_sampler *self, int64_t number, int rocket, doubl
         if (factor->per_rocket != (rocket > 0))
             continue;
         double u = draw_uniform(scatter, factor, number, rocket);
-        row[i] = draw_value(factor, &self->place[i], self->nominal_value[i], u);
+        row[i] = draw_value(factor, &self->place[self->first[i]], self->nominal_value[i], u);
     }
 }
 
@@ -71,9 +89,11 @@ void sample_free(study_sample *self)
 static void draw_row(study_sample *self, const study_sampler *sampler, int64_t number, int rocket)
 {
     sampler_values(sampler, number, rocket, self->value);
-    for (int i = 0; i < sampler->factor_count; i++)
-        if (sampler->nominal->scatter.factor[i].per_rocket == (rocket > 0))
-            field_set(&self->model, &sampler->place[i], self->value[i]);
+    for (int i = 0; i < sampler->factor_count; i++) {
+        const ld_factor *factor = &sampler->nominal->scatter.factor[i];
+        for (int k = 0; k < factor_numbers(factor) && factor->per_rocket == (rocket > 0); k++)
+            field_set(&self->model, &sampler->place[sampler->first[i] + k], self->value[i]);
+    }
 }
 
 ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t number,

@@ -6,12 +6,13 @@
 
 #include "model/field.h"
 
-// What is found once: where the factors are in a model, and their nominal values.
+// What is found once: where the factors' numbers are in a model, and their nominal values.
 typedef struct study_sampler {
     const ld_model *nominal;
     int factor_count;
-    field_place *place;
-    double *nominal_value;
+    field_place *place;    // of each factor as many as it has numbers, one factor after the other
+    int *first;            // [factors] its first place
+    double *nominal_value; // [factors]
 } study_sampler;
 
 ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error *error);

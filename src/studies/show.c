@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printed.h"
 #include "io/numeric_locale.h"
 #include "io/study_results.h"
 #include "launchdyn/study.h"
@@ -146,31 +147,60 @@ static ld_status print_counts(const shown *self, const study_point *point, ld_er
     study_failure failure[MOST];
     int count;
     ld_status status = study_data_failures(self->data, point, failure, MOST, &count, error);
-    fprintf(self->stream, "%" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n", point->done,
-            point->asked, point->failed);
+    fprintf(self->stream,
+            point->done > point->asked ? "%" PRId64 " samples kept, %" PRId64 " asked for, %" PRId64
+                                         " failed\n"
+                                       : "%" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n",
+            point->done, point->asked, point->failed);
     for (int i = 0; i < count && !status; i++)
         fprintf(self->stream, "  %" PRId64 " failed (%s), the first of them %" PRId64 ": %s\n",
                 failure[i].count, failure[i].status, failure[i].first, failure[i].reason);
     return status;
 }
 
-static void print_mean(FILE *stream, const estimate *e)
+// What was not found is printed as "-", a negative zero as 0.
+static void number_text(char text[32], double value, int digits)
 {
-    char text[64];
-    if (isnan(e->low))
-        snprintf(text, sizeof text, "%.6g", e->value);
+    if (isnan(value))
+        strcpy(text, "-");
     else
-        snprintf(text, sizeof text, "%.6g +- %.2g", e->value, 0.5 * (e->high - e->low));
-    fprintf(stream, " %-25s", text);
+        snprintf(text, 32, "%.*g", digits, value + 0.0);
 }
 
-static void print_estimate(FILE *stream, int width, const estimate *e)
+static void print_number(FILE *stream, int width, double value, int digits)
 {
-    char text[96];
-    if (isnan(e->low))
-        snprintf(text, sizeof text, "%.4g", e->value);
-    else
-        snprintf(text, sizeof text, "%.4g [%.4g, %.4g]", e->value, e->low, e->high);
+    char text[32];
+    number_text(text, value, digits);
+    fprintf(stream, " %*s", width, text);
+}
+
+// "37.125 +- 0.02": so many digits, or as many as show half the interval and have room.
+static void print_half(FILE *stream, int width, const estimate *e, int least)
+{
+    char text[64], value[32];
+    double half = 0.5 * (e->high - e->low);
+    int digits = printed_digits(e->value, half, least), length;
+    do {
+        number_text(value, e->value, digits);
+        length = snprintf(text, sizeof text, isnan(e->low) ? "%s" : "%s +- %.2g", value, half);
+    } while (length > width && digits-- > least);
+    fprintf(stream, " %-*s", width, text);
+}
+
+// "8.31 [8.24, 8.37]": four digits, or as many as show two of the spread and have room.
+static void print_estimate(FILE *stream, int width, const estimate *e, double spread)
+{
+    enum { ROOM = 31 }; // of what ends a line
+    char text[128], value[32], low[32], high[32];
+    double largest = fmax(fabs(e->value), fmax(fabs(e->low), fabs(e->high)));
+    int digits = printed_digits(largest, spread, 4), length;
+    do {
+        number_text(value, e->value, digits);
+        number_text(low, e->low, digits);
+        number_text(high, e->high, digits);
+        length =
+            snprintf(text, sizeof text, isnan(e->low) ? "%s" : "%s [%s, %s]", value, low, high);
+    } while (length > (width ? width : ROOM) && digits-- > 4);
     fprintf(stream, " %-*s", width, text);
 }
 
@@ -180,12 +210,16 @@ static void print_statistics(const shown *self, const group_statistics *of)
     fprintf(stream, "\n%-26s %-25s %-33s %8s %11s %11s\n", "", "mean", "standard deviation",
             "skewness", "least", "greatest");
     for (int i = 0; i < self->count; i++) {
-        if (of[i].count == 0)
+        const group_statistics *s = &of[i];
+        if (s->count == 0)
             continue;
         print_name(stream, self->column[i]);
-        print_mean(stream, &of[i].mean);
-        print_estimate(stream, 33, &of[i].deviation);
-        fprintf(stream, " %8.3g %11.6g %11.6g\n", of[i].skewness, of[i].least, of[i].greatest);
+        print_half(stream, 25, &s->mean, 6);
+        print_estimate(stream, 33, &s->deviation, NAN);
+        print_number(stream, 8, s->skewness, 3);
+        print_number(stream, 11, s->least, printed_digits(s->least, s->deviation.value, 6));
+        print_number(stream, 11, s->greatest, printed_digits(s->greatest, s->deviation.value, 6));
+        fputc('\n', stream);
     }
     fprintf(stream, "\n%-26s %-30s %-30s %s\n", "", "5 %", "median", "95 %");
     for (int i = 0; i < self->count; i++) {
@@ -193,8 +227,35 @@ static void print_statistics(const shown *self, const group_statistics *of)
             continue;
         print_name(stream, self->column[i]);
         for (int k = 0; k < STATISTICS_QUANTILES; k++)
-            print_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &of[i].quantile[k]);
+            print_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &of[i].quantile[k],
+                           of[i].deviation.value);
         fputc('\n', stream);
+    }
+}
+
+// Whether any result shown takes more than one value there.
+static bool scatters(const shown *self, const group_statistics *of)
+{
+    for (int i = 0; i < self->count; i++)
+        if (of[i].greatest > of[i].least)
+            return true;
+    return false;
+}
+
+// Of a point at which nothing scatters; several points stand side by side in any case.
+static void print_values(const shown *self, const group_statistics *of)
+{
+    fputs("every result has one value\n", self->stream);
+    if (self->data->point_count > 1)
+        return;
+    fputc('\n', self->stream);
+    for (int i = 0; i < self->count; i++) {
+        if (of[i].count == 0)
+            continue;
+        char value[32];
+        number_text(value, of[i].mean.value, 6);
+        print_name(self->stream, self->column[i]);
+        fprintf(self->stream, " %s\n", value);
     }
 }
 
@@ -225,9 +286,9 @@ static void print_ellipse(FILE *stream, const study_column *const pair[2],
     fprintf(stream, "%s and %s [%s]: centre %.6g, %.6g; %zu rockets\n", pair[0]->name,
             pair[1]->name, pair[0]->unit, e->mean[0], e->mean[1], count);
     fputs("    semi-axes of one standard deviation", stream);
-    print_estimate(stream, 0, &axis[0]);
+    print_estimate(stream, 0, &axis[0], NAN);
     fputs(" and", stream);
-    print_estimate(stream, 0, &axis[1]);
+    print_estimate(stream, 0, &axis[1], NAN);
     fprintf(stream,
             "\n    of 95 %% of a normal distribution %.4g and %.4g; the long one %.4g deg from %s "
             "towards %s\n",
@@ -366,6 +427,10 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     const group_statistics *of = statistics_at(self, point), *most = most_values(self, of);
     if (status || !most)
         return status;
+    if (!scatters(self, of)) {
+        print_values(self, of);
+        return LD_OK;
+    }
     fprintf(self->stream, "%zu rockets, %zu independent groups; 95 %% intervals over groups\n",
             most->count, most->groups);
     if (self->view->sensitivity)
@@ -376,14 +441,15 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
 
 enum { CELL = 22, CELLS = 4 };
 
-static void print_cell(FILE *stream, int digits, const estimate *e)
+// Whether a result scatters at any of these points.
+static bool column_scatters(const shown *self, int column, int from, int to)
 {
-    char text[64] = "";
-    if (!isnan(e->value) && isnan(e->low))
-        snprintf(text, sizeof text, "%.*g", digits, e->value);
-    else if (!isnan(e->value))
-        snprintf(text, sizeof text, "%.*g +- %.2g", digits, e->value, 0.5 * (e->high - e->low));
-    fprintf(stream, " %-*s", CELL, text);
+    for (int i = from; i < to; i++) {
+        const group_statistics *of = &statistics_at(self, &self->data->point[i])[column];
+        if (of->greatest > of->least)
+            return true;
+    }
+    return false;
 }
 
 // Points `from` to before `to`, a column each.
@@ -399,10 +465,12 @@ static void print_beside(const shown *self, int from, int to)
         fputc('\n', self->stream);
         print_name(self->stream, self->column[c]);
         for (int i = from; i < to; i++)
-            print_cell(self->stream, 6, &statistics_at(self, &data->point[i])[c].mean);
+            print_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].mean, 6);
+        if (!column_scatters(self, c, from, to))
+            continue;
         fprintf(self->stream, "\n%-26s", "    deviation");
         for (int i = from; i < to; i++)
-            print_cell(self->stream, 4, &statistics_at(self, &data->point[i])[c].deviation);
+            print_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].deviation, 4);
     }
     fputc('\n', self->stream);
 }
@@ -410,7 +478,11 @@ static void print_beside(const shown *self, int from, int to)
 static void print_side_by_side(const shown *self)
 {
     int points = self->data->point_count;
-    fputs("\nAll points: mean and standard deviation, +- half a 95 % interval\n", self->stream);
+    bool any = false;
+    for (int c = 0; c < self->count; c++)
+        any |= column_scatters(self, c, 0, points);
+    fprintf(self->stream, "\nAll points%s\n",
+            any ? ": mean and standard deviation, +- half a 95 % interval" : "");
     for (int from = 0; from < points; from += CELLS)
         print_beside(self, from, from + CELLS < points ? from + CELLS : points);
 }

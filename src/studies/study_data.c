@@ -99,12 +99,13 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
     return status;
 }
 
-static bool is_seed(const ld_model *model, const char *path)
+// The factor with the name of that column, or NULL.
+static const ld_factor *factor_named(const ld_model *model, const char *name)
 {
     for (int i = 0; i < model->scatter.factor_count; i++)
-        if (strcmp(model->scatter.factor[i].path, path) == 0)
-            return model->scatter.factor[i].distribution == LD_EACH_SAMPLE;
-    return false;
+        if (strcmp(model->scatter.factor[i].path, name) == 0)
+            return &model->scatter.factor[i];
+    return NULL;
 }
 
 // Units and kinds of the factors and the title, from the scenario itself; without them where it
@@ -122,10 +123,14 @@ static ld_status read_scenario(study_data *data, ld_error *error)
         return LD_OK;
     }
     for (int i = data->result_count; i < data->column_count; i++) {
+        const ld_factor *factor = factor_named(&model, data->column[i].name);
         field_place place;
-        if (field_locate(&model, data->column[i].name, &place, why, sizeof why) && place.row->unit)
+        if (!factor)
+            continue;
+        if (field_locate(&model, factor_path(factor, 0), &place, why, sizeof why) &&
+            place.row->unit)
             self->column[i].unit = place.row->unit;
-        self->column[i].seed = is_seed(&model, data->column[i].name);
+        self->column[i].seed = factor->distribution == LD_EACH_SAMPLE;
     }
     data->title = keep(self, strdup(model.title ? model.title : ""));
     ld_model_free(&model);

@@ -135,17 +135,16 @@ static v3 wind_velocity(const flight_system *self, double t, v3 r, double altitu
         v3 v = wind_at(moving, t, altitude);
         return m3_apply(A_CE, m3_apply(earth_local_axes(place.latitude, place.longitude), v));
     }
-    v3 above = earth_to_ground(globe, t, r, v3_zero()).r;
-    return m3_apply(A_CE, m3_apply(globe->A_EI, wind_at(moving, t, above.y - self->ground)));
+    return m3_apply(A_CE, m3_apply(globe->A_EI, wind_at(moving, t, altitude - self->ground)));
 }
 
 // Velocity of the air by turbulence, in C, and its scales at the point r of C.
-static v3 turbulence_at(const flight_system *self, double t, v3 r, const double xi[2],
-                        turbulence_scales *scales)
+static v3 turbulence_at(const flight_system *self, double t, v3 r, double altitude,
+                        const double xi[2], turbulence_scales *scales)
 {
     const earth *globe = &self->earth;
-    double y = globe->flat ? r.y : earth_to_ground(globe, t, r, v3_zero()).r.y;
-    *scales = turbulence_scales_at(&self->turbulence, y - self->ground);
+    double height = globe->flat ? r.y : altitude;
+    *scales = turbulence_scales_at(&self->turbulence, height - self->ground);
     v3 v = turbulence_velocity(&self->turbulence, scales, xi[0], xi[1]);
     return globe->flat ? v : m3_apply(earth_turn(globe, t), m3_apply(globe->A_EI, v));
 }
@@ -170,7 +169,7 @@ LD_INLINE flow flow_at(const flight_system *self, double t, v3 r, v3 v, const do
     if (self->turbulence.present) {
         turbulence_scales scales;
         double mean_speed = v3_norm(v);
-        v = v3_sub(v, turbulence_at(self, t, r, xi, &scales));
+        v = v3_sub(v, turbulence_at(self, t, r, out.altitude, xi, &scales));
         out.xi_dot[0] = mean_speed / scales.L_u;
         out.xi_dot[1] = mean_speed / scales.L_w;
     }
@@ -194,7 +193,7 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
         v3 w = wind_velocity(self, t, r, here.altitude);
         turbulence_scales scales;
         if (self->turbulence.present)
-            w = v3_add(w, turbulence_at(self, t, r, state + FLIGHT_XI, &scales));
+            w = v3_add(w, turbulence_at(self, t, r, here.altitude, state + FLIGHT_XI, &scales));
         m3 A_CI = m3_mul(earth_turn(&self->earth, t), self->earth.A_EI);
         out.wind = m3_apply_transposed(A_CI, w);
     }
@@ -336,17 +335,23 @@ flight_place flight_place_at(const flight_system *self, double t, const double *
     return place;
 }
 
-void flight_height(const flight_system *self, const flight_phase *phase, double t,
-                   const double *state, double *y, double *y_dot)
+double flight_height(const flight_system *self, const double *state)
 {
-    v3 v = v3_from(state + FLIGHT_V);
+    v3 up;
+    return earth_height(&self->earth, v3_from(state + FLIGHT_R), &up);
+}
+
+double flight_height_rate(const flight_system *self, const flight_phase *phase, double t,
+                          const double *state)
+{
+    v3 up, v = v3_from(state + FLIGHT_V);
     if (phase->burning) {
         v3 c_dot = m3_apply(m3_rotation_x(state[FLIGHT_ROLL]), flight_mass(self, phase, t).c_dot);
         v = v3_add(v, m3_apply(q_matrix(q_from(state + FLIGHT_Q)), c_dot));
     }
-    earth_motion center = earth_to_ground(&self->earth, t, v3_from(state + FLIGHT_R), v);
-    *y = center.r.y;
-    *y_dot = center.v.y;
+    // the Earth's turn moves nothing up or down: v need not be against the ground
+    earth_height(&self->earth, v3_from(state + FLIGHT_R), &up);
+    return v3_dot(up, v);
 }
 
 // Attitude of a flight alone, in I, where the axes north, up, east are those of A_IN.

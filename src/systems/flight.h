@@ -47,7 +47,7 @@ typedef struct flight_system {
     v3 thrust_point;     // [m] in B
     v3 thrust_direction; // unit vector, in B
     bool symmetric;      // the same all around its x axis: nothing depends on the roll angle
-    double ground;       // [m] y of I
+    double ground;       // [m] its height: of the plane y, else above sphere or ellipsoid
     bool has_ground;
 } flight_system;
 
@@ -107,9 +107,11 @@ typedef struct flight_place {
 
 flight_place flight_place_at(const flight_system *self, double t, const double *state, m3 A_IB);
 
-// Height of the mass centre above the ground plane's zero (y of I) and its rate.
-void flight_height(const flight_system *self, const flight_phase *phase, double t,
-                   const double *state, double *y, double *y_dot);
+// Height of the mass centre, which counts against that of the ground, and its rate: y of I on a
+// flat Earth, else the altitude above sphere or ellipsoid.
+double flight_height(const flight_system *self, const double *state);
+double flight_height_rate(const flight_system *self, const flight_phase *phase, double t,
+                          const double *state);
 
 // Flow about the rocket.
 typedef struct flight_flow {

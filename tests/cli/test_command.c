@@ -5,6 +5,16 @@
 #include <signal.h>
 #include <time.h>
 
+// No number of what was printed is a negative one rounded to nothing: " -0.000".
+static void expect_no_negative_zero(void)
+{
+    for (const char *at = shell.out; (at = strstr(at, " -0")); at++) {
+        const char *end = at + 2 + strspn(at + 2, "0.");
+        if (strspn(end, "0123456789e") == 0)
+            fail_msg("%.*s in:\n%s", (int)(end - at), at, shell.out);
+    }
+}
+
 static void test_help_and_version(void **state)
 {
     (void)state;
@@ -21,6 +31,16 @@ static void test_help_and_version(void **state)
     expect_in(shell.out, "--set PATH=VALUE");
     assert_int_equal(run("launchdyn plot -h"), 0);
     expect_in(shell.out, "tip-rate");
+    // what takes no options has the help of all
+    assert_int_equal(run("launchdyn help --help >b; launchdyn help -h >c; launchdyn version --help "
+                         ">d; launchdyn help help >e; cmp a b && cmp a c && cmp a d && cmp a e"),
+                     0);
+    expect_complaint("launchdyn help --halp", 2, "unknown option --halp");
+    // a space at least between a command's arguments and what it does
+    assert_int_equal(run("launchdyn help | grep -E 'DIR[A-Z]|FILE[A-Z]|\\][A-Z]'"), 1);
+    assert_int_equal(run("launchdyn help"), 0);
+    expect_in(shell.out, "  study   FILE | show DIR | export DIR | merge DIR\n"
+                         "                     Run the samples of a scattered scenario");
 }
 
 static void test_wrong_words(void **state)
@@ -103,7 +123,12 @@ static void test_report(void **state)
 static void test_table_alone_writes_nothing(void **state)
 {
     (void)state;
+    assert_int_equal(run("launchdyn run examples/flight.yaml --set flight.rate='0 0 0 rad/s' --set "
+                         "rocket.aerodynamics.fin_cant='0 deg'"),
+                     0);
+    expect_no_negative_zero();
     assert_int_equal(run("launchdyn run examples/fixed.yaml && ls"), 0);
+    expect_no_negative_zero();
     expect_in(shell.out, "examples\nlaunchdyn\n");
     assert_int_equal(run("launchdyn run examples/fixed.yaml --quiet"), 0);
     assert_string_equal(shell.out, "");

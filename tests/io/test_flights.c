@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "io/plot.h"
+#include "launchdyn/scenario.h"
 #include "support/made_launch.h"
 #include "support/scratch.h"
 
@@ -218,6 +219,82 @@ static void test_flight_alone(void **state)
     assert_int_equal(ld_plot(&picture, in("alone.svg"), NULL), LD_OK);
 }
 
+static void assert_line(FILE *file, const char *expected)
+{
+    char line[256];
+    assert_non_null(fgets(line, sizeof line, file));
+    line[strcspn(line, "\n")] = '\0';
+    assert_string_equal(line, expected);
+}
+
+// A real flight on the ellipsoid: the map line by line, its places those of the history's rows, the
+// last that of the impact, heights above the ellipsoid and never a negative zero.
+static void test_map_of_an_ellipsoid(void **state)
+{
+    (void)state;
+    const char *const sets[] = {"environment.earth=wgs84", "title=A <small> & \"round\" one",
+                                "environment.site={latitude: -35 deg, longitude: 150 deg}"};
+    static ld_summary summary;
+    ld_model model;
+    ld_messages messages;
+    ld_simulation *simulation;
+    ld_output *output;
+    history_data read;
+    assert_int_equal(
+        ld_scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", sets, 3, &model, &messages), LD_OK);
+    assert_int_equal(ld_simulation_create(&model, &simulation, NULL), LD_OK);
+    assert_int_equal(ld_output_open(in("round"), &model, false, &output, NULL), LD_OK);
+    const ld_run_options options = {.sink = ld_output_sink(output)};
+    assert_int_equal(ld_simulation_run(simulation, &options, &summary, NULL), LD_OK);
+    assert_int_equal(ld_output_finish(output, &summary, NULL), LD_OK);
+    assert_int_equal(history_read(in("round/history.h5"), &read, NULL), LD_OK);
+    FILE *file = fopen(in("round/trajectories.kml"), "r");
+    assert_non_null(file);
+    const char *const head[] = {
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>",
+        "<kml xmlns=\"http://www.opengis.net/kml/2.2\">",
+        "<Document>",
+        "<name>A &lt;small&gt; &amp; \"round\" one</name>",
+        "<Placemark>",
+        "<name>Rocket 1, tube 1</name>",
+        "<Style><LineStyle><color>ffb27200</color><width>2</width></LineStyle></Style>",
+        "<LineString>",
+        "<altitudeMode>absolute</altitudeMode>",
+        "<coordinates>"};
+    for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
+        assert_line(file, head[i]);
+    const double *latitude = history_column(&read, "latitude"),
+                 *longitude = history_column(&read, "longitude"),
+                 *altitude = history_column(&read, "altitude");
+    char line[256], digits[64] = "";
+    double worst = 0, place[3] = {0};
+    for (size_t i = 0; i < read.rows; i++) {
+        assert_non_null(fgets(line, sizeof line, file));
+        assert_int_equal(sscanf(line, "%lf,%lf,%lf%63s", &place[0], &place[1], &place[2], digits),
+                         3);
+        worst = fmax(worst, 2e9 * fabs(place[0] - longitude[i] / degree));
+        worst = fmax(worst, 2e9 * fabs(place[1] - latitude[i] / degree));
+        worst = fmax(worst, 2e3 * fabs(place[2] - altitude[i]));
+        assert_null(strstr(line, ",-0.000\n"));
+    }
+    CHECK_BELOW("places of rows, in halves of the last digit", worst, 1.01);
+    const ld_final_state *final = &summary.rocket[0].final;
+    CHECK_BELOW("impact [deg]",
+                hypot(place[0] - final->longitude / degree, place[1] - final->latitude / degree),
+                1e-9);
+    CHECK_NEAR("altitude of the impact [m]", place[2], 0, 0);
+    assert_line(file, "</coordinates>");
+    assert_line(file, "</LineString>");
+    assert_line(file, "</Placemark>");
+    assert_line(file, "</Document>");
+    assert_line(file, "</kml>");
+    assert_null(fgets(line, sizeof line, file));
+    fclose(file);
+    history_free(&read);
+    ld_simulation_free(simulation);
+    ld_model_free(&model);
+}
+
 static const char *script_of(const history_data *history, size_t runs, const char *name)
 {
     static const char *const names[] = {"the one", "the other"};
@@ -284,6 +361,7 @@ int main(void)
         TEST(test_map_of_a_flat_earth),
         TEST(test_no_place_no_map),
         TEST(test_flight_alone),
+        TEST(test_map_of_an_ellipsoid),
         TEST(test_figures_of_flights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

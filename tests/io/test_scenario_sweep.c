@@ -111,6 +111,40 @@ static void test_points(void **state)
 }
 
 // An override takes the axis of its key away, and is laid over the points otherwise.
+// Several keys under one name: a point is the scenario with overrides of each; printed and read
+// again it is the same; an override of one of them takes all out.
+static void test_several_keys(void **state)
+{
+    (void)state;
+    static const char text[] = PLAIN
+        "sweep:\n"
+        "  gap: {paths: [rocket.adaptors.1.clearance, rocket.adaptors.front.clearance], values: "
+        "[0.2 mm, 0.25 mm, 0.3 mm]}\n"
+        "  base.speed: [0 km/h, 15 km/h]\n";
+    static const char *const sets[] = {"rocket.adaptors.rear.clearance=0.25 mm",
+                                       "rocket.adaptors.front.clearance=0.25 mm",
+                                       "base.speed=15 km/h"};
+    ld_model nominal = read_good(text, NULL, 0, 0), other = read_good(plain, sets, 3, 0);
+    char *printed = print_model(&nominal), name[64];
+    ld_model one = read_good(text, NULL, 0, 4), again = read_good(printed, NULL, 0, 4);
+    assert_int_equal(ld_scenario_points(&nominal), 6);
+    assert_string_equal(nominal.sweep[0].path, "gap");
+    assert_int_equal(nominal.sweep[0].together.count, 2);
+    assert_string_equal(nominal.sweep[0].together.path[0], "rocket.adaptors.rear.clearance");
+    assert_true(same_but_sweep(&one, &other));
+    assert_true(same_model(&one, &again));
+    ld_scenario_point_name(&nominal, 4, name, sizeof name);
+    assert_string_equal(name, "gap 0.25 mm, base.speed 15 km/h");
+    ld_model_free(&one);
+    one = read_good(text, sets, 1, 0);
+    assert_int_equal(ld_scenario_points(&one), 2);
+    free(printed);
+    ld_model_free(&nominal);
+    ld_model_free(&other);
+    ld_model_free(&one);
+    ld_model_free(&again);
+}
+
 static void test_overrides(void **state)
 {
     (void)state;
@@ -202,9 +236,9 @@ static void test_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axes),      cmocka_unit_test(test_points),
-        cmocka_unit_test(test_overrides), cmocka_unit_test(test_messages),
-        cmocka_unit_test(test_texts),
+        cmocka_unit_test(test_axes),         cmocka_unit_test(test_points),
+        cmocka_unit_test(test_several_keys), cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_messages),     cmocka_unit_test(test_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -139,6 +139,9 @@ static void test_defaults(void **state)
     assert_true(m.gravity == 9.80665 && m.firing_count == 1 && m.firing[0].tube == 1);
     assert_true(isnan(m.rocket.full.mass));
     assert_int_equal(ld_model_check(&m, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "environment.ground: not computed; call ld_model_complete()");
+    ld_model_complete(&m);
+    assert_int_equal(ld_model_check(&m, &error), LD_ERR_INPUT);
     assert_string_equal(error.text,
                         "tubes.length: nan m is not allowed; expected > 0 and <= 100 m");
     ld_model_free(&m);

@@ -185,6 +185,11 @@ async function checkControls(page, run) {
   }
   check("no name of an instant stands beyond the slider", await page.$$eval(".tick", (ticks) =>
     ticks.every((tick) => tick.getBoundingClientRect().right <= tick.closest(".track").getBoundingClientRect().right + 1)));
+  check("no instant's mark goes through the name of another", await page.$$eval(".tick", (ticks) => {
+    const box = ticks.map((tick) => tick.getBoundingClientRect());
+    return box.every((a, i) => box.every((b, k) => k <= i || a.right <= b.left || b.right <= a.left ||
+      a.bottom <= b.top || b.bottom <= a.top));
+  }));
   await page.locator(".amount").fill("2");
   check("the slider scales the deflection", (await page.evaluate(() => window.launchdyn.current.stage.scale)) === 100 &&
     (await page.textContent(".scale")).startsWith("× 100"));
@@ -245,16 +250,19 @@ async function checkFallbacks(browser, run) {
   await page.context().close();
 }
 
-// Keeps the numbers along the upright axis of each plot as they are drawn; code of the page.
+// Keeps the numbers along the upright axis of each plot and the names in it as they are drawn; code
+// of the page.
 function keepLabels() {
   const { clearRect, fillText } = CanvasRenderingContext2D.prototype;
   Object.assign(CanvasRenderingContext2D.prototype, {
     clearRect(...place) {
       this.canvas.labels = [];
+      this.canvas.names = [];
       clearRect.apply(this, place);
     },
     fillText(text, ...place) {
       if (this.textAlign === "right") this.canvas.labels?.push(text);
+      if (this.textAlign === "left") this.canvas.names?.push(text);
       fillText.call(this, text, ...place);
     },
   });
@@ -271,6 +279,10 @@ async function checkLooks(browser) {
   check("each line of a plot has a number of its own", labels.length > 0 &&
     labels.every((texts) => texts.length > 1 && new Set(texts).size === texts.length),
     labels.filter((texts) => new Set(texts).size < texts.length).join("; "));
+  const named = (await page.$$eval(".uplot canvas", (canvases) => canvases.map(({ names }) => names)))
+    .filter((names) => names?.includes("ignition"));
+  check("where ignition is named release is too", named.length > 0 && named.every((names) => names.includes("release")),
+    named.filter((names) => !names.includes("release")).length);
   const seen = await look(page, "replay.look('tube');" + show(0.1));
   check("tube and rocket are seen in the dark", seen.tube > 0.002 * seen.points && seen.rocket > 0.001 * seen.points,
     `${seen.tube} and ${seen.rocket} of ${seen.points}`);

@@ -18,10 +18,11 @@ static const char scenario[] =
     "flight: {position: 0 2 0 m, velocity: 80 90 0 m/s}\n"
     "run: {end: landing, output_step: {flight: 0.25 ms}}\n";
 
-static void read_model(ld_model *model, double tolerance, int seed)
+static void read_model_of(const char *const *sets, size_t count, ld_model *model, double tolerance,
+                          int seed)
 {
     ld_messages messages = {0};
-    if (ld_scenario_read_text(scenario, sizeof scenario - 1, "ball", ".", NULL, 0, model,
+    if (ld_scenario_read_text(scenario, sizeof scenario - 1, "ball", ".", sets, count, model,
                               &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
@@ -30,24 +31,29 @@ static void read_model(ld_model *model, double tolerance, int seed)
     model->environment.wind.turbulence.seed = seed;
 }
 
-// Along the recorded path, xi by the trapezoidal rule from the recorded velocity.
-static void test_wind_of_the_path(void **state)
+static void read_model(ld_model *model, double tolerance, int seed)
 {
-    (void)state;
+    read_model_of(NULL, 0, model, tolerance, seed);
+}
+
+// Along the recorded path, xi by the trapezoidal rule from the recorded velocity.
+static void compare_along_path(const char *const *sets, size_t count)
+{
     ld_model model;
     recorded_run run;
     turbulence air;
-    read_model(&model, 1e-9, 3);
+    read_model_of(sets, count, &model, 1e-9, 3);
     recorded_run_make(&run, &model);
     assert_int_equal(turbulence_build(&air, &model.environment.wind.turbulence, 0, NULL), LD_OK);
-    size_t t = recorded_column(&run, "t"), y = recorded_column(&run, "center.y"),
+    size_t t = recorded_column(&run, "t"), altitude = recorded_column(&run, "altitude"),
            v = recorded_column(&run, "center.vx"), wind = recorded_column(&run, "wind.x");
     double xi_u = 0, xi_w = 0, rate_u = 0, rate_w = 0, error = 0, size = 0;
     for (size_t row = 0; row < run.rows; row++) {
         double across = recorded_value(&run, row, v + 2) - 4;
         double speed =
             hypot(hypot(recorded_value(&run, row, v), recorded_value(&run, row, v + 1)), across);
-        turbulence_scales scales = turbulence_scales_at(&air, recorded_value(&run, row, y));
+        turbulence_scales scales = turbulence_scales_at(&air, recorded_value(&run, row, altitude) -
+                                                                  model.environment.ground_height);
         if (row > 0) {
             double step = recorded_value(&run, row, t) - recorded_value(&run, row - 1, t);
             xi_u += step * (rate_u + speed / scales.L_u) / 2;
@@ -66,6 +72,16 @@ static void test_wind_of_the_path(void **state)
     turbulence_free(&air);
     recorded_run_free(&run);
     ld_model_free(&model);
+}
+
+static void test_wind_of_the_path(void **state)
+{
+    (void)state;
+    // on a round Earth the height is that above the ground there, not y of I
+    const char *const round[] = {"environment.earth=round", "environment.ground=450 m",
+                                 "environment.site={altitude: 500 m}"};
+    compare_along_path(NULL, 0);
+    compare_along_path(round, 3);
 }
 
 static ld_flight_summary fly(double tolerance, int seed)

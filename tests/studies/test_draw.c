@@ -3,9 +3,11 @@
 
 #include <stdlib.h>
 
+#include "base/random.h"
 #include "launchdyn/scenario.h"
 #include "math/distributions.h"
 #include "studies/draw.h"
+#include "studies/sample.h"
 
 static const field_row row = {.kind = FIELD_NUMBER, .unit = "m", .range = {0, 999, 0, 0}};
 static const field_place place = {.row = &row};
@@ -194,12 +196,49 @@ static void test_factors_of_a_scenario(void **state)
     ld_model_free(&two);
 }
 
+// Several keys under one name: drawn once by the name, set all; the printed scenario reads back.
+static void test_several_keys(void **state)
+{
+    (void)state;
+    static const char factors[] =
+        "    gap: {paths: [rocket.adaptors.rear.clearance, rocket.adaptors.2.clearance,\n"
+        "      rocket.adaptors.front.clearance], uniform: 0.3 0.5 mm}\n"
+        "    rocket.mass_error: {normal: 0.1 kg}\n"
+        "  correlated: [{factors: [rocket.mass_error, gap], matrix: [[1, 0.25], [0.25, 1]]}]\n";
+    ld_model model = read_text(factors);
+    ld_factor *gap = &model.scatter.factor[0];
+    assert_string_equal(gap->path, "gap");
+    assert_int_equal(gap->together.count, 3);
+    assert_string_equal(gap->together.path[1], "rocket.adaptors.middle.clearance");
+    assert_true(gap->per_rocket && model.scatter.correlated[0].factor[1] == 0);
+    assert_true(model.rocket.adaptor[0].clearance != model.rocket.adaptor[1].clearance);
+    model.scatter.correlated_count = 0;
+    study_sampler sampler;
+    ld_error error;
+    assert_int_equal(sampler_create(&sampler, &model, &error), LD_OK);
+    study_sample *sample = sample_create(sampler.factor_count);
+    double worst = 0, spread = 0;
+    for (int k = 1; k <= 8; k++) {
+        assert_int_equal(sample_draw(sample, &sampler, k, &error), LD_OK);
+        double u = random_uniform(5, random_stream("gap"), (uint64_t)k, 1, 0);
+        double expected = 0.3e-3 + 0.2e-3 * u;
+        for (int i = 0; i < 3; i++)
+            worst = fmax(worst, fabs(sample->salvo[0].adaptor[i].clearance - expected));
+        spread = fmax(spread, fabs(expected - 0.4e-3));
+    }
+    CHECK_BELOW("clearances, from the name's number [m]", worst, 1e-19);
+    CHECK_WITHIN("the largest from the middle [mm]", spread * 1e3, 0.05, 0.1);
+    sample_free(sample);
+    sampler_free(&sampler);
+    ld_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_uniform_numbers),       cmocka_unit_test(test_distributions),
         cmocka_unit_test(test_permutation),           cmocka_unit_test(test_hypercube),
-        cmocka_unit_test(test_factors_of_a_scenario),
+        cmocka_unit_test(test_factors_of_a_scenario), cmocka_unit_test(test_several_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

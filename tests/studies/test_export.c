@@ -167,16 +167,21 @@ static void test_failures(void **state)
 
 // ---- show
 
-static char *shown(const ld_study_view *view)
+static char *shown_of(const char *name, const ld_study_view *view)
 {
     char *text = NULL;
     size_t length;
     ld_error error;
     FILE *stream = open_memstream(&text, &length);
     assert_non_null(stream);
-    assert_int_equal(ld_study_show(in("sweep"), view, stream, &error), LD_OK);
+    assert_int_equal(ld_study_show(in(name), view, stream, &error), LD_OK);
     assert_int_equal(fclose(stream), 0);
     return text;
+}
+
+static char *shown(const ld_study_view *view)
+{
+    return shown_of("sweep", view);
 }
 
 static void expect_part(const char *text, const char *part)
@@ -221,6 +226,78 @@ static void test_show(void **state)
                         "the study has no result \"muzle_speed\"; did you mean \"muzzle_speed\"?");
 }
 
+#define TABLES(points)                                                                             \
+    STUDY("1")                                                                                     \
+    "CREATE TABLE point (point INTEGER PRIMARY KEY, \"rocket.mass\" TEXT);"                        \
+    "INSERT INTO point VALUES " points ";"                                                         \
+    "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT, reason TEXT);"   \
+    "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER, downrange REAL, yaw REAL," \
+    "  PRIMARY KEY (sample, rocket)) WITHOUT ROWID;"
+
+// Where nothing scatters: every value once, no NaN and no negative zero.
+static void test_show_without_scatter(void **state)
+{
+    (void)state;
+    write_database("single",
+                   TABLES("(1, '60 kg')") "INSERT INTO sample VALUES (1, 1, 'ok', NULL);"
+                                          "INSERT INTO rocket VALUES (1, 1, 2, 8641.03125, -0.0);");
+    write_database("points",
+                   TABLES("(1, '60 kg'), (2, '61 kg')") "INSERT INTO sample VALUES (1, 1, 'ok', "
+                                                        "NULL), (2, 2, 'ok', NULL);"
+                                                        "INSERT INTO rocket VALUES (1, 1, 2, "
+                                                        "8641.5, 0.5), (2, 1, 2, 8565.25, 0.25);");
+    char *text = shown_of("single", NULL);
+    assert_string_equal(text, "1. rocket.mass: 60 kg\n"
+                              "1 of 6 samples, 0 failed\n"
+                              "every result has one value\n"
+                              "\n"
+                              "yaw [rad]                  0\n"
+                              "downrange [m]              8641.03\n");
+    free(text);
+    text = shown_of("points", NULL);
+    assert_string_equal(
+        text, "1. rocket.mass: 60 kg\n"
+              "1 of 3 samples, 0 failed\n"
+              "every result has one value\n"
+              "\n"
+              "2. rocket.mass: 61 kg\n"
+              "1 of 3 samples, 0 failed\n"
+              "every result has one value\n"
+              "\n"
+              "All points\n"
+              "\n"
+              "rocket.mass                60 kg                  61 kg                 \n"
+              "yaw [rad]                  0.5                    0.25                  \n"
+              "downrange [m]              8641.5                 8565.25               \n");
+    free(text);
+}
+
+// Eight samples where six were asked for last; a spread of a millimetre over 8641 m, which four
+// digits do not show; yaws from -0.0 to 1e-5 around zero.
+static void test_show_digits(void **state)
+{
+    (void)state;
+    write_database(
+        "close",
+        TABLES("(1, '60 kg')") "WITH RECURSIVE n(i) AS (VALUES (1) UNION ALL SELECT i + 1 FROM n "
+                               "WHERE i < 8) "
+                               "INSERT INTO sample SELECT i, 1, 'ok', NULL FROM n;"
+                               "INSERT INTO rocket SELECT sample, 1, 1, 8641 + 0.001 * sample, "
+                               "CASE sample WHEN 1 THEN -0.0 ELSE 1e-5 END FROM sample;");
+    char *text = shown_of("close", NULL);
+    expect_part(text, "\n8 samples kept, 6 asked for, 0 failed\n");
+    expect_part(text, "\ndownrange [m]              8641.0045 +- 0.002 ");
+    expect_part(text, " 8641.001    8641.008\n");
+    // the median's interval leaves room for a digit less
+    expect_part(text, "\ndownrange [m]              8641.0014                      "
+                      "8641.004 [8641.002, 8641.007]  8641.0076\n");
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, " -0 "));
+    for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
+        assert_true(strcspn(line, "\n") <= 120);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -228,6 +305,8 @@ int main(void)
         cmocka_unit_test(test_hdf5),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_show),
+        cmocka_unit_test(test_show_without_scatter),
+        cmocka_unit_test(test_show_digits),
     };
     return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

@@ -149,9 +149,9 @@ static double gust_share(const ld_gust *g, double t)
     return x < 0 ? 1 : pow(cos(acos(-1) * x / (2 * fall)), 2);
 }
 
-// Velocity of the air against the ground at a point of I, in I; geographic axes on a flat Earth
-// only.
-static v3 wind(const dense *d, double t, v3 r)
+// Velocity of the air against the ground at a point of I and its altitude, in I; geographic axes on
+// a flat Earth only.
+static v3 wind(const dense *d, double t, v3 r, double altitude)
 {
     const ld_environment *e = &d->model->environment;
     const ld_wind *w = &e->wind;
@@ -159,7 +159,8 @@ static v3 wind(const dense *d, double t, v3 r)
         return v3_zero();
     bool north = w->axes == LD_WIND_GEOGRAPHIC;
     double level[2] = {w->speed * cos(w->heading), w->speed * sin(w->heading)};
-    double h = north ? r.y + e->site.altitude : r.y - e->ground_height;
+    double h = d->round || north ? altitude : r.y;
+    h -= north ? 0 : e->ground_height;
     for (int k = 0; k < 2 && w->profile.rows > 0; k++)
         level[k] =
             monotone_value((int)w->profile.rows, 3, w->profile.data, k + 1, d->wind_slope[k], h);
@@ -281,11 +282,11 @@ static void derivative(const dense *d, double t, const double *y, double *y_dot)
     v3 ground_r, ground_v;
     to_ground(d, t, r_C, v_C, &ground_r, &ground_v);
     double latitude, altitude = d->model->environment.site.altitude + r_C.y;
-    v3 v_air = v3_sub(ground_v, wind(d, t, ground_r)); // in I
-    if (d->round) {
+    if (d->round)
         altitude = geodetic_height(d, r_C, &latitude);
+    v3 v_air = v3_sub(ground_v, wind(d, t, ground_r, altitude)); // in I
+    if (d->round)
         v_air = turned(d, t, through(&d->A_EI, v_air), 1);
-    }
     const ld_atmosphere *air = &d->model->environment.atmosphere;
     double rho = 0, sound = 1;
     if (air->kind == LD_ATMOSPHERE_US1976) {
@@ -482,6 +483,22 @@ static void center_of(const dense *d, double t, const double *y, v3 *r, v3 *v)
     to_ground(d, t, r_C, v_C, r, v);
 }
 
+// Height of the mass centre, which counts against the ground, and its rate: y of I, or the geodetic
+// height and the velocity along the ellipsoid's normal.
+static void height_of(const dense *d, double t, const double *y, double *height, double *rate)
+{
+    body b = body_at(d, t);
+    v3 r = v3_add(v3_from(y + R), rotate(y + Q, b.c, 1));
+    v3 v = v3_add(v3_from(y + V), rotate(y + Q, v3_cross(v3_from(y + W), b.c), 1));
+    *height = r.y;
+    *rate = v.y;
+    if (!d->round)
+        return;
+    double latitude, longitude = atan2(r.y, r.x);
+    *height = geodetic_height(d, r, &latitude);
+    *rate = cos(latitude) * (v.x * cos(longitude) + v.y * sin(longitude)) + v.z * sin(latitude);
+}
+
 static void normalise(double *q)
 {
     double n = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -493,6 +510,7 @@ void dense_flight(const ld_model *model, double size, dense_flight_end *end)
 {
     dense d;
     double y[STATES], before[STATES], t = 0, ground = model->environment.ground_height;
+    double height, rate;
     v3 r, v;
     set_up(&d, model);
     start(&d, y);
@@ -504,27 +522,29 @@ void dense_flight(const ld_model *model, double size, dense_flight_end *end)
         memcpy(before, y, sizeof y);
         step(&d, t, h, y);
         normalise(y + Q);
-        center_of(&d, t + h, y, &r, &v);
-        end->apogee = fmax(end->apogee, r.y);
-        if (r.y <= ground && v.y < 0) {
+        height_of(&d, t + h, y, &height, &rate);
+        end->apogee = fmax(end->apogee, height);
+        if (height <= ground && rate < 0) {
             // the last step anew, until it ends on the ground
             for (int i = 0; i < 6; i++) {
-                h += (ground - r.y) / v.y;
+                h += (ground - height) / rate;
                 memcpy(y, before, sizeof y);
                 step(&d, t, h, y);
                 normalise(y + Q);
-                center_of(&d, t + h, y, &r, &v);
+                height_of(&d, t + h, y, &height, &rate);
             }
             t += h;
             break;
         }
         t = corner - t < 1.5 * size ? corner : t + h;
     }
+    center_of(&d, t, y, &r, &v);
     v3 r_O1, v_O1, axis = rotate(y + Q, v3_make(1, 0, 0), 1);
     to_ground(&d, t, v3_from(y + R), v3_from(y + V), &r_O1, &v_O1);
     if (d.round)
         axis = back_through(&d.A_EI, turned(&d, t, axis, -1));
     end->t = t;
+    end->angle = asin(-rate / v3_norm(v));
     v3_store(end->center, r);
     v3_store(end->velocity, v);
     v3_store(end->position, r_O1);

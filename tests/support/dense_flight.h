@@ -13,7 +13,9 @@ typedef struct dense_flight_end {
     double position[3]; // [m] rear adaptor in I
     double axis[3];     // x axis of B in I
     double rate[3];     // [rad/s] against inertial axes, in B
-    double apogee;      // [m] highest y of the mass centre at the ends of the steps
+    double angle;       // [rad] of that velocity below the horizontal there
+    double apogee; // [m] greatest height of the mass centre at the ends of the steps: y of I, or
+                   // above sphere or ellipsoid
 } dense_flight_end;
 
 // A flight alone that begins with position, velocity and angles or quaternion against I, at the

@@ -16,7 +16,8 @@ static inline bool same_axes(const ld_sweep_axis *a, const ld_sweep_axis *b, int
 {
     bool same = true;
     for (int i = 0; i < count; i++) {
-        same &= strcmp(a[i].path, b[i].path) == 0 && a[i].count == b[i].count;
+        same &= strcmp(a[i].path, b[i].path) == 0 && a[i].count == b[i].count &&
+                memcmp(&a[i].together, &b[i].together, sizeof a[i].together) == 0;
         for (int k = 0; k < a[i].count && same; k++)
             same &= strcmp(a[i].value[k], b[i].value[k]) == 0;
     }

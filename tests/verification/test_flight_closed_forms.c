@@ -57,6 +57,65 @@ static void test_parabola(void **state)
     ld_model_free(&model);
 }
 
+// An arc of a Kepler ellipse over a round Earth that does not turn: with l = r0 v cos(gamma) and
+// energy E, p = l^2/GM, a = -GM/(2 E), e^2 = 1 - p/a. The flight goes from the true anomaly f0,
+// r = p/(1 + e cos f), through the apogee to f1 where r is the ground's.
+static void test_ellipse(void **state)
+{
+    (void)state;
+    const double GM = 3.986004418e14, R = 6371007.1809, r0 = R + 1000, r1 = R + 400, v = 1500;
+    const double gamma = 50 * degree, azimuth = 70 * degree, latitude = 30 * degree, pi = acos(-1);
+    ld_model model = read_text(
+        "launchdyn: 1\n"
+        "environment: {earth: {model: round, rotation: 0 rad/s}, atmosphere: none, ground: 400 m,\n"
+        "  site: {latitude: 30 deg, longitude: 12 deg, altitude: 1000 m, azimuth: 70 deg}}\n"
+        "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2}\n"
+        "flight: {position: 0 0 0 m, speed: 1500 m/s, attitude: {pitch: 50 deg}}\n"
+        "run: {flight_tolerance: 1e-12}\n");
+    ld_rocket_summary rocket = fly(&model);
+    double l = r0 * v * cos(gamma), p = l * l / GM, a = 1 / (2 / r0 - v * v / GM);
+    double e = sqrt(1 - p / a), f0 = acos((p / r0 - 1) / e), f1 = 2 * pi - acos((p / r1 - 1) / e);
+    // times by Kepler's equation
+    double E0 = 2 * atan(sqrt((1 - e) / (1 + e)) * tan(f0 / 2));
+    double E1 = 2 * pi + 2 * atan(sqrt((1 - e) / (1 + e)) * tan(f1 / 2));
+    double t = sqrt(a * a * a / GM) * (E1 - e * sin(E1) - E0 + e * sin(E0));
+    double v1 = sqrt(GM * (2 / r1 - 1 / a)), arc = f1 - f0;
+    double north = asin(sin(latitude) * cos(arc) + cos(latitude) * sin(arc) * cos(azimuth));
+    double east = 12 * degree + asin(sin(arc) * sin(azimuth) / cos(north));
+    printf("    to %.3f km of arc in %.3f s; the tangent plane is %.1f m off there\n",
+           arc * r1 / 1000, t, r0 - r1 * cos(arc));
+    CHECK_NEAR("apogee, over its height", rocket.flight.apogee / (a * (1 + e) - R), 1, 1e-13);
+    CHECK_NEAR("time of flight, relative", rocket.flight.time_of_flight / t, 1, 5e-13);
+    CHECK_NEAR("downrange, relative", rocket.flight.downrange / (r1 * sin(arc)), 1, 5e-13);
+    CHECK_NEAR("drift [m]", rocket.flight.drift, 0, 5e-9);
+    CHECK_NEAR("y of the impact [m]", rocket.final.center[1], r1 * cos(arc) - r0, 2e-8);
+    CHECK_NEAR("impact speed, relative", rocket.flight.impact_speed / v1, 1, 2e-13);
+    CHECK_NEAR("impact angle [rad]", rocket.flight.impact_angle, acos(l / (r1 * v1)), 2e-13);
+    CHECK_NEAR("latitude [rad]", rocket.final.latitude, north, 1e-14);
+    CHECK_NEAR("longitude [rad]", rocket.final.longitude, east, 3e-14);
+    CHECK_NEAR("altitude of the impact [m]", rocket.final.altitude, 400, 5e-9);
+    ld_model_free(&model);
+}
+
+// Without a height of its own the ground is as high as the site: half a circle of the orbit's
+// symmetry, the same speed and angle down as up.
+static void test_ground_of_site(void **state)
+{
+    (void)state;
+    ld_model model =
+        read_text("launchdyn: 1\n"
+                  "environment: {earth: {model: round, rotation: 0 rad/s}, atmosphere: none,\n"
+                  "  site: {altitude: 1000 m}}\n"
+                  "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2}\n"
+                  "flight: {position: 0 0 0 m, speed: 500 m/s, attitude: {pitch: 50 deg}}\n"
+                  "run: {flight_tolerance: 1e-12}\n");
+    ld_rocket_summary rocket = fly(&model);
+    CHECK_NEAR("altitude of the impact [m]", rocket.final.altitude, 1000, 5e-9);
+    CHECK_NEAR("impact speed [m/s]", rocket.flight.impact_speed, 500, 2e-10);
+    CHECK_NEAR("impact angle [deg]", rocket.flight.impact_angle / degree, 50, 2e-11);
+    ld_model_free(&model);
+}
+
 // Thrust along x without gravity: v = u ln(m0/m), with u the exhaust speed I/m_p of constant
 // thrust; the burn-out instant is a corner of the table.
 static void test_rocket_equation(void **state)
@@ -257,6 +316,12 @@ static void test_failures(void **state)
                    "flight: {position: 0 -1 0 m, velocity: 0 5 0 m/s}\n",
                    "begins below the ground: the mass centre is at y = -1 m");
     expect_failure("launchdyn: 1\n"
+                   "environment: {earth: round, ground: 20 m}\n"
+                   "rocket: {mass: 10 kg, inertia: 1 1 1 kg.m2}\n"
+                   "flight: {position: 0 10 0 m, velocity: 0 5 0 m/s}\n",
+                   "begins below the ground: the mass centre is at an altitude of 10 m, the ground "
+                   "at 20 m");
+    expect_failure("launchdyn: 1\n"
                    "environment: {gravity: 0 m/s2, atmosphere: none}\n"
                    "rocket: {mass: 10 kg, inertia: 1 1 1 kg.m2}\n"
                    "flight: {position: 0 1 0 m, velocity: 0 5 0 m/s}\n",
@@ -289,7 +354,8 @@ static void test_ground(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parabola),          cmocka_unit_test(test_rocket_equation),
+        cmocka_unit_test(test_parabola),          cmocka_unit_test(test_ellipse),
+        cmocka_unit_test(test_ground_of_site),    cmocka_unit_test(test_rocket_equation),
         cmocka_unit_test(test_free_body),         cmocka_unit_test(test_precession),
         cmocka_unit_test(test_body_fixed_torque), cmocka_unit_test(test_terminal_speed),
         cmocka_unit_test(test_fin_cant),          cmocka_unit_test(test_pitch_oscillation),

@@ -1,0 +1,24 @@
+// Numbers as people read them.
+#ifndef LD_BASE_PRINTED_H
+#define LD_BASE_PRINTED_H
+
+#include <math.h>
+
+// What to print with "%.*f" and so many decimals: the value, but 0 where a negative one would come
+// out as -0.000.
+static inline double printed_fixed(double value, int decimals)
+{
+    return fabs(value) * pow(10, decimals) <= 0.5 ? 0 : value;
+}
+
+// Significant digits that show a value of this size to two digits of `spread`, at least `least`;
+// 12 at most.
+static inline int printed_digits(double value, double spread, int least)
+{
+    if (!(fabs(value) > 0) || !(spread > 0) || !isfinite(value) || !isfinite(spread))
+        return least;
+    double digits = floor(log10(fabs(value))) - floor(log10(spread)) + 2;
+    return (int)fmin(fmax(digits, least), 12);
+}
+
+#endif
