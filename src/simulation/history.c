@@ -152,6 +152,9 @@ static void add_frames(ld_simulation *self)
     add(self, "m", "tip.inertial_x", "tip in I");
     add(self, "m", "tip.inertial_y", "tip in I");
     add(self, "m", "tip.inertial_z", "tip in I");
+    add(self, "m/s", "tip.inertial_vx", "velocity of the tip, in I");
+    add(self, "m/s", "tip.inertial_vy", "velocity of the tip, in I");
+    add(self, "m/s", "tip.inertial_vz", "velocity of the tip, in I");
     add(self, "rad", "tip.inertial_pitch", "tip's axis in I: pitch");
     add(self, "rad", "tip.inertial_yaw", "tip's axis in I: yaw, positive to the left");
     add(self, "rad/s", "tip.inertial_pitch_rate", "rate of tip.inertial_pitch");
@@ -216,6 +219,9 @@ static void add_rocket(ld_simulation *self)
     add(self, "m/s", "rocket.s_dot", "rate of rocket.s");
     add(self, "m/s", "rocket.y_dot", "rate of rocket.y");
     add(self, "m/s", "rocket.z_dot", "rate of rocket.z");
+    add(self, "rad/s", "rocket.psi_dot", "rate of rocket.psi");
+    add(self, "rad/s", "rocket.theta_dot", "rate of rocket.theta");
+    add(self, "rad/s", "rocket.gamma_dot", "rate of rocket.gamma");
     add(self, "rad/s", "rocket.w_x", "rate of the rocket against S, in S");
     add(self, "rad/s", "rocket.w_y", "rate of the rocket against S, in S");
     add(self, "rad/s", "rocket.w_z", "rate of the rocket against S, in S");
@@ -246,7 +252,9 @@ static void add_rocket(ld_simulation *self)
 void history_build(ld_simulation *self)
 {
     add_frames(self);
+    self->rocket_columns = -self->column_count;
     add_rocket(self);
+    self->rocket_columns += self->column_count;
     if (self->launcher.vehicle)
         add_vehicle(self);
     add(self, "J", "energy.kinetic", "kinetic energy of tube, tail and rocket, and of the vehicle");
@@ -331,6 +339,7 @@ static double *put_tip(const ld_simulation *self, const base_frame *base, const 
     direction_angles angles =
         direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(section.w, axis)));
     to = put_v3(to, v3_add(v3_from(y + launching->layout.r), m3_apply(A_IR, section.P)));
+    to = put_v3(to, m3_apply(A_IR, section.v));
     return put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
 }
 
@@ -372,7 +381,9 @@ static double *put_rocket(const ld_simulation *self, const launching_input *inpu
     direction_angles angles =
         direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(pose.w_B, axis)));
     to = put(to, y + at->x, 6);
-    to = put(to, out->y, 6);
+    to = put(to, out->y, 3);
+    to = put(to, out->x_dot + 3, 3);
+    to = put(to, out->y + 3, 3);
     to = put_v3(to, m3_apply(A_IR, pose.v_O1));
     to = put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
     to = put(to, (double[]){v3_dot(axis, pose.w_B), input->mass.m, input->thrust}, 3);
@@ -413,7 +424,7 @@ void history_row(const ld_simulation *self, double t, const double *y, double en
     if (self->phase.rocket)
         to = put_rocket(self, &input.launching, y, &out.launching, to);
     else
-        for (int i = 0; i < 25 + 5 * self->launcher.launching.adaptor_count; i++)
+        for (int i = 0; i < self->rocket_columns; i++)
             *to++ = NAN;
     if (self->launcher.vehicle)
         to = put_vehicle(self, &input, y, &out, to);

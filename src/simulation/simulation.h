@@ -39,7 +39,7 @@ struct ld_simulation {
     int mode_count;
     ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
 
-    int column_count;
+    int column_count, rocket_columns; // in all; those of the rocket in its tube
     ld_column column[LD_MAX_COLUMNS];
     char column_text[LD_MAX_COLUMNS][2][96]; // names and descriptions of columns that are counted
 };
