@@ -13,7 +13,7 @@ typedef struct study_result {
 } study_result;
 
 extern const study_result study_results[]; // ends with a NULL name
-enum { STUDY_RESULTS = 36 };
+enum { STUDY_RESULTS = 52 };
 
 // The result with that name, or NULL.
 const study_result *study_result_named(const char *name);

@@ -208,6 +208,27 @@ static void add_vehicle(ld_simulation *self)
         add_wheel(self, self->model->base.vehicle.wheel[j].name);
 }
 
+// In T, the axes of the undeformed tube on its base; "aim": as they stood at the ignition.
+static void add_against_launcher(ld_simulation *self)
+{
+    add(self, "rad", "tip_off.pitch", "rocket's axis in T: pitch");
+    add(self, "rad", "tip_off.yaw", "rocket's axis in T: yaw, positive to the left");
+    add(self, "rad/s", "tip_off.pitch_rate", "rate of tip_off.pitch, T held still");
+    add(self, "rad/s", "tip_off.yaw_rate", "rate of tip_off.yaw, T held still");
+    add(self, "rad/s", "tip_off.pitch_rate_relative", "rate of tip_off.pitch, T moving");
+    add(self, "rad/s", "tip_off.yaw_rate_relative", "rate of tip_off.yaw, T moving");
+    add(self, "m/s", "tip_off.vy", "inertial velocity of the mass centre along T's y");
+    add(self, "m/s", "tip_off.vz", "inertial velocity of the mass centre along T's z");
+    add(self, "m/s", "tip_off.vy_relative", "velocity of the mass centre against T, its y");
+    add(self, "m/s", "tip_off.vz_relative", "velocity of the mass centre against T, its z");
+    add(self, "rad", "aim.pitch", "rocket's axis in T of the ignition: pitch");
+    add(self, "rad", "aim.yaw", "rocket's axis in T of the ignition: yaw");
+    add(self, "rad/s", "aim.pitch_rate", "rate of aim.pitch");
+    add(self, "rad/s", "aim.yaw_rate", "rate of aim.yaw");
+    add(self, "m/s", "aim.vy", "inertial velocity of the mass centre along y of that T");
+    add(self, "m/s", "aim.vz", "inertial velocity of the mass centre along z of that T");
+}
+
 static void add_rocket(ld_simulation *self)
 {
     add(self, "m", "rocket.s", "travel: rear adaptor's station in the tube");
@@ -233,6 +254,7 @@ static void add_rocket(ld_simulation *self)
     add(self, "rad/s", "rocket.pitch_rate", "rate of rocket.pitch");
     add(self, "rad/s", "rocket.yaw_rate", "rate of rocket.yaw");
     add(self, "rad/s", "rocket.spin", "rate of the rocket against I about its axis");
+    add_against_launcher(self);
     add(self, "kg", "rocket.mass", "instantaneous mass");
     add(self, "N", "thrust", "thrust");
     for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
@@ -369,8 +391,21 @@ static double *put_vehicle(const ld_simulation *self, const launcher_input *inpu
     return to;
 }
 
-static double *put_rocket(const ld_simulation *self, const launching_input *input, const double *y,
-                          const launching_output *out, double *to)
+static double *put_against_launcher(const ld_simulation *self, double t,
+                                    const launching_input *input, const rocket_motion *rocket,
+                                    double *to)
+{
+    ld_tip_off off = tip_off_of(&input->base, rocket);
+    ld_aim aim = aim_of(self, t, rocket);
+    to = put(to,
+             (double[]){off.pitch, off.yaw, off.pitch_rate, off.yaw_rate, off.pitch_rate_relative,
+                        off.yaw_rate_relative, off.vy, off.vz, off.vy_relative, off.vz_relative},
+             10);
+    return put(to, (double[]){aim.pitch, aim.yaw, aim.pitch_rate, aim.yaw_rate, aim.vy, aim.vz}, 6);
+}
+
+static double *put_rocket(const ld_simulation *self, double t, const launching_input *input,
+                          const double *y, const launching_output *out, double *to)
 {
     const launching_layout *at = &self->launcher.launching.layout;
     launching_output unused;
@@ -386,7 +421,10 @@ static double *put_rocket(const ld_simulation *self, const launching_input *inpu
     to = put(to, out->y + 3, 3);
     to = put_v3(to, m3_apply(A_IR, pose.v_O1));
     to = put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
-    to = put(to, (double[]){v3_dot(axis, pose.w_B), input->mass.m, input->thrust}, 3);
+    *to++ = v3_dot(axis, pose.w_B);
+    rocket_motion motion = rocket_motion_of(&pose, input->mass.c, y, at);
+    to = put_against_launcher(self, t, input, &motion, to);
+    to = put(to, (double[]){input->mass.m, input->thrust}, 2);
     for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
         const adaptor_report *adaptor = &out->adaptor[i];
         double values[5] = {adaptor->force, adaptor->normal, adaptor->penetration, adaptor->y,
@@ -422,7 +460,7 @@ void history_row(const ld_simulation *self, double t, const double *y, double en
     to = put(to, y + at->q, 2 * at->nq);
     to = put_tip(self, base, y, to);
     if (self->phase.rocket)
-        to = put_rocket(self, &input.launching, y, &out.launching, to);
+        to = put_rocket(self, t, &input.launching, y, &out.launching, to);
     else
         for (int i = 0; i < self->rocket_columns; i++)
             *to++ = NAN;
