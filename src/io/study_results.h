@@ -25,7 +25,7 @@ typedef struct study_pair {
     const char *unit; // SI
 } study_pair;
 
-enum { STUDY_PAIRS = 3 };
+enum { STUDY_PAIRS = 5 };
 extern const study_pair study_pairs[STUDY_PAIRS];
 
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result);
