@@ -323,7 +323,8 @@ static void test_what_can_be_wrong(void **state)
     expect(
         in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
         "there is no figure \"tipp\" (did you mean tip?); there are tip, tip-rate, tip-inertial, "
-        "travel, relative, phase, across, relative-rate, attitude, contact, contact-force, slot, "
+        "travel, relative, phase, across, relative-rate, attitude, tip-off, contact, "
+        "contact-force, slot, "
         "energy, wheels, tyres, chassis, platform, trajectory, flight");
     expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT, "no figure \"spaghetti\"; there are");
     expect(in("run"), "tip", in("x.jpg"), LD_ERR_INPUT, "ends in .svg, .pdf or .png");
