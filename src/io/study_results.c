@@ -74,7 +74,7 @@ const study_pair study_pairs[STUDY_PAIRS] = {
     {"Attitude at the exit", {"pitch", "yaw"}, "rad"},
     {"Rates at the exit", {"pitch_rate", "yaw_rate"}, "rad/s"},
     {"Attitude at the exit, against the launcher", {"tip_off.pitch", "tip_off.yaw"}, "rad"},
-    {"Rates at the exit, in its axes", {"tip_off.pitch_rate", "tip_off.yaw_rate"}, "rad/s"},
+    {"Rates at the exit, launcher's axes", {"tip_off.pitch_rate", "tip_off.yaw_rate"}, "rad/s"},
 };
 
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result)
