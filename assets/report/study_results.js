@@ -20,6 +20,7 @@ const PARTS = [
   ["Attitude and rates at the exit", /^(pitch|yaw)/],
   ["Speeds at the exit", /speed$|^spin/],
   ["Flight", /^(apogee|downrange|drift|range|t_impact|time_of_flight|impact|max)/],
+  ["Against the launcher at the exit", /^(tip_off|aim)\./],
   ["Tip of the tube", /^tip\./],
   ["Place and velocity at the exit", /^exit\./],
   ["Instants", /^t_/],

@@ -50,6 +50,24 @@ typedef struct ld_final_state {
     double rate_inertial[3];     ///< [rad/s] against inertial axes, in B
 } ld_final_state;
 
+/// The rocket's x axis d and mass centre C (the point c(t) of the body, without c_dot) in the axes
+/// of the undeformed tube on its base, T, as it stands and moves at that instant. Pitch and yaw as
+/// in model.md section 1, of d in T: they keep their meaning however steep the launcher is.
+typedef struct ld_tip_off {
+    double pitch, yaw;                             ///< [rad]
+    double pitch_rate, yaw_rate;                   ///< [rad/s] of d in I: T held still
+    double pitch_rate_relative, yaw_rate_relative; ///< [rad/s] T moving
+    double vy, vz;                                 ///< [m/s] of C in I, along T's y and z
+    double vy_relative, vz_relative;               ///< [m/s] v_C - v_T - w_T x (r_C - r_T)
+} ld_tip_off;
+
+/// The same against T as it stood at this rocket's ignition, held still since then.
+typedef struct ld_aim {
+    double pitch, yaw;           ///< [rad]
+    double pitch_rate, yaw_rate; ///< [rad/s]
+    double vy, vz;               ///< [m/s] of C in I, along that T's y and z
+} ld_aim;
+
 /// Attitude, rates and forces of one rocket at its key instants. Instants in [s] from its ignition,
 /// NaN where the instant was not reached or does not exist.
 typedef struct ld_rocket_summary {
@@ -82,6 +100,8 @@ typedef struct ld_rocket_summary {
         double vy, vz;               ///< [m/s]
         double pitch_rate, yaw_rate; ///< [rad/s]
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
+    ld_tip_off tip_off; ///< rocket at t_rear against the undeformed tube on the base
+    ld_aim aim;         ///< the same against where that stood at the ignition
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
     double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what

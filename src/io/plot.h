@@ -10,7 +10,7 @@
 #include "launchdyn/output.h"
 #include "launchdyn/status.h"
 
-enum { PLOT_PANELS = 6, PLOT_CURVES = 8, PLOT_RUNS = 8 };
+enum { PLOT_PANELS = 8, PLOT_CURVES = 8, PLOT_RUNS = 8 };
 
 // A column of the history and its name in the legend. A '*' in the column stands for any text: a
 // curve for each that matches, named by that text.

@@ -13,7 +13,7 @@ typedef struct study_result {
 } study_result;
 
 extern const study_result study_results[]; // ends with a NULL name
-enum { STUDY_RESULTS = 36 };
+enum { STUDY_RESULTS = 52 };
 
 // The result with that name, or NULL.
 const study_result *study_result_named(const char *name);
@@ -25,7 +25,7 @@ typedef struct study_pair {
     const char *unit; // SI
 } study_pair;
 
-enum { STUDY_PAIRS = 3 };
+enum { STUDY_PAIRS = 5 };
 extern const study_pair study_pairs[STUDY_PAIRS];
 
 double study_result_of(const ld_rocket_summary *rocket, const study_result *result);

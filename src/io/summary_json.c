@@ -105,6 +105,34 @@ static void write_tip(json_writer *json, const ld_rocket_summary *rocket)
     json_close(json, '}');
 }
 
+static void write_tip_off(json_writer *json, const ld_tip_off *off)
+{
+    json_open(json, "tip_off", '{');
+    json_number(json, "pitch", off->pitch);
+    json_number(json, "yaw", off->yaw);
+    json_number(json, "pitch_rate", off->pitch_rate);
+    json_number(json, "yaw_rate", off->yaw_rate);
+    json_number(json, "pitch_rate_relative", off->pitch_rate_relative);
+    json_number(json, "yaw_rate_relative", off->yaw_rate_relative);
+    json_number(json, "vy", off->vy);
+    json_number(json, "vz", off->vz);
+    json_number(json, "vy_relative", off->vy_relative);
+    json_number(json, "vz_relative", off->vz_relative);
+    json_close(json, '}');
+}
+
+static void write_aim(json_writer *json, const ld_aim *aim)
+{
+    json_open(json, "aim", '{');
+    json_number(json, "pitch", aim->pitch);
+    json_number(json, "yaw", aim->yaw);
+    json_number(json, "pitch_rate", aim->pitch_rate);
+    json_number(json, "yaw_rate", aim->yaw_rate);
+    json_number(json, "vy", aim->vy);
+    json_number(json, "vz", aim->vz);
+    json_close(json, '}');
+}
+
 // Number by number, as an array.
 static void write_vector(json_writer *json, const char *key, const double *values, int count)
 {
@@ -182,6 +210,8 @@ static void write_launch(json_writer *json, const ld_model *model, const ld_rock
     write_exit(json, rocket);
     write_relative(json, rocket);
     write_tip(json, rocket);
+    write_tip_off(json, &rocket->tip_off);
+    write_aim(json, &rocket->aim);
     write_adaptors(json, "max_contact_force", model, rocket->max_contact_force);
     json_number(json, "max_slot_force", rocket->max_slot_force);
     json_number(json, "energy_dropped", rocket->energy_dropped);

@@ -57,6 +57,20 @@ static void print_equilibrium(const ld_model *model, const ld_equilibrium_summar
                 equilibrium->tip_sag[1] * 1e3, 4, "mm");
 }
 
+// Rates and angles [mrad/s], [mrad], velocities [m/s].
+static void print_against_launcher(const ld_tip_off *off, const ld_aim *aim, FILE *stream)
+{
+    line_of_two(stream, "tip-off pitch, yaw", off->pitch * 1e3, off->yaw * 1e3, 4, "mrad");
+    line_of_two(stream, "tip-off rates", off->pitch_rate * 1e3, off->yaw_rate * 1e3, 3, "mrad/s");
+    line_of_two(stream, "relative rates", off->pitch_rate_relative * 1e3,
+                off->yaw_rate_relative * 1e3, 3, "mrad/s");
+    line_of_two(stream, "tip-off vy, vz", off->vy, off->vz, 5, "m/s");
+    line_of_two(stream, "relative vy, vz", off->vy_relative, off->vz_relative, 5, "m/s");
+    line_of_two(stream, "aim pitch, yaw", aim->pitch * 1e3, aim->yaw * 1e3, 4, "mrad");
+    line_of_two(stream, "aim rates", aim->pitch_rate * 1e3, aim->yaw_rate * 1e3, 3, "mrad/s");
+    line_of_two(stream, "aim vy, vz", aim->vy, aim->vz, 5, "m/s");
+}
+
 static void print_rocket(const ld_model *model, const ld_rocket_summary *rocket, bool first,
                          FILE *stream)
 {
@@ -75,6 +89,7 @@ static void print_rocket(const ld_model *model, const ld_rocket_summary *rocket,
     line_of_two(stream, "pitch, yaw", rocket->pitch / degree, rocket->yaw / degree, 5, "deg");
     line_of_two(stream, "pitch rate, yaw rate", rocket->pitch_rate * 1e3, rocket->yaw_rate * 1e3, 3,
                 "mrad/s");
+    print_against_launcher(&rocket->tip_off, &rocket->aim, stream);
     line_of_two(stream, "tip y, z", rocket->tip.y * 1e3, rocket->tip.z * 1e3, 4, "mm");
     line_of_two(stream, "tip pitch, yaw rate", rocket->tip.pitch_rate * 1e3,
                 rocket->tip.yaw_rate * 1e3, 3, "mrad/s");

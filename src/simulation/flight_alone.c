@@ -39,6 +39,8 @@ static void clear_rocket(ld_rocket_summary *rocket, double t_ignition)
         *tube[i] = NAN;
     for (int i = 0; i < 8; i++)
         (&rocket->relative.y)[i] = (&rocket->tip.y)[i] = NAN;
+    rocket->tip_off = no_tip_off;
+    rocket->aim = no_aim;
     rocket->t_ignition = t_ignition;
 }
 

@@ -152,6 +152,9 @@ static void add_frames(ld_simulation *self)
     add(self, "m", "tip.inertial_x", "tip in I");
     add(self, "m", "tip.inertial_y", "tip in I");
     add(self, "m", "tip.inertial_z", "tip in I");
+    add(self, "m/s", "tip.inertial_vx", "velocity of the tip, in I");
+    add(self, "m/s", "tip.inertial_vy", "velocity of the tip, in I");
+    add(self, "m/s", "tip.inertial_vz", "velocity of the tip, in I");
     add(self, "rad", "tip.inertial_pitch", "tip's axis in I: pitch");
     add(self, "rad", "tip.inertial_yaw", "tip's axis in I: yaw, positive to the left");
     add(self, "rad/s", "tip.inertial_pitch_rate", "rate of tip.inertial_pitch");
@@ -205,6 +208,27 @@ static void add_vehicle(ld_simulation *self)
         add_wheel(self, self->model->base.vehicle.wheel[j].name);
 }
 
+// In T, the axes of the undeformed tube on its base; "aim": as they stood at the ignition.
+static void add_against_launcher(ld_simulation *self)
+{
+    add(self, "rad", "tip_off.pitch", "rocket's axis in T: pitch");
+    add(self, "rad", "tip_off.yaw", "rocket's axis in T: yaw, positive to the left");
+    add(self, "rad/s", "tip_off.pitch_rate", "rate of tip_off.pitch, T held still");
+    add(self, "rad/s", "tip_off.yaw_rate", "rate of tip_off.yaw, T held still");
+    add(self, "rad/s", "tip_off.pitch_rate_relative", "rate of tip_off.pitch, T moving");
+    add(self, "rad/s", "tip_off.yaw_rate_relative", "rate of tip_off.yaw, T moving");
+    add(self, "m/s", "tip_off.vy", "inertial velocity of the mass centre along T's y");
+    add(self, "m/s", "tip_off.vz", "inertial velocity of the mass centre along T's z");
+    add(self, "m/s", "tip_off.vy_relative", "velocity of the mass centre against T, its y");
+    add(self, "m/s", "tip_off.vz_relative", "velocity of the mass centre against T, its z");
+    add(self, "rad", "aim.pitch", "rocket's axis in T of the ignition: pitch");
+    add(self, "rad", "aim.yaw", "rocket's axis in T of the ignition: yaw");
+    add(self, "rad/s", "aim.pitch_rate", "rate of aim.pitch");
+    add(self, "rad/s", "aim.yaw_rate", "rate of aim.yaw");
+    add(self, "m/s", "aim.vy", "inertial velocity of the mass centre along y of that T");
+    add(self, "m/s", "aim.vz", "inertial velocity of the mass centre along z of that T");
+}
+
 static void add_rocket(ld_simulation *self)
 {
     add(self, "m", "rocket.s", "travel: rear adaptor's station in the tube");
@@ -216,6 +240,9 @@ static void add_rocket(ld_simulation *self)
     add(self, "m/s", "rocket.s_dot", "rate of rocket.s");
     add(self, "m/s", "rocket.y_dot", "rate of rocket.y");
     add(self, "m/s", "rocket.z_dot", "rate of rocket.z");
+    add(self, "rad/s", "rocket.psi_dot", "rate of rocket.psi");
+    add(self, "rad/s", "rocket.theta_dot", "rate of rocket.theta");
+    add(self, "rad/s", "rocket.gamma_dot", "rate of rocket.gamma");
     add(self, "rad/s", "rocket.w_x", "rate of the rocket against S, in S");
     add(self, "rad/s", "rocket.w_y", "rate of the rocket against S, in S");
     add(self, "rad/s", "rocket.w_z", "rate of the rocket against S, in S");
@@ -227,6 +254,7 @@ static void add_rocket(ld_simulation *self)
     add(self, "rad/s", "rocket.pitch_rate", "rate of rocket.pitch");
     add(self, "rad/s", "rocket.yaw_rate", "rate of rocket.yaw");
     add(self, "rad/s", "rocket.spin", "rate of the rocket against I about its axis");
+    add_against_launcher(self);
     add(self, "kg", "rocket.mass", "instantaneous mass");
     add(self, "N", "thrust", "thrust");
     for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
@@ -246,7 +274,9 @@ static void add_rocket(ld_simulation *self)
 void history_build(ld_simulation *self)
 {
     add_frames(self);
+    self->rocket_columns = -self->column_count;
     add_rocket(self);
+    self->rocket_columns += self->column_count;
     if (self->launcher.vehicle)
         add_vehicle(self);
     add(self, "J", "energy.kinetic", "kinetic energy of tube, tail and rocket, and of the vehicle");
@@ -331,6 +361,7 @@ static double *put_tip(const ld_simulation *self, const base_frame *base, const 
     direction_angles angles =
         direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(section.w, axis)));
     to = put_v3(to, v3_add(v3_from(y + launching->layout.r), m3_apply(A_IR, section.P)));
+    to = put_v3(to, m3_apply(A_IR, section.v));
     return put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
 }
 
@@ -360,8 +391,21 @@ static double *put_vehicle(const ld_simulation *self, const launcher_input *inpu
     return to;
 }
 
-static double *put_rocket(const ld_simulation *self, const launching_input *input, const double *y,
-                          const launching_output *out, double *to)
+static double *put_against_launcher(const ld_simulation *self, double t,
+                                    const launching_input *input, const rocket_motion *rocket,
+                                    double *to)
+{
+    ld_tip_off off = tip_off_of(&input->base, rocket);
+    ld_aim aim = aim_of(self, t, rocket);
+    to = put(to,
+             (double[]){off.pitch, off.yaw, off.pitch_rate, off.yaw_rate, off.pitch_rate_relative,
+                        off.yaw_rate_relative, off.vy, off.vz, off.vy_relative, off.vz_relative},
+             10);
+    return put(to, (double[]){aim.pitch, aim.yaw, aim.pitch_rate, aim.yaw_rate, aim.vy, aim.vz}, 6);
+}
+
+static double *put_rocket(const ld_simulation *self, double t, const launching_input *input,
+                          const double *y, const launching_output *out, double *to)
 {
     const launching_layout *at = &self->launcher.launching.layout;
     launching_output unused;
@@ -372,10 +416,15 @@ static double *put_rocket(const ld_simulation *self, const launching_input *inpu
     direction_angles angles =
         direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(pose.w_B, axis)));
     to = put(to, y + at->x, 6);
-    to = put(to, out->y, 6);
+    to = put(to, out->y, 3);
+    to = put(to, out->x_dot + 3, 3);
+    to = put(to, out->y + 3, 3);
     to = put_v3(to, m3_apply(A_IR, pose.v_O1));
     to = put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
-    to = put(to, (double[]){v3_dot(axis, pose.w_B), input->mass.m, input->thrust}, 3);
+    *to++ = v3_dot(axis, pose.w_B);
+    rocket_motion motion = rocket_motion_of(&pose, input->mass.c, y, at);
+    to = put_against_launcher(self, t, input, &motion, to);
+    to = put(to, (double[]){input->mass.m, input->thrust}, 2);
     for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
         const adaptor_report *adaptor = &out->adaptor[i];
         double values[5] = {adaptor->force, adaptor->normal, adaptor->penetration, adaptor->y,
@@ -411,9 +460,9 @@ void history_row(const ld_simulation *self, double t, const double *y, double en
     to = put(to, y + at->q, 2 * at->nq);
     to = put_tip(self, base, y, to);
     if (self->phase.rocket)
-        to = put_rocket(self, &input.launching, y, &out.launching, to);
+        to = put_rocket(self, t, &input.launching, y, &out.launching, to);
     else
-        for (int i = 0; i < 25 + 5 * self->launcher.launching.adaptor_count; i++)
+        for (int i = 0; i < self->rocket_columns; i++)
             *to++ = NAN;
     if (self->launcher.vehicle)
         to = put_vehicle(self, &input, y, &out, to);

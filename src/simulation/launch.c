@@ -227,6 +227,8 @@ static void set_up_rocket(launch_run *run, int i)
         relative[k] = tip[k] = NAN;
     for (int k = 0; k < 13; k++)
         out[k] = NAN;
+    rocket->tip_off = no_tip_off;
+    rocket->aim = no_aim;
 }
 
 static ld_status find_start(launch_run *run, double *y)
@@ -292,6 +294,9 @@ static void record_exit(launch_run *run, double t, const double *landed)
     rocket->tip.vz = tip.offset_dot.z;
     rocket->tip.pitch_rate = tip.angles.pitch_rate;
     rocket->tip.yaw_rate = tip.angles.yaw_rate;
+    rocket_motion motion = rocket_motion_of(&pose, input.launching.mass.c, y, at);
+    rocket->tip_off = tip_off_of(&input.launching.base, &motion);
+    rocket->aim = aim_of(self, t, &motion);
 }
 
 static void pass_adaptor(launch_run *run, int i, double t, const double *y)
@@ -551,8 +556,8 @@ static bool pass_stop(launch_run *run, double t)
     return changed;
 }
 
-// Where the rocket is when it is lit, over the ground.
-static void record_launch_point(launch_run *run, const double *y)
+// Where the rocket is when it is lit, over the ground, and how its tube is aimed.
+static void record_ignition(launch_run *run, double t, const double *y)
 {
     ld_simulation *self = run->self;
     const launching_layout *at = &self->launcher.launching.layout;
@@ -562,6 +567,9 @@ static void record_launch_point(launch_run *run, const double *y)
     v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), pose.p1));
     run->point[self->current][0] = r.x;
     run->point[self->current][1] = r.z;
+    launcher_input input;
+    launcher_place(&self->launcher, t, y, &input);
+    self->aim = input.launching.base.A;
 }
 
 // A jump of the thrust, or the start itself, can carry the lock's force past the release force
@@ -646,18 +654,18 @@ static ld_status after_step(launch_run *run, integrator_outcome outcome)
     ld_simulation *self = run->self;
     double t = propagator_time(run->propagator);
     const double *y = propagator_state(run->propagator);
+    bool igniting = outcome == INTEGRATOR_STOPPED && t == self->t_ignition && self->piece < 0;
+    if (igniting)
+        record_ignition(run, t, y); // the row of this instant wants it
     ld_status status = write_rows(run);
     watch_forces(run, t, y);
     if (!status && outcome != INTEGRATOR_STEPPED)
         status = write_row(run, t, y);
     bool changed = outcome == INTEGRATOR_EVENT && switch_phase(run, t, y);
     if (outcome == INTEGRATOR_STOPPED) {
-        bool igniting = t == self->t_ignition && self->piece < 0;
         changed = pass_stop(run, t);
-        if (igniting) {
-            record_launch_point(run, y);
+        if (igniting)
             restart_output(run, t);
-        }
     }
     if (!status)
         status = check_progress(run, t, y);
@@ -725,7 +733,7 @@ static ld_status begin(launch_run *run)
     energy_at(self, run->t_start, y, 0, &energy);
     run->energy_start = energy.kinetic + energy.potential + energy.elastic;
     if (run->t_start >= self->t_ignition) {
-        record_launch_point(run, y);
+        record_ignition(run, run->t_start, y);
         pass_stop(run, run->t_start);
     }
     self->phase.locked = self->model->rocket.lock.present;

@@ -26,6 +26,7 @@ struct ld_simulation {
     ld_pole growing; // what grows about the equilibrium, if anything
     int current;     // rocket in the order of firing
     double t_ignition;
+    m3 aim;    // A_IT, the undeformed tube on its base, as it stood at that ignition
     int piece; // of the thrust curve
     bool jammed;
     struct {         // the latest evaluation, which at a step's end is that of the step's end
@@ -39,7 +40,7 @@ struct ld_simulation {
     int mode_count;
     ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
 
-    int column_count;
+    int column_count, rocket_columns; // in all; those of the rocket in its tube
     ld_column column[LD_MAX_COLUMNS];
     char column_text[LD_MAX_COLUMNS][2][96]; // names and descriptions of columns that are counted
 };
@@ -132,6 +133,21 @@ typedef struct direction_angles {
     double pitch, yaw, pitch_rate, yaw_rate;
 } direction_angles;
 direction_angles direction_angles_of(v3 d, v3 d_dot);
+
+// The rocket's x axis, its rate, place and velocity of its mass centre, all in I.
+typedef struct rocket_motion {
+    v3 axis, w, r_C, v_C;
+} rocket_motion;
+// Of the rocket with this pose in state y, its mass centre at c in B.
+rocket_motion rocket_motion_of(const launching_pose *pose, v3 c, const double *y,
+                               const launching_layout *at);
+
+// The rocket against the launcher, as it stands and moves; at time t against where it stood at the
+// ignition, before which there is no aim. Those of no rocket: not a number.
+ld_tip_off tip_off_of(const base_frame *base, const rocket_motion *rocket);
+ld_aim aim_of(const ld_simulation *self, double t, const rocket_motion *rocket);
+extern const ld_tip_off no_tip_off;
+extern const ld_aim no_aim;
 
 // The tip's section against the undeformed tube, in the base's tube axes.
 typedef struct tip_state {

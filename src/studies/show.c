@@ -24,7 +24,8 @@ typedef struct shown {
 } shown;
 
 static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,pitch,yaw,pitch_rate,"
-                            "yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed";
+                            "yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
+                            "tip_off.yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed";
 static const char sensitive[] = "t_rear,muzzle_speed,pitch,yaw,pitch_rate,yaw_rate,downrange,drift";
 
 static ld_status no_memory(ld_error *error)

@@ -9,7 +9,7 @@
 #include "launchdyn/scenario.h"
 #include "studies/store.h"
 
-#define FORMAT "2"
+#define FORMAT "3"
 
 // The scenario as text in which nothing is left out but when to stop: the rule, and the number of
 // samples where more may be added.

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "io/history.h"
+#include "io/study_results.h"
 #include "launchdyn/output.h"
 #include "support/made_launch.h"
 
@@ -237,8 +238,8 @@ static void test_summary_is_json(void **state)
         {".source|tostring", "null"}, // filled by hand
         {".rockets[0]|keys_unsorted|join(\",\")",
          "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,muzzle_speed,inertial_speed,"
-         "spin_rate,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,max_contact_force,"
-         "max_slot_force,energy_dropped"},
+         "spin_rate,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,tip_off,aim,"
+         "max_contact_force,max_slot_force,energy_dropped"},
         {".rockets[0].exit|tostring",
          "{\"position\":[1.5,2.25,-0.5],\"velocity\":[35.5,12.75,0.125],"
          "\"quaternion\":[0.5,-0.5,0.5,0.5],\"rate\":[32,0.25,-0.75]}"},
@@ -249,6 +250,13 @@ static void test_summary_is_json(void **state)
         {".rockets[0].tip|keys_unsorted|join(\",\")", "y,z,pitch,yaw,vy,vz,pitch_rate,yaw_rate"},
         {".rockets[0].tip|[.y,.z,.pitch,.yaw,.vy,.vz,.pitch_rate,.yaw_rate]|tostring",
          "[-0.0011,0.0002,-0.0005,0.0001,0.3,-0.02,0.2,0.01]"},
+        {".rockets[0].tip_off|tostring",
+         "{\"pitch\":-0.007,\"yaw\":0.0002,\"pitch_rate\":-0.26,\"yaw_rate\":0.007,"
+         "\"pitch_rate_relative\":-0.3,\"yaw_rate_relative\":0.015,\"vy\":-1.5,\"vz\":5.125,"
+         "\"vy_relative\":-0.375,\"vz_relative\":-0.02}"},
+        {".rockets[0].aim|tostring",
+         "{\"pitch\":-0.0008,\"yaw\":-0.001,\"pitch_rate\":-0.27,\"yaw_rate\":0.008,"
+         "\"vy\":-1.25,\"vz\":5.25}"},
         {".rockets[0].max_contact_force|tostring", "{\"rear\":1500,\"middle\":500,\"front\":900}"},
         {".rockets[0]|[.tube,.t_release,.t_front,.t_middle,.t_rear]|tostring",
          "[8,0.0033336,0.0952,null,0.1604]"},
@@ -279,6 +287,35 @@ static void test_summary_is_json(void **state)
     }
 }
 
+// What a study keeps of a rocket is what its summary.json says under the same name.
+static void test_results_of_a_study_are_those_of_the_summary(void **state)
+{
+    place *here = *state;
+    ld_summary summary;
+    ld_error error = {0};
+    made_summary(&summary, 1);
+    ld_rocket_summary *rocket = &summary.rocket[0];
+    rocket->flown = true;
+    rocket->flight = (ld_flight_summary){900, 8600, -50, 8601, 41.5, 41.375, 210, 0.75, 1.5, 0.01};
+    const char *file = in(here, "summary.json");
+    assert_int_equal(ld_summary_write(file, &here->model, &summary, &error), LD_OK);
+    char *text = strdup(printed_by(
+        "jq -r '.rockets[0]|del(.final)|.+.flight|.exit|={x:.position[0],y:.position[1],"
+        "z:.position[2],vx:.velocity[0],vy:.velocity[1],vz:.velocity[2]}|[paths(numbers) as $p|"
+        "\"=\\($p|join(\".\")) \\(getpath($p))\"]|.[]' %s",
+        file));
+    for (const study_result *r = study_results; r->name; r++) {
+        char wanted[64];
+        snprintf(wanted, sizeof wanted, "=%s ", r->name);
+        const char *found = strstr(text, wanted);
+        if (!found || strtod(found + strlen(wanted), NULL) != study_result_of(rocket, r))
+            fail_msg("%s: %.17g in a study, in the summary %.60s", r->name,
+                     study_result_of(rocket, r), found ? found : "nothing");
+    }
+    free(text);
+    assert_null(study_results[STUDY_RESULTS].name);
+}
+
 static void test_numbers_keep_17_digits(void **state)
 {
     place *here = *state;
@@ -302,6 +339,16 @@ static void test_terminal_table(void **state)
     assert_non_null(strstr(text, "  bending y                 31.25   128.50\n"));
     assert_non_null(strstr(text, "  rear adaptor leaves        160.4000 ms\n"));
     assert_non_null(strstr(text, "  muzzle speed                37.7000 m/s\n"));
+    static const char *const against_launcher =
+        "  tip-off pitch, yaw          -7.0000       0.2000 mrad\n"
+        "  tip-off rates              -260.000        7.000 mrad/s\n"
+        "  relative rates             -300.000       15.000 mrad/s\n"
+        "  tip-off vy, vz             -1.50000      5.12500 m/s\n"
+        "  relative vy, vz            -0.37500     -0.02000 m/s\n"
+        "  aim pitch, yaw              -0.8000      -1.0000 mrad\n"
+        "  aim rates                  -270.000        8.000 mrad/s\n"
+        "  aim vy, vz                 -1.25000      5.25000 m/s\n";
+    assert_non_null(strstr(text, against_launcher));
     assert_null(strstr(text, "nan"));
     free(text);
 }
@@ -499,7 +546,7 @@ int main(void)
         TEST(test_discard_leaves_nothing),   TEST(test_closed_folder_is_one_message),
         TEST(test_a_file_is_no_folder),      TEST(test_full_disk_is_one_message),
         TEST(test_a_killed_run_can_be_read), TEST(test_unreadable_histories),
-        TEST(test_bad_column_names),
+        TEST(test_bad_column_names),         TEST(test_results_of_a_study_are_those_of_the_summary),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,6 +36,18 @@ async function checkOrigin(page, run) {
   check("all of it is folded", open === 0, open);
 }
 
+// The table of the rocket has every figure of the exit against the launcher, in mrad, mrad/s, m/s.
+async function checkFigures(page, run) {
+  const shown = await page.$$eval("#tables td", (cells) => cells.map((cell) => Number(cell.textContent)));
+  const [{ tip_off: off, aim }] = JSON.parse(readFileSync(join(run.out, "summary.json"))).rockets;
+  const figures = [off, aim].flatMap((of) => Object.entries(of));
+  const missing = figures.filter(([name, value]) => {
+    const wanted = name.startsWith("v") ? value : 1e3 * value;
+    return !shown.some((number) => Math.abs(number - wanted) <= 1e-5 * Math.abs(wanted));
+  });
+  check("all figures against the launcher are in the table", figures.length === 16 && missing.length === 0, missing);
+}
+
 async function checkLaunch(browser) {
   const run = runOf("fixed.yaml");
   console.log("fixed.yaml");
@@ -46,6 +58,7 @@ async function checkLaunch(browser) {
   check("plots, each with a canvas", counts[0] >= 30 && counts[0] === counts[1], counts);
   await checkNoneEmpty(page);
   await checkOrigin(page, run);
+  await checkFigures(page, run);
   await checkCursor(page, run, "#table0-tip .panel", [["tip.y", 1e3], ["tip.z", 1e3]]);
   await checkCursor(page, run, "#table0-contact .panel",
     [["contact.rear.force", 1e-3], ["contact.middle.force", 1e-3], ["contact.front.force", 1e-3]]);

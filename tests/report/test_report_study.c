@@ -404,7 +404,7 @@ static void test_size_is_bounded(void **state)
     assert_int_equal(report.note_count, 2);
     printf("    %s\n    %s\n", report.note[0], report.note[1]);
     assert_non_null(strstr(report.note[0], "More than 40 series"));
-    assert_non_null(strstr(report.note[1], "first 3 of 12 results"));
+    assert_non_null(strstr(report.note[1], "first 3 of 16 results"));
 }
 
 // ---- what is broken

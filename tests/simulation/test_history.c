@@ -1,5 +1,5 @@
 // Columns of the history against each other: the tip in inertial space from base and relative tip,
-// and rates from differences.
+// and rates and velocities from differences.
 #include "support/check.h"
 
 #include <stdlib.h>
@@ -31,8 +31,21 @@ static const char *const wanted[COLUMNS] = {
     "tip.inertial_yaw",
     "tip.inertial_pitch_rate",
     "tip.inertial_yaw_rate",
+    "tip.inertial_vx",
+    "tip.inertial_vy",
+    "tip.inertial_vz",
+    "rocket.psi",
+    "rocket.theta",
+    "rocket.gamma",
+    "rocket.psi_dot",
+    "rocket.theta_dot",
+    "rocket.gamma_dot",
+    "rocket.w_x",
+    "rocket.w_y",
+    "rocket.w_z",
 };
 enum { T, BASE, YAW = 4, PITCH, ROLL, TIP_Y, TIP_Z, TIP_PITCH, TIP_YAW, AT, I_PITCH = 14, I_YAW };
+enum { TIP_V = 18, PSI = 21, PSI_DOT = 24, W = 27 };
 
 typedef struct record {
     int rows, column[COLUMNS];
@@ -118,7 +131,8 @@ static double worst_rate(const record *kept, int angle, int rate)
     for (int i = 1; i < kept->rows; i++) {
         const double *a = kept->value[i - 1], *b = kept->value[i];
         double change = (a[rate] + b[rate]) / 2 * (b[T] - a[T]);
-        worst = fmax(worst, fabs(b[angle] - a[angle] - change));
+        double error = fabs(b[angle] - a[angle] - change);
+        worst = error <= worst ? worst : error; // not a number stays
     }
     return worst;
 }
@@ -134,6 +148,11 @@ static void check_tip(const char *scenario, const char *set, double elevation)
     CHECK_BELOW("pitch between rows from its rates [rad]", worst_rate(kept, I_PITCH, I_PITCH + 2),
                 7e-8);
     CHECK_BELOW("yaw between rows from its rates [rad]", worst_rate(kept, I_YAW, I_YAW + 2), 3e-9);
+    CHECK_BELOW("x between rows from velocities in I [m]", worst_rate(kept, AT, TIP_V), 4e-9);
+    CHECK_BELOW("y between rows from velocities in I [m]", worst_rate(kept, AT + 1, TIP_V + 1),
+                7e-9);
+    CHECK_BELOW("z between rows from velocities in I [m]", worst_rate(kept, AT + 2, TIP_V + 2),
+                3e-10);
     free(kept);
 }
 
@@ -149,9 +168,32 @@ static void test_tip_on_vehicle(void **state)
     check_tip(LD_SOURCE_DIR "/examples/reference.yaml", "run.lead_in=0.2 s", 0);
 }
 
+// The rates of psi, theta and gamma are not the components of the angular velocity: a rocket that
+// spins and points off the tube's axis has one across it.
+static void test_rates_of_the_relative_angles(void **state)
+{
+    (void)state;
+    record *kept = record_launch(LD_SOURCE_DIR "/examples/marching/stationary.yaml",
+                                 "run={lead_in: 0 s, end: tip}");
+    static const char *const what[] = {"psi between rows from its rates [rad]",
+                                       "theta between rows from its rates [rad]",
+                                       "gamma between rows from its rates [rad]"};
+    static const int component[] = {W + 2, W + 1, W};
+    static const double bound[] = {1.5e-8, 1.5e-9, 2e-9};
+    double apart = 0;
+    for (int i = 0; i < 3; i++)
+        CHECK_BELOW(what[i], worst_rate(kept, PSI + i, PSI_DOT + i), bound[i]);
+    for (int i = 0; i < kept->rows; i++)
+        for (int k = 0; k < 3; k++)
+            apart = fmax(apart, fabs(kept->value[i][PSI_DOT + k] - kept->value[i][component[k]]));
+    CHECK_WITHIN("farthest from the angular velocity's component [rad/s]", apart, 0.1, 0.3);
+    free(kept);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rates_of_the_relative_angles),
         cmocka_unit_test(test_tip_on_moving_base),
         cmocka_unit_test(test_tip_on_vehicle),
     };

@@ -62,6 +62,9 @@ static const made columns[] = {
     {"rocket.s_dot", "m/s", 38, 1, 1},
     {"rocket.y_dot", "m/s", 0.05, 25, 1},
     {"rocket.z_dot", "m/s", 0.05, 40, 1},
+    {"rocket.psi_dot", "rad/s", 0.1, 22, 1},
+    {"rocket.theta_dot", "rad/s", 0.1, 35, 1},
+    {"rocket.gamma_dot", "rad/s", 32, 1, 1},
     {"rocket.w_x", "rad/s", 32, 1, 1},
     {"rocket.w_y", "rad/s", 0.1, 35, 1},
     {"rocket.w_z", "rad/s", 0.1, 22, 1},
@@ -204,6 +207,8 @@ void made_summary(ld_summary *summary, int middle)
         .exit = {{1.5, 2.25, -0.5}, {35.5, 12.75, 0.125}, {0.5, -0.5, 0.5, 0.5}, {32, 0.25, -0.75}},
         .relative = {1e-4, -2e-4, 3e-4, -4e-4, 2.5, 31.9, 0.05, -0.25},
         .tip = {-1.1e-3, 2e-4, -5e-4, 1e-4, 0.3, -0.02, 0.2, 0.01},
+        .tip_off = {-7e-3, 2e-4, -0.26, 0.007, -0.3, 0.015, -1.5, 5.125, -0.375, -0.02},
+        .aim = {-8e-4, -1e-3, -0.27, 0.008, -1.25, 5.25},
         .max_contact_force = {1500, 500, 900},
         .max_slot_force = 700,
         .energy_dropped = 0.0625};

@@ -9,7 +9,7 @@
 #include "launchdyn/results.h"
 #include "launchdyn/simulation.h"
 
-enum { MADE_COLUMNS = 112 };
+enum { MADE_COLUMNS = 115 };
 
 // MADE_COLUMNS columns; the first is t.
 const ld_column *made_columns(void);
