@@ -951,8 +951,9 @@ static const field_row run_fields[] = {
      .doc = "time before t = 0"},
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
      .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
-     .doc = "when the last rocket has left the tube (a flight alone: as landing), when it has "
-            "landed, or a time after the last ignition"},
+     .doc =
+         "when the last rocket has left the tube (a flight alone: as landing), when it has "
+         "landed, or a time after the last ignition until which launcher and rockets are followed"},
     {"tolerance", NUMBER(ld_run_settings, tolerance, ""), FROM_TO(1e-12, 1e-2), DEFAULT(1e-5),
      .doc = "relative tolerance of the integrator"},
     {"output_step", SAME_STRUCT(output_step_block), .initial_doc = "as below",

@@ -798,12 +798,22 @@ static ld_status fly(launch_run *run, int i)
     };
     flight_phase phase = free_flight_phase(&self->flight, rocket->t_ignition, t);
     flight_enter(&self->flight, &phase, t, &pose, state);
+    double height = flight_center(&self->flight, t, state).r.y;
+    if (self->model->run.end == LD_END_TIME && self->flight.has_ground &&
+        height < self->flight.ground) {
+        simulation_note(
+            run->summary,
+            "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
+            "mass centre at y = %.4g m",
+            rocket->tube, height);
+        return LD_OK;
+    }
     free_flight job = {
         .system = &self->flight,
         .model = self->model,
         .t_ignition = rocket->t_ignition,
         .t_start = t,
-        .t_end = INFINITY,
+        .t_end = run->t_end,
         .launch_x = run->point[i][0],
         .launch_z = run->point[i][1],
         .options = run->options,
@@ -817,14 +827,15 @@ static ld_status fly(launch_run *run, int i)
     return status;
 }
 
-// Every rocket flies to the ground.
+// Every rocket that has left its tube flies to the ground, or until the run's end.
 static ld_status fly_all(launch_run *run)
 {
     ld_status status = LD_OK;
-    if (run->self->model->run.end != LD_END_LANDING)
+    if (run->self->model->run.end == LD_END_TIP)
         return LD_OK;
     for (int i = 0; i < run->summary->rocket_count && !status; i++)
-        status = fly(run, i);
+        if (!isnan(run->summary->rocket[i].t_rear))
+            status = fly(run, i);
     return status;
 }
 
