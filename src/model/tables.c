@@ -790,7 +790,7 @@ static const field_word motor_words[] = {{"", 0}, {"none", 1}, {NULL, 0}};
 
 static const field_row rocket_fields[] = {
     {"start_at", NUMBER(ld_model, rocket.start_at, "m"), FROM_TO(0, 100), DEFAULT(0), IN_TUBE,
-     .doc = "rear adaptor from the tube's rear end at the start"},
+     .doc = "rear adaptor from the tube's rear end at the start, where the breech stands"},
     {"mass", NUMBER(ld_model, rocket.full.mass, "kg"), POSITIVE, REQUIRED, .doc = "at ignition"},
     {"center", VECTOR(ld_model, rocket.full.center, "m", 3), FROM_TO(-100, 100), REQUIRED,
      NOT_IN_FLIGHT("0 m in a flight alone"),
@@ -816,7 +816,7 @@ static const field_row rocket_fields[] = {
      .doc = "runs in the slot"},
     {"lock", BLOCK(ld_model, rocket.lock, lock_block), .required = true, IN_TUBE,
      SWITCH(ld_model, rocket.lock.present, lock_words), .other_is_bool = true,
-     .doc = "holds the rocket until the release force; `none`: free from the start"},
+     .doc = "holds the rocket until the release force; `none`: it rests on the breech"},
     {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
      NOT_IN_FLIGHT("none in a flight alone"), SWITCH(ld_model, rocket.motor.absent, motor_words),
      .other_is_bool = true, .doc = "thrust; `none`: only in a flight alone"},
