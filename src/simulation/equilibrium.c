@@ -71,8 +71,10 @@ launching_phase simulation_start_phase(const ld_simulation *self)
     const ld_rocket *rocket = &self->model->rocket;
     phase.breech = rocket->start_at;
     phase.breech_speed = rocket->contact.reference_speed;
+    // so near the tip that rounding and the tube's bend decide, an adaptor counts as out
+    double out = self->model->tubes.length - 1e-6;
     for (int i = 0; i < rocket->adaptor_count; i++) {
-        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= self->model->tubes.length;
+        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= out;
         phase.touch_speed[i] = rocket->contact.reference_speed;
     }
     return phase;

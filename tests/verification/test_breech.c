@@ -41,6 +41,20 @@ static void starts_at_the_rear_end(void **state)
     }
 }
 
+// The front adaptor at the tip, or a nanometre before it, where its foot on the bent tube is beyond
+// it already, is out; ten micrometres before it leaves after the release.
+static void starts_at_the_tip(void **state)
+{
+    (void)state;
+    ld_summary at = launch(1.1, 0, false), before = launch(1.1 - 1e-9, 0, false);
+    ld_summary inside = launch(1.1 - 1e-5, 0, false);
+    assert_true(isnan(at.rocket[0].t_front) && isnan(before.rocket[0].t_front));
+    CHECK_BELOW("muzzle speed [m/s]", at.rocket[0].muzzle_speed - before.rocket[0].muzzle_speed,
+                5e-8);
+    CHECK_WITHIN("ten micrometres before it: out after [ms]", 1e3 * inside.rocket[0].t_front, 3.8,
+                 6);
+}
+
 // Without a lock: what of the weight the tube's axis takes, as deep as the contact says, for as
 // long as nothing lights the motor.
 static void rests(void **state)
@@ -187,6 +201,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(starts_at_the_rear_end),
+        cmocka_unit_test(starts_at_the_tip),
         cmocka_unit_test(rests),
         cmocka_unit_test(falls_as_on_a_spring),
         cmocka_unit_test(bounces),
