@@ -681,11 +681,11 @@ typedef struct ld_model {
 void ld_model_init(ld_model *model);
 
 /// Computes what follows from the rest: the stiffnesses and masses of sections that are given by
-/// radii or areas; the firings of an order of tubes; where it is NaN, rocket.propellant = full.mass
-/// - empty.mass and run.stuck_time = end of the thrust table + 1 s; of a flight alone, what its
-/// rocket lacks: a motor (absent), empty values (as the full ones), the mass centre (0), and the
-/// end at the tip (landing); the ground's height where it is NaN (0, on a round Earth the site's
-/// altitude). The scenario reader has done it already.
+/// radii or areas; the firings of an order of tubes; where they are NaN, the values of the empty
+/// rocket (as the full ones), rocket.propellant = full.mass - empty.mass and run.stuck_time = end
+/// of the thrust table + 1 s; of a flight alone, what its rocket lacks: a motor (absent), the mass
+/// centre (0), and the end at the tip (landing); the ground's height where it is NaN (0, on a round
+/// Earth the site's altitude). The scenario reader has done it already.
 void ld_model_complete(ld_model *model);
 
 /// Frees the title, the tables, what `model` owns for studies and its share of `source`, and resets

@@ -115,7 +115,7 @@ typedef struct ld_rocket_summary {
 typedef struct ld_work {
     double thrust;
     double gravity_rocket;
-    double contact_normal;
+    double contact_normal; ///< of adaptors and breech
     double contact_friction;
     double slot; ///< of the constraint force N: zero but for the step error
     double slot_friction;
@@ -174,10 +174,11 @@ typedef struct ld_statistics {
 /// Static equilibrium at the start.
 typedef struct ld_equilibrium_summary {
     double lock_force;                     ///< [N] carried by the lock, along +x
+    double breech_force;                   ///< [N] of the breech on the rocket, along +x
     double slot_force;                     ///< [N] N
     double contact_force[LD_MAX_ADAPTORS]; ///< [N] normal
     double tip_sag[2];                     ///< [m] y, z of the tip, undeformed tube axes
-    double residual;                       ///< [m/s2, rad/s2] largest acceleration while locked
+    double residual;                       ///< [m/s2, rad/s2] largest acceleration at rest
     int wheel_count;                       ///< 0: the base is no vehicle
     struct {
         double tyre_force;      ///< [N] vertical

@@ -1,4 +1,5 @@
-// Normal force of an adaptor on the tube's wall (model.md, section 5).
+// Normal force of an adaptor on the tube's wall, and of the rocket on the breech (model.md, section
+// 5).
 #ifndef LD_ELEMENTS_CONTACT_H
 #define LD_ELEMENTS_CONTACT_H
 
@@ -48,6 +49,7 @@ LD_INLINE double contact_normal(const contact_law *law, double p, double p_dot, 
 {
     switch (law->kind) {
     case LD_CONTACT_KELVIN_VOIGT: // linear
+    case LD_CONTACT_BILATERAL:    // at the breech, which holds on one side only
         return fmax(0, law->k * p + law->c * p_dot);
     case LD_CONTACT_LANKARANI_NIKRAVESH:
         return contact_elastic(law, p) * fmax(0, 1 + law->zeta * p_dot / touch_speed);

@@ -35,17 +35,37 @@ static v3 combine(int n, const v3 *column, const double *factor)
     return sum;
 }
 
+// Moves the section's point by `arm`, which turns with it.
+static void move_point(int n, v3 w, v3 arm, tube_section_state *section)
+{
+    v3 u = v3_cross(section->spin, arm), bend = v3_from(section->gamma + 3);
+    v3 gamma = v3_cross(w, v3_axpy(v3_cross(w, arm), 2, u));
+    bend = v3_sub(bend, v3_cross(w, section->spin)); // relative to R
+    gamma = v3_add(gamma, v3_add(v3_cross(bend, arm), v3_cross(section->spin, u)));
+    section->position = v3_add(section->position, arm);
+    section->velocity = v3_add(section->velocity, u);
+    v3_store(section->gamma, v3_add(v3_from(section->gamma), gamma));
+    double *L = section->L;
+    for (int k = 0; k < n; k++) {
+        v3 turn = v3_make(L[3 * n + k], L[4 * n + k], L[5 * n + k]), shift = v3_cross(turn, arm);
+        L[k] += shift.x;
+        L[n + k] += shift.y;
+        L[2 * n + k] += shift.z;
+    }
+}
+
 void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, const double *q_dot,
                   tube_section_state *section)
 {
     v3 Phi[LD_TUBE_MODES], Psi[LD_TUBE_MODES];
     int modes = tube_mode_count(tube), n = 6 + modes;
-    shapes_at(tube, x, Phi, Psi);
+    double inside = x < 0 ? 0 : x > tube->length ? tube->length : x;
+    shapes_at(tube, inside, Phi, Psi);
 
     // position, rotation and their rates against R
     v3 p = combine(modes, Phi, q), u = combine(modes, Phi, q_dot);
     v3 th = combine(modes, Psi, q), th_dot = combine(modes, Psi, q_dot);
-    p.x += x;
+    p.x += inside;
     m3 Jl = rv_left_jacobian(th);
     v3 spin = m3_apply(Jl, th_dot);
     section->position = p;
@@ -77,4 +97,6 @@ void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, co
             L[(3 + i) * n + 6 + k] = turn[i];
         }
     }
+    if (x != inside)
+        move_point(n, w, v3_scale(x - inside, m3_column(section->rotation, 0)), section);
 }

@@ -264,6 +264,7 @@ static void write_equilibrium(json_writer *json, const ld_model *model,
 {
     json_open(json, "equilibrium", '{');
     json_number(json, "lock_force", equilibrium->lock_force);
+    json_number(json, "breech_force", equilibrium->breech_force);
     json_number(json, "slot_force", equilibrium->slot_force);
     write_adaptors(json, "contact_force", model, equilibrium->contact_force);
     json_open(json, "tip_sag", '{');

@@ -47,6 +47,8 @@ static void print_equilibrium(const ld_model *model, const ld_equilibrium_summar
 {
     fputs("\nEquilibrium at the start\n", stream);
     line(stream, "lock force", equilibrium->lock_force, 2, "N");
+    if (equilibrium->breech_force > 0)
+        line(stream, "breech force", equilibrium->breech_force, 2, "N");
     line(stream, "slot force", equilibrium->slot_force, 2, "N");
     for (int i = 0; i < model->rocket.adaptor_count; i++) {
         char name[LD_MAX_NAME + 16];

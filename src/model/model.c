@@ -44,19 +44,25 @@ static void complete_section(ld_section *section, const ld_material *material)
 static void complete_flight(ld_model *model)
 {
     ld_rocket *rocket = &model->rocket;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         if (isnan(rocket->full.center[i]))
             rocket->full.center[i] = 0;
+    rocket->motor.absent = rocket->motor.absent || rocket->motor.thrust.rows == 0;
+    if (model->run.end == LD_END_TIP)
+        model->run.end = LD_END_LANDING;
+}
+
+// What is not said of the empty rocket is as of the full one.
+static void complete_empty(ld_rocket *rocket)
+{
+    if (isnan(rocket->empty.mass))
+        rocket->empty.mass = rocket->full.mass;
+    for (int i = 0; i < 3; i++) {
         if (isnan(rocket->empty.center[i]))
             rocket->empty.center[i] = rocket->full.center[i];
         if (isnan(rocket->empty.inertia[i]))
             rocket->empty.inertia[i] = rocket->full.inertia[i];
     }
-    if (isnan(rocket->empty.mass))
-        rocket->empty.mass = rocket->full.mass;
-    rocket->motor.absent = rocket->motor.absent || rocket->motor.thrust.rows == 0;
-    if (model->run.end == LD_END_TIP)
-        model->run.end = LD_END_LANDING;
 }
 
 static void complete_firing(ld_model *model)
@@ -83,6 +89,7 @@ void ld_model_complete(ld_model *model)
         complete_section(&tubes->section[i], &tubes->material);
     if (model->base.kind == LD_BASE_NONE)
         complete_flight(model);
+    complete_empty(rocket);
     if (isnan(rocket->propellant))
         rocket->propellant = rocket->full.mass - rocket->empty.mass;
     if (isnan(model->run.stuck_time) && thrust->rows > 0)

@@ -259,8 +259,8 @@ static void base_rules(const rule_set *rules)
 static void mass_rules(const rule_set *rules)
 {
     const ld_rocket *rocket = &rules->model->rocket;
-    if (rocket->empty.mass >= rocket->full.mass && !rocket->motor.absent)
-        broken(rules, "rocket.empty.mass", 0, "%g kg must be less than the full mass, %g kg",
+    if (rocket->empty.mass > rocket->full.mass && !rocket->motor.absent)
+        broken(rules, "rocket.empty.mass", 0, "%g kg is more than the full mass, %g kg",
                rocket->empty.mass, rocket->full.mass);
     if (rocket->empty.mass + rocket->mass_error <= 0)
         broken(rules, "rocket.mass_error", 0, "%g kg leaves nothing of the empty mass, %g kg",

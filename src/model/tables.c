@@ -792,7 +792,7 @@ static const field_word motor_words[] = {{"", 0}, {"none", 1}, {NULL, 0}};
 
 static const field_row rocket_fields[] = {
     {"start_at", NUMBER(ld_model, rocket.start_at, "m"), FROM_TO(0, 100), DEFAULT(0), IN_TUBE,
-     .doc = "rear adaptor from the tube's rear end at the start"},
+     .doc = "rear adaptor from the tube's rear end at the start, where the breech stands"},
     {"mass", NUMBER(ld_model, rocket.full.mass, "kg"), POSITIVE, REQUIRED, .doc = "at ignition"},
     {"center", VECTOR(ld_model, rocket.full.center, "m", 3), FROM_TO(-100, 100), REQUIRED,
      NOT_IN_FLIGHT("0 m in a flight alone"),
@@ -807,8 +807,8 @@ static const field_row rocket_fields[] = {
      .doc = "y, z, added to the full and the empty mass centre"},
     {"propellant", NUMBER(ld_model, rocket.propellant, "kg"), NOT_NEGATIVE,
      NO_DEFAULT("mass less empty"), .doc = "burnt mass"},
-    {"empty", BLOCK(ld_model, rocket.empty, empty_block), .required = true,
-     NOT_IN_FLIGHT("as full in a flight alone without motor"), .doc = "at burn-out"},
+    {"empty", BLOCK(ld_model, rocket.empty, empty_block), .initial_doc = "as full",
+     .doc = "at burn-out; without it the mass is constant"},
     {"adaptors",
      LIST(ld_model, rocket.adaptor, rocket.adaptor_count, adaptor_block, 2, LD_MAX_ADAPTORS),
      .required = true, IN_TUBE, .doc = "the first is the rear one, at 0 m"},
@@ -818,7 +818,7 @@ static const field_row rocket_fields[] = {
      .doc = "runs in the slot"},
     {"lock", BLOCK(ld_model, rocket.lock, lock_block), .required = true, IN_TUBE,
      SWITCH(ld_model, rocket.lock.present, lock_words), .other_is_bool = true,
-     .doc = "holds the rocket until the release force; `none`: free from the start"},
+     .doc = "holds the rocket until the release force; `none`: it rests on the breech"},
     {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
      NOT_IN_FLIGHT("none in a flight alone"), SWITCH(ld_model, rocket.motor.absent, motor_words),
      .other_is_bool = true, .doc = "thrust; `none`: only in a flight alone"},
@@ -953,8 +953,9 @@ static const field_row run_fields[] = {
      .doc = "time before t = 0"},
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
      .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
-     .doc = "when the last rocket has left the tube (a flight alone: as landing), when it has "
-            "landed, or a time after the last ignition"},
+     .doc =
+         "when the last rocket has left the tube (a flight alone: as landing), when it has "
+         "landed, or a time after the last ignition until which launcher and rockets are followed"},
     {"tolerance", NUMBER(ld_run_settings, tolerance, ""), FROM_TO(1e-12, 1e-2), DEFAULT(1e-5),
      .doc = "relative tolerance of the integrator"},
     {"output_step", SAME_STRUCT(output_step_block), .initial_doc = "as below",

@@ -6,12 +6,13 @@
 #include "math/rotation_vector.h"
 #include "simulation/simulation.h"
 
-enum { MAX_FREEDOMS = 10 + LD_MAX_MODAL + 3 + 2 * HINGES + 3 * LD_MAX_WHEELS };
+enum { MAX_FREEDOMS = 11 + LD_MAX_MODAL + 3 + 2 * HINGES + 3 * LD_MAX_WHEELS };
 
-// Unknowns of the launching subsystem: R's place and attitude (6), q, then y_S, z_S, psi, theta.
+// Unknowns of the launching subsystem: R's place and attitude (6), q, then y_S, z_S, psi, theta,
+// and s where the breech carries the rocket.
 static int launching_freedoms(const ld_simulation *self)
 {
-    return 10 + self->launcher.launching.layout.nq;
+    return 10 + self->launcher.launching.layout.nq + self->on_breech;
 }
 
 int simulation_freedoms(const ld_simulation *self)
@@ -55,8 +56,10 @@ void simulation_displace(const ld_simulation *self, int freedom, double change, 
         memcpy(y + at->quaternion, &q, sizeof q);
     } else if (freedom < 6 + at->nq) {
         y[at->q + freedom - 6] += change;
-    } else if (freedom < launching_freedoms(self)) {
+    } else if (freedom < 10 + at->nq) {
         y[at->x + 1 + freedom - 6 - at->nq] += change;
+    } else if (freedom < launching_freedoms(self)) {
+        y[at->x] += change;
     } else {
         displace_vehicle(self, freedom - launching_freedoms(self), change, y);
     }
@@ -66,8 +69,12 @@ launching_phase simulation_start_phase(const ld_simulation *self)
 {
     launching_phase phase = {.rocket = true, .locked = true};
     const ld_rocket *rocket = &self->model->rocket;
+    phase.breech = rocket->start_at;
+    phase.breech_speed = rocket->contact.reference_speed;
+    // so near the tip that rounding and the tube's bend decide, an adaptor counts as out
+    double out = self->model->tubes.length - 1e-6;
     for (int i = 0; i < rocket->adaptor_count; i++) {
-        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= self->model->tubes.length;
+        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= out;
         phase.touch_speed[i] = rocket->contact.reference_speed;
     }
     return phase;
@@ -142,6 +149,9 @@ void simulation_move_with_base(const ld_simulation *self, double t, double *y)
     v3_store(y + at->V + 3, w);
 }
 
+// Step of Newton's differences.
+static const double DIFFERENCE = 1e-8;
+
 // What Newton's method solves: the unknowns from `first` on. With `dead` the tube and its rocket
 // are a dead load on a vehicle.
 typedef struct problem {
@@ -150,6 +160,8 @@ typedef struct problem {
     const launching_phase *phase;
     int first, count;
     bool dead;
+    double spring; // [1/s2] holds y_S, z_S, psi, theta to the tube's axis
+    double h;      // [m, rad, ...] step of the differences
 } problem;
 
 // Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
@@ -166,9 +178,11 @@ static void dead_load(const problem *the, const launcher_input *input, launching
 }
 
 // Accelerations of tube and rocket that the lock and the slot leave free.
-static void launching_residual(const ld_simulation *self, const double *y,
-                               const launching_output *given, double *r)
+static void launching_residual(const problem *the, const double *y, const launching_output *given,
+                               double *r)
 {
+    const ld_simulation *self = the->self;
+    const double *x = y + self->launcher.launching.layout.x;
     launching_pose pose;
     launching_output out = *given;
     int nq = self->launcher.launching.layout.nq;
@@ -183,6 +197,10 @@ static void launching_residual(const ld_simulation *self, const double *y,
     rocket[1] = a.z;
     rocket[2] = alpha.z;
     rocket[3] = alpha.y;
+    for (int i = 0; i < 4; i++)
+        rocket[i] -= the->spring * x[1 + i];
+    if (self->on_breech)
+        rocket[4] = a.x;
 }
 
 // Accelerations of a vehicle but those that are neutral, and the errors of yaw and pitch.
@@ -223,7 +241,7 @@ static int residual(const problem *the, const double *y, double *r)
     } else {
         if (launcher_evaluate(launcher, &input, the->phase, y, &out))
             return -1;
-        launching_residual(self, y, &out.launching, all);
+        launching_residual(the, y, &out.launching, all);
     }
     if (launcher->vehicle)
         vehicle_residual(self, &out, all + launching_freedoms(self));
@@ -243,7 +261,7 @@ static double norm(int n, const double *r)
 static int newton_step(const problem *the, const double *y, const double *r, double *step)
 {
     int n = the->count;
-    static const double h = 1e-8;
+    double h = the->h;
     double J[MAX_FREEDOMS * MAX_FREEDOMS], plus[MAX_FREEDOMS], minus[MAX_FREEDOMS];
     double trial[LD_MAX_STATES];
     lapack_int pivot[MAX_FREEDOMS];
@@ -295,15 +313,20 @@ static double newton(const problem *the, double *y)
     return now;
 }
 
+// How deep a contact is pressed in by `load` [N].
+static double depth_under(const ld_contact *contact, double load)
+{
+    double d_0 = contact->reference_penetration;
+    return d_0 * pow(load / (contact->stiffness * d_0), 1 / contact->exponent);
+}
+
 // How far adaptor i moves from the axis under `load` [N], positive along it, pressed in by `extra`.
 static double offset_under(const ld_rocket *rocket, int i, double load, double extra)
 {
     const ld_contact *contact = &rocket->contact;
-    double d_0 = contact->reference_penetration;
     if (contact->law == LD_CONTACT_BILATERAL)
         return load / contact->stiffness;
-    double depth = d_0 * pow(fabs(load) / (contact->stiffness * d_0), 1 / contact->exponent);
-    return copysign(rocket->adaptor[i].clearance + depth + extra, load);
+    return copysign(rocket->adaptor[i].clearance + depth_under(contact, fabs(load)) + extra, load);
 }
 
 // Guess: adaptors i and j carry the rocket, each on the side that its share of the weight presses
@@ -360,6 +383,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
     launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
     tip_state tip = tip_state_of(self, &input.launching.base, y);
     *summary = (ld_equilibrium_summary){.lock_force = out.launching.lock_force,
+                                        .breech_force = out.launching.breech_force,
                                         .slot_force = out.launching.N,
                                         .tip_sag = {tip.offset.y, tip.offset.z}};
     for (int i = 0; i < self->launcher.launching.adaptor_count; i++)
@@ -371,6 +395,32 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
         report_vehicle(self, &out, y, summary);
 }
 
+// Gravity [m/s2] in the axes of the undeformed tube on the base as it stands in y.
+static v3 pull_at(const ld_simulation *self, double t, const double *y)
+{
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    return m3_apply_transposed(input.launching.base.A, v3_make(0, -self->model->gravity, 0));
+}
+
+// Tube and rocket straight on the base as it stands in `start`.
+static void guess_straight(const problem *the, const double *start, double *y)
+{
+    launcher_input input;
+    simulation_input(the->self, the->t, start, &input);
+    memcpy(y, start, (size_t)the->self->launcher.state_count * sizeof(double));
+    straighten(the->self, &input.launching.base, y);
+}
+
+// Newton's method from the guess in y; on a vehicle the tube alone first: it has the kinks.
+static double settle(const problem *the, double *y)
+{
+    problem tube = *the;
+    tube.count = launching_freedoms(the->self);
+    double reached = newton(&tube, y);
+    return tube.count < the->count ? newton(the, y) : reached;
+}
+
 // Newton's method from one pair of carrying adaptors after the other, the outermost first, until
 // one succeeds. `start` has the base in its place. Returns the smallest residual; its state is in
 // y.
@@ -379,25 +429,16 @@ static double try_pairs(const problem *the, const double *start, double extra, d
 {
     const ld_simulation *self = the->self;
     double best = INFINITY, trial[LD_MAX_STATES];
-    launcher_input input;
-    simulation_input(self, the->t, start, &input);
-    const base_frame *base = &input.launching.base;
-    v3 pull = m3_apply_transposed(base->A, v3_make(0, -self->model->gravity, 0));
+    v3 pull = pull_at(self, the->t, start);
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
     for (int j = self->launcher.launching.adaptor_count - 1; j > 0; j--)
         for (int i = 0; i < j; i++) {
             if (the->phase->passed[i] || the->phase->passed[j])
                 continue;
-            memcpy(trial, start, size);
-            straighten(self, base, trial);
+            guess_straight(the, start, trial);
             if (hypot(pull.y, pull.z) > 0)
                 guess_contacts(self, i, j, pull, extra, trial);
-            // on a vehicle the tube alone first: it has the kinks
-            problem tube = *the;
-            tube.count = launching_freedoms(self);
-            double reached = newton(&tube, trial);
-            if (tube.count < the->count)
-                reached = newton(the, trial);
+            double reached = settle(the, trial);
             if (reached < best) {
                 best = reached;
                 memcpy(y, trial, size);
@@ -405,6 +446,128 @@ static double try_pairs(const problem *the, const double *start, double extra, d
             if (best <= accepted)
                 return best;
         }
+    return best;
+}
+
+// What nothing carries, as in an upright tube, stays on the axis: a spring, which must find nothing
+// to pull, makes Newton's method regular.
+static double try_centred(const problem *the, const double *start, double *y)
+{
+    problem held = *the;
+    held.spring = 1e6;
+    guess_straight(the, start, y);
+    double reached = settle(&held, y), off = 0;
+    for (int i = 1; i < 5; i++)
+        off = fmax(off, fabs(y[the->self->launcher.launching.layout.x + i]));
+    return held.spring * off < 1e-9 * the->self->model->gravity ? reached : INFINITY;
+}
+
+// One adaptor in the plane across the tube: its load, and where that presses it.
+typedef struct lateral {
+    double y, z;
+} lateral;
+
+static lateral pressed_to(const ld_rocket *rocket, int i, lateral load)
+{
+    double size = hypot(load.y, load.z);
+    double offset = size > 0 ? offset_under(rocket, i, size, 0) / size : 0;
+    return (lateral){offset * load.y, offset * load.z};
+}
+
+// Guess: adaptors i and j carry the rocket, which leans, so that its weight along the tube loads
+// them too, and more the more it leans; or it hangs from O1 and i alone is touched (j = i).
+static void guess_leaning(const ld_simulation *self, int i, int j, v3 pull, double *y)
+{
+    const ld_rocket *rocket = &self->model->rocket;
+    v3 c = self->motor.full.c;
+    double *x = y + self->launcher.launching.layout.x, m = self->motor.full.m;
+    double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from, arm = c.x - from;
+    lateral slope = {(pull.y * arm / pull.x - c.y) / c.x, (pull.z * arm / pull.x - c.z) / c.x};
+    lateral at_i = pressed_to(rocket, i, (lateral){m * pull.y, m * pull.z});
+    for (int k = 0; k < 20 && i < j; k++) {
+        // moments about adaptor i; the axial forces act at O1 and at the mass centre
+        if (k == 0)
+            slope = (lateral){0};
+        double off_y = c.y + slope.y * c.x, off_z = c.z + slope.z * c.x;
+        lateral load_j = {m * (pull.y * arm - pull.x * off_y) / span,
+                          m * (pull.z * arm - pull.x * off_z) / span};
+        at_i = pressed_to(rocket, i, (lateral){m * pull.y - load_j.y, m * pull.z - load_j.z});
+        lateral at_j = pressed_to(rocket, j, load_j);
+        slope = (lateral){(at_j.y - at_i.y) / span, (at_j.z - at_i.z) / span};
+    }
+    x[1] = at_i.y - slope.y * from;
+    x[2] = at_i.z - slope.z * from;
+    x[3] = slope.y;
+    x[4] = -slope.z;
+}
+
+// `best`: what the state in y has reached.
+static double try_leaning(const problem *the, const double *start, double accepted, double best,
+                          double *y)
+{
+    double trial[LD_MAX_STATES];
+    const launcher_system *launcher = &the->self->launcher;
+    v3 pull = pull_at(the->self, the->t, start);
+    for (int j = launcher->launching.adaptor_count - 1; j >= 0; j--)
+        for (int i = 0; i < j + (pull.x > 0) && best > accepted; i++) {
+            if (the->phase->passed[i] || the->phase->passed[j])
+                continue;
+            guess_straight(the, start, trial);
+            guess_leaning(the->self, i, j, pull, trial);
+            double reached = settle(the, trial);
+            if (reached < best) {
+                best = reached;
+                memcpy(y, trial, (size_t)launcher->state_count * sizeof(double));
+            }
+        }
+    return best;
+}
+
+// The rocket upright: on the axis where nothing pulls it off, else leaning.
+static double try_upright(const problem *the, const double *start, double accepted, double *y)
+{
+    double best = try_centred(the, start, y);
+    if (best <= accepted)
+        return best;
+    // what carries little is pressed in by little
+    problem fine = *the;
+    for (fine.h = 1e-9; fine.h > 1e-13 && best > 1e-3 * accepted; fine.h *= 0.1)
+        best = try_leaning(&fine, start, 1e-3 * accepted, best, y);
+    return best;
+}
+
+// Equilibrium of tube and rocket, and of the base with them where that is among the unknowns, which
+// stands in `start` in its place. Returns the residual; the state is in y.
+static double find_rest(const problem *the, const double *start, double accepted, double *y)
+{
+    double best = INFINITY;
+    v3 pull = pull_at(the->self, the->t, start);
+    if (hypot(pull.y, pull.z) < 1e-2 * fabs(pull.x))
+        best = try_upright(the, start, accepted, y);
+    // an adaptor that hardly carries is found from where it is pressed in [m]
+    for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
+        best = fmin(best, try_pairs(the, start, extra, accepted, y));
+    return best;
+}
+
+// Finds the equilibrium as find_rest() does, with the lock closed. Where there is none, and gravity
+// presses the rocket on the breech by more than nothing, it then goes there: s is an unknown, too.
+static double find_start(ld_simulation *self, problem *the, launching_phase *phase,
+                         const double *start, double accepted, double *y)
+{
+    self->on_breech = false;
+    double best = find_rest(the, start, accepted, y);
+    double pressed = -self->motor.full.m * pull_at(self, the->t, start).x;
+    if (self->model->rocket.lock.present ||
+        !(pressed > 1e-9 * self->motor.full.m * self->model->gravity) || !(best <= accepted))
+        return best;
+    self->on_breech = true;
+    phase->locked = false;
+    the->count++;
+    y[self->launcher.launching.layout.x] -= depth_under(&self->model->rocket.contact, pressed);
+    best = INFINITY;
+    for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
+        best = newton(the, y);
     return best;
 }
 
@@ -417,7 +580,8 @@ static ld_status settle_base(const ld_simulation *self, double t, const launchin
         return LD_OK;
     place_vehicle(self, y);
     int first = launching_freedoms(self);
-    problem dead = {.self = self, .t = t, .phase = phase, .first = first, .dead = true};
+    problem dead = {
+        .self = self, .t = t, .phase = phase, .first = first, .dead = true, .h = DIFFERENCE};
     dead.count = simulation_freedoms(self) - first;
     double reached = newton(&dead, y);
     if (reached <= accepted)
@@ -514,14 +678,14 @@ ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
         return ld_fail(error, LD_ERR_LAUNCH,
                        "no static equilibrium at the start: only the rear adaptor is in the tube; "
                        "\"run.start: undeformed\" starts without it");
-    double accepted = accepted_residual(self), best = INFINITY, start[LD_MAX_STATES];
+    double accepted = accepted_residual(self), start[LD_MAX_STATES];
+    self->on_breech = false;
     ld_status status = settle_base(self, t, &phase, accepted, start, error);
     if (status)
         return status;
-    problem whole = {.self = self, .t = t, .phase = &phase, .count = simulation_freedoms(self)};
-    // an adaptor that hardly carries is found from where it is pressed in [m]
-    for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
-        best = fmin(best, try_pairs(&whole, start, extra, accepted, y));
+    problem whole = {
+        .self = self, .t = t, .phase = &phase, .count = simulation_freedoms(self), .h = DIFFERENCE};
+    double best = find_start(self, &whole, &phase, start, accepted, y);
     if (!(best <= accepted))
         return ld_fail(
             error, LD_ERR_NUMERIC,
@@ -614,7 +778,6 @@ ld_status simulation_change_tube(ld_simulation *self, int next, double t, double
     launching_phase phase = simulation_start_phase(self), without = {.rocket = false};
     const launcher_system *launcher = &self->launcher;
     double p[ORIENTATING_SPEEDS], still[LD_MAX_STATES], accepted = accepted_residual(self);
-    double best = INFINITY;
     size_t launching = (size_t)launcher->launching.layout.count * sizeof(double);
     if (launcher->vehicle)
         generalised_momentum(self, t, &without, y, p);
@@ -626,10 +789,11 @@ ld_status simulation_change_tube(ld_simulation *self, int next, double t, double
     if (launcher->vehicle)
         memset(still + launcher->orientating_at + ORIENTATING_V, 0,
                ORIENTATING_SPEEDS * sizeof(double));
-    problem tube = {.self = self, .t = t, .phase = &phase, .count = launching_freedoms(self)};
+    self->on_breech = false;
+    problem tube = {
+        .self = self, .t = t, .phase = &phase, .count = launching_freedoms(self), .h = DIFFERENCE};
     double found[LD_MAX_STATES];
-    for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
-        best = fmin(best, try_pairs(&tube, still, extra, accepted, found));
+    double best = find_start(self, &tube, &phase, still, accepted, found);
     if (!(best <= accepted))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "tube %d finds no static equilibrium when it takes its place at t = %.6g s "

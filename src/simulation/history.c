@@ -269,6 +269,7 @@ static void add_rocket(ld_simulation *self)
     add(self, "N", "slot.force", "slot force N on the knob");
     add(self, "N", "slot.friction", "slot friction on the knob, along the slot");
     add(self, "N", "lock.force", "force carried by the lock");
+    add(self, "N", "breech.force", "force of the breech on the rocket");
 }
 
 void history_build(ld_simulation *self)
@@ -284,7 +285,7 @@ void history_build(ld_simulation *self)
     add(self, "J", "energy.elastic", "elastic energy of modes, supports and suspensions");
     add(self, "J", "work.thrust", "work of the thrust");
     add(self, "J", "work.gravity_rocket", "work of gravity on the rocket");
-    add(self, "J", "work.contact_normal", "work of the normal contact forces");
+    add(self, "J", "work.contact_normal", "work of the normal forces of adaptors and breech");
     add(self, "J", "work.contact_friction", "work of the contact friction");
     add(self, "J", "work.slot", "work of the slot force (zero but for step errors)");
     add(self, "J", "work.slot_friction", "work of the slot friction");
@@ -435,7 +436,7 @@ static double *put_rocket(const ld_simulation *self, double t, const launching_i
         }
         to = put(to, values, 5);
     }
-    return put(to, (double[]){out->N, out->slot_friction, out->lock_force}, 3);
+    return put(to, (double[]){out->N, out->slot_friction, out->lock_force, out->breech_force}, 4);
 }
 
 void history_row(const ld_simulation *self, double t, const double *y, double energy_start,

@@ -334,6 +334,21 @@ static void let_rocket_go(launch_run *run, double t, const double *y)
         restart_output(run, t);
 }
 
+// Speed at a first touch, never so slow that damping grows beyond bounds.
+static double touch_speed(const ld_simulation *self, double speed)
+{
+    return fmax(speed, 1e-3 * self->launcher.launching.contact.v_0);
+}
+
+// The lock lets go; where the rocket then stands it meets the breech.
+static void let_go(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    self->phase.locked = false;
+    self->phase.breech = fmin(self->phase.breech, y[self->launcher.launching.layout.x]);
+    run->summary->rocket[self->current].t_release = t - self->t_ignition;
+}
+
 // Switches what the events just located say; true where the equations changed.
 static bool switch_phase(launch_run *run, double t, const double *y)
 {
@@ -341,8 +356,7 @@ static bool switch_phase(launch_run *run, double t, const double *y)
     int count = self->launcher.launching.adaptor_count;
     bool changed = false;
     if (self->phase.locked && propagator_event(run->propagator, 0) < 0) {
-        self->phase.locked = false;
-        run->summary->rocket[self->current].t_release = t - self->t_ignition;
+        let_go(run, t, y);
         changed = true;
     }
     for (int i = count - 1; i >= 0; i--) {
@@ -353,10 +367,16 @@ static bool switch_phase(launch_run *run, double t, const double *y)
         if (!self->phase.passed[i] && propagator_event(run->propagator, 1 + count + i) > 0) {
             // first touch: its speed is kept for the whole contact
             self->phase.touch_speed[i] =
-                fmax(launching_offset_rate(&self->launcher.launching, y, i),
-                     1e-3 * self->launcher.launching.contact.v_0);
+                touch_speed(self, launching_offset_rate(&self->launcher.launching, y, i));
             changed = true;
         }
+    }
+    if (propagator_event(run->propagator, simulation_breech_event(self)) > 0) {
+        launching_output out;
+        launching_pose unused;
+        launching_rocket_pose(&self->launcher.launching, y, &unused, &out);
+        self->phase.breech_speed = touch_speed(self, -out.y[0]);
+        changed = true;
     }
     for (int j = 0; j < self->launcher.marching.wheel_count; j++)
         changed |= propagator_event(run->propagator, 1 + 2 * count + j) > 0;
@@ -421,9 +441,12 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
                        t, -since);
     if (!self->phase.rocket)
         return LD_OK;
-    if (s < 0)
-        return ld_fail(run->error, LD_ERR_LAUNCH,
-                       "the rocket slid out of the tube's rear end at t = %.6g s", t);
+    if (self->phase.breech - s > 0.1 * self->launcher.launching.tube.length)
+        return ld_fail(
+            run->error, LD_ERR_LAUNCH,
+            "the rocket is %.4g m behind the breech at t = %.6g s: a contact of %.6g N/m "
+            "does not hold it",
+            self->phase.breech - s, t, rocket->contact.stiffness);
     if (since < self->model->run.stuck_time)
         return LD_OK;
     if (self->phase.locked)
@@ -585,9 +608,8 @@ static void let_go_at_once(launch_run *run, double t, const double *y)
     if (!out || !(out->lock_force > self->model->rocket.lock.release_force))
         return;
     run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
-    self->phase.locked = false;
+    let_go(run, t, y);
     self->latest.t = NAN;
-    run->summary->rocket[self->current].t_release = t - self->t_ignition;
 }
 
 static bool finished(const launch_run *run, double t)
@@ -806,12 +828,22 @@ static ld_status fly(launch_run *run, int i)
     };
     flight_phase phase = free_flight_phase(&self->flight, rocket->t_ignition, t);
     flight_enter(&self->flight, &phase, t, &pose, state);
+    double height = flight_center(&self->flight, t, state).r.y;
+    if (self->model->run.end == LD_END_TIME && self->flight.has_ground &&
+        height < self->flight.ground) {
+        simulation_note(
+            run->summary,
+            "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
+            "mass centre at y = %.4g m",
+            rocket->tube, height);
+        return LD_OK;
+    }
     free_flight job = {
         .system = &self->flight,
         .model = self->model,
         .t_ignition = rocket->t_ignition,
         .t_start = t,
-        .t_end = INFINITY,
+        .t_end = run->t_end,
         .launch_x = run->point[i][0],
         .launch_z = run->point[i][1],
         .options = run->options,
@@ -825,14 +857,15 @@ static ld_status fly(launch_run *run, int i)
     return status;
 }
 
-// Every rocket flies to the ground.
+// Every rocket that has left its tube flies to the ground, or until the run's end.
 static ld_status fly_all(launch_run *run)
 {
     ld_status status = LD_OK;
-    if (run->self->model->run.end != LD_END_LANDING)
+    if (run->self->model->run.end == LD_END_TIP)
         return LD_OK;
     for (int i = 0; i < run->summary->rocket_count && !status; i++)
-        status = fly(run, i);
+        if (!isnan(run->summary->rocket[i].t_rear))
+            status = fly(run, i);
     return status;
 }
 

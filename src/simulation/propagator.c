@@ -79,10 +79,15 @@ const launcher_output *simulation_output(ld_simulation *self, double t, const do
     return &self->latest.out;
 }
 
-static int event_count(const ld_simulation *self)
+int simulation_breech_event(const ld_simulation *self)
 {
     const launcher_system *launcher = &self->launcher;
     return EVENT_ADAPTORS + 2 * launcher->launching.adaptor_count + launcher->marching.wheel_count;
+}
+
+static int event_count(const ld_simulation *self)
+{
+    return simulation_breech_event(self) + 1;
 }
 
 // Events of the launching subsystem; the others stay away from zero.
@@ -96,6 +101,8 @@ static void launching_events(const ld_simulation *self, const launching_output *
         g[i] = 1;
     if (!phase->rocket)
         return;
+    if (touching && !phase->locked) // the rear adaptor is at s
+        g[simulation_breech_event(self)] = (phase->breech - out->adaptor[0].s) / 1e-3;
     if (phase->locked)
         g[EVENT_RELEASE] = 1 - out->lock_force / self->model->rocket.lock.release_force;
     for (int i = 0; i < count; i++) {

@@ -23,8 +23,10 @@ int64_t propagator_evaluations(const propagator *self);
 
 // Numbers of the events: lock release, then for each adaptor its passing the tip, then (law
 // lankarani-nikravesh alone) its touching, then each wheel's touching the road (integrated together
-// alone).
+// alone), last the rocket's touching the breech (that law alone).
 enum { EVENT_RELEASE = 0, EVENT_ADAPTORS = 1 };
+
+int simulation_breech_event(const ld_simulation *self);
 
 // What the equations gave at (t, y): the latest evaluation where it is that one, else a new one.
 // NULL where they have no solution.

@@ -22,6 +22,7 @@ struct ld_simulation {
     // of a run
     launching_phase phase;
     hinge_rest rest[HINGES]; // of the equilibrium
+    bool on_breech;          // the equilibrium is one without a lock, the breech carries the rocket
     bool stability_checked;
     ld_pole growing; // what grows about the equilibrium, if anything
     int current;     // rocket in the order of firing
@@ -86,9 +87,10 @@ void simulation_move_with_base(const ld_simulation *self, double t, double *y);
 ld_status simulation_change_tube(ld_simulation *self, int next, double t, double *y,
                                  ld_error *error);
 
-// Degrees of freedom besides the rocket's travel and roll, and their small changes: R's place and
-// attitude (6), q, then y_S, z_S, psi, theta; of a vehicle also chassis y, pitch, roll, the two
-// hinge angles, the two hinge torques [MN m], then the wheels' positions.
+// Degrees of freedom besides the rocket's roll and, while it is locked, its travel, and their small
+// changes: R's place and attitude (6), q, then y_S, z_S, psi, theta, on the breech s too; of a
+// vehicle also chassis y, pitch, roll, the two hinge angles, the two hinge torques [MN m], then the
+// wheels' positions.
 int simulation_freedoms(const ld_simulation *self);
 void simulation_displace(const ld_simulation *self, int freedom, double change, double *y);
 
@@ -97,7 +99,8 @@ void simulation_displace(const ld_simulation *self, int freedom, double change, 
 // part, zero where there is none.
 ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_error *error);
 
-// Phase before ignition: rocket in the tube, lock closed, no adaptor beyond the tip.
+// Phase before ignition: rocket in the tube, lock closed, no adaptor beyond the tip; the breech
+// stands where the rocket starts.
 launching_phase simulation_start_phase(const ld_simulation *self);
 
 // The equations linearised. Displacements: place and attitude of R (6), q, then of the rocket s,

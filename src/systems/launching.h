@@ -89,6 +89,8 @@ typedef struct launching_phase {
     bool locked;
     bool passed[LD_MAX_ADAPTORS];
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] at first touch (law lankarani-nikravesh)
+    double breech;                       // [m] its station: it stops a rocket without a lock there
+    double breech_speed;                 // [m/s] at which that one touched it last
     bool frictionless;                   // Coulomb friction off (equilibrium, linearisation)
 } launching_phase;
 
@@ -110,7 +112,7 @@ typedef struct adaptor_report {
 enum launching_power {
     POWER_THRUST,
     POWER_GRAVITY_ROCKET,
-    POWER_CONTACT_NORMAL,
+    POWER_CONTACT_NORMAL, // of adaptors and breech
     POWER_CONTACT_FRICTION,
     POWER_SLOT,
     POWER_SLOT_FRICTION,
@@ -131,6 +133,7 @@ typedef struct launching_output {
     double N;             // [N] slot force
     double slot_friction; // [N] along tau on the rocket
     double lock_force;    // [N] carried, along +x (minus the force on the rocket)
+    double breech_force;  // [N] on the rocket along +x
     double drift;         // [m/s] n . v_rel, zero but for the step error
     double power[POWER_COUNT];
     double elastic;             // [J] of supports and modes

@@ -53,6 +53,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     for (int i = 0; i < self->adaptor_count; i++)
         if (!phase->passed[i])
             adaptor_contact(lanes, self, phase, &tube, &rocket, i, &h, &f_O1, &m_O1, out);
+    breech_contact(lanes, self, phase, &tube, &rocket, &h, &f_O1, out);
 
     // accelerations without constraints: r_O and, forward-substituted, e_0
     v3 r_a, r_alpha, f, m;

@@ -591,6 +591,34 @@ LD_INLINE void adaptor_contact(const int lanes, const launching_system *self,
     apply_at_section(lanes, self, adaptor.foot, W, v3_neg(force), h);
 }
 
+// The breech: pushes O1 along e_x of S where s is behind its station, opposite on its section.
+LD_INLINE void breech_contact(const int lanes, const launching_system *self,
+                              const launching_phase *phase, const tube_state *tube,
+                              const rocket_state *rocket, tube_force *h, v3 *f_total,
+                              launching_output *out)
+{
+    double penetration = phase->breech - rocket->s;
+    out->breech_force = 0;
+    if (penetration <= 0 || phase->locked)
+        return;
+    element_motion motion;
+    section wall;
+    section_rates rates;
+    wall.index = flexible_tube_find(&self->tube, phase->breech);
+    element_load(self, &tube->modal, wall.index, &motion);
+    section_load(self, &motion, phase->breech, &wall);
+    section_rates_load(&motion, &wall, &rates);
+    out->breech_force =
+        contact_normal(&self->contact, penetration, -rocket->s_dot, phase->breech_speed);
+    v3 force = v3_scale(out->breech_force, m3_column(rocket->at.A, 0));
+    v3 turning = v3_cross(rates.w, v3_sub(rocket->p1, wall.P));
+    v3 v_wall =
+        v3_add(v3_add(tube->v, v3_cross(tube->w, rocket->p1)), v3_add(rates.u_dot, turning));
+    out->power[POWER_CONTACT_NORMAL] += v3_dot(force, v3_sub(rocket->v_O1, v_wall));
+    *f_total = v3_add(*f_total, force);
+    apply_at_section(lanes, self, &wall, rocket->p1, v3_neg(force), h);
+}
+
 // Inverse of the rocket's 6 x 6 mass matrix, by its inertia about the mass centre.
 typedef struct rocket_inertia {
     double m;

@@ -101,6 +101,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
             if (!phase->passed[i])
                 adaptor_contact(lanes, self, phase, &u->tube, &u->rocket, i, &force, &u->f, &u->m,
                                 out);
+        breech_contact(lanes, self, phase, &u->tube, &u->rocket, &force, &u->f, out);
         section_shapes shapes;
         tube_section_state at_rocket;
         factor(self, &u->tube);
@@ -249,8 +250,11 @@ static void load_relative(const launching_system *self, const double *state, con
             k->Y[3 + i][3 + j] = s->A.a[i][j];
     }
     // b: everything that speeds alone make
-    v3 P2 = v3_make(0, poly2(rocket->motion.y, s->xi), poly2(rocket->motion.z, s->xi));
-    v3 Psi2 = v3_make(0, -6 * rocket->motion.z[3], 6 * rocket->motion.y[3]);
+    v3 P2 = v3_zero(), Psi2 = v3_zero(); // beyond the ends the axis is straight
+    if (s->beyond == 0) {
+        P2 = v3_make(0, poly2(rocket->motion.y, s->xi), poly2(rocket->motion.z, s->xi));
+        Psi2 = v3_make(0, -6 * rocket->motion.z[3], 6 * rocket->motion.y[3]);
+    }
     v3 th_dot = v3_axpy(r->th_dot, s_dot, s->k0);
     v3 d_dot = m3_apply(s->A, v3_make(0, rocket->y_dot, rocket->z_dot));
     v3 Om = rocket->Om;

@@ -26,10 +26,17 @@ STOPS(too_little_thrust, 0.3, LD_ERR_LAUNCH,
       model.rocket.motor.thrust_scale = 0.015;
       model.rocket.lock.release_force = 1; model.run.stuck_time = 0.3)
 
-STOPS(no_thrust_and_no_lock, 0.300612, LD_ERR_LAUNCH,
-      "the rocket slid out of the tube's rear end at t = # s",
+STOPS(no_thrust_and_no_lock, 0.3, LD_ERR_LAUNCH,
+      "the rocket is stuck in the tube: its rear adaptor is at # m of 3 m, # s after ignition",
       model.rocket.motor.thrust_scale = 1e-9;
-      model.rocket.lock.present = false)
+      model.rocket.lock.present = false; model.run.stuck_time = 0.3)
+
+STOPS(breech_like_butter, 0.430877, LD_ERR_LAUNCH,
+      "the rocket is # m behind the breech at t = # s: a contact of 100 N/m does not hold it",
+      model.tubes.slot.kind = LD_SLOT_NONE;
+      model.rocket.motor.thrust_scale = 1e-9; model.rocket.contact.law = LD_CONTACT_BILATERAL;
+      model.rocket.contact.stiffness = 100; model.rocket.contact.damping = 0;
+      model.run.start = LD_START_UNDEFORMED; model.rocket.lock.present = false)
 
 STOPS(steep_rough_slot, 0.0038138, LD_ERR_LAUNCH,
       "the knob jams in the slot at t = # s: with this angle and friction no slot force fulfils "
@@ -185,6 +192,7 @@ int main(void)
         cmocka_unit_test(thrust_below_the_release_force),
         cmocka_unit_test(too_little_thrust),
         cmocka_unit_test(no_thrust_and_no_lock),
+        cmocka_unit_test(breech_like_butter),
         cmocka_unit_test(steep_rough_slot),
         cmocka_unit_test(steep_rough_slot_in_the_overall_form),
         cmocka_unit_test(tube_like_rubber),

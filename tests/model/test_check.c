@@ -65,8 +65,8 @@ static void test_values(void **state)
 static void test_rules(void **state)
 {
     (void)state;
-    REFUSED(m.rocket.empty.mass = 60,
-            "rocket.empty.mass: 60 kg must be less than the full mass, 60 kg");
+    REFUSED(m.rocket.empty.mass = 60.5,
+            "rocket.empty.mass: 60.5 kg is more than the full mass, 60 kg");
     REFUSED(m.rocket.adaptor[1].clearance = 0,
             "rocket.adaptors.2.clearance: must be > 0 m; without clearance take the contact law "
             "bilateral");

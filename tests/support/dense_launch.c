@@ -629,7 +629,7 @@ static void slip_at(double slip[3], const jet_scene *scene, const jet_frame *sec
 
 static double normal_force(const ld_contact *contact, double p, double p_dot, double touch_speed)
 {
-    if (contact->law == LD_CONTACT_KELVIN_VOIGT)
+    if (contact->law == LD_CONTACT_KELVIN_VOIGT || contact->law == LD_CONTACT_BILATERAL)
         return fmax(0, contact->stiffness * p + contact->damping * p_dot);
     double e = contact->restitution, v_0 = contact->reference_speed;
     double chi = 1.5 * (1 - e) / v_0;
@@ -660,7 +660,7 @@ static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene 
         for (int j = 0; j < 3; j++)
             axis[i][j] = section.A.c[i][j].v;
     jet_frame material = section_in_I(moving, jet_constant(s.v));
-    bool inside = !on->passed[index] && s.v >= 0;
+    bool inside = !on->passed[index];
     if (inside && law->law == LD_CONTACT_BILATERAL) {
         double f_y = -law->stiffness * y - law->damping * offset.c[1].e;
         double f_z = -law->stiffness * z - law->damping * offset.c[2].e;
@@ -697,6 +697,26 @@ static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene 
     output->contact[index].penetration_rate = rate;
     output->contact[index].normal = normal;
     memcpy(output->contact[index].force, f, sizeof f);
+}
+
+// A stop at the breech's station for O1, which is at station s: along e_x of the section at s.
+static void add_breech(equations *eq, const jet_scene *scene, const dense_conditions *on, jet s,
+                       dense_launch_output *output)
+{
+    if (on->locked || s.v >= on->breech)
+        return;
+    jet_frame here = section_in_I(scene, jet_constant(s.v));
+    jet_frame stop = section_in_I(scene, jet_constant(on->breech));
+    double place[3], f[3],
+        force = normal_force(&scene->dense->model->rocket.contact, on->breech - s.v, -s.e,
+                             on->breech_speed);
+    for (int i = 0; i < 3; i++) {
+        place[i] = scene->B.r.c[i].v;
+        f[i] = force * here.A.c[i][0].v;
+    }
+    add_pair(eq->h, scene, &stop, place, f);
+    add_pair(eq->other, scene, &stop, place, f);
+    output->breech_force = force;
 }
 
 static void add_thrust(equations *eq, const jet_scene *scene, double thrust)
@@ -946,6 +966,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     // constraints
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
     jet s = foot_of(&moving, &still, &moving.B.r, state->s);
+    add_breech(&eq, &moving, conditions, s, output);
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)

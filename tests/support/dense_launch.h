@@ -58,6 +58,7 @@ typedef struct dense_conditions {
     bool frictionless;                   // all friction off (for the equilibrium)
     bool passed[LD_MAX_ADAPTORS];        // adaptor has left the tube
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] of Lankarani-Nikravesh; 0: the reference speed
+    double breech, breech_speed;         // [m] station of the breech; [m/s] touched at, likewise
 } dense_conditions;
 
 // State as the program has it: rocket relative to the tube, speeds absolute, in R axes.
@@ -77,13 +78,14 @@ typedef struct dense_launch_output {
     double a[3];     // [m/s2] inertial acceleration of R's origin, in R axes
     double w_dot[3]; // [rad/s2] in R axes
     double q_ddot[DENSE_MAX_MODES];
-    double a_O1[3];     // [m/s2] inertial acceleration of O1, in R axes
-    double alpha_B[3];  // [rad/s2] inertial angular acceleration of B, in R axes
-    double slot_force;  // [N] N; 0 without slot
-    double lock_force;  // [N] carried along +x (minus the force on the rocket); 0 when open
-    double lock_moment; // [N m] on the rocket along e_x of S (slot none, locked)
-    double slot_drift;  // [m/s] n . v_rel
-    double s, s_dot;    // [m], [m/s] station of O1
+    double a_O1[3];      // [m/s2] inertial acceleration of O1, in R axes
+    double alpha_B[3];   // [rad/s2] inertial angular acceleration of B, in R axes
+    double slot_force;   // [N] N; 0 without slot
+    double lock_force;   // [N] carried along +x (minus the force on the rocket); 0 when open
+    double lock_moment;  // [N m] on the rocket along e_x of S (slot none, locked)
+    double breech_force; // [N] on the rocket along e_x of S
+    double slot_drift;   // [m/s] n . v_rel
+    double s, s_dot;     // [m], [m/s] station of O1
     double y, z, psi, theta, gamma; // of the rocket in S, as in the input
     double w_SB[3];                 // [rad/s] rate of B against S (which moves on with s), in S
     struct {

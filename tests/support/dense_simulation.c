@@ -21,6 +21,7 @@ typedef struct launch_run {
     int size, rocket, platform, wheels; // count of numbers, where the rocket's and vehicle's begin
     double ignition;                    // [s] on the run's clock
     bool locked, passed[LD_MAX_ADAPTORS];
+    bool on_breech;                      // starts there, without a lock
     bool apart[LD_MAX_ADAPTORS];         // adaptor was off the wall
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] when it last touched
     int slot_piece;                      // stretch of the slot's table, as in dense_conditions
@@ -157,6 +158,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, con
     mass_at(rocket, burnt_at(motor, tau), on);
     on->thrust = thrust_at(motor, tau, (middle - launch->ignition) / motor->time_scale);
     on->locked = launch->locked;
+    on->breech = rocket->start_at;
     on->frictionless = launch->frictionless;
     on->slot_piece = launch->slot_piece;
     memcpy(on->passed, launch->passed, sizeof on->passed);
@@ -326,7 +328,8 @@ static bool take_step(launch_run *launch, double t, double h, const double *x, c
 // ---------------------------------------------------------------- start
 
 // Unknowns: base-relative place and turning of R (6), q, y_S, z_S, psi, theta, lock force on the
-// rocket, slot force or roll moment. Residuals: all generalised forces.
+// rocket (on the breech: s less the start), slot force or roll moment. Residuals: all generalised
+// forces.
 typedef struct balance_problem {
     const launch_run *launch;
     dense_conditions on;
@@ -349,6 +352,8 @@ static void start_input(const balance_problem *balance, const double *u, dense_l
     quaternion_of(input->quaternion, (const double(*)[3])A);
     memcpy(input->q, u + 6, (size_t)nq * sizeof *u);
     input->s = balance->launch->model->rocket.start_at;
+    if (balance->launch->on_breech)
+        input->s += u[balance->n - 2];
     input->y = u[6 + nq];
     input->z = u[7 + nq];
     input->psi = u[8 + nq];
@@ -368,9 +373,10 @@ static bool residual_of(const balance_problem *balance, const double *u, double 
     dense_launch_place(dense, &input, &state);
     if (!dense_launch_rates(dense, &state, &balance->on, &rates, output))
         return false;
+    double lock = balance->launch->on_breech ? 0 : u[balance->n - 2];
     for (int i = 0; i < balance->n; i++)
-        residual[i] = rates.h[i] + u[balance->n - 2] * rates.G[0][i] +
-                      u[balance->n - 1] * rates.G[slotted ? 1 : 2][i];
+        residual[i] =
+            rates.h[i] + lock * rates.G[0][i] + u[balance->n - 1] * rates.G[slotted ? 1 : 2][i];
     return true;
 }
 
@@ -394,7 +400,8 @@ static bool find_balance(const balance_problem *balance, double *u)
         return false;
     for (int iteration = 0; iteration < 60; iteration++) {
         for (int j = 0; j < n; j++) {
-            double h = j < n - 2 ? 1e-7 : 1;
+            bool length = j < n - 2 || (j == n - 2 && balance->launch->on_breech);
+            double h = length ? 1e-7 : 1;
             for (int i = 0; i < 2; i++) {
                 memcpy(trial, u, sizeof trial);
                 trial[j] += i == 0 ? -h : h;
@@ -510,12 +517,15 @@ static bool settle(launch_run *launch, double t, balance_problem *balance, doubl
     dense_launch_output output;
     double residual[DENSE_MAX_COORDINATES];
     lay_down(rocket, balance->on.center[0], &u[6 + nq], &u[8 + nq]);
+    if (launch->on_breech)
+        u[balance->n - 2] = -5e-6;
     bool found = launch->on_vehicle ? find_balance_on_vehicle(balance, launch, t, x, u)
                                     : find_balance(balance, u);
     if (!found || !residual_of(balance, u, residual, &output))
         return false;
     dense_summary *summary = launch->summary;
-    summary->equilibrium.lock_force = -u[balance->n - 2];
+    summary->equilibrium.lock_force = launch->on_breech ? 0 : -u[balance->n - 2];
+    summary->equilibrium.breech_force = output.breech_force;
     summary->equilibrium.slot_force =
         launch->model->tubes.slot.kind == LD_SLOT_HELIX ? u[balance->n - 1] : 0;
     for (int i = 0; i < rocket->adaptor_count; i++)
@@ -536,7 +546,8 @@ static bool start(launch_run *launch, double t, double *x)
     const ld_model *model = launch->model;
     balance_problem balance = {.launch = launch, .n = launch->dense.mode_count + 12};
     double u[DENSE_MAX_COORDINATES] = {0};
-    launch->locked = true;
+    launch->on_breech = model->run.start == LD_START_EQUILIBRIUM && !model->rocket.lock.present;
+    launch->locked = !launch->on_breech;
     if (launch->on_vehicle)
         x[launch->platform + ORIENTATING_QUATERNION] = 1;
     hold_base(launch, t, x, &balance.on);

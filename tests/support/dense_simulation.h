@@ -28,6 +28,7 @@ typedef struct dense_summary {
     struct {
         double lock_force, slot_force, contact_force[LD_MAX_ADAPTORS], tip_sag[2];
         double residual; // largest acceleration of the start, lock closed [m/s2, rad/s2, 1/s2]
+        double breech_force;
     } equilibrium;
     dense_instant start, ignition, exit; // of a vehicle
     double slot_drift;                   // [m/s] largest |n . v_rel|

@@ -86,6 +86,7 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     c->phase.locked = locked;
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
         c->phase.touch_speed[i] = 0.1 + 0.05 * draw(seed);
+    c->phase.breech_speed = c->phase.touch_speed[0];
     if (locked)
         hold_locked(system, y);
     if (system->slot)
@@ -134,6 +135,8 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->frictionless = c->phase.frictionless;
     memcpy(conditions->passed, c->phase.passed, sizeof conditions->passed);
     memcpy(conditions->touch_speed, c->phase.touch_speed, sizeof conditions->touch_speed);
+    conditions->breech = c->phase.breech;
+    conditions->breech_speed = c->phase.breech_speed;
 }
 
 #endif

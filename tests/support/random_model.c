@@ -210,7 +210,7 @@ static ld_status begin(void *self, const ld_column *columns, size_t count, ld_er
     watcher *watch = self;
     *watch = (watcher){.columns = count, .rocket_first = count, .ascending = true};
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(columns[i].name, "lock.force") == 0)
+        if (strcmp(columns[i].name, "breech.force") == 0)
             watch->rocket_last = i + 1;
         if (strncmp(columns[i].name, "rocket.", 7) == 0 && watch->rocket_first == count)
             watch->rocket_first = i;
@@ -229,7 +229,7 @@ static ld_status row(void *self, const double *values, size_t count, ld_error *e
     for (size_t i = 0; i < count; i++) {
         bool of_rocket = i >= watch->rocket_first && i < watch->rocket_last;
         // a passed adaptor has no place in the tube
-        bool adaptor = of_rocket && i >= watch->rocket_first + 25 - 3;
+        bool adaptor = of_rocket && i >= watch->rocket_first + 26 - 4;
         if (!isfinite(values[i]) && !(of_rocket && gone) && !adaptor)
             watch->not_finite++;
     }

@@ -42,6 +42,7 @@ static double dense_acceleration(const ld_simulation *simulation, const double *
     c.input = input.launching;
     c.input.base.v = c.input.base.w = v3_zero();
     c.phase = simulation_start_phase(simulation);
+    c.phase.locked = !simulation->on_breech;
     copy_to_dense(system, &c);
     dense_launch_create(&dense, simulation->model, &system->tube);
     assert_true(dense_launch_evaluate(&dense, &c.dense, &out));
@@ -102,6 +103,69 @@ static void nothing_accelerates(void **state)
     model.rocket.contact.law = LD_CONTACT_HUNT_CROSSLEY;
     model.tubes.slot.kind = LD_SLOT_NONE;
     check_rest(&model, "smooth bore", bound);
+    reference_model_free(&model);
+}
+
+// Towards the vertical the adaptors carry less and less, upright nothing: there the rocket stands
+// on the axis; a hair beside it leans on two walls, front and rear on opposite sides.
+static void upright(void **state)
+{
+    (void)state;
+    static const double elevation[] = {75, 85, 89, 89.9, 89.99, 89.999, 89.9999, 89.999999, 90};
+    const double degree = acos(0) / 90, bound = 9.8e-9;
+    double y[LD_MAX_STATES], worst = 0, off = 0;
+    for (int k = 0; k < 36; k++) {
+        ld_model model;
+        reference_model(&model);
+        model.base.elevation = elevation[k % 9] * degree;
+        model.base.kind = k < 18 ? LD_BASE_FIXED : LD_BASE_PRESCRIBED;
+        model.base.azimuth = k < 18 ? 0 : 0.4;
+        model.rocket.lock.present = k / 9 % 2 == 0;
+        ld_simulation *simulation = simulation_of(&model);
+        ld_equilibrium_summary found = find_equilibrium(simulation, y);
+        const double *x = y + simulation->launcher.launching.layout.x;
+        double weight = 60 * model.gravity, carried = found.breech_force - found.lock_force;
+        double across = weight * cos(model.base.elevation), rear = found.contact_force[0];
+        if (k % 9 == 8) {
+            for (int i = 1; i < 5; i++)
+                off = fmax(off, fabs(x[i]));
+            assert_true(rear == 0 && found.contact_force[2] == 0);
+        } else {
+            // one force, or a couple of the lean
+            double rest = x[1] * (x[1] + 1.9 * x[3]) > 0 ? rear + found.contact_force[2]
+                                                         : found.contact_force[2] - rear;
+            CHECK_BELOW("carried across, less the weight's part [N]", fabs(rest) - across, 2e-2);
+        }
+        CHECK_BELOW("carried along, less the weight's part [N]",
+                    carried - weight * sin(model.base.elevation), 4e-3);
+        worst = fmax(worst, dense_acceleration(simulation, y));
+        ld_simulation_free(simulation);
+        reference_model_free(&model);
+    }
+    CHECK_BELOW("largest acceleration by the dense check [m/s2]", worst, bound);
+    CHECK_BELOW("upright: off the axis [m, rad]", off, 1e-14);
+}
+
+// An eccentric rocket upright: the couple of its weight, on two adaptors at opposite walls.
+static void upright_and_eccentric(void **state)
+{
+    (void)state;
+    double y[LD_MAX_STATES];
+    ld_model model;
+    reference_model(&model);
+    model.base.elevation = acos(0);
+    model.rocket.eccentricity[0] = 0.3e-3;
+    model.rocket.eccentricity[1] = -0.4e-3;
+    ld_simulation *simulation = simulation_of(&model);
+    ld_equilibrium_summary found = find_equilibrium(simulation, y);
+    const double *x = y + simulation->launcher.launching.layout.x;
+    // the lean of 0.7 mm on 1.9 m takes the mass centre further off
+    double lean = 0.7e-3 / 1.9, force = 60 * model.gravity * (0.5e-3 + 1.1 * lean) / 1.9;
+    CHECK_NEAR("front adaptor [N]", found.contact_force[2], force, 1e-4);
+    CHECK_NEAR("rear adaptor [N]", found.contact_force[0], force, 1e-4);
+    CHECK_NEAR("direction of the lean [rad]", atan2(-x[4], x[3]), atan2(-0.4, 0.3), 1e-6);
+    CHECK_BELOW("by the dense check [m/s2]", dense_acceleration(simulation, y), 9.8e-9);
+    ld_simulation_free(simulation);
     reference_model_free(&model);
 }
 
@@ -301,6 +365,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_accelerates),
+        cmocka_unit_test(upright),
+        cmocka_unit_test(upright_and_eccentric),
         cmocka_unit_test(sag_of_the_beam),
         cmocka_unit_test(reactions),
         cmocka_unit_test(nothing_moves_while_locked),

@@ -175,6 +175,14 @@ static void unlocked(ld_model *model)
     model->rocket.lock.present = false;
 }
 
+static void from_the_breech(ld_model *model)
+{
+    at_sea(model);
+    unlocked(model);
+    model->rocket.start_at = 0;
+    model->run.lead_in = 0.02;
+}
+
 static double largest(int count, const double *a, const double *b)
 {
     double worst = 0;
@@ -293,7 +301,8 @@ int main(void)
         {"few modes", few_modes, 100e-6, usual},
         {"uneven tube", uneven_tube, 100e-6, uneven},
         {"late at sea", late_at_sea, 100e-6, usual},
-        {"unlocked", unlocked, 100e-6, usual},
+        {"unlocked", unlocked, 50e-6, usual},
+        {"at sea, from a breech at 0 m", from_the_breech, 50e-6, usual},
     };
     enum { COUNT = sizeof scenarios / sizeof scenarios[0] };
     struct CMUnitTest tests[COUNT + 1] = {cmocka_unit_test(overall_form_gives_the_same_launch)};
