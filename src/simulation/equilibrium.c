@@ -106,8 +106,7 @@ static void place_vehicle(const ld_simulation *self, double *y)
     }
 }
 
-// Puts tube and rocket on the base as it stands, straight and at rest.
-static void straighten(const ld_simulation *self, const base_frame *base, double *y)
+void simulation_straight(const ld_simulation *self, const base_frame *base, double *y)
 {
     const launching_layout *at = &self->launcher.launching.layout;
     memset(y, 0, (size_t)at->count * sizeof(double));
@@ -389,7 +388,7 @@ static double try_pairs(const problem *the, const double *start, double extra, d
             if (the->phase->passed[i] || the->phase->passed[j])
                 continue;
             memcpy(trial, start, size);
-            straighten(self, base, trial);
+            simulation_straight(self, base, trial);
             if (hypot(pull.y, pull.z) > 0)
                 guess_contacts(self, i, j, pull, extra, trial);
             // on a vehicle the tube alone first: it has the kinks
@@ -426,16 +425,6 @@ static ld_status settle_base(const ld_simulation *self, double t, const launchin
                    "the vehicle finds no static equilibrium on its wheels (smallest residual %.3g "
                    "m/s2): do all wheels reach the road, and is the mass centre between them?",
                    reached);
-}
-
-void simulation_straight(const ld_simulation *self, double t, double *y)
-{
-    launcher_input input;
-    memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
-    if (self->launcher.vehicle)
-        place_vehicle(self, y);
-    simulation_input(self, t, y, &input);
-    straighten(self, &input.launching.base, y);
 }
 
 // What the equilibrium found must fulfil for the run to begin in it.
@@ -498,7 +487,7 @@ ld_status simulation_undeformed(ld_simulation *self, double t, double *y, ld_err
     keep_rest(self, y);
     launcher_input input;
     simulation_input(self, t, y, &input);
-    straighten(self, &input.launching.base, y);
+    simulation_straight(self, &input.launching.base, y);
     return LD_OK;
 }
 

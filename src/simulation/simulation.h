@@ -63,8 +63,8 @@ void simulation_select_rocket(ld_simulation *self, int i);
 // Thrust and mass at time t, and the base there at state y.
 void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input);
 
-// Puts tube and rocket straight and at rest on the base at time t; a vehicle stands on flat ground.
-void simulation_straight(const ld_simulation *self, double t, double *y);
+// Puts tube and rocket on the base as it stands, straight and at rest.
+void simulation_straight(const ld_simulation *self, const base_frame *base, double *y);
 
 // Puts tube and rocket straight and at rest on the base at time t (model.md, section 5), a vehicle
 // in its equilibrium under them as a dead load.
