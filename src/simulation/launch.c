@@ -115,6 +115,7 @@ void ld_simulation_free(ld_simulation *self)
 void simulation_select_rocket(ld_simulation *self, int i)
 {
     bool differ = self->model->salvo != NULL;
+    self->rocket = i;
     self->motor = self->motor_of[differ ? i : 0];
     if (!differ)
         return;
@@ -569,7 +570,6 @@ static void record_launch_point(launch_run *run, const double *y)
 static void let_go_at_once(launch_run *run, double t, const double *y)
 {
     ld_simulation *self = run->self;
-    self->latest.t = NAN;
     if (!self->phase.locked)
         return;
     const launcher_output *at = simulation_output(self, t, y);
@@ -578,7 +578,6 @@ static void let_go_at_once(launch_run *run, double t, const double *y)
         return;
     run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
     self->phase.locked = false;
-    self->latest.t = NAN;
     run->summary->rocket[self->current].t_release = t - self->t_ignition;
 }
 
