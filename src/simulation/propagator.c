@@ -499,7 +499,7 @@ ld_status propagator_create(ld_simulation *simulation, propagator **out, ld_erro
         .rtol = simulation->model->run.tolerance,
         .atol = all.atol,
         .absolute = all.absolute,
-        .max_step = 2e-4, // longer steps could pass over a first touch
+        .max_step = simulation->model->run.max_step,
         .rhs = rhs,
         .events = events,
         .event_count = event_count(simulation),
