@@ -545,6 +545,8 @@ typedef struct ld_run_settings {
     ld_run_end end;
     double end_time;            ///< [s] after the last ignition (LD_END_TIME)
     double tolerance;           ///< [-] relative tolerance of the integrator
+    double max_step;            ///< [s] longest step until the last rocket has left its tube; NaN:
+                                ///< see ld_model_complete()
     double output_step_lead_in; ///< [s]
     double output_step_tube;    ///< [s]
     double output_step_flight;  ///< [s]
@@ -682,10 +684,11 @@ void ld_model_init(ld_model *model);
 
 /// Computes what follows from the rest: the stiffnesses and masses of sections that are given by
 /// radii or areas; the firings of an order of tubes; where they are NaN, the values of the empty
-/// rocket (as the full ones), rocket.propellant = full.mass - empty.mass and run.stuck_time = end
-/// of the thrust table + 1 s; of a flight alone, what its rocket lacks: a motor (absent), the mass
-/// centre (0), and the end at the tip (landing); the ground's height where it is NaN (0, on a round
-/// Earth the site's altitude). The scenario reader has done it already.
+/// rocket (as the full ones), rocket.propellant = full.mass - empty.mass, run.stuck_time = end of
+/// the thrust table + 1 s and run.max_step = 0.2 ms (tolerance/1e-5)^(1/5), at least 0.2 ms; of a
+/// flight alone, what its rocket lacks: a motor (absent), the mass centre (0), and the end at the
+/// tip (landing); the ground's height where it is NaN (0, on a round Earth the site's altitude).
+/// The scenario reader has done it already.
 void ld_model_complete(ld_model *model);
 
 /// Frees the title, the tables, what `model` owns for studies and its share of `source`, and resets

@@ -239,8 +239,9 @@ typedef struct ld_run_options {
 ld_status ld_simulation_run(ld_simulation *simulation, const ld_run_options *options,
                             ld_summary *summary, ld_error *error);
 
-/// Natural frequencies of tube and tail on their supports (base held), ascending; none of a flight
-/// alone.
+/// Natural frequencies of tube and tail on their supports (base held, without gravity), ascending;
+/// shapes of one frequency are those that the dampers do not couple, by ascending damping. None of
+/// a flight alone.
 /// @return the number written to `modes` (at most `capacity`)
 int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity);
 

@@ -263,6 +263,8 @@ static void check_complete(model_checker *checker, const ld_model *model)
         refuse(checker, "rocket.propellant", "not computed; call ld_model_complete()");
     if (launch && isnan(model->run.stuck_time))
         refuse(checker, "run.stuck_time", "not computed; call ld_model_complete()");
+    if (launch && isnan(model->run.max_step))
+        refuse(checker, "run.max_step", "not computed; call ld_model_complete()");
 }
 
 ld_status ld_model_check(const ld_model *model, ld_error *error)

@@ -95,4 +95,7 @@ void ld_model_complete(ld_model *model)
     if (isnan(model->run.stuck_time) && thrust->rows > 0)
         model->run.stuck_time =
             thrust->data[(thrust->rows - 1) * thrust->columns] * rocket->motor.time_scale + 1;
+    // the step of equal error, of a method of order five; below 1e-5 the touches alone count
+    if (isnan(model->run.max_step))
+        model->run.max_step = 2e-4 * pow(fmax(1, model->run.tolerance / 1e-5), 0.2);
 }

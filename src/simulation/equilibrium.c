@@ -113,8 +113,7 @@ static void place_vehicle(const ld_simulation *self, double *y)
     }
 }
 
-// Puts tube and rocket on the base as it stands, straight and at rest.
-static void straighten(const ld_simulation *self, const base_frame *base, double *y)
+void simulation_straight(const ld_simulation *self, const base_frame *base, double *y)
 {
     const launching_layout *at = &self->launcher.launching.layout;
     memset(y, 0, (size_t)at->count * sizeof(double));
@@ -409,7 +408,7 @@ static void guess_straight(const problem *the, const double *start, double *y)
     launcher_input input;
     simulation_input(the->self, the->t, start, &input);
     memcpy(y, start, (size_t)the->self->launcher.state_count * sizeof(double));
-    straighten(the->self, &input.launching.base, y);
+    simulation_straight(the->self, &input.launching.base, y);
 }
 
 // Newton's method from the guess in y; on a vehicle the tube alone first: it has the kinks.
@@ -592,16 +591,6 @@ static ld_status settle_base(const ld_simulation *self, double t, const launchin
                    reached);
 }
 
-void simulation_straight(const ld_simulation *self, double t, double *y)
-{
-    launcher_input input;
-    memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
-    if (self->launcher.vehicle)
-        place_vehicle(self, y);
-    simulation_input(self, t, y, &input);
-    straighten(self, &input.launching.base, y);
-}
-
 // What the equilibrium found must fulfil for the run to begin in it.
 static ld_status check_vehicle(const ld_simulation *self, double t, const double *y,
                                ld_error *error)
@@ -662,7 +651,7 @@ ld_status simulation_undeformed(ld_simulation *self, double t, double *y, ld_err
     keep_rest(self, y);
     launcher_input input;
     simulation_input(self, t, y, &input);
-    straighten(self, &input.launching.base, y);
+    simulation_straight(self, &input.launching.base, y);
     return LD_OK;
 }
 

@@ -115,6 +115,7 @@ void ld_simulation_free(ld_simulation *self)
 void simulation_select_rocket(ld_simulation *self, int i)
 {
     bool differ = self->model->salvo != NULL;
+    self->rocket = i;
     self->motor = self->motor_of[differ ? i : 0];
     if (!differ)
         return;
@@ -600,7 +601,6 @@ static void record_ignition(launch_run *run, double t, const double *y)
 static void let_go_at_once(launch_run *run, double t, const double *y)
 {
     ld_simulation *self = run->self;
-    self->latest.t = NAN;
     if (!self->phase.locked)
         return;
     const launcher_output *at = simulation_output(self, t, y);
@@ -609,7 +609,6 @@ static void let_go_at_once(launch_run *run, double t, const double *y)
         return;
     run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
     let_go(run, t, y);
-    self->latest.t = NAN;
 }
 
 static bool finished(const launch_run *run, double t)

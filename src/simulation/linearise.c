@@ -5,11 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/dense.h"
 #include "simulation/simulation.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 // Eigenvalues of a vehicle below this modulus [1/s] belong to its neutral directions.
 static const double LEAST_RATE = 1e-2;
+// Squares of frequencies nearer to each other than this, relative, are equal but for the
+// differences' error.
+static const double EQUAL = 1e-6;
+
+static const base_frame ORIGIN = {.A = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .q = {1, 0, 0, 0}};
 
 static void displace_vehicle(const launcher_system *launcher, int unknown, double change, double *y)
 {
@@ -73,23 +79,48 @@ static void displace(const ld_simulation *self, const linear_system *system, int
         y[extra_at(launcher, unknown - 2 * half)] += change;
 }
 
-// Rates of the unknowns at state y, in the same order.
-static int rates(const ld_simulation *self, const linear_system *system, double t,
-                 const launching_phase *phase, const double *y, double *r)
+// d/dt of the state of the whole, without thrust; a base that is no vehicle is held in its attitude
+// in the origin.
+static int rates_of_whole(const ld_simulation *self, double t, const launching_phase *phase,
+                          const double *y, double *y_dot)
 {
     const launcher_system *launcher = &self->launcher;
-    const launching_layout *at = &launcher->launching.layout;
     launcher_input input;
     launcher_output out;
-    double y_dot[LD_MAX_STATES];
     simulation_input(self, t, y, &input);
     input.formulation = LD_FORMULATION_REDUCED;
     input.launching.thrust = 0;
+    base_frame *base = &input.launching.base;
     if (!launcher->vehicle)
-        input.launching.base.v = input.launching.base.w = v3_zero();
+        base->r = base->v = base->w = v3_zero();
     if (launcher_evaluate(launcher, &input, phase, y, &out))
         return -1;
     launcher_rates(launcher, y, &out, phase->rocket, y_dot);
+    return 0;
+}
+
+// d/dt of the state of the empty tube on a base at rest in the origin.
+static int rates_of_tube(const launching_system *tube, const launching_phase *phase,
+                         const double *y, double *y_dot)
+{
+    const launching_input input = {.base = ORIGIN};
+    launching_output out;
+    if (launching_evaluate(tube, &input, phase, y, &out))
+        return -1;
+    launching_rates(tube, y, &out, false, y_dot);
+    return 0;
+}
+
+// Rates of the unknowns at state y, in the same order.
+static int rates(const ld_simulation *self, const linear_system *system,
+                 const launching_system *alone, double t, const launching_phase *phase,
+                 const double *y, double *r)
+{
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    double y_dot[LD_MAX_STATES];
+    if (alone ? rates_of_tube(alone, phase, y, y_dot) : rates_of_whole(self, t, phase, y, y_dot))
+        return -1;
     int tube = system->tube, both = tube + system->rocket, half = system->half;
     memcpy(r, y_dot + at->r, 3 * sizeof(double));
     memcpy(r + 3, y + at->w, 3 * sizeof(double)); // small rotations in R
@@ -110,8 +141,9 @@ static int rates(const ld_simulation *self, const linear_system *system, double 
     return 0;
 }
 
-// Counts the unknowns and finds the Jacobian by central differences; with `alone` the base is held.
-static ld_status linearise(const ld_simulation *self, bool alone, double t,
+// Counts the unknowns and finds the Jacobian by central differences, of the whole or of the tube
+// `alone`.
+static ld_status linearise(const ld_simulation *self, const launching_system *alone, double t,
                            const launching_phase *phase, const double *y, linear_system *system,
                            ld_error *error)
 {
@@ -132,10 +164,10 @@ static ld_status linearise(const ld_simulation *self, bool alone, double t,
         double h = j < half ? 1e-7 : 1e-5;
         memcpy(trial, y, size);
         displace(self, system, j, h, trial);
-        int bad = rates(self, system, t, phase, trial, plus);
+        int bad = rates(self, system, alone, t, phase, trial, plus);
         memcpy(trial, y, size);
         displace(self, system, j, -h, trial);
-        if (bad || rates(self, system, t, phase, trial, minus))
+        if (bad || rates(self, system, alone, t, phase, trial, minus))
             return ld_fail(error, LD_ERR_NUMERIC, "the equations cannot be linearised");
         for (int i = 0; i < n; i++)
             system->J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
@@ -255,43 +287,116 @@ static void name_shape(const ld_simulation *self, const linear_system *system,
         snprintf(shape, LD_SHAPE_TEXT, "%s; %s", group_names[best], group_names[second]);
 }
 
-static int by_frequency(const void *a, const void *b)
-{
-    const ld_mode *p = a, *q = b;
-    return (p->frequency > q->frequency) - (p->frequency < q->frequency);
-}
-
-// left^T C right/(left^T right), C = -J's block of speeds on speeds: what the dampers do to a mode,
-// 2 zeta omega.
-static double modal_damping(const linear_system *system, const double *left, const double *right)
-{
-    double damped = 0, norm = 0;
-    int n = system->half;
-    for (int j = 0; j < n; j++) {
-        norm += left[j] * right[j];
-        for (int i = 0; i < n; i++)
-            damped -= left[i] * system->J[n + i + system->count * (n + j)] * right[j];
-    }
-    return damped / norm;
-}
-
 static ld_status eigenvalues_failed(ld_error *error)
 {
     return ld_fail(error, LD_ERR_NUMERIC, "the eigenvalues of the linearised equations failed");
 }
 
-// Undamped modes K T v = omega^2 v, from x_dot = T v, v_dot = -K x - C v, with the damping of each
-// shape; those that the constraints leave at zero are dropped.
-static ld_status undamped_modes(const ld_simulation *self, const linear_system *system,
-                                ld_mode *modes, int capacity, int *count, ld_error *error)
+// A shape of the undamped equations: omega^2 and the eigenvectors of K T.
+typedef struct undamped {
+    double square;
+    const double *right, *left;
+} undamped;
+
+static int by_square(const void *a, const void *b)
+{
+    const undamped *p = a, *q = b;
+    return (p->square > q->square) - (p->square < q->square);
+}
+
+static int by_damping(const void *a, const void *b)
+{
+    const ld_mode *p = a, *q = b;
+    return (p->damping > q->damping) - (p->damping < q->damping);
+}
+
+// Whether speed number i is one of the tube or the rocket in the vertical plane.
+static bool is_vertical(const ld_simulation *self, const linear_system *system, int i)
+{
+    int k = i < system->tube ? i : i - system->tube;
+    return k == 1 || k == 5 || (i >= 6 && i < 6 + self->launcher.launching.tube.nb);
+}
+
+// left^T right by rows; by columns left^T C right, C = -J's block of speeds on speeds, and left^T
+// right of the vertical speeds alone.
+static void project(const ld_simulation *self, const linear_system *system, const undamped *shape,
+                    int count, double *products, double *damped, double *vertical)
 {
     int n = system->half;
-    size_t square = (size_t)n * (size_t)n;
-    double *memory = calloc(3 * square + 3 * (size_t)n, sizeof *memory);
-    if (!memory)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
-    double *KT = memory, *left = memory + square, *right = left + square, *wr = right + square,
-           *wi = wr + n, *squares = wi + n;
+    for (int a = 0; a < count; a++)
+        for (int b = 0; b < count; b++) {
+            const double *left = shape[a].left, *right = shape[b].right;
+            double all = 0, damping = 0, some = 0;
+            for (int j = 0; j < n; j++) {
+                all += left[j] * right[j];
+                if (is_vertical(self, system, j))
+                    some += left[j] * right[j];
+                for (int i = 0; i < n; i++)
+                    damping -= left[i] * system->J[n + i + system->count * (n + j)] * right[j];
+            }
+            products[a * count + b] = all;
+            damped[a + count * b] = damping;
+            vertical[a + count * b] = some;
+        }
+}
+
+// What the dampers do to `count` shapes of one frequency, any combination of which is a shape too:
+// (left^T right)^-1 left^T C right, with the eigenvalues `rate`, 2 zeta omega [1/s], and
+// eigenvectors by columns in `mix`. Of shapes that are damped alike a trace more in the vertical
+// plane takes those in the planes. `work`: room for three such matrices.
+static int damp_shapes(const ld_simulation *self, const linear_system *system,
+                       const undamped *shape, int count, double *rate, double *mix, double *work)
+{
+    int square = count * count, pivot[LD_MAX_STATES];
+    double *products = work, *damped = products + square, *vertical = damped + square, sum = 0;
+    double unused[LD_MAX_STATES];
+    project(self, system, shape, count, products, damped, vertical);
+    if (lu_factor(count, products, pivot))
+        return -1;
+    for (int b = 0; b < count; b++) {
+        lu_solve(count, products, pivot, damped + count * b);
+        lu_solve(count, products, pivot, vertical + count * b);
+        sum += fabs(damped[b + count * b]);
+    }
+    for (int i = 0; i < square && count > 1; i++)
+        damped[i] += 1e-9 * sum * vertical[i];
+    return LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', count, damped, count, rate, unused, NULL, 1,
+                         mix, count);
+}
+
+// The modes that `count` shapes of one frequency have, by ascending damping.
+static int modes_of_shapes(const ld_simulation *self, const linear_system *system,
+                           const undamped *shape, int count, ld_mode *modes, double *work)
+{
+    double rate[LD_MAX_STATES], squares[LD_MAX_STATES], *mix = work + 3 * count * count, mean = 0;
+    if (damp_shapes(self, system, shape, count, rate, mix, work))
+        return -1;
+    for (int i = 0; i < count; i++)
+        mean += shape[i].square / count;
+    for (int i = 0; i < count; i++) {
+        double omega = sqrt(mean), damping = 0.5 * rate[i] / omega;
+        for (int k = 0; k < system->half; k++) {
+            double speed = 0;
+            for (int b = 0; b < count; b++)
+                speed += shape[b].right[k] * mix[b + count * i];
+            squares[k] = speed * speed;
+        }
+        modes[i] =
+            (ld_mode){.frequency = omega / TWO_PI, .damping = damping, .real = -damping * omega};
+        name_shape(self, system, squares, modes[i].shape);
+    }
+    qsort(modes, (size_t)count, sizeof *modes, by_damping);
+    return 0;
+}
+
+// Shapes of the undamped modes K T v = omega^2 v, from x_dot = T v, v_dot = -K x - C v, by
+// ascending frequency; those that the constraints leave at zero are dropped. `work`: room for three
+// n x n matrices and two rows, of which the first two matrices hold the eigenvectors afterwards.
+static int undamped_shapes(const linear_system *system, undamped *shape, int *count, double *work)
+{
+    int n = system->half;
+    double *left = work, *right = left + n * n, *KT = right + n * n, *wr = KT + n * n, *wi = wr + n;
+    memset(KT, 0, (size_t)n * (size_t)n * sizeof *KT);
     for (int j = 0; j < n; j++)
         for (int k = 0; k < n; k++)
             for (int i = 0; i < n; i++)
@@ -299,19 +404,35 @@ static ld_status undamped_modes(const ld_simulation *self, const linear_system *
                     system->J[n + i + system->count * k] * system->J[k + system->count * (n + j)];
     int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'V', 'V', n, KT, n, wr, wi, left, n, right, n);
     *count = 0;
-    for (int i = 0; i < n && !bad && *count < capacity; i++) {
-        if (wr[i] < 1)
-            continue;
-        double omega = sqrt(wr[i]);
-        double rate = 0.5 * modal_damping(system, left + n * i, right + n * i);
-        ld_mode *mode = &modes[(*count)++];
-        *mode = (ld_mode){.frequency = omega / TWO_PI, .damping = rate / omega, .real = -rate};
-        for (int k = 0; k < n; k++)
-            squares[k] = right[n * i + k] * right[n * i + k];
-        name_shape(self, system, squares, mode->shape);
+    for (int i = 0; i < n && !bad; i++)
+        if (wr[i] >= 1)
+            shape[(*count)++] = (undamped){wr[i], right + n * i, left + n * i};
+    qsort(shape, (size_t)*count, sizeof *shape, by_square);
+    return bad;
+}
+
+// Undamped modes by ascending frequency, with the damping of each shape.
+static ld_status undamped_modes(const ld_simulation *self, const linear_system *system,
+                                ld_mode *modes, int capacity, int *count, ld_error *error)
+{
+    int n = system->half, shapes = 0, bad, equal;
+    size_t square = (size_t)n * (size_t)n;
+    undamped shape[LD_MAX_STATES];
+    ld_mode some[LD_MAX_STATES];
+    double *work = malloc(6 * square * sizeof *work);
+    *count = 0;
+    if (!work)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    bad = undamped_shapes(system, shape, &shapes, work);
+    for (int i = 0; i < shapes && !bad; i += equal) {
+        equal = 1;
+        while (i + equal < shapes && shape[i + equal].square <= (1 + EQUAL) * shape[i].square)
+            equal++;
+        bad = modes_of_shapes(self, system, shape + i, equal, some, work + 2 * square);
+        for (int k = 0; k < equal && !bad && *count < capacity; k++)
+            modes[(*count)++] = some[k];
     }
-    free(memory);
-    qsort(modes, (size_t)*count, sizeof *modes, by_frequency);
+    free(work);
     return bad ? eigenvalues_failed(error) : LD_OK;
 }
 
@@ -376,8 +497,11 @@ int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capa
     launching_phase phase = {.rocket = false};
     if (self->model->base.kind == LD_BASE_NONE)
         return 0; // a flight alone has no tube
-    simulation_straight(self, self->t_ignition, y);
-    if (!linearise(self, true, self->t_ignition, &phase, y, &system, NULL))
+    // straight it rests without gravity alone, and no pose of the base counts
+    launching_system weightless = self->launcher.launching;
+    weightless.gravity = 0;
+    simulation_straight(self, &ORIGIN, y);
+    if (!linearise(self, &weightless, 0, &phase, y, &system, NULL))
         undamped_modes(self, &system, modes, capacity, &count, NULL);
     free(system.J);
     return count;
@@ -392,9 +516,16 @@ static ld_status linearise_at_rest(ld_simulation *self, linear_system *system, l
     phase.frictionless = true;
     self->piece = -1;
     ld_status status = simulation_equilibrium(self, t, y, &unused, error);
-    if (!status && self->launcher.vehicle)
+    if (!status && self->launcher.vehicle) {
         simulation_move_with_base(self, t, y);
-    return status ? status : linearise(self, false, t, &phase, y, system, error);
+    } else if (!status) {
+        // in the origin, where differences are finest
+        launcher_input input;
+        simulation_input(self, t, y, &input);
+        double *r = y + self->launcher.launching.layout.r;
+        v3_store(r, v3_sub(v3_from(r), input.launching.base.r));
+    }
+    return status ? status : linearise(self, NULL, t, &phase, y, system, error);
 }
 
 ld_status simulation_linearise(ld_simulation *self, linear_system *system, ld_error *error)

@@ -38,11 +38,46 @@ static bool all_finite(int n, const double *y)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0;
 }
 
-// Keeps what an evaluation tells besides the rates.
-static void note_outcome(ld_simulation *self, double t, const double *y, launching_outcome outcome)
+static void find_conditions(const ld_simulation *self, double t, run_conditions *conditions)
 {
-    self->latest.t = t;
-    self->latest.s = y[self->launcher.launching.layout.x];
+    memset(conditions, 0, sizeof *conditions);
+    conditions->t = t;
+    conditions->t_ignition = self->t_ignition;
+    conditions->piece = self->piece;
+    conditions->rocket = self->rocket;
+    conditions->tube = self->launcher.tube;
+    conditions->road = self->launcher.marching.road;
+    memcpy(&conditions->phase, &self->phase, sizeof self->phase);
+    memcpy(conditions->rest, self->rest, sizeof self->rest);
+}
+
+// The works at the state's end count for nothing in the equations.
+static size_t size_that_counts(const ld_simulation *self)
+{
+    return (size_t)self->launcher.work_at * sizeof(double);
+}
+
+// latest.out is that of state y at t.
+static void remember(ld_simulation *self, double t, const double *y)
+{
+    self->latest.known = true;
+    find_conditions(self, t, &self->latest.at);
+    memcpy(self->latest.y, y, size_that_counts(self));
+}
+
+static bool is_latest(const ld_simulation *self, double t, const double *y)
+{
+    run_conditions now;
+    if (!self->latest.known || self->latest.at.t != t)
+        return false;
+    find_conditions(self, t, &now);
+    return memcmp((const char *)&now, (const char *)&self->latest.at, sizeof now) == 0 &&
+           memcmp((const char *)y, (const char *)self->latest.y, size_that_counts(self)) == 0;
+}
+
+// Keeps what an evaluation tells besides the rates.
+static void note_outcome(ld_simulation *self, launching_outcome outcome)
+{
     self->jammed = outcome == LAUNCHING_JAMMED;
     if (outcome || self->model->run.formulation != LD_FORMULATION_OVERALL)
         return;
@@ -57,24 +92,25 @@ static int rhs(double t, const double *y, double *y_dot, void *user)
     launcher_input input;
     launcher_output *out = &self->latest.out;
     simulation_input(self, t, y, &input);
+    self->latest.known = false;
     launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
-    note_outcome(self, t, y, outcome);
+    note_outcome(self, outcome);
     if (outcome)
         return -1;
+    remember(self, t, y);
     launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
     return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
 }
 
 const launcher_output *simulation_output(ld_simulation *self, double t, const double *y)
 {
-    if (self->latest.t != t || self->latest.s != y[self->launcher.launching.layout.x]) {
+    if (!is_latest(self, t, y)) {
         launcher_input input;
         simulation_input(self, t, y, &input);
-        self->latest.t = NAN;
+        self->latest.known = false;
         if (launcher_evaluate(&self->launcher, &input, &self->phase, y, &self->latest.out))
             return NULL;
-        self->latest.t = t;
-        self->latest.s = y[self->launcher.launching.layout.x];
+        remember(self, t, y);
     }
     return &self->latest.out;
 }
@@ -253,10 +289,10 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     launching_output *out = &simulation->latest.out.launching;
     go_on(&self->tube, t - self->t, &input.base);
     burn(simulation, t, &input);
+    simulation->latest.known = false; // not one of the whole
     launching_outcome outcome = launcher_evaluate_tube(launcher, simulation->model->run.formulation,
                                                        &input, &simulation->phase, y, out);
-    note_outcome(simulation, t, y, outcome);
-    simulation->latest.t = NAN; // not one of the whole
+    note_outcome(simulation, outcome);
     if (outcome)
         return -1;
     int count = launcher->launching.layout.count;
@@ -378,6 +414,7 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     launcher_output *out = &simulation->latest.out;
     double since = t - self->t, orientating[ORIENTATING_COUNT], marching[MARCHING_MOST];
     simulation_input(simulation, t, y, &input);
+    simulation->latest.known = false;
     if (launcher_evaluate(launcher, &input, &simulation->phase, y, out))
         return ld_fail(error, LD_ERR_NUMERIC, "the exchange at t = %.9g s has no solution", t);
     take_frame(&self->chassis, &input.motion.chassis, since);
@@ -472,7 +509,7 @@ ld_status propagator_create(ld_simulation *simulation, propagator **out, ld_erro
         .rtol = simulation->model->run.tolerance,
         .atol = all.atol,
         .absolute = all.absolute,
-        .max_step = 2e-4, // longer steps could pass over a first touch
+        .max_step = simulation->model->run.max_step,
         .rhs = rhs,
         .events = events,
         .event_count = event_count(simulation),

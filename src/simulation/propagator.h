@@ -28,7 +28,8 @@ enum { EVENT_RELEASE = 0, EVENT_ADAPTORS = 1 };
 
 int simulation_breech_event(const ld_simulation *self);
 
-// What the equations gave at (t, y): the latest evaluation where it is that one, else a new one.
+// What the equations gave at (t, y): the latest evaluation where it is that of the same state under
+// the same conditions, else a new one.
 // NULL where they have no solution.
 const launcher_output *simulation_output(ld_simulation *self, double t, const double *y);
 

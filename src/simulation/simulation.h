@@ -10,10 +10,20 @@
 
 enum { LD_MAX_COLUMNS = 1024 };
 
+// What the equations depend on beside the state and the system as it was built.
+typedef struct run_conditions {
+    double t, t_ignition;    // [s]
+    int piece, rocket, tube; // of the thrust curve; selected
+    const road *road;
+    launching_phase phase;
+    hinge_rest rest[HINGES];
+} run_conditions;
+
 struct ld_simulation {
     const ld_model *model; // `own` where the rockets of a salvo differ
     ld_model own;          // with the current rocket
-    motor motor;           // the current one, of these:
+    int rocket;            // whose motor and numbers are taken, in the order of firing
+    motor motor;           // its, of these:
     motor motor_of[LD_MAX_FIRINGS];
     int motor_count;
     launcher_system launcher;
@@ -30,8 +40,10 @@ struct ld_simulation {
     m3 aim;    // A_IT, the undeformed tube on its base, as it stood at that ignition
     int piece; // of the thrust curve
     bool jammed;
-    struct {         // the latest evaluation, which at a step's end is that of the step's end
-        double t, s; // [s], and the rocket's travel [m]: what it belongs to
+    struct { // the latest evaluation, which at a step's end is that of the step's end
+        bool known;
+        run_conditions at;
+        double y[LD_MAX_STATES];
         launcher_output out;
     } latest;
     int64_t fallbacks; // evaluations in which the overall form did not hold
@@ -65,8 +77,8 @@ void simulation_select_rocket(ld_simulation *self, int i);
 // Thrust and mass at time t, and the base there at state y.
 void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input);
 
-// Puts tube and rocket straight and at rest on the base at time t; a vehicle stands on flat ground.
-void simulation_straight(const ld_simulation *self, double t, double *y);
+// Puts tube and rocket on the base as it stands, straight and at rest.
+void simulation_straight(const ld_simulation *self, const base_frame *base, double *y);
 
 // Puts tube and rocket straight and at rest on the base at time t (model.md, section 5), a vehicle
 // in its equilibrium under them as a dead load.

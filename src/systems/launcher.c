@@ -4,6 +4,7 @@
 
 void launcher_select(launcher_system *self, int i)
 {
+    self->tube = i;
     if (self->vehicle)
         self->orientating = self->of_tube[i];
 }

@@ -22,6 +22,7 @@ typedef struct launcher_system {
     base_motion motion; // of a fixed or prescribed base
     bool vehicle;
     orientating_system orientating; // with the tube that launches now
+    int tube;                       // which that is, in the order of firing
     int tube_count;
     orientating_system of_tube[LD_MAX_FIRINGS]; // in the order of firing
     marching_system marching;

@@ -77,6 +77,7 @@ static void test_rules(void **state)
             "ld_model_complete()");
     REFUSED(m.rocket.propellant = NAN, "rocket.propellant: not computed; call ld_model_complete()");
     REFUSED(m.run.stuck_time = NAN, "run.stuck_time: not computed; call ld_model_complete()");
+    REFUSED(m.run.max_step = NAN, "run.max_step: not computed; call ld_model_complete()");
 }
 
 static void test_vehicle(void **state)

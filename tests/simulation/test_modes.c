@@ -26,15 +26,13 @@ static double nearest(const ld_mode *modes, int count, double frequency)
     return best;
 }
 
-// With the span `supported` the tube's equations have the frequencies of its finite elements, which
-// know no gravity (it is good for 6e-6 of a frequency).
+// With the span `supported` the tube's equations have the frequencies of its finite elements.
 static void tube_has_the_frequencies_of_its_elements(void **state)
 {
     (void)state;
     ld_model model;
     ld_mode modes[LD_MAX_MODES];
     ld_simulation *simulation = make(&model);
-    simulation->launcher.launching.gravity = 0;
     int count = ld_simulation_tube_modes(simulation, modes, LD_MAX_MODES);
     const flexible_tube *tube = &simulation->launcher.launching.tube;
     assert_int_equal(count, 6 + simulation->launcher.launching.layout.nq);

@@ -108,6 +108,7 @@ void reference_model(ld_model *model)
                                    .lead_in = 0,
                                    .end = LD_END_TIP,
                                    .tolerance = 1e-5,
+                                   .max_step = 2e-4,
                                    .output_step_lead_in = 5e-3,
                                    .output_step_tube = 1e-4,
                                    .output_step_flight = 2e-2,
