@@ -98,6 +98,29 @@ static void test_distributions(void **state)
     assert_true(draw_value(&each, &place, 1, 1 - 0x1p-53) == 999);
 }
 
+// P(Z <= z | a < Z < b) of the value drawn for u is u, on whichever side of the mean a and b lie: a
+// value rises with its u. Counted from the nearer tail, where Phi has its digits.
+static void test_between_anywhere(void **state)
+{
+    (void)state;
+    static const double ends[][2] = {{-1, 2}, {-3, -1}, {-8, -6}, {0, 1},  {0.5, 0.6},
+                                     {1, 3},  {6, 8},   {-2, 0},  {2, 40}, {-40, -2}};
+    double worst = 0;
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+        ld_factor normal = factor_named("a", LD_NORMAL);
+        double a = ends[k][0], b = ends[k][1], side = a + b > 0 ? -1 : 1;
+        normal.between[0] = 10 + 0.5 * a;
+        normal.between[1] = 10 + 0.5 * b;
+        for (double u = 0.05; u < 1; u += 0.1) {
+            double z = (draw_value(&normal, &place, 10, u) - 10) / 0.5;
+            double below = fabs(normal_cumulative(side * z) - normal_cumulative(side * a));
+            double all = fabs(normal_cumulative(side * b) - normal_cumulative(side * a));
+            worst = fmax(worst, fabs(below / all - u));
+        }
+    }
+    CHECK_BELOW("share below a value less its u", worst, 3e-13);
+}
+
 static void test_permutation(void **state)
 {
     (void)state;
@@ -197,9 +220,9 @@ static void test_factors_of_a_scenario(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform_numbers),       cmocka_unit_test(test_distributions),
-        cmocka_unit_test(test_permutation),           cmocka_unit_test(test_hypercube),
-        cmocka_unit_test(test_factors_of_a_scenario),
+        cmocka_unit_test(test_uniform_numbers),  cmocka_unit_test(test_distributions),
+        cmocka_unit_test(test_between_anywhere), cmocka_unit_test(test_permutation),
+        cmocka_unit_test(test_hypercube),        cmocka_unit_test(test_factors_of_a_scenario),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
