@@ -54,6 +54,10 @@ static void compare(const launching_system *system, const launching_case *c,
 typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
                                        const launching_phase *, const double *, launching_output *);
 
+// Rounding of the dense system, which LAPACK's kernels for this and that processor do differently:
+// from 3e-11 to 6.2e-11 on those of OpenBLAS.
+static const double rounding = 1e-10;
+
 static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name,
                             double bound)
 {
@@ -102,7 +106,7 @@ static void reduced_equals_dense(void **state)
         char name[64];
         model.tubes.modes.bending = modes[i];
         snprintf(name, sizeof name, "reduced, %d bending modes a plane", modes[i]);
-        check_agreement(&model, launching_evaluate, 500, name, 6e-11);
+        check_agreement(&model, launching_evaluate, 500, name, rounding);
     }
     reference_model_free(&model);
 }
@@ -139,7 +143,7 @@ static void overall_equals_dense(void **state)
         model.tubes.modes.bending = modes[i];
         worst_condition = 0;
         snprintf(name, sizeof name, "overall 19 x 19, %d bending modes a plane", modes[i]);
-        check_agreement(&model, overall, 500, name, 6e-11);
+        check_agreement(&model, overall, 500, name, rounding);
         printf("    condition of the tube's transfer matrix up to %.2g\n", worst_condition);
     }
     reference_model_free(&model);
@@ -152,32 +156,32 @@ static void options_equal_dense(void **state)
     reference_model(&model);
     model.tubes.modes.bending = 4;
     model.tubes.modes.axial = 2;
-    check_agreement(&model, launching_evaluate, 200, "reduced, axial modes", 6e-11);
-    check_agreement(&model, overall, 200, "overall, axial modes", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "reduced, axial modes", rounding);
+    check_agreement(&model, overall, 200, "overall, axial modes", rounding);
     model.tubes.modes.axial = 0;
-    check_agreement(&model, general, 200, "reduced from the general matrix", 6e-11);
+    check_agreement(&model, general, 200, "reduced from the general matrix", rounding);
     model.tubes.modes.span = LD_SPAN_FREE_FREE;
     model.tubes.support[0].rotational_stiffness[1] = 5e5; // not isotropic
     model.tubes.point_mass_count = 1;
     model.tubes.point_mass[0] = (ld_point_mass){.at = 1.5, .mass = 0.4};
     check_agreement(&model, launching_evaluate, 200, "free-free span, point mass, uneven support",
-                    6e-11);
+                    rounding);
     model.rocket.contact.law = LD_CONTACT_LANKARANI_NIKRAVESH;
     model.rocket.contact.exponent = 1.5;
-    check_agreement(&model, launching_evaluate, 200, "lankarani-nikravesh, n = 1.5", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "lankarani-nikravesh, n = 1.5", rounding);
     model.rocket.contact.law = LD_CONTACT_KELVIN_VOIGT;
     model.rocket.contact.damping = 2e4;
-    check_agreement(&model, launching_evaluate, 200, "kelvin-voigt", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "kelvin-voigt", rounding);
     model.rocket.contact.law = LD_CONTACT_BILATERAL;
-    check_agreement(&model, launching_evaluate, 200, "bilateral", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "bilateral", rounding);
     model.rocket.contact.law = LD_CONTACT_HUNT_CROSSLEY;
     model.tubes.slot.kind = LD_SLOT_NONE;
-    check_agreement(&model, launching_evaluate, 200, "no slot (the lock holds the roll)", 6e-11);
-    check_agreement(&model, overall, 200, "no slot, overall", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "no slot (the lock holds the roll)", rounding);
+    check_agreement(&model, overall, 200, "no slot, overall", rounding);
     model.tubes.slot.kind = LD_SLOT_HELIX;
     free(model.tubes.slot.angle.data);
     model.tubes.slot.angle = reference_table(3, 2, (double[]){0, 0, 1, 0.05, 3, 0.3});
-    check_agreement(&model, launching_evaluate, 200, "slot angle from a table", 6e-11);
+    check_agreement(&model, launching_evaluate, 200, "slot angle from a table", rounding);
     reference_model_free(&model);
 }
 
