@@ -9,6 +9,7 @@
 #include "simulation/simulation.h"
 #include "support/column_book.h"
 #include "support/dense_simulation.h"
+#include "support/recorded_run.h"
 #include "support/reference_model.h"
 
 static const char *const xyz[] = {"x", "y", "z"};
@@ -625,7 +626,8 @@ void __wrap_history_row(const ld_simulation *self, double t, const double *y, do
                         double *row)
 {
     __real_history_row(self, t, y, energy_start, row);
-    look_at_row(watching, self, t, y, row);
+    if (watching)
+        look_at_row(watching, self, t, y, row);
 }
 
 static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
@@ -690,6 +692,7 @@ static void watch_run(const ld_model *model, const column_bound *bound, size_t b
     if (ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, &error))
         fail_msg("%s", error.text);
     printf("  %d rows of %zu columns\n", run->rows, run->book.count);
+    watching = NULL;
     check_book(&run->book, bound, bounds);
     if (vehicle)
         dense_vehicle_free(&run->vehicle);
@@ -765,11 +768,56 @@ static void test_vehicle(void **state)
     reference_model_free(&model);
 }
 
+// Moment of weights about the elevation hinge, on the platform's z axis [N m].
+static double weight_moment(const dense_vehicle *vehicle, const ld_model *model, double pitch)
+{
+    const ld_tubes *tubes = &model->tubes;
+    double tube = tubes->section[0].mass_per_length * tubes->length, sum[3] = {0};
+    const ld_mass_data *rocket = &model->rocket.full;
+    v3 rear = vehicle->tube_at;
+    const dense_part more[] = {
+        {tube, {rear.x + tubes->length / 2, rear.y, 0}, {{{0}}}},
+        {tubes->tail.mass, {rear.x + tubes->tail.center, rear.y, 0}, {{{0}}}},
+        {rocket->mass,
+         {rear.x + model->rocket.start_at + rocket->center[0], rear.y + rocket->center[1], 0},
+         {{{0}}}},
+    };
+    for (int i = 0; i < vehicle->body[DENSE_ELEVATION].count + 3; i++) {
+        int own = i - vehicle->body[DENSE_ELEVATION].count;
+        const dense_part *part = own < 0 ? &vehicle->body[DENSE_ELEVATION].part[i] : &more[own];
+        sum[0] += part->mass * part->center.x;
+        sum[1] += part->mass * part->center.y;
+    }
+    return -model->gravity * (sum[0] * cos(pitch) - sum[1] * sin(pitch));
+}
+
+// Begun undeformed, tube and rocket are a dead load: the stabiliser carries all weights by the law
+// of the lever.
+static void test_undeformed_start(void **state)
+{
+    (void)state;
+    ld_model model;
+    recorded_run run;
+    dense_vehicle vehicle;
+    reference_vehicle(&model, 0);
+    model.run.start = LD_START_UNDEFORMED;
+    recorded_run_make(&run, &model);
+    dense_vehicle_create(&vehicle, &model, model.firing[0].tube, NULL, 0);
+    double torque = recorded_value(&run, 0, recorded_column(&run, "elevation.torque"));
+    double pitch = recorded_value(&run, 0, recorded_column(&run, "elevation.measured"));
+    CHECK_BELOW("torque of the elevation stabiliser, relative",
+                torque / -weight_moment(&vehicle, &model, pitch) - 1, 1e-13);
+    dense_vehicle_free(&vehicle);
+    recorded_run_free(&run);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_prescribed_base),
         cmocka_unit_test(test_vehicle),
+        cmocka_unit_test(test_undeformed_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
