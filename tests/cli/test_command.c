@@ -238,6 +238,8 @@ static void test_a_launch_that_cannot_happen(void **state)
                      0);
     expect_in(shell.out, "the lock never let go");
     assert_int_equal(run("launchdyn plot o -o o/x.svg"), 0);
+    // milliseconds, of which the run has 50
+    assert_int_equal(run("launchdyn plot o --from 20 --to 30 -o o/part.svg"), 0);
 }
 
 // Whether the process has a handler for the signal yet.
@@ -309,6 +311,8 @@ static void test_modes_table(void **state)
     assert_non_null(row);
     frequency = strtod(row + 5, NULL);
     CHECK_WITHIN("first frequency on the supports [Hz]", frequency, 67.20, 67.22);
+    CHECK_WITHIN("its damping [%], more than that of the modes alone", strtod(row + 22, NULL), 1,
+                 50);
 }
 
 static void test_road(void **state)

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "launchdyn/simulation.h"
+#include "studies/until.h"
 
 #define LAUNCH                                                                                     \
     "include: fixed.yaml\n"                                                                        \
@@ -384,9 +385,28 @@ static void test_shown_to_others(void **state)
     ld_study_free(study);
 }
 
+// A stopping rule is looked at after 20 samples or five hypercubes, then after a quarter more each
+// time, in whole hypercubes.
+static void test_looks(void **state)
+{
+    (void)state;
+    static const int64_t random[] = {20, 25, 32, 40, 50}, cubes[] = {80, 112, 144, 192, 240};
+    const ld_scatter plain = {.samples = 1000, .replicates = 1};
+    const ld_scatter lhs = {.samples = 320, .plan = LD_PLAN_LHS, .replicates = 20};
+    int64_t at = 0, in_cubes = 0;
+    for (int i = 0; i < 5; i++) {
+        at = until_next_look(&plain, at);
+        in_cubes = until_next_look(&lhs, in_cubes);
+        assert_int_equal(at, random[i]);
+        assert_int_equal(in_cubes, cubes[i]);
+    }
+    assert_int_equal(until_next_look(&plain, 900), 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_looks),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_shards),
