@@ -1,6 +1,7 @@
 // Units: conversions against factors worked out by hand, and what must be refused.
 #include "support/check.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/suggestion.h"
@@ -105,6 +106,14 @@ static void test_scale_is_exact(void **state)
     assert_true(units_scale(210, 1e9) == 210e9);
     assert_true(units_scale(1, 1e-2) == 0.01);
     assert_true(units_scale(7, 1) == 7);
+    // whole numbers of small units are the doubles next to them
+    for (int exponent = 2; exponent <= 9; exponent++)
+        for (int k = 1; k < 1000; k++) {
+            char text[32], factor[32];
+            snprintf(text, sizeof text, "%de-%d", k, exponent);
+            snprintf(factor, sizeof factor, "1e-%d", exponent);
+            assert_true(units_scale(k, strtod(factor, NULL)) == strtod(text, NULL));
+        }
 }
 
 static void test_suggestions(void **state)

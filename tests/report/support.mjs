@@ -74,7 +74,7 @@ export async function open(browser, file, { width = 1200, dark = false, before }
   const context = await browser.newContext(
     { viewport: { width, height: 900 }, colorScheme: dark ? "dark" : "light" });
   const page = await context.newPage();
-  page.setDefaultTimeout(120000); // a busy machine is no failure
+  page.setDefaultTimeout(0); // a busy machine is no failure
   page.errors = [];
   page.requests = [];
   page.on("pageerror", (error) => page.errors.push(error.message));

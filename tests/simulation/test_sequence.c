@@ -8,6 +8,7 @@
 #include "launchdyn/scenario.h"
 #include "simulation/simulation.h"
 #include "support/check.h"
+#include "support/recorded_run.h"
 #include "support/reference_model.h"
 
 static ld_model read_example(const char *file, const char *const *sets, size_t count)
@@ -283,6 +284,32 @@ static void second_equals_a_single_launch(void **state)
     CHECK_NEAR("pitch rate [rad/s]", p->pitch_rate, q->pitch_rate, 1e-6);
     CHECK_NEAR("yaw rate [rad/s]", p->yaw_rate, q->yaw_rate, 1e-6);
     CHECK_NEAR("spin [rad/s]", p->spin_rate, q->spin_rate, 1e-6);
+    // the first rocket leaves with its energy, the second tube comes with its own
+    CHECK_BELOW("energy balance of both [J]", both.energy.residual, 1e-6);
+    ld_model_free(&model);
+}
+
+// What the balance has missed so far stays missed when the next tube takes its place.
+static void the_balance_goes_on(void **state)
+{
+    (void)state;
+    const char *const sets[] = {"base.speed=0 km/h", "base.road=",      "base.road.flat=true",
+                                "run.end=tip",       "run.lead_in=0 s", "run.tolerance=1e-3"};
+    ld_model model = read_example("reference.yaml", sets, sizeof sets / sizeof sets[0]);
+    recorded_run launches;
+    model.firing_count = 2;
+    model.firing[0] = (ld_firing){.tube = 8, .at = 0};
+    model.firing[1] = (ld_firing){.tube = 11, .at = 0.5};
+    recorded_run_make(&launches, &model);
+    size_t phase = recorded_column(&launches, "phase"), i = 1;
+    size_t residual = recorded_column(&launches, "energy.residual");
+    while (recorded_value(&launches, i - 1, phase) != 3 || recorded_value(&launches, i, phase) != 0)
+        i++;
+    double before = recorded_value(&launches, i - 1, residual);
+    double after = recorded_value(&launches, i, residual);
+    CHECK_WITHIN("missed up to the change of tubes [J], magnitude", fabs(before), 1e-6, 1);
+    CHECK_BELOW("more after it, relative", after / before - 1, 1e-12);
+    recorded_run_free(&launches);
     ld_model_free(&model);
 }
 
@@ -310,6 +337,7 @@ int main(void)
         cmocka_unit_test(into_the_ground),
         cmocka_unit_test(momentum_is_kept),
         cmocka_unit_test(second_equals_a_single_launch),
+        cmocka_unit_test(the_balance_goes_on),
         cmocka_unit_test(overlapping_launches_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -100,6 +100,66 @@ static void test_distributions(void **state)
     assert_true(draw_value(&each, &place, 1, 1 - 0x1p-53) == 999);
 }
 
+// The launch on a fixed base with these factors.
+static ld_model read_text(const char *factors)
+{
+    char text[1024];
+    ld_model model;
+    ld_messages messages;
+    int length =
+        snprintf(text, sizeof text,
+                 "include: fixed.yaml\nscatter:\n  seed: 5\n  samples: 8\n  factors:\n%s", factors);
+    ld_status status = ld_scenario_read_text(text, (size_t)length, "text",
+                                             LD_SOURCE_DIR "/examples", NULL, 0, &model, &messages);
+    ld_messages_print(&messages, stdout);
+    assert_int_equal(status, LD_OK);
+    return model;
+}
+
+// P(Z <= z | a < Z < b) of the value drawn for u is u, on whichever side of the mean a and b lie: a
+// value rises with its u. Counted from the nearer tail, where Phi has its digits.
+static void test_between_anywhere(void **state)
+{
+    (void)state;
+    static const double ends[][2] = {{-1, 2}, {-3, -1}, {-8, -6}, {0, 1},  {0.5, 0.6},
+                                     {1, 3},  {6, 8},   {-2, 0},  {2, 40}, {-40, -2}};
+    double worst = 0;
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+        ld_factor normal = factor_named("a", LD_NORMAL);
+        double a = ends[k][0], b = ends[k][1], side = a + b > 0 ? -1 : 1;
+        normal.between[0] = 10 + 0.5 * a;
+        normal.between[1] = 10 + 0.5 * b;
+        for (double u = 0.05; u < 1; u += 0.1) {
+            double z = (draw_value(&normal, &place, 10, u) - 10) / 0.5;
+            double below = fabs(normal_cumulative(side * z) - normal_cumulative(side * a));
+            double all = fabs(normal_cumulative(side * b) - normal_cumulative(side * a));
+            worst = fmax(worst, fabs(below / all - u));
+        }
+    }
+    CHECK_BELOW("share below a value less its u", worst, 3e-13);
+}
+
+// A normal distribution far from its bounds is possible as long as they leave it values, on either
+// side of the mean.
+static void test_possible_far_out(void **state)
+{
+    (void)state;
+    ld_model model = read_text("    rocket.mass_error: {normal: 0.2 kg}\n");
+    field_place at;
+    char why[256];
+    assert_true(field_locate(&model, "rocket.mass_error", &at, why, sizeof why));
+    double nominal = field_get(&model, &at);
+    static const double ends[][2] = {{10, 12},   {-12, -10}, {20, 21},
+                                     {-21, -20}, {60, 61},   {-61, -60}};
+    for (int k = 0; k < 6; k++) {
+        ld_factor normal = factor_named("rocket.mass_error", LD_NORMAL);
+        normal.between[0] = nominal + 0.5 * ends[k][0];
+        normal.between[1] = nominal + 0.5 * ends[k][1];
+        assert_true(factor_is_possible(&model, &normal, why, sizeof why) == (k < 4));
+    }
+    ld_model_free(&model);
+}
+
 static void test_permutation(void **state)
 {
     (void)state;
@@ -141,21 +201,6 @@ static void test_hypercube(void **state)
 
 // From a scenario: the factors as written, and the draws moved by no other factor, nor by the way
 // in which a list's member is named.
-static ld_model read_text(const char *factors)
-{
-    char text[1024];
-    ld_model model;
-    ld_messages messages;
-    int length =
-        snprintf(text, sizeof text,
-                 "include: fixed.yaml\nscatter:\n  seed: 5\n  samples: 8\n  factors:\n%s", factors);
-    ld_status status = ld_scenario_read_text(text, (size_t)length, "text",
-                                             LD_SOURCE_DIR "/examples", NULL, 0, &model, &messages);
-    ld_messages_print(&messages, stdout);
-    assert_int_equal(status, LD_OK);
-    return model;
-}
-
 static void test_factors_of_a_scenario(void **state)
 {
     (void)state;
@@ -237,6 +282,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_uniform_numbers),       cmocka_unit_test(test_distributions),
+        cmocka_unit_test(test_between_anywhere),      cmocka_unit_test(test_possible_far_out),
         cmocka_unit_test(test_permutation),           cmocka_unit_test(test_hypercube),
         cmocka_unit_test(test_factors_of_a_scenario), cmocka_unit_test(test_several_keys),
     };

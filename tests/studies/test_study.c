@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "launchdyn/simulation.h"
+#include "studies/until.h"
 
 #define LAUNCH                                                                                     \
     "include: fixed.yaml\n"                                                                        \
@@ -81,6 +82,13 @@ static void expect_refusal(const ld_study *study, const char *name, const char *
         fail_msg("\"%s\" is not about \"%s\"", error.text, part);
 }
 
+// After its first commit a study says so through a pipe.
+static void say_ready(void *self, const ld_study_counts *counts)
+{
+    if (counts->now > 0 && write(*(const int *)self, "!", 1) != 1)
+        _exit(3);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -112,13 +120,11 @@ static void test_refusals(void **state)
     pid_t child = fork();
     if (child == 0) {
         ld_error error;
-        ld_study_options options = {.threads = 1};
-        if (write(ready[1], "!", 1) == 1)
-            ld_study_run(more, in("one"), &options, &counts, &error);
+        ld_study_options options = {.threads = 1, .self = &ready[1], .progress = say_ready};
+        ld_study_run(more, in("one"), &options, &counts, &error);
         _exit(0);
     }
     assert_int_equal(read(ready[0], &word, 1), 1);
-    usleep(100000);
     expect_refusal(study, "one", "another launchdyn");
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
@@ -379,9 +385,28 @@ static void test_shown_to_others(void **state)
     ld_study_free(study);
 }
 
+// A stopping rule is looked at after 20 samples or five hypercubes, then after a quarter more each
+// time, in whole hypercubes.
+static void test_looks(void **state)
+{
+    (void)state;
+    static const int64_t random[] = {20, 25, 32, 40, 50}, cubes[] = {80, 112, 144, 192, 240};
+    const ld_scatter plain = {.samples = 1000, .replicates = 1};
+    const ld_scatter lhs = {.samples = 320, .plan = LD_PLAN_LHS, .replicates = 20};
+    int64_t at = 0, in_cubes = 0;
+    for (int i = 0; i < 5; i++) {
+        at = until_next_look(&plain, at);
+        in_cubes = until_next_look(&lhs, in_cubes);
+        assert_int_equal(at, random[i]);
+        assert_int_equal(in_cubes, cubes[i]);
+    }
+    assert_int_equal(until_next_look(&plain, 900), 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_looks),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_shards),

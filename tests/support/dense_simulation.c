@@ -132,9 +132,13 @@ static double burnt_at(const ld_motor *motor, double tau)
     return burnt / total;
 }
 
-static void mass_at(const ld_rocket *rocket, double burnt, dense_conditions *on)
+void dense_rocket_at(const ld_model *model, double since, double middle, dense_conditions *on)
 {
+    const ld_rocket *rocket = &model->rocket;
+    const ld_motor *motor = &rocket->motor;
     const ld_mass_data *full = &rocket->full, *empty = &rocket->empty;
+    double burnt = burnt_at(motor, since / motor->time_scale);
+    on->thrust = thrust_at(motor, since / motor->time_scale, middle / motor->time_scale);
     on->mass = full->mass + rocket->mass_error - burnt * rocket->propellant;
     for (int i = 0; i < 3; i++) {
         on->center[i] = full->center[i] + burnt * (empty->center[i] - full->center[i]);
@@ -150,15 +154,11 @@ static void mass_at(const ld_rocket *rocket, double burnt, dense_conditions *on)
 static void conditions_at(const launch_run *launch, double t, double middle, const double *x,
                           dense_conditions *on)
 {
-    const ld_rocket *rocket = &launch->model->rocket;
-    const ld_motor *motor = &rocket->motor;
-    double tau = (t - launch->ignition) / motor->time_scale;
     memset(on, 0, sizeof *on);
     base_at(launch, t, x, &on->base);
-    mass_at(rocket, burnt_at(motor, tau), on);
-    on->thrust = thrust_at(motor, tau, (middle - launch->ignition) / motor->time_scale);
+    dense_rocket_at(launch->model, t - launch->ignition, middle - launch->ignition, on);
     on->locked = launch->locked;
-    on->breech = rocket->start_at;
+    on->breech = launch->model->rocket.start_at;
     on->frictionless = launch->frictionless;
     on->slot_piece = launch->slot_piece;
     memcpy(on->passed, launch->passed, sizeof on->passed);

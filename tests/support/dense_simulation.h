@@ -39,6 +39,10 @@ typedef struct dense_summary {
 // Pose and rates of the base at time t [s] of the run's clock.
 void dense_base_at(const ld_model *model, double t, dense_base *base);
 
+// Mass, mass centre, inertia and thrust of the rocket `since` seconds after ignition, on the piece
+// of the thrust table that holds `middle`.
+void dense_rocket_at(const ld_model *model, double since, double middle, dense_conditions *on);
+
 // Runs `model` (base fixed, prescribed by sines and a velocity, or a vehicle that starts in its
 // equilibrium on a flat road, sines or bumps; not by a table) with steps of at most `step` [s].
 // Returns false where the equilibrium or the dense system fails or the rocket is still in the tube
