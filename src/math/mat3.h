@@ -106,5 +106,14 @@ LD_INLINE m3 m3_rotation_z(double angle)
     double c = cos(angle), s = sin(angle);
     return (m3){{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
 }
+/// Inverse of a symmetric matrix, by its cofactors.
+LD_INLINE m3 m3_symmetric_inverse(m3 m)
+{
+    double a = m.a[0][0], b = m.a[1][1], c = m.a[2][2], d = m.a[0][1], e = m.a[0][2], f = m.a[1][2];
+    double A = b * c - f * f, B = e * f - d * c, C = d * f - e * b;
+    double s = 1 / (a * A + d * B + e * C);
+    double D = a * c - e * e, E = d * e - a * f, F = a * b - d * d;
+    return (m3){{{s * A, s * B, s * C}, {s * B, s * D, s * E}, {s * C, s * E, s * F}}};
+}
 
 #endif

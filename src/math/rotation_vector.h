@@ -135,4 +135,36 @@ LD_INLINE v3 rv_left_jacobian_inverse_transposed(v3 phi, v3 m)
     return v3_axpy(v3_axpy(m, 0.5, pm), e, v3_cross(phi, pm));
 }
 
+/// Rotation vector of a quaternion of small or large angle.
+LD_INLINE v3 rv_of_quaternion(quat q)
+{
+    double sign = q.w < 0 ? -1 : 1;
+    double n2 = q.x * q.x + q.y * q.y + q.z * q.z;
+    double factor;
+    if (n2 < 1e-4) { // 2 asin(n)/n; next term below 2e-22
+        factor =
+            2 * (1 + n2 * (1.0 / 6 + n2 * (3.0 / 40 + n2 * (15.0 / 336 + n2 * (105.0 / 3456)))));
+        factor *= sign;
+    } else {
+        double n = sqrt(n2);
+        factor = sign * 2 * atan2(n, fabs(q.w)) / n;
+    }
+    return v3_make(factor * q.x, factor * q.y, factor * q.z);
+}
+
+/// Quaternion of a rotation vector.
+LD_INLINE quat rv_quaternion(v3 th)
+{
+    double h2 = 0.25 * v3_norm2(th), c, s; // s = sin(h)/(2 h)
+    if (h2 < 1e-4) {
+        c = 1 + h2 * (-1.0 / 2 + h2 * (1.0 / 24 + h2 * (-1.0 / 720 + h2 * (1.0 / 40320))));
+        s = 0.5 + h2 * (-1.0 / 12 + h2 * (1.0 / 240 + h2 * (-1.0 / 10080 + h2 * (1.0 / 725760))));
+    } else {
+        double h = sqrt(h2);
+        c = cos(h);
+        s = 0.5 * sin(h) / h;
+    }
+    return (quat){c, s * th.x, s * th.y, s * th.z};
+}
+
 #endif

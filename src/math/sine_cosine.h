@@ -7,6 +7,20 @@
 
 #include "math/lanes.h"
 
+// sin and cos, by their series while the angle is small.
+LD_INLINE void sine_cosine_small(double x, double *s, double *c)
+{
+    double x2 = x * x;
+    if (x2 < 1e-3) {
+        *s =
+            x * (1 + x2 * (-1.0 / 6 + x2 * (1.0 / 120 + x2 * (-1.0 / 5040 + x2 * (1.0 / 362880)))));
+        *c = 1 + x2 * (-1.0 / 2 + x2 * (1.0 / 24 + x2 * (-1.0 / 720 + x2 * (1.0 / 40320))));
+    } else {
+        *s = sin(x);
+        *c = cos(x);
+    }
+}
+
 typedef int64_t lane_bits __attribute__((vector_size(32)));
 
 // Sines and cosines of angles below 5e5 (beyond, the reduction would lose digits), errors below one

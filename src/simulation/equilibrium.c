@@ -85,7 +85,7 @@ static void place_vehicle(const ld_simulation *self, double *y)
 {
     const launcher_system *launcher = &self->launcher;
     const ld_vehicle *vehicle = &self->model->base.vehicle;
-    double weight = launcher->orientating.mass + launcher->launching.m + self->motor.full.m;
+    double weight = launcher->orientating.mass + launcher->launching.tube.m + self->motor.full.m;
     weight *= self->model->gravity / vehicle->wheel_count;
     double tyre = weight / vehicle->tyre.stiffness[1];
     double spring = weight / vehicle->suspension.stiffness[1];
@@ -169,10 +169,10 @@ static void dead_load(const problem *the, const launcher_input *input, launching
     const ld_simulation *self = the->self;
     const launching_system *launching = &self->launcher.launching;
     const rocket_mass *rocket = &self->motor.full;
-    v3 down = m3_apply_transposed(input->launching.base.A, v3_make(0, -launching->gravity, 0));
+    v3 down = m3_apply_transposed(input->launching.base.A, v3_make(0, -launching->tube.gravity, 0));
     v3 centre = v3_add(v3_make(self->model->rocket.start_at, 0, 0), rocket->c);
-    v3 moment = v3_add(v3_make(launching->Sx, 0, 0), v3_scale(rocket->m, centre));
-    out->base_force = v3_scale(launching->m + rocket->m, down);
+    v3 moment = v3_add(v3_make(launching->tube.Sx, 0, 0), v3_scale(rocket->m, centre));
+    out->base_force = v3_scale(launching->tube.m + rocket->m, down);
     out->base_moment = v3_cross(moment, down);
 }
 
@@ -385,7 +385,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
                                         .breech_force = out.launching.breech_force,
                                         .slot_force = out.launching.N,
                                         .tip_sag = {tip.offset.y, tip.offset.z}};
-    for (int i = 0; i < self->launcher.launching.adaptor_count; i++)
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
         summary->contact_force[i] = the->phase->passed[i] ? 0 : out.launching.adaptor[i].normal;
     residual(the, y, r);
     for (int i = 0; i < the->count; i++)
@@ -430,7 +430,7 @@ static double try_pairs(const problem *the, const double *start, double extra, d
     double best = INFINITY, trial[LD_MAX_STATES];
     v3 pull = pull_at(self, the->t, start);
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
-    for (int j = self->launcher.launching.adaptor_count - 1; j > 0; j--)
+    for (int j = self->launcher.launching.adaptors.count - 1; j > 0; j--)
         for (int i = 0; i < j; i++) {
             if (the->phase->passed[i] || the->phase->passed[j])
                 continue;
@@ -507,7 +507,7 @@ static double try_leaning(const problem *the, const double *start, double accept
     double trial[LD_MAX_STATES];
     const launcher_system *launcher = &the->self->launcher;
     v3 pull = pull_at(the->self, the->t, start);
-    for (int j = launcher->launching.adaptor_count - 1; j >= 0; j--)
+    for (int j = launcher->launching.adaptors.count - 1; j >= 0; j--)
         for (int i = 0; i < j + (pull.x > 0) && best > accepted; i++) {
             if (the->phase->passed[i] || the->phase->passed[j])
                 continue;
@@ -661,7 +661,7 @@ ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
     launching_phase phase = simulation_start_phase(self);
     phase.frictionless = true;
     int inside = 0;
-    for (int i = 0; i < self->launcher.launching.adaptor_count; i++)
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
         inside += !phase.passed[i];
     if (inside < 2)
         return ld_fail(error, LD_ERR_LAUNCH,

@@ -153,7 +153,7 @@ static void add_base(geometry *all, const ld_model *model)
 // Numbers that the arrays hold, at most.
 static size_t room_for(const ld_simulation *self)
 {
-    const flexible_tube *tube = &self->launcher.launching.tube;
+    const flexible_tube *tube = &self->launcher.launching.tube.flexible;
     size_t nodes = (size_t)tube->element_count + 1;
     return nodes * (size_t)(1 + 2 * tube->nb + tube->nt + tube->na) + 3 * LD_MAX_SECTIONS +
            LD_MAX_SUPPORTS + 4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS +
@@ -168,7 +168,7 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
     all.value = malloc(room_for(self) * sizeof *all.value);
     if (!all.value)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the geometry");
-    add_shapes(&all, &self->launcher.launching.tube);
+    add_shapes(&all, &self->launcher.launching.tube.flexible);
     add_tube(&all, &self->model->tubes);
     add_layout(&all, &self->model->tubes);
     add_rocket(&all, self->model);

@@ -23,7 +23,7 @@ tip_state tip_state_of(const ld_simulation *self, const base_frame *base, const 
     const launching_system *launching = &self->launcher.launching;
     const launching_layout *at = &launching->layout;
     launching_section tip;
-    double length = launching->tube.length;
+    double length = launching->tube.flexible.length;
     launching_section_at(launching, y, length, &tip);
     m3 A_TR = m3_mul(m3_transpose(base->A), q_matrix(q_from(y + at->quaternion)));
     v3 r = m3_apply_transposed(base->A, v3_sub(v3_from(y + at->r), base->r));
@@ -257,7 +257,7 @@ static void add_rocket(ld_simulation *self)
     add_against_launcher(self);
     add(self, "kg", "rocket.mass", "instantaneous mass");
     add(self, "N", "thrust", "thrust");
-    for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++) {
         const char *name = self->model->rocket.adaptor[i].name;
         add_named(self, "N", "contact.%s.force", "adaptor %s: norm of contact force", name);
         add_named(self, "N", "contact.%s.normal", "adaptor %s: normal force", name);
@@ -356,7 +356,7 @@ static double *put_tip(const ld_simulation *self, const base_frame *base, const 
              8);
     const launching_system *launching = &self->launcher.launching;
     launching_section section;
-    launching_section_at(launching, y, launching->tube.length, &section);
+    launching_section_at(launching, y, launching->tube.flexible.length, &section);
     m3 A_IR = q_matrix(q_from(y + launching->layout.quaternion));
     v3 axis = m3_column(section.A, 0);
     direction_angles angles =
@@ -426,7 +426,7 @@ static double *put_rocket(const ld_simulation *self, double t, const launching_i
     rocket_motion motion = rocket_motion_of(&pose, input->mass.c, y, at);
     to = put_against_launcher(self, t, input, &motion, to);
     to = put(to, (double[]){input->mass.m, input->thrust}, 2);
-    for (int i = 0; i < self->launcher.launching.adaptor_count; i++) {
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++) {
         const adaptor_report *adaptor = &out->adaptor[i];
         double values[5] = {adaptor->force, adaptor->normal, adaptor->penetration, adaptor->y,
                             adaptor->z};

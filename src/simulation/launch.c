@@ -261,7 +261,7 @@ static void record_exit(launch_run *run, double t, const double *landed)
     // the curvature jumps at the tip: its inner value counts, on whichever side the step landed
     double y[LD_MAX_STATES];
     memcpy(y, landed, (size_t)self->launcher.state_count * sizeof(double));
-    y[at->x] = fmin(y[at->x], self->launcher.launching.tube.length);
+    y[at->x] = fmin(y[at->x], self->launcher.launching.tube.flexible.length);
     ld_rocket_summary *rocket = &run->summary->rocket[self->current];
     launching_output out;
     launching_pose pose;
@@ -304,7 +304,7 @@ static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 {
     ld_simulation *self = run->self;
     ld_rocket_summary *rocket = &run->summary->rocket[self->current];
-    int count = self->launcher.launching.adaptor_count, ahead = 0;
+    int count = self->launcher.launching.adaptors.count, ahead = 0;
     double since = t - self->t_ignition;
     const ld_adaptor *adaptor = self->model->rocket.adaptor;
     for (int j = 0; j < count; j++)
@@ -338,7 +338,7 @@ static void let_rocket_go(launch_run *run, double t, const double *y)
 // Speed at a first touch, never so slow that damping grows beyond bounds.
 static double touch_speed(const ld_simulation *self, double speed)
 {
-    return fmax(speed, 1e-3 * self->launcher.launching.contact.v_0);
+    return fmax(speed, 1e-3 * self->launcher.launching.adaptors.law.v_0);
 }
 
 // The lock lets go; where the rocket then stands it meets the breech.
@@ -354,7 +354,7 @@ static void let_go(launch_run *run, double t, const double *y)
 static bool switch_phase(launch_run *run, double t, const double *y)
 {
     ld_simulation *self = run->self;
-    int count = self->launcher.launching.adaptor_count;
+    int count = self->launcher.launching.adaptors.count;
     bool changed = false;
     if (self->phase.locked && propagator_event(run->propagator, 0) < 0) {
         let_go(run, t, y);
@@ -401,7 +401,7 @@ static void watch_forces(launch_run *run, double t, const double *y)
     if (!at)
         return;
     const launching_output *out = &at->launching;
-    for (int i = 0; i < self->launcher.launching.adaptor_count; i++)
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
         if (!self->phase.passed[i])
             rocket->max_contact_force[i] =
                 fmax(rocket->max_contact_force[i], out->adaptor[i].force);
@@ -415,7 +415,7 @@ static void watch_forces(launch_run *run, double t, const double *y)
 static ld_status check_tube(launch_run *run, double t, const double *y)
 {
     const int parts = 4;
-    double length = run->self->launcher.launching.tube.length;
+    double length = run->self->launcher.launching.tube.flexible.length;
     for (int k = parts; k > 0; k--) {
         launching_section at;
         double x = length * k / parts;
@@ -442,7 +442,7 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
                        t, -since);
     if (!self->phase.rocket)
         return LD_OK;
-    if (self->phase.breech - s > 0.1 * self->launcher.launching.tube.length)
+    if (self->phase.breech - s > 0.1 * self->launcher.launching.tube.flexible.length)
         return ld_fail(
             run->error, LD_ERR_LAUNCH,
             "the rocket is %.4g m behind the breech at t = %.6g s: a contact of %.6g N/m "
@@ -460,7 +460,7 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
         run->error, LD_ERR_LAUNCH,
         "the rocket is stuck in the tube: its rear adaptor is at %.4g m of %.4g m, %.4g s "
         "after ignition",
-        s, self->launcher.launching.tube.length, since);
+        s, self->launcher.launching.tube.flexible.length, since);
 }
 
 // Launches must not overlap.
@@ -515,7 +515,8 @@ static ld_status report_progress(launch_run *run, double t)
         return status;
     // a launch's end is not known: the travel's share is the estimate
     const ld_simulation *self = run->self;
-    double length = self->launcher.launching.tube.length, s0 = self->model->rocket.start_at;
+    double length = self->launcher.launching.tube.flexible.length,
+           s0 = self->model->rocket.start_at;
     double s = propagator_state(run->propagator)[self->launcher.launching.layout.x];
     double in_tube = fmin(1, sqrt(fmax(0, (s - s0) / (length - s0))));
     double lead_in = self->t_ignition - run->t_start;

@@ -221,9 +221,10 @@ static const char *const group_names[GROUPS] = {
 static void add_launching_energy(const ld_simulation *self, int i, double amount, double *energy)
 {
     const launching_system *launching = &self->launcher.launching;
-    int nb = launching->tube.nb, nt = launching->tube.nt, nq = launching->layout.nq;
-    double m = launching->m, j = launching->tube.j0;
-    const double mass[6] = {m, m, m, launching->jx, j, j};
+    int nb = launching->tube.flexible.nb, nt = launching->tube.flexible.nt,
+        nq = launching->layout.nq;
+    double m = launching->tube.m, j = launching->tube.flexible.j0;
+    const double mass[6] = {m, m, m, launching->tube.jx, j, j};
     static const int group[6] = {ALONG, VERTICAL, LATERAL, TWIST, LATERAL, VERTICAL};
     static const int rocket_group[6] = {ALONG, ROCKET_Y, ROCKET_Z, ROCKET_ROLL, ROCKET_Z, ROCKET_Y};
     const rocket_mass *full = &self->motor.full;
@@ -314,7 +315,7 @@ static int by_damping(const void *a, const void *b)
 static bool is_vertical(const ld_simulation *self, const linear_system *system, int i)
 {
     int k = i < system->tube ? i : i - system->tube;
-    return k == 1 || k == 5 || (i >= 6 && i < 6 + self->launcher.launching.tube.nb);
+    return k == 1 || k == 5 || (i >= 6 && i < 6 + self->launcher.launching.tube.flexible.nb);
 }
 
 // left^T right by rows; by columns left^T C right, C = -J's block of speeds on speeds, and left^T
@@ -499,7 +500,7 @@ int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capa
         return 0; // a flight alone has no tube
     // straight it rests without gravity alone, and no pose of the base counts
     launching_system weightless = self->launcher.launching;
-    weightless.gravity = 0;
+    weightless.tube.gravity = 0;
     simulation_straight(self, &ORIGIN, y);
     if (!linearise(self, &weightless, 0, &phase, y, &system, NULL))
         undamped_modes(self, &system, modes, capacity, &count, NULL);

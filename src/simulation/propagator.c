@@ -118,7 +118,7 @@ const launcher_output *simulation_output(ld_simulation *self, double t, const do
 int simulation_breech_event(const ld_simulation *self)
 {
     const launcher_system *launcher = &self->launcher;
-    return EVENT_ADAPTORS + 2 * launcher->launching.adaptor_count + launcher->marching.wheel_count;
+    return EVENT_ADAPTORS + 2 * launcher->launching.adaptors.count + launcher->marching.wheel_count;
 }
 
 static int event_count(const ld_simulation *self)
@@ -130,9 +130,9 @@ static int event_count(const ld_simulation *self)
 static void launching_events(const ld_simulation *self, const launching_output *out, double *g)
 {
     const launching_phase *phase = &self->phase;
-    int count = self->launcher.launching.adaptor_count;
-    double length = self->launcher.launching.tube.length;
-    bool touching = self->launcher.launching.contact.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
+    int count = self->launcher.launching.adaptors.count;
+    double length = self->launcher.launching.tube.flexible.length;
+    bool touching = self->launcher.launching.adaptors.law.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
     for (int i = 0; i < event_count(self); i++)
         g[i] = 1;
     if (!phase->rocket)
@@ -157,7 +157,7 @@ static int events(double t, const double *y, double *g, void *user)
     if (!out)
         return -1;
     launching_events(self, &out->launching, g);
-    int wheels = EVENT_ADAPTORS + 2 * self->launcher.launching.adaptor_count;
+    int wheels = EVENT_ADAPTORS + 2 * self->launcher.launching.adaptors.count;
     for (int j = 0; j < self->launcher.marching.wheel_count; j++)
         g[wheels + j] = out->marching.wheel[j].deflection / 1e-3;
     return 0;

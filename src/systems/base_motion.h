@@ -3,18 +3,11 @@
 #ifndef LD_SYSTEMS_BASE_MOTION_H
 #define LD_SYSTEMS_BASE_MOTION_H
 
+#include "elements/base_frame.h"
 #include "launchdyn/model.h"
-#include "math/quaternion.h"
 #include "math/spline.h"
 
-// Frame T of the undeformed tube: origin at its rear end, x along it; all vectors in I.
-typedef struct base_frame {
-    v3 r; // [m] origin
-    v3 v; // [m/s] its velocity
-    m3 A; // A_IT
-    quat q;
-    v3 w; // [rad/s] angular velocity
-} base_frame;
+// The frame T of the undeformed tube: origin at its rear end, x along it.
 
 typedef struct base_motion {
     const ld_base *model;

@@ -4,11 +4,11 @@
 #include "elements/transfer.h"
 #include "elements/tube_dynamics.h"
 #include "math/dense.h"
-#include "systems/launching_forces.h"
+#include "systems/launching_constraints.h"
 
 enum {
     SPEEDS = LD_TUBE_SPEEDS,
-    MAX_CONSTRAINTS = 2,
+    MAX_CONSTRAINTS = LD_MAX_CONSTRAINTS,
     MAX_UNKNOWNS = 18 + MAX_CONSTRAINTS, // accelerations of both ends, y_dot, constraint forces
 };
 
@@ -18,18 +18,14 @@ typedef struct uncoupled {
     double M[SPEEDS * SPEEDS];    // tube alone
     double h[SPEEDS];             // tube alone, with supports and contacts
     tube_section_state rear, tip; // of the tube
-    tube_state tube;
-    rocket_state rocket;
-    rocket_inertia inertia;
-    v3 f, m; // on the rocket, about O1
-    constraint_forces c;
+    launching_instant now;
+    constraint_set c;
     double B[MAX_CONSTRAINTS + 1][SPEEDS]; // generalised forces of the directions; last: tangent
-    double v_tau;
 } uncoupled;
 
 static void flatten(const launching_system *self, const tube_force *force, double *h)
 {
-    int nb = self->tube.nb, nt = self->tube.nt;
+    int nb = self->tube.flexible.nb, nt = self->tube.flexible.nt;
     v3_store(h, v3_add(v3_from(h), force->f));
     v3_store(h + 3, v3_add(v3_from(h + 3), force->m));
     for (int j = 0; j < nb; j++) {
@@ -38,14 +34,14 @@ static void flatten(const launching_system *self, const tube_force *force, doubl
     }
     for (int j = 0; j < nt; j++)
         h[6 + 2 * nb + j] += force->t[j];
-    for (int j = 0; j < self->tube.na; j++)
+    for (int j = 0; j < self->tube.flexible.na; j++)
         h[6 + 2 * nb + nt + j] += force->a[j];
 }
 
 // Modal damping power and elastic energy, all families.
 static void modal_energies(const launching_system *self, const double *state, launching_output *out)
 {
-    const flexible_tube *tube = &self->tube;
+    const flexible_tube *tube = &self->tube.flexible;
     const double *q_dot = state + self->layout.q_dot;
     double dissipated = 0;
     for (int j = 0; j < self->layout.nq; j++) {
@@ -63,7 +59,7 @@ static void direction_force(const uncoupled *u, const tube_section_state *at_roc
                             const direction *e, double *B)
 {
     // the wrench on the rocket about O1, moved to the section's axis point
-    v3 arm = v3_sub(u->rocket.p1, at_rocket->position);
+    v3 arm = v3_sub(u->now.rocket.p1, at_rocket->position);
     v3 m = v3_add(e->G_m, v3_cross(arm, e->G_f));
     double wrench[6];
     v3_store(wrench, e->G_f);
@@ -80,40 +76,40 @@ static void load_uncoupled(const launching_system *self, const launching_input *
                            launching_output *out)
 {
     const launching_layout *at = &self->layout;
+    const flexible_tube *tube = &self->tube.flexible;
     const double *q = state + at->q, *q_dot = state + at->q_dot;
-    int lanes = self->tube.nbp / 4;
-    tube_force force;
-    memset(&force, 0, sizeof force);
+    launching_instant *now = &u->now;
+    int lanes = tube->nbp / 4;
+    now->input = input;
+    now->phase = phase;
+    now->out = out;
+    memset(&now->on_tube, 0, sizeof now->on_tube);
     memset(out->power, 0, sizeof out->power);
     u->n = 6 + at->nq;
-    load_tube(lanes, self, state, &u->tube);
-    tube_dynamics_assemble(&self->tube, u->tube.w, q, q_dot, u->tube.g, u->M, u->h);
-    tube_section(&self->tube, 0, u->tube.w, q, q_dot, &u->rear);
-    tube_section(&self->tube, self->tube.length, u->tube.w, q, q_dot, &u->tip);
+    tube_load(lanes, &self->tube, at, state, &now->tube);
+    tube_dynamics_assemble(tube, now->tube.w, q, q_dot, now->tube.g, u->M, u->h);
+    tube_section(tube, 0, now->tube.w, q, q_dot, &u->rear);
+    tube_section(tube, tube->length, now->tube.w, q, q_dot, &u->tip);
     modal_energies(self, state, out);
-    support_forces(lanes, self, &input->base, &u->tube, &force, out);
+    supports_add(lanes, &self->supports, &self->tube, now);
     u->c.count = 0;
     if (phase->rocket) {
-        load_rocket(self, state, &u->tube, &u->rocket, out);
-        rocket_inertia_load(&input->mass, u->rocket.A_RB, &u->inertia);
-        rocket_own_forces(self, input, &u->tube, &u->rocket, &u->inertia, &u->f, &u->m, out);
-        for (int i = 0; i < self->adaptor_count; i++)
-            if (!phase->passed[i])
-                adaptor_contact(lanes, self, phase, &u->tube, &u->rocket, i, &force, &u->f, &u->m,
-                                out);
-        breech_contact(lanes, self, phase, &u->tube, &u->rocket, &force, &u->f, out);
-        section_shapes shapes;
+        rocket_load(&self->tube, at, state, &now->tube, &now->rocket, out);
+        rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
+        rocket_forces(&self->model->rocket.motor, now);
+        adaptors_add(lanes, &self->adaptors, &self->tube, now);
+        breech_add(lanes, &self->adaptors.law, &self->tube, now);
         tube_section_state at_rocket;
-        factor(self, &u->tube);
-        load_shapes(lanes, self, &u->rocket.at, &shapes);
-        load_constraints(self, phase, &u->tube, &u->rocket, &u->inertia, &shapes, &u->c, &u->v_tau);
-        tube_section(&self->tube, u->rocket.s, u->tube.w, q, q_dot, &at_rocket);
+        tube_factor(&self->tube, &now->tube);
+        constraints_begin(lanes, &self->tube, now, &u->c);
+        launching_constrain(self, now, &u->c);
+        tube_section(tube, now->rocket.s, now->tube.w, q, q_dot, &at_rocket);
         for (int i = 0; i < u->c.count; i++)
             direction_force(u, &at_rocket, &u->c.e[i], u->B[i]);
         if (u->c.sliding)
             direction_force(u, &at_rocket, &u->c.tangent, u->B[MAX_CONSTRAINTS]);
     }
-    flatten(self, &force, u->h);
+    flatten(self, &now->on_tube, u->h);
 }
 
 static double dot(int n, const double *a, const double *b)
@@ -137,8 +133,9 @@ static void store_tube(int n, const double *eta_dot, launching_output *out)
 static void add_tail(const launching_system *self, const uncoupled *u, double *M2, double *h2)
 {
     const ld_tail *tail = &self->model->tubes.tail;
-    v3 w = u->tube.w, g = u->tube.g, c = v3_make(tail->center, 0, 0);
-    m3 J = m3_diagonal(self->tail_inertia.x, self->tail_inertia.y, self->tail_inertia.z);
+    v3 w = u->now.tube.w, g = u->now.tube.g, c = v3_make(tail->center, 0, 0);
+    m3 J = m3_diagonal(self->tube.tail_inertia.x, self->tube.tail_inertia.y,
+                       self->tube.tail_inertia.z);
     m3 mc = m3_scale(tail->mass, m3_skew(c));
     for (int i = 0; i < 3; i++) {
         M2[i * u->n + i] += tail->mass;
@@ -168,33 +165,30 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
     if (phase->rocket) {
         v3 r_a, r_alpha;
         double r[MAX_CONSTRAINTS];
-        rocket_solve(&u->inertia, u->f, u->m, &r_a, &r_alpha);
+        rocket_solve(&u->now.inertia, u->now.f, u->now.m, &r_a, &r_alpha);
         for (int i = 0; i < count + u->c.sliding; i++) {
             int row = i < count ? i : MAX_CONSTRAINTS;
             memcpy(e[row], u->B[row], sizeof(double) * (size_t)n);
             cholesky_solve(n, M2, e[row]);
         }
-        constraint_products D = {0};
-        double products[2][2] = {{0}};
+        constraint_products D;
         for (int i = 0; i < count; i++) {
             const direction *p = &u->c.e[i];
             r[i] =
                 -(v3_dot(p->G_f, r_a) + v3_dot(p->G_m, r_alpha) - dot(n, u->B[i], e_0) + p->beta);
             for (int j = 0; j < count; j++)
-                products[i][j] = v3_dot(p->G_f, u->c.e[j].r_a) + v3_dot(p->G_m, u->c.e[j].r_alpha) +
-                                 dot(n, u->B[i], e[j]);
+                D.D[i][j] = v3_dot(p->G_f, u->c.e[j].r_a) + v3_dot(p->G_m, u->c.e[j].r_alpha) +
+                            dot(n, u->B[i], e[j]);
+            if (u->c.sliding)
+                D.Dt[i] = v3_dot(p->G_f, u->c.tangent.r_a) + v3_dot(p->G_m, u->c.tangent.r_alpha) +
+                          dot(n, u->B[i], e[MAX_CONSTRAINTS]);
         }
-        D.D00 = products[0][0], D.D01 = products[0][1], D.D11 = products[1][1];
-        if (u->c.sliding)
-            D.Dt = v3_dot(u->c.e[0].G_f, u->c.tangent.r_a) +
-                   v3_dot(u->c.e[0].G_m, u->c.tangent.r_alpha) +
-                   dot(n, u->B[0], e[MAX_CONSTRAINTS]);
-        if (count && !solve_constraints(self, &D, r, u->v_tau, &u->c))
+        if (count && !constraints_solve(&D, r, &u->c))
             return LAUNCHING_JAMMED;
         for (int i = 0; i < count + u->c.sliding; i++) {
             int row = i < count ? i : MAX_CONSTRAINTS;
             const direction *p = i < count ? &u->c.e[i] : &u->c.tangent;
-            double x = i < count ? u->c.x[i] : u->c.rub;
+            double x = i < count ? u->c.x[i] : u->c.friction;
             r_a = v3_axpy(r_a, x, p->r_a);
             r_alpha = v3_axpy(r_alpha, x, p->r_alpha);
             for (int j = 0; j < n; j++)
@@ -202,7 +196,7 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
         }
         out->a_O1 = r_a;
         out->alpha_B = r_alpha;
-        report_constraints(&u->c, self->slot, u->v_tau, out);
+        constraints_report(&u->c, out);
     }
     store_tube(n, e_0, out);
     return LAUNCHING_OK;
@@ -220,13 +214,13 @@ static void load_relative(const launching_system *self, const double *state, con
                           relative_kinematics *k)
 {
     const launching_layout *at = &self->layout;
-    const rocket_state *rocket = &u->rocket;
-    const section *s = &rocket->at;
+    const rocket_state *rocket = &u->now.rocket;
+    const axis_section *s = &rocket->at;
     const section_rates *r = &rocket->rates;
     tube_section_state at_rocket;
-    v3 w = u->tube.w, Ad = rocket->Ad;
+    v3 w = u->now.tube.w, Ad = rocket->Ad;
     double s_dot = rocket->s_dot;
-    tube_section(&self->tube, rocket->s, w, state + at->q, state + at->q_dot, &at_rocket);
+    tube_section(&self->tube.flexible, rocket->s, w, state + at->q, state + at->q_dot, &at_rocket);
     // X: the section's L, moved from its axis point to O1
     for (int j = 0; j < u->n; j++) {
         v3 a = v3_make(at_rocket.L[j], at_rocket.L[u->n + j], at_rocket.L[2 * u->n + j]);
@@ -286,8 +280,8 @@ static ld_status load_transfer(const launching_system *self, const uncoupled *u,
     rigid_body body = {.mass = tail->mass,
                        .inertia =
                            m3_diagonal(tail->inertia[0], tail->inertia[1], tail->inertia[2])};
-    rigid_body_transfer(&transfer->tail, &body, v3_make(-tail->center, 0, 0), u->tube.w, u->tube.g,
-                        v3_zero(), v3_zero());
+    rigid_body_transfer(&transfer->tail, &body, v3_make(-tail->center, 0, 0), u->now.tube.w,
+                        u->now.tube.g, v3_zero(), v3_zero());
     for (int i = 0; i < (count ? count : 1); i++) {
         transfer_matrix U;
         flexible_body tube = {.n = u->n,
@@ -367,12 +361,12 @@ static void fill_rocket_rows(int size, int count, const uncoupled *u, const rela
     int n = u->n;
     // M3 about O1, in R
     double M3[6][6] = {{0}};
-    v3 c = u->inertia.c;
-    m3 mc = m3_scale(u->inertia.m, m3_skew(c));
-    m3 J = m3_mul(u->inertia.A_RB, m3_mul(u->inertia.J, m3_transpose(u->inertia.A_RB)));
+    v3 c = u->now.inertia.c;
+    m3 mc = m3_scale(u->now.inertia.m, m3_skew(c));
+    m3 J = m3_mul(u->now.inertia.A_RB, m3_mul(u->now.inertia.J, m3_transpose(u->now.inertia.A_RB)));
     J = m3_sub(J, m3_mul(mc, m3_skew(c)));
     for (int i = 0; i < 3; i++) {
-        M3[i][i] = u->inertia.m;
+        M3[i][i] = u->now.inertia.m;
         for (int j = 0; j < 3; j++) {
             M3[i][3 + j] = -mc.a[i][j];
             M3[3 + i][j] = mc.a[i][j];
@@ -380,8 +374,8 @@ static void fill_rocket_rows(int size, int count, const uncoupled *u, const rela
         }
     }
     double h3[6];
-    v3_store(h3, u->f);
-    v3_store(h3 + 3, u->m);
+    v3_store(h3, u->now.f);
+    v3_store(h3 + 3, u->now.m);
     // accelerations of the rocket by unknown: columns of the tail's end, y_dot, forces; constant
     double V[6][MAX_UNKNOWNS] = {{0}}, V_0[6];
     for (int i = 0; i < 6; i++) {
@@ -431,7 +425,7 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     int count = u->c.count, size = 18 + count, n = u->n;
     double A[MAX_UNKNOWNS * MAX_UNKNOWNS] = {0}, x[MAX_UNKNOWNS] = {0};
     double B[MAX_CONSTRAINTS][SPEEDS], G[MAX_CONSTRAINTS][6];
-    double rub = sign * (u->c.sliding ? slot_rub(self, u->v_tau) : 0);
+    double rub = sign * (u->c.sliding ? u->c.rub : 0);
     for (int i = 0; i < count; i++) {
         memcpy(B[i], u->B[i], sizeof(double) * (size_t)n);
         v3_store(G[i], u->c.e[i].G_f);
@@ -474,9 +468,9 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     out->alpha_B = v3_from(V + 3);
     memcpy(out->y_dot, x + 12, sizeof out->y_dot);
     memcpy(u->c.x, x + 18, sizeof(double) * (size_t)count);
-    u->c.rub = -rub * x[18];
+    u->c.friction = -rub * x[18];
     out->condition = transfer.condition;
-    report_constraints(&u->c, self->slot, u->v_tau, out);
+    constraints_report(&u->c, out);
     return true;
 }
 

@@ -684,7 +684,7 @@ static void watch_run(const ld_model *model, const column_bound *bound, size_t b
     run->weightless.gravity = 0;
     if (ld_simulation_create(model, &simulation, &error))
         fail_msg("%s", error.text);
-    dense_launch_create(&run->dense, model, &simulation->launcher.launching.tube);
+    dense_launch_create(&run->dense, model, &simulation->launcher.launching.tube.flexible);
     bool vehicle = model->base.kind == LD_BASE_VEHICLE;
     if (vehicle)
         dense_vehicle_create(&run->vehicle, model, model->firing[0].tube, NULL, 0);

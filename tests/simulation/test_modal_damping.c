@@ -212,7 +212,7 @@ static void complex_eigenvalues_of_a_dense_program_agree(void **state)
         model.tubes.slot.kind = LD_SLOT_NONE;
         ld_simulation *simulation = simulation_of(&model);
         int count = ld_simulation_tube_modes(simulation, modes, MOST);
-        const flexible_tube *of = &simulation->launcher.launching.tube;
+        const flexible_tube *of = &simulation->launcher.launching.tube.flexible;
         assert_int_equal(dense_modes(&model, of, draw_rotation(&seed), expected), count);
         compare(modes, expected, count, &most);
         ld_simulation_free(simulation);

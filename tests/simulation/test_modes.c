@@ -34,7 +34,7 @@ static void tube_has_the_frequencies_of_its_elements(void **state)
     ld_mode modes[LD_MAX_MODES];
     ld_simulation *simulation = make(&model);
     int count = ld_simulation_tube_modes(simulation, modes, LD_MAX_MODES);
-    const flexible_tube *tube = &simulation->launcher.launching.tube;
+    const flexible_tube *tube = &simulation->launcher.launching.tube.flexible;
     assert_int_equal(count, 6 + simulation->launcher.launching.layout.nq);
     double worst = 0;
     for (int j = 0; j < tube->nb; j++)

@@ -46,17 +46,17 @@ static void test_same_bits(void **state)
     read_example("fixed.yaml", &model);
     read_example("flight.yaml", &flight);
     check_same(&simulation, &model);
-    const tube_element *first = simulation->launcher.launching.tube.element;
+    const tube_element *first = simulation->launcher.launching.tube.flexible.element;
 
     // rocket, base and gravity touch no tube
     model.rocket.mass_error = 0.3;
     model.base.elevation += 0.02;
     model.gravity = 9.7;
     check_same(&simulation, &model);
-    assert_ptr_equal(simulation->launcher.launching.tube.element, first);
+    assert_ptr_equal(simulation->launcher.launching.tube.flexible.element, first);
     model.tubes.slot.friction *= 1.1;
     check_same(&simulation, &model);
-    assert_ptr_equal(simulation->launcher.launching.tube.element, first);
+    assert_ptr_equal(simulation->launcher.launching.tube.flexible.element, first);
 
     // any number of the tube does
     double *touched[] = {&model.tubes.support[1].stiffness[1], &model.tubes.support[0].damping[0],

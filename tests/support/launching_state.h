@@ -33,7 +33,7 @@ static inline void hold_locked(const launching_system *system, double *state)
     v3 v_material = v3_add(section.v, v3_cross(section.w, v3_sub(pose.p1, section.P)));
     double slip = v3_dot(axis, v3_sub(pose.v_O1, v_material));
     v3_store(state + at->V, v3_axpy(pose.v_O1, -slip, axis));
-    if (!system->slot) {
+    if (!system->slot.present) {
         double roll = v3_dot(axis, v3_sub(pose.w_B, section.w));
         v3_store(state + at->V + 3, v3_axpy(pose.w_B, -roll, axis));
     }
@@ -45,7 +45,7 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
                               launching_case *c)
 {
     const launching_layout *at = &system->layout;
-    const flexible_tube *tube = &system->tube;
+    const flexible_tube *tube = &system->tube.flexible;
     double *y = c->state;
     memset(c, 0, sizeof *c);
     m3 A = draw_rotation(seed);
@@ -89,9 +89,9 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     c->phase.breech_speed = c->phase.touch_speed[0];
     if (locked)
         hold_locked(system, y);
-    if (system->slot)
+    if (system->slot.present)
         launching_project(system, &c->input, &c->phase, y);
-    if (locked && system->slot)
+    if (locked && system->slot.present)
         for (int k = 0; k < 30; k++) { // the two constraints in turn
             hold_locked(system, y);
             launching_project(system, &c->input, &c->phase, y);

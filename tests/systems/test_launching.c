@@ -35,7 +35,7 @@ static void compare(const launching_system *system, const launching_case *c,
         modal = fmax(modal, fabs(dense->q_ddot[i]));
         modal_error = fmax(modal_error, fabs(dense->q_ddot[i] - out->q_ddot[i]));
     }
-    for (int i = 0; i < system->adaptor_count; i++)
+    for (int i = 0; i < system->adaptors.count; i++)
         force += c->phase.passed[i] ? 0 : fabs(dense->contact[i].normal);
     worst->eta = fmax(worst->eta, relative3(dense->a, out->a, norm3(dense->a)));
     worst->eta = fmax(worst->eta, relative3(dense->w_dot, out->w_dot, norm3(dense->w_dot)));
@@ -47,7 +47,7 @@ static void compare(const launching_system *system, const launching_case *c,
     worst->slot = fmax(worst->slot, fabs(dense->slot_force - out->N) / force);
     worst->lock = fmax(worst->lock, fabs(dense->lock_force - out->lock_force) / force);
     worst->breech = fmax(worst->breech, fabs(dense->breech_force - out->breech_force) / force);
-    for (int i = 0; i < system->adaptor_count; i++)
+    for (int i = 0; i < system->adaptors.count; i++)
         if (!c->phase.passed[i])
             worst->contact = fmax(worst->contact,
                                   fabs(dense->contact[i].normal - out->adaptor[i].normal) / force);
@@ -73,7 +73,7 @@ static void put_on_breech(const launching_system *system, int k, launching_case 
     launching_rocket_pose(system, y, &pose, &out);
     v3 back = v3_scale(-out.y[0] - 0.1, m3_column(pose.A_RS, 0));
     v3_store(y + system->layout.V, v3_add(pose.v_O1, back));
-    if (system->slot)
+    if (system->slot.present)
         launching_project(system, &c->input, &c->phase, y);
 }
 
@@ -83,7 +83,7 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
     dense_launch dense;
     ld_error error;
     assert_int_equal(launching_build(system, model, NULL, &error), LD_OK);
-    dense_launch_create(&dense, model, &system->tube);
+    dense_launch_create(&dense, model, &system->tube.flexible);
     uint64_t seed = 20261121;
     agreement worst = {0};
     int pressed = 0;
@@ -92,7 +92,7 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
         launching_output out;
         dense_launch_output reference;
         draw_state(system, &seed, k % 4 == 0, &c);
-        for (int i = system->adaptor_count - 1; i > 0 && draw(&seed) > 0.5; i--)
+        for (int i = system->adaptors.count - 1; i > 0 && draw(&seed) > 0.5; i--)
             c.phase.passed[i] = true;
         if (k % 4 == 1 || k % 4 == 2)
             put_on_breech(system, k, &c);

@@ -37,7 +37,7 @@ static const double flight_time = 0.15;
 static void start_strongly(launching_run *run, const launching_system *system)
 {
     const launching_layout *at = &system->layout;
-    const flexible_tube *tube = &system->tube;
+    const flexible_tube *tube = &system->tube.flexible;
     launching_run_begin(run, system, 0.3);
     run->input.mass.c.y = 2e-3;
     run->input.mass.c.z = -1e-3;
@@ -75,7 +75,7 @@ static void watch(launching_run *run, double t)
                      LAUNCHING_OK);
     d->slot = fmax(d->slot, fabs(out.drift));
     d->slot_power = fmax(d->slot_power, fabs(out.drift * out.N));
-    launching_section_at(run->system, run->state, run->system->tube.length, &tip);
+    launching_section_at(run->system, run->state, run->system->tube.flexible.length, &tip);
     d->tip = fmax(d->tip, hypot(tip.P.y, tip.P.z));
 }
 
@@ -119,7 +119,7 @@ static void momenta_and_energy(bool springs, const double momentum[4], const dou
     launching_run run;
     free_model(&model, springs);
     launching_system *system = launching_system_of(&model);
-    dense_launch_create(&dense, &model, &system->tube);
+    dense_launch_create(&dense, &model, &system->tube.flexible);
     static const double tolerance[] = {1e-6, 1e-8, 1e-10, 1e-12};
     printf("  %s\n", springs ? "adaptors on springs" : "nothing touches");
     for (int i = 0; i < 4; i++) {
@@ -160,7 +160,7 @@ static void check_slot(int elements, const double drift[3], const double power[3
     model.tubes.modes.bending = elements == 1 ? 2 : 6;
     model.tubes.modes.torsion = 1;
     launching_system *system = launching_system_of(&model);
-    dense_launch_create(&dense, &model, &system->tube);
+    dense_launch_create(&dense, &model, &system->tube.flexible);
     static const double tolerance[] = {1e-6, 1e-8, 1e-10};
     for (int i = 0; i < 3; i++) {
         printf("  %d elements, tolerance %.0e\n", elements, tolerance[i]);
@@ -197,7 +197,7 @@ static void projection_keeps_momenta(void **state)
     launching_run run;
     free_model(&model, true);
     launching_system *system = launching_system_of(&model);
-    dense_launch_create(&dense, &model, &system->tube);
+    dense_launch_create(&dense, &model, &system->tube.flexible);
     start_strongly(&run, system);
     uint64_t seed = 20260713;
     double momentum = 0, angular_momentum = 0, broken = 0, left = 0;
@@ -306,8 +306,8 @@ static void smooth_shapes(void **state)
     model.tubes.modes.bending = 2;
     model.tubes.modes.torsion = 1;
     launching_system *system = launching_system_of(&model);
-    assert_int_equal(system->tube.element_count, 1);
-    dense_launch_create(&dense, &model, &system->tube);
+    assert_int_equal(system->tube.flexible.element_count, 1);
+    dense_launch_create(&dense, &model, &system->tube.flexible);
     flight truth = fly(system, &dense, false, 1e-12);
     static const double tolerance[] = {1e-6, 1e-8, 1e-10};
     for (int i = 0; i < 3; i++) {
@@ -335,7 +335,7 @@ static void curvature_jumps(void **state)
     model.tubes.modes.elements = 3;
     model.tubes.modes.bending = 3;
     launching_system *system = launching_system_of(&model);
-    dense_launch_create(&dense, &model, &system->tube);
+    dense_launch_create(&dense, &model, &system->tube.flexible);
     static const double tolerance[] = {1e-6, 1e-8}, bound[] = {3e-5, 1e-7};
     for (int i = 0; i < 2; i++) {
         flight y = fly(system, &dense, true, tolerance[i]);

@@ -44,10 +44,10 @@ static double dense_acceleration(const ld_simulation *simulation, const double *
     c.phase = simulation_start_phase(simulation);
     c.phase.locked = !simulation->on_breech;
     copy_to_dense(system, &c);
-    dense_launch_create(&dense, simulation->model, &system->tube);
+    dense_launch_create(&dense, simulation->model, &system->tube.flexible);
     assert_true(dense_launch_evaluate(&dense, &c.dense, &out));
     dense_launch_free(&dense);
-    const flexible_tube *tube = &system->tube;
+    const flexible_tube *tube = &system->tube.flexible;
     double largest = 0;
     for (int k = 0; k <= 10; k++) {
         double x = 0.3 * k, y_ddot = out.a[1] + x * out.w_dot[2],
@@ -318,7 +318,7 @@ static void reactions(void **state)
     launching_output out;
     simulation_input(simulation, 0, y, &input);
     assert_int_equal(launching_evaluate(system, &input.launching, &phase, y, &out), LAUNCHING_OK);
-    double tube = system->tube.m, mass = tube + 8 + 60, g = model.gravity;
+    double tube = system->tube.flexible.m, mass = tube + 8 + 60, g = model.gravity;
     double arm = tube * 1.5 + 8 * -0.1 + 60 * 1.2;
     CHECK_BELOW("along the tube [N]", out.base_force.x, 5e-9);
     CHECK_NEAR("across it [N]", out.base_force.y, -mass * g, 1e-8);

@@ -49,7 +49,7 @@ static void watch(launching_run *run, double t)
 {
     crossing *c = run->user;
     launching_section middle, below;
-    launching_section_at(run->system, run->state, 0.5 * run->system->tube.length, &middle);
+    launching_section_at(run->system, run->state, 0.5 * run->system->tube.flexible.length, &middle);
     launching_section_at(run->system, run->state, run->state[run->system->layout.x], &below);
     const double *state = run->state;
     const launching_layout *at = &run->system->layout;

@@ -61,7 +61,7 @@ static void set_up(flight *f, bool damped)
     if (launcher_build(f->system, &f->model, NULL, 0, 1, &error))
         fail_msg("%s", error.text);
     dense_vehicle_create(&f->vehicle, &f->model, 8, NULL, 0);
-    dense_launch_create(&f->launch, &f->model, &f->system->launching.tube);
+    dense_launch_create(&f->launch, &f->model, &f->system->launching.tube.flexible);
     const ld_mass_data *full = &f->model.rocket.full;
     f->input.launching.mass.m = full->mass;
     f->input.launching.mass.c = v3_from(full->center);
@@ -122,8 +122,8 @@ static void throw_tube(flight *f)
     v3_store(local + at->v, m3_apply_transposed(base->A, base->v));
     v3_store(local + at->w, m3_apply_transposed(base->A, base->w));
     for (int plane = 0; plane < 2; plane++) {
-        local[at->q_dot + plane * launching->tube.nb] = plane ? -0.5 : 0.5;
-        local[at->q_dot + plane * launching->tube.nb + 1] = 0.3;
+        local[at->q_dot + plane * launching->tube.flexible.nb] = plane ? -0.5 : 0.5;
+        local[at->q_dot + plane * launching->tube.flexible.nb + 1] = 0.3;
     }
     local[at->x] = 0.2;
     launching_run_set_speeds(launching, local, (double[6]){5, 0.02, -0.05, 5, 0.05, -0.04});

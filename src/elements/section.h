@@ -1,38 +1,16 @@
-// Section kinematics of the tube in the fast layout: everything at a moving station from one read
-// of the element's shapes. Private to the launching subsystem.
-#ifndef LD_SYSTEMS_LAUNCHING_KINEMATICS_H
-#define LD_SYSTEMS_LAUNCHING_KINEMATICS_H
+// Sections of the flexible tube in the fast layout: everything at a moving station from one read of
+// the element's shapes, and a force on a section (formulation.md, sections 1 and 5).
+#ifndef LD_ELEMENTS_SECTION_H
+#define LD_ELEMENTS_SECTION_H
 
-#include "math/rotation_vector.h"
-#include "systems/launching.h"
+#include "elements/instant.h"
 
-// Modal coordinates and speeds, in lanes (padded with zeros) and torsion apart.
-typedef struct modal_state {
-    LANE_ARRAY(y, LD_NB);
-    LANE_ARRAY(z, LD_NB);
-    LANE_ARRAY(y_dot, LD_NB);
-    LANE_ARRAY(z_dot, LD_NB);
-    const double *t, *t_dot; // torsion
-    const double *a, *a_dot; // axial
-} modal_state;
-
-// The deflection of one element as polynomials in xi.
-typedef struct element_motion {
-    const packed_element *element;
-    LANE_ARRAY(y, 4); // coefficients of xi^0..3
-    LANE_ARRAY(z, 4);
-    LANE_ARRAY(y_dot, 4);
-    LANE_ARRAY(z_dot, 4);
-    double t[2], t_dot[2]; // torsion: value at x0, slope
-    double a[2], a_dot[2]; // stretch, likewise
-} element_motion;
-
-LD_INLINE void element_load(const launching_system *self, const modal_state *q, int index,
+LD_INLINE void element_load(const tube_system *self, const modal_state *q, int index,
                             element_motion *motion)
 {
     const packed_element *element = &self->packed[index];
     v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;
-    for (int j = 0; j < self->tube.nb; j++) {
+    for (int j = 0; j < self->flexible.nb; j++) {
         v4d shape = *v4d_lanes_of(element->by_mode[j]);
         y += shape * v4d_all(q->y[j]);
         z += shape * v4d_all(q->z[j]);
@@ -40,14 +18,14 @@ LD_INLINE void element_load(const launching_system *self, const modal_state *q, 
         z_dot += shape * v4d_all(q->z_dot[j]);
     }
     double t0 = 0, t1 = 0, d0 = 0, d1 = 0;
-    for (int j = 0; j < self->tube.nt; j++) {
+    for (int j = 0; j < self->flexible.nt; j++) {
         t0 += element->tau[j][0] * q->t[j];
         t1 += element->tau[j][1] * q->t[j];
         d0 += element->tau[j][0] * q->t_dot[j];
         d1 += element->tau[j][1] * q->t_dot[j];
     }
     double a0 = 0, a1 = 0, e0 = 0, e1 = 0;
-    for (int j = 0; j < self->tube.na; j++) {
+    for (int j = 0; j < self->flexible.na; j++) {
         a0 += element->a[j][0] * q->a[j];
         a1 += element->a[j][1] * q->a[j];
         e0 += element->a[j][0] * q->a_dot[j];
@@ -64,39 +42,10 @@ LD_INLINE void element_load(const launching_system *self, const modal_state *q, 
     motion->a_dot[0] = e0, motion->a_dot[1] = e1;
 }
 
-LD_INLINE double poly0(const double *c, double x)
+LD_INLINE void section_load(const tube_system *self, const element_motion *motion, double x,
+                            axis_section *s)
 {
-    return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
-}
-LD_INLINE double poly1(const double *c, double x)
-{
-    return c[1] + x * (2 * c[2] + x * (3 * c[3]));
-}
-LD_INLINE double poly2(const double *c, double x)
-{
-    return 2 * c[2] + 6 * c[3] * x;
-}
-
-// Section at station x (formulation.md, sections 1 and 3); all vectors in R. Beyond the ends the
-// axis goes on straight (model.md, section 3): forces then act through the end section at `root`.
-typedef struct section {
-    int index;     // element
-    double x;      // station
-    double beyond; // x less the end's station, outside the tube
-    double xi;     // of the shapes, from the element's x0
-    v3 P;          // point of the axis
-    v3 root;       // axis point of the section that carries forces (P itself inside the tube)
-    v3 t;          // dP/dx
-    v3 th;         // rotation vector
-    v3 k0;         // d th/dx
-    m3 A;          // A_RP
-    m3 Jl;         // left Jacobian
-} section;
-
-LD_INLINE void section_load(const launching_system *self, const element_motion *motion, double x,
-                            section *s)
-{
-    double length = self->tube.length;
+    double length = self->flexible.length;
     double inside = x < 0 ? 0 : x > length ? length : x;
     double xi = inside - motion->element->x0;
     s->x = x;
@@ -128,16 +77,8 @@ LD_INLINE void section_load(const launching_system *self, const element_motion *
     }
 }
 
-// Speeds of the section's material relative to R, in R.
-typedef struct section_rates {
-    v3 u_dot;  // Phi q_dot
-    v3 u1_dot; // Phi' q_dot
-    v3 th_dot; // Psi q_dot
-    v3 k0_dot; // Psi' q_dot
-    v3 w;      // Jl Psi q_dot
-} section_rates;
-
-LD_INLINE void section_rates_load(const element_motion *motion, const section *s, section_rates *r)
+LD_INLINE void section_rates_load(const element_motion *motion, const axis_section *s,
+                                  section_rates *r)
 {
     double xi = s->xi;
     double uy1 = poly1(motion->y_dot, xi), uz1 = poly1(motion->z_dot, xi);
@@ -157,10 +98,9 @@ LD_INLINE void section_rates_load(const element_motion *motion, const section *s
 }
 
 // e_x . A_RP(x)^T (C - P(x)): how far C lies in front of the section at x.
-LD_INLINE double section_gap(const launching_system *self, const element_motion *motion, double x,
-                             v3 C)
+LD_INLINE double section_gap(const tube_system *self, const element_motion *motion, double x, v3 C)
 {
-    double length = self->tube.length;
+    double length = self->flexible.length;
     double inside = x < 0 ? 0 : x > length ? length : x, xi = inside - motion->element->x0;
     v3 th = v3_make(motion->t[0] + xi * motion->t[1], -poly1(motion->z, xi), poly1(motion->y, xi));
     rv_coefficients k = rv_coefficients_of(v3_norm2(th));
@@ -173,11 +113,11 @@ LD_INLINE double section_gap(const launching_system *self, const element_motion 
 
 // Station of the section whose plane holds point C (in R): e_x . A_RP(s)^T (C - P(s)) = 0, from
 // `guess`. On return `motion` and `s` belong to the station.
-LD_INLINE void section_foot(const launching_system *self, const modal_state *q, v3 C, double guess,
-                            element_motion *motion, section *s)
+LD_INLINE void section_foot(const tube_system *self, const modal_state *q, v3 C, double guess,
+                            element_motion *motion, axis_section *s)
 {
     double x = guess;
-    s->index = flexible_tube_find(&self->tube, x);
+    s->index = flexible_tube_find(&self->flexible, x);
     element_load(self, q, s->index, motion);
     // by the secant; the first slope is -1, wrong by curvature times offset (1e-6 in a launch)
     double step = section_gap(self, motion, x, C), gap = step;
@@ -185,13 +125,69 @@ LD_INLINE void section_foot(const launching_system *self, const modal_state *q, 
         double before = gap;
         x += step;
         if (__builtin_expect(x < motion->element->x0 || x >= motion->element->x1, 0)) {
-            s->index = flexible_tube_find(&self->tube, x);
+            s->index = flexible_tube_find(&self->flexible, x);
             element_load(self, q, s->index, motion);
         }
         gap = section_gap(self, motion, x, C);
         step *= gap / (before - gap);
     }
     section_load(self, motion, x, s);
+}
+
+// Adds force f at point W (in R) of the tube's section s.
+LD_INLINE void apply_at_section(const int lanes, const tube_system *self, const axis_section *s,
+                                v3 W, v3 f, tube_force *h)
+{
+    const packed_element *element = &self->packed[s->index];
+    v3 mu = m3_apply_transposed(s->Jl, v3_cross(v3_sub(W, s->root), f));
+    h->f = v3_add(h->f, f);
+    h->m = v3_add(h->m, v3_cross(W, f));
+    double xi = s->xi, x2 = xi * xi, x3 = x2 * xi;
+    // weights of the powers of xi: b and b' against force and moment
+    double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};
+    double z[4] = {f.z, f.z * xi - mu.y, f.z * x2 - mu.y * 2 * xi, f.z * x3 - mu.y * 3 * x2};
+    const v4d *p0 = v4d_lanes_of(element->by_power[0]), *p1 = v4d_lanes_of(element->by_power[1]);
+    const v4d *p2 = v4d_lanes_of(element->by_power[2]), *p3 = v4d_lanes_of(element->by_power[3]);
+    v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
+    for (int i = 0; i < lanes; i++) {
+        hy[i] += v4d_all(y[0]) * p0[i] + v4d_all(y[1]) * p1[i] + v4d_all(y[2]) * p2[i] +
+                 v4d_all(y[3]) * p3[i];
+        hz[i] += v4d_all(z[0]) * p0[i] + v4d_all(z[1]) * p1[i] + v4d_all(z[2]) * p2[i] +
+                 v4d_all(z[3]) * p3[i];
+    }
+    for (int j = 0; j < self->flexible.nt; j++)
+        h->t[j] += mu.x * (element->tau[j][0] + xi * element->tau[j][1]);
+    for (int j = 0; j < self->flexible.na; j++)
+        h->a[j] += f.x * (element->a[j][0] + xi * element->a[j][1]);
+}
+
+// Shapes at a section for every mode, and their products.
+LD_INLINE void shapes_load(const int lanes, const tube_system *self, const axis_section *s,
+                           section_shapes *shapes)
+{
+    LANES_NOT_EMPTY(lanes);
+    const packed_element *element = &self->packed[s->index];
+    v4d x = v4d_all(s->xi), x2 = v4d_all(2 * s->xi), x3 = v4d_all(3 * s->xi);
+    const v4d *p0 = v4d_lanes_of(element->by_power[0]), *p1 = v4d_lanes_of(element->by_power[1]);
+    const v4d *p2 = v4d_lanes_of(element->by_power[2]), *p3 = v4d_lanes_of(element->by_power[3]);
+    v4d *b = v4d_lanes(shapes->b), *b1 = v4d_lanes(shapes->b1);
+    for (int i = 0; i < lanes; i++) {
+        b[i] = p0[i] + x * (p1[i] + x * (p2[i] + x * p3[i]));
+        b1[i] = p1[i] + x2 * p2[i] + x3 * (x * p3[i]);
+    }
+    shapes->bb = v4d_dot(lanes, shapes->b, shapes->b);
+    shapes->bb1 = v4d_dot(lanes, shapes->b, shapes->b1);
+    shapes->b1b1 = v4d_dot(lanes, shapes->b1, shapes->b1);
+    shapes->ct0 = poly0(element->ctb, s->xi);
+    shapes->ct1 = poly1(element->ctb, s->xi);
+    shapes->c0 = poly0(element->cb, s->xi);
+    shapes->c1 = poly1(element->cb, s->xi);
+    shapes->tt = shapes->cp_tau = 0;
+    for (int j = 0; j < self->flexible.nt; j++) {
+        shapes->tau[j] = element->tau[j][0] + s->xi * element->tau[j][1];
+        shapes->tt += shapes->tau[j] * shapes->tau[j];
+        shapes->cp_tau += self->flexible.cp[j] * shapes->tau[j];
+    }
 }
 
 #endif

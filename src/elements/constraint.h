@@ -1,0 +1,238 @@
+// Constraints between rocket and tube: directions in which a force (or moment) acts on the rocket
+// at a point of the section at s, the opposite on the tube, and which the solve keeps from moving
+// (formulation.md, sections 3 and 4).
+//
+// G: unit wrench on the rocket about O1; B = L(s)^T of the same on the tube. Held is
+//   G^T V - B^T eta = 0;   D x = -(G^T r_O - B^T e_0 + beta),   D_ij = G_i^T M3^-1 G_j + B_i^T
+//   M2^-1 B_j
+#ifndef LD_ELEMENTS_CONSTRAINT_H
+#define LD_ELEMENTS_CONSTRAINT_H
+
+#include "elements/rocket.h"
+
+enum { LD_MAX_CONSTRAINTS = 8 };
+
+// A direction of constraint: unit wrench on the rocket about O1 and on the tube (formulation.md,
+// section 3, G_e and B_e), and what the solve makes of them.
+typedef struct direction {
+    v3 G_f, G_m;     // on the rocket
+    v3 r_a, r_alpha; // M3^-1 G
+    v3 force, mu;    // at the section: force, and Jl^T moment, that act on the modes
+    double rigid[6]; // L^-1 (B_r - C B_q): forward-substituted
+    double beta;     // right-hand side besides accelerations
+    double drift;    // e . v_rel
+} direction;
+
+// Velocity-dependent accelerations of the section at s (formulation.md, section 4: gv, gw).
+typedef struct section_bias {
+    v3 gv, gw;
+} section_bias;
+
+// The constraints in force, in the order in which their elements have put them; friction of one of
+// them acts along a tangent.
+typedef struct constraint_set {
+    section_shapes shapes; // at the rocket's section, on which all act
+    section_bias bias;
+    int count;
+    direction e[LD_MAX_CONSTRAINTS];
+    double x[LD_MAX_CONSTRAINTS]; // forces found
+    int slot_row, lock_row;       // of these, or -1
+    // friction of the slot, -rub |x| along the tangent
+    bool sliding;
+    direction tangent;
+    double v_tau;    // [m/s] along it
+    double mu, rub;  // coefficient; mu v_tau/sqrt(v_tau^2 + v_eps^2)
+    double friction; // [N] found, along tau
+} constraint_set;
+
+// Products of the directions in force; Dt: of each on the tangent.
+typedef struct constraint_products {
+    double D[LD_MAX_CONSTRAINTS][LD_MAX_CONSTRAINTS], Dt[LD_MAX_CONSTRAINTS];
+} constraint_products;
+
+// Accelerations with the constraint forces so far: of the rocket, of the tube
+// (forward-substituted), and the force on its section that the modes still have to feel.
+typedef struct constrained {
+    v3 a, alpha;
+    double rigid[6];
+    v3 force, mu;
+} constrained;
+
+// Modal part of B_1^T M^-1 B_2 for forces at one section.
+LD_INLINE double modal_product(const section_shapes *shapes, const direction *p, const direction *q)
+{
+    return shapes->bb * (p->force.y * q->force.y + p->force.z * q->force.z) +
+           shapes->b1b1 * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
+           shapes->bb1 * (p->force.y * q->mu.z + p->mu.z * q->force.y - p->force.z * q->mu.y -
+                          p->mu.y * q->force.z) +
+           shapes->tt * p->mu.x * q->mu.x;
+}
+
+// Sets up a direction from its wrench at the section: force f at the section's point P + r_T and
+// pure moment m on the rocket, opposite on the tube.
+LD_INLINE void direction_load(const launching_instant *now, const section_shapes *shapes, v3 f,
+                              v3 m, v3 r_T, v3 rho, direction *e)
+{
+    const tube_state *tube = &now->tube;
+    const rocket_state *rocket = &now->rocket;
+    const axis_section *s = &rocket->at;
+    e->G_f = f;
+    e->G_m = v3_add(m, v3_cross(rho, f));
+    rocket_solve(&now->inertia, e->G_f, e->G_m, &e->r_a, &e->r_alpha);
+    v3 W = v3_add(s->P, r_T);
+    e->force = f;
+    e->mu = m3_apply_transposed(s->Jl, v3_add(m, v3_cross(v3_sub(W, s->root), f)));
+    // B_r - C B_q, with C B_q from the shapes' own products
+    double uz = poly0(rocket->motion.z, s->xi), uz1 = poly1(rocket->motion.z, s->xi);
+    double uy = poly0(rocket->motion.y, s->xi), uy1 = poly1(rocket->motion.y, s->xi);
+    v3 B_f = f, B_m = v3_add(m, v3_cross(W, f));
+    B_f.y -= shapes->ct0 * f.y + shapes->ct1 * e->mu.z;
+    B_f.z -= shapes->ct0 * f.z - shapes->ct1 * e->mu.y;
+    B_m.x -= uy * f.z - uy1 * e->mu.y - uz * f.y - uz1 * e->mu.z + shapes->cp_tau * e->mu.x;
+    B_m.y += shapes->c0 * f.z - shapes->c1 * e->mu.y;
+    B_m.z -= shapes->c0 * f.y + shapes->c1 * e->mu.z;
+    tube_forward(tube, B_f, B_m, e->rigid);
+}
+
+// G_p^T M3^-1 G_q + B_p^T M2^-1 B_q.
+LD_INLINE double direction_product(const tube_state *tube, const section_shapes *shapes,
+                                   const direction *p, const direction *q)
+{
+    return v3_dot(p->G_f, q->r_a) + v3_dot(p->G_m, q->r_alpha) +
+           tube_product(tube, p->rigid, q->rigid) + modal_product(shapes, p, q);
+}
+
+// G^T r_O - B^T e_0 for the accelerations without constraint forces.
+LD_INLINE double free_acceleration(const int lanes, const tube_system *self, const tube_state *tube,
+                                   const section_shapes *shapes, const direction *e, v3 r_a,
+                                   v3 r_alpha, const double rigid[6], const tube_force *h)
+{
+    double modal =
+        e->force.y * v4d_dot(lanes, shapes->b, h->y) + e->mu.z * v4d_dot(lanes, shapes->b1, h->y) +
+        e->force.z * v4d_dot(lanes, shapes->b, h->z) - e->mu.y * v4d_dot(lanes, shapes->b1, h->z);
+    for (int j = 0; j < self->flexible.nt; j++)
+        modal += e->mu.x * shapes->tau[j] * h->t[j];
+    return v3_dot(e->G_f, r_a) + v3_dot(e->G_m, r_alpha) - tube_product(tube, e->rigid, rigid) -
+           modal;
+}
+
+LD_INLINE section_bias bias_of(const tube_state *tube, const rocket_state *rocket)
+{
+    const axis_section *s = &rocket->at;
+    const section_rates *r = &rocket->rates;
+    v3 w = tube->w;
+    section_bias bias;
+    v3 inner = v3_add(v3_cross(w, s->P), v3_scale(2, r->u_dot));
+    bias.gv = v3_axpy(v3_cross(w, inner), rocket->s_dot, v3_add(v3_cross(w, s->t), r->u1_dot));
+    // gamma_rot = Jl_dot Psi q_dot + w x (Jl Psi q_dot); then the convective part along s
+    bias.gw = v3_add(rv_left_jacobian_derivative(s->th, r->th_dot, r->th_dot), v3_cross(w, r->w));
+    v3 along =
+        v3_add(m3_apply(s->Jl, r->k0_dot), rv_left_jacobian_derivative(s->th, s->k0, r->th_dot));
+    bias.gw = v3_axpy(bias.gw, rocket->s_dot, along);
+    return bias;
+}
+
+// beta and drift of a direction of force n at the knob (or O1): formulation.md, section 4.
+LD_INLINE void force_bias(const launching_instant *now, const section_bias *bias, v3 n, v3 dn_dt,
+                          v3 r_T, v3 rho, direction *e)
+{
+    const tube_state *tube = &now->tube;
+    const rocket_state *rocket = &now->rocket;
+    v3 v_E = v3_add(rocket->v_O1, v3_cross(rocket->w_B, rho));
+    v3 v_rel = v3_sub(v_E, v3_add(rocket->v_P, v3_cross(rocket->w_P, r_T)));
+    v3 n_dot = v3_add(dn_dt, v3_cross(v3_add(tube->w, rocket->Om), n));
+    v3 sum = v3_cross(rocket->w_B, v3_cross(rocket->w_B, rho));
+    sum = v3_sub(sum, v3_add(bias->gv, v3_cross(bias->gw, r_T)));
+    v3 r_T_dot = v3_axpy(v3_sub(v_E, rocket->v_P), -rocket->s_dot, rocket->at.t);
+    sum = v3_sub(sum, v3_cross(rocket->w_P, r_T_dot));
+    e->beta = v3_dot(n, sum) + v3_dot(n_dot, v_rel);
+    e->drift = v3_dot(n, v_rel);
+}
+
+// Adds the accelerations that a force x along e makes.
+LD_INLINE void constraint_apply(const direction *e, double x, constrained *to)
+{
+    to->a = v3_axpy(to->a, x, e->r_a);
+    to->alpha = v3_axpy(to->alpha, x, e->r_alpha);
+    for (int i = 0; i < 6; i++)
+        to->rigid[i] -= x * e->rigid[i];
+    to->force = v3_axpy(to->force, x, e->force);
+    to->mu = v3_axpy(to->mu, x, e->mu);
+}
+
+// Empties the set; shapes and bias are those of the rocket's section.
+LD_INLINE void constraints_begin(const int lanes, const tube_system *guide,
+                                 const launching_instant *now, constraint_set *set)
+{
+    shapes_load(lanes, guide, &now->rocket.at, &set->shapes);
+    set->bias = bias_of(&now->tube, &now->rocket);
+    set->count = 0;
+    set->slot_row = set->lock_row = -1;
+    set->sliding = false;
+    set->friction = set->v_tau = 0;
+}
+
+// The next direction, a force along n at the point P + r_T of the section, O1 + rho of the rocket.
+LD_INLINE direction *constrain_force(const launching_instant *now, v3 n, v3 dn_dt, v3 r_T, v3 rho,
+                                     constraint_set *set)
+{
+    direction *e = &set->e[set->count++];
+    direction_load(now, &set->shapes, n, v3_zero(), r_T, rho, e);
+    force_bias(now, &set->bias, n, dn_dt, r_T, rho, e);
+    return e;
+}
+
+// All D_ij of the set in the fast layout.
+LD_INLINE void constraint_products_load(const tube_state *tube, const constraint_set *set,
+                                        constraint_products *D)
+{
+    for (int i = 0; i < set->count; i++) {
+        for (int j = i; j < set->count; j++)
+            D->D[i][j] = direction_product(tube, &set->shapes, &set->e[i], &set->e[j]);
+        if (set->sliding)
+            D->Dt[i] = direction_product(tube, &set->shapes, &set->e[i], &set->tangent);
+    }
+}
+
+// Constraint forces for r = what the free accelerations miss. False where the knob jams: then no
+// sign of N is consistent, or both are.
+LD_INLINE bool constraints_solve(const constraint_products *D, const double r[],
+                                 constraint_set *set)
+{
+    if (set->count == 2) {
+        double determinant = D->D[0][0] * D->D[1][1] - D->D[0][1] * D->D[0][1];
+        set->x[0] = (D->D[1][1] * r[0] - D->D[0][1] * r[1]) / determinant;
+        set->x[1] = (D->D[0][0] * r[1] - D->D[0][1] * r[0]) / determinant;
+        return true;
+    }
+    double rub = 0;
+    if (set->sliding) {
+        if (!(set->mu * fabs(D->Dt[0]) < D->D[0][0]))
+            return false;
+        rub = r[0] < 0 ? -set->rub : set->rub;
+    }
+    set->x[0] = r[0] / (D->D[0][0] - rub * D->Dt[0]);
+    set->friction = -rub * set->x[0];
+    return true;
+}
+
+// Forces, drift and powers of what the set holds.
+LD_INLINE void constraints_report(const constraint_set *set, launching_output *out)
+{
+    int slot = set->slot_row, lock = set->lock_row;
+    out->N = out->lock_force = out->slot_friction = out->drift = 0;
+    if (slot >= 0) {
+        out->N = set->x[slot];
+        out->drift = set->e[slot].drift;
+        out->slot_friction = set->friction;
+        out->power[POWER_SLOT] = set->x[slot] * set->e[slot].drift;
+        out->power[POWER_SLOT_FRICTION] = set->friction * set->v_tau;
+    }
+    if (lock >= 0) {
+        out->lock_force = -set->x[lock];
+        for (int i = lock; i < set->count; i++)
+            out->power[POWER_LOCK] += set->x[i] * set->e[i].drift;
+    }
+}
+
+#endif

@@ -1,0 +1,84 @@
+// What the elements of the launching subsystem are given at an instant, and what they tell.
+#ifndef LD_ELEMENTS_EXCHANGE_H
+#define LD_ELEMENTS_EXCHANGE_H
+
+#include <stdbool.h>
+
+#include "elements/base_frame.h"
+#include "elements/flexible_tube.h"
+#include "elements/motor.h"
+
+enum { LD_MAX_MODAL = 2 * LD_NB + LD_NT + LD_NA };
+
+// Offsets in the state of the launching subsystem: r_R [3] origin of R in I [m]; q_IR [4]
+// quaternion of R; v, w [3 + 3] velocity of R's origin and angular velocity of R, in R; q, q_dot
+// [nq] modal coordinates; x [6] s, y_S, z_S, psi, theta, gamma; V [6] velocity of O1 and rate of B
+// against I, in R.
+typedef struct launching_layout {
+    int r, quaternion, v, w, q, q_dot, x, V;
+    int nq;
+    int count; // states in all
+} launching_layout;
+
+// What is switched by events.
+typedef struct launching_phase {
+    bool rocket; // in the tube
+    bool locked;
+    bool passed[LD_MAX_ADAPTORS];
+    double touch_speed[LD_MAX_ADAPTORS]; // [m/s] at first touch (law lankarani-nikravesh)
+    double breech;                       // [m] its station: it stops a rocket without a lock there
+    double breech_speed;                 // [m/s] at which that one touched it last
+    bool frictionless;                   // Coulomb friction off (equilibrium, linearisation)
+} launching_phase;
+
+// What comes from outside at one instant.
+typedef struct launching_input {
+    base_frame base;
+    double thrust; // [N]
+    rocket_mass mass;
+} launching_input;
+
+typedef struct adaptor_report {
+    double s, y, z;     // [m] foot and offset
+    double penetration; // [m]
+    double normal;      // [N] normal force
+    double force;       // [N] with friction
+} adaptor_report;
+
+// Powers by kind of force [W], in the order of ld_work.
+enum launching_power {
+    POWER_THRUST,
+    POWER_GRAVITY_ROCKET,
+    POWER_CONTACT_NORMAL, // of adaptors and breech
+    POWER_CONTACT_FRICTION,
+    POWER_SLOT,
+    POWER_SLOT_FRICTION,
+    POWER_LOCK,
+    POWER_SUPPORT_DAMPING,
+    POWER_MODAL_DAMPING,
+    POWER_BASE,
+    POWER_MASS_CHANGE,
+    POWER_COUNT
+};
+
+typedef struct launching_output {
+    v3 a, w_dot;                 // inertial acceleration of R's origin, derivative of w, in R
+    double q_ddot[LD_MAX_MODAL]; // [nq]
+    v3 a_O1, alpha_B;            // of the rocket against I, in R
+    double x_dot[6];
+    double y[6];          // s_dot, y_S_dot, z_S_dot, w_SB (in S)
+    double N;             // [N] slot force
+    double slot_friction; // [N] along tau on the rocket
+    double lock_force;    // [N] carried, along +x (minus the force on the rocket)
+    double breech_force;  // [N] on the rocket along +x
+    double drift;         // [m/s] n . v_rel, zero but for the step error
+    double power[POWER_COUNT];
+    double elastic;             // [J] of supports and modes
+    v3 base_force, base_moment; // [N], [N m] on the base, moment about T's origin, in T
+    double y_dot[6];            // overall form alone: derivative of y
+    double condition;           // overall form alone: of L_I Q L_O^T of the tube
+    bool fell_back;             // overall form alone
+    adaptor_report adaptor[LD_MAX_ADAPTORS];
+} launching_output;
+
+#endif

@@ -1,0 +1,31 @@
+// The lock: holds the rocket at its place in the tube until it is let go (model.md, section 5).
+//
+// Held is e_x . v_rel = 0 at O1, by a force along e_x of the section at s; in a bore without a slot
+// also w_SB . e_x = 0, by a moment about e_x.
+#ifndef LD_ELEMENTS_LOCK_H
+#define LD_ELEMENTS_LOCK_H
+
+#include "elements/constraint.h"
+
+LD_INLINE void roll_constrain(const launching_instant *now, constraint_set *set)
+{
+    const rocket_state *rocket = &now->rocket;
+    direction *roll = &set->e[set->count++];
+    v3 axis = m3_column(rocket->at.A, 0);
+    direction_load(now, &set->shapes, v3_zero(), axis, v3_zero(), v3_zero(), roll);
+    v3 axis_dot = v3_cross(v3_add(now->tube.w, rocket->Om), axis);
+    v3 w_rel = v3_sub(rocket->w_B, rocket->w_P);
+    roll->beta = v3_dot(axis_dot, w_rel) - v3_dot(axis, set->bias.gw);
+    roll->drift = v3_dot(axis, w_rel);
+}
+
+LD_INLINE void lock_constrain(const launching_instant *now, bool holds_roll, constraint_set *set)
+{
+    const rocket_state *rocket = &now->rocket;
+    set->lock_row = set->count;
+    constrain_force(now, m3_column(rocket->at.A, 0), v3_zero(), rocket->Ad, v3_zero(), set);
+    if (holds_roll)
+        roll_constrain(now, set);
+}
+
+#endif

@@ -1,0 +1,132 @@
+// Supports: spring-dampers between sections of the tube and the base (model.md, section 4).
+//
+// d = A_T^T (P - r_T) - (x_k, 0, 0), phi the rotation vector of A_TP, both in T; on the tube at P
+//   f = -K_t d - C_t d_dot,   m = -J_l(phi)^-T K_r phi - C_r w_rel
+// so that the springs derive from d' K_t d/2 + phi' K_r phi/2; on the base the opposite at P.
+#ifndef LD_ELEMENTS_SUPPORT_H
+#define LD_ELEMENTS_SUPPORT_H
+
+#include "elements/tube.h"
+#include "math/rotation_vector.h"
+
+typedef struct tube_support {
+    double x;          // [m] station
+    v3 K, C, Kr, Cr;   // springs and dampers, base axes
+    bool isotropic;    // Kr the same about all three axes
+    double tau[LD_NT]; // torsion shapes there
+    double a[LD_NA];   // axial shapes there
+} tube_support;
+
+typedef struct support_set {
+    int count;
+    tube_support support[LD_MAX_SUPPORTS];
+} support_set;
+
+// Support springs and dampers (model.md, section 4).
+LD_INLINE void supports_add(const int lanes, const support_set *self, const tube_system *guide,
+                            launching_instant *now)
+{
+    const base_frame *base = &now->input->base;
+    const tube_state *tube = &now->tube;
+    tube_force *h = &now->on_tube;
+    launching_output *out = now->out;
+    m3 A_TR = m3_mul(m3_transpose(base->A), tube->A_IR);
+    v3 r = m3_apply_transposed(base->A, v3_sub(tube->r, base->r));
+    v3 base_v = m3_apply_transposed(base->A, base->v),
+       base_w = m3_apply_transposed(base->A, base->w);
+    quat q_TI = {base->q.w, -base->q.x, -base->q.y, -base->q.z};
+    quat q_TR = q_multiply(q_TI, tube->q_IR);
+    double norm = 1 / sqrt(q_TR.w * q_TR.w + q_TR.x * q_TR.x + q_TR.y * q_TR.y + q_TR.z * q_TR.z);
+    q_TR = (quat){norm * q_TR.w, norm * q_TR.x, norm * q_TR.y, norm * q_TR.z};
+    double damping = 0, stored = 0, work = 0;
+    out->base_force = out->base_moment = v3_zero();
+    for (int k = 0; k < self->count; k++) {
+        const tube_support *support = &self->support[k];
+        double twist = 0, twist_dot = 0;
+        for (int j = 0; j < guide->flexible.nt; j++) {
+            twist += support->tau[j] * tube->modal.t[j];
+            twist_dot += support->tau[j] * tube->modal.t_dot[j];
+        }
+        double stretch = 0, stretch_dot = 0;
+        for (int j = 0; j < guide->flexible.na; j++) {
+            stretch += support->a[j] * tube->modal.a[j];
+            stretch_dot += support->a[j] * tube->modal.a_dot[j];
+        }
+        v3 P = v3_make(support->x + stretch, tube->row_y[2 * k], tube->row_z[2 * k]);
+        v3 th = v3_make(twist, -tube->row_z[2 * k + 1], tube->row_y[2 * k + 1]);
+        v3 u_dot = v3_make(stretch_dot, tube->row_y_dot[2 * k], tube->row_z_dot[2 * k]);
+        v3 th_dot = v3_make(twist_dot, -tube->row_z_dot[2 * k + 1], tube->row_y_dot[2 * k + 1]);
+        m3 Jl = rv_left_jacobian(th);
+        // displacement and its rate, in base axes
+        v3 place = v3_add(r, m3_apply(A_TR, P));
+        v3 d = v3_make(place.x - support->x, place.y, place.z);
+        v3 v_P = m3_apply(A_TR, v3_add(v3_add(tube->v, v3_cross(tube->w, P)), u_dot));
+        v3 v_base = v3_add(base_v, v3_cross(base_w, place));
+        v3 d_dot = v3_sub(v_P, v_base);
+        // rotation vector and relative rate, in base axes
+        v3 phi = rv_of_quaternion(q_multiply(q_TR, rv_quaternion(th)));
+        v3 w_rel = v3_sub(m3_apply(A_TR, v3_add(tube->w, m3_apply(Jl, th_dot))), base_w);
+        v3 spring = v3_mul(support->K, d), moment = v3_mul(support->Kr, phi);
+        v3 damper = v3_mul(support->C, d_dot), twister = v3_mul(support->Cr, w_rel);
+        stored += v3_dot(spring, d) + v3_dot(moment, phi);
+        damping -= v3_dot(damper, d_dot) + v3_dot(twister, w_rel);
+        if (!support->isotropic)
+            moment = rv_left_jacobian_inverse_transposed(phi, moment);
+        v3 f_T = v3_neg(v3_add(spring, damper)), m_T = v3_neg(v3_add(moment, twister));
+        work += v3_dot(f_T, v_base) + v3_dot(m_T, base_w);
+        out->base_force = v3_sub(out->base_force, f_T);
+        out->base_moment = v3_sub(out->base_moment, v3_add(m_T, v3_cross(place, f_T)));
+        // on the tube, in R
+        v3 f = m3_apply_transposed(A_TR, f_T), m = m3_apply_transposed(A_TR, m_T);
+        v3 mu = m3_apply_transposed(Jl, m);
+        h->f = v3_add(h->f, f);
+        h->m = v3_add(h->m, v3_add(m, v3_cross(P, f)));
+        const v4d *b = v4d_lanes_of(guide->rows[2 * k]), *b1 = v4d_lanes_of(guide->rows[2 * k + 1]);
+        v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
+        for (int i = 0; i < lanes; i++) {
+            hy[i] += v4d_all(f.y) * b[i] + v4d_all(mu.z) * b1[i];
+            hz[i] += v4d_all(f.z) * b[i] - v4d_all(mu.y) * b1[i];
+        }
+        for (int j = 0; j < guide->flexible.nt; j++)
+            h->t[j] += mu.x * support->tau[j];
+        for (int j = 0; j < guide->flexible.na; j++)
+            h->a[j] += f.x * support->a[j];
+    }
+    out->elastic += 0.5 * stored;
+    out->power[POWER_SUPPORT_DAMPING] = damping;
+    out->power[POWER_BASE] = work;
+}
+
+// What support k of the model is at its station: springs, dampers, and the shapes there, of which b
+// and b' become rows of the tube.
+LD_INLINE void support_build(const ld_support *from, int k, tube_system *guide, tube_support *to)
+{
+    const flexible_tube *tube = &guide->flexible;
+    const tube_element *element = &tube->element[tube->support_element[k]];
+    double xi = from->at - element->x0;
+    to->x = from->at;
+    to->K = v3_from(from->stiffness);
+    to->C = v3_from(from->damping);
+    to->Kr = v3_from(from->rotational_stiffness);
+    to->Cr = v3_from(from->rotational_damping);
+    to->isotropic = to->Kr.x == to->Kr.y && to->Kr.y == to->Kr.z;
+    for (int j = 0; j < tube->nb; j++) {
+        double b0 = element->b[0][j], b1 = element->b[1][j], b2 = element->b[2][j],
+               b3 = element->b[3][j];
+        tube_set_row(guide, 2 * k, j, b0 + xi * (b1 + xi * (b2 + xi * b3)));
+        tube_set_row(guide, 2 * k + 1, j, b1 + xi * (2 * b2 + xi * 3 * b3));
+    }
+    for (int j = 0; j < tube->nt; j++)
+        to->tau[j] = element->tau[0][j] + xi * element->tau[1][j];
+    for (int j = 0; j < tube->na; j++)
+        to->a[j] = element->a[0][j] + xi * element->a[1][j];
+}
+
+LD_INLINE void supports_build(const ld_tubes *model, tube_system *guide, support_set *self)
+{
+    self->count = model->support_count;
+    for (int k = 0; k < model->support_count; k++)
+        support_build(&model->support[k], k, guide, &self->support[k]);
+}
+
+#endif

@@ -1,0 +1,274 @@
+// The flexible tube with its tail, in the fast layout of formulation.md, section 5: what it loads
+// of the state, its own forces, and its condensed 6 x 6 mass matrix.
+//
+// M2 eta_dot = h2, eta = (v, w, q_dot): with modal mass E the modes are eliminated,
+//   q_ddot = h_q - C^T (a, w_dot),   (M_rr - C C^T) (a, w_dot) = h_r - C h_q,   C = [Ct; Cr]
+#ifndef LD_ELEMENTS_TUBE_H
+#define LD_ELEMENTS_TUBE_H
+
+#include "elements/section.h"
+
+// ---- set-up ----
+
+LD_INLINE void tube_set_row(tube_system *self, int row, int j, double value)
+{
+    self->rows[row][j] = value;
+    self->rows_by_mode[j][row] = value;
+}
+
+// Packs the shapes of one element by mode and by power.
+LD_INLINE void tube_pack_element(const flexible_tube *tube, const tube_element *from,
+                                 packed_element *to)
+{
+    memset(to, 0, sizeof *to);
+    to->x0 = from->x0;
+    to->x1 = from->x1;
+    for (int j = 0; j < tube->nb; j++)
+        for (int k = 0; k < 4; k++) {
+            double shape = from->b[k][j];
+            to->by_mode[j][k] = shape;
+            to->by_power[k][j] = shape;
+            to->ctb[k] += tube->ct[j] * shape;
+            to->cb[k] += tube->c[j] * shape;
+        }
+    for (int j = 0; j < tube->nt; j++)
+        for (int k = 0; k < 2; k++)
+            to->tau[j][k] = from->tau[k][j];
+    for (int j = 0; j < tube->na; j++)
+        for (int k = 0; k < 2; k++)
+            to->a[j][k] = from->a[k][j];
+}
+
+// Rows that never change but for those of the supports, which come first; modal constants.
+LD_INLINE void tube_build_rows(int support_count, tube_system *self)
+{
+    const flexible_tube *tube = &self->flexible;
+    self->ct = 2 * support_count;
+    self->c = self->ct + 1;
+    self->row_lanes = (self->c + 1 + 3) / 4;
+    for (int j = 0; j < tube->nb; j++) {
+        tube_set_row(self, self->ct, j, tube->ct[j]);
+        tube_set_row(self, self->c, j, tube->c[j]);
+        self->om2[j] = tube->om2_b[j];
+        self->dmp[j] = tube->dmp_b[j];
+    }
+}
+
+// ---- evaluation ----
+
+// State of the frame R and of the modes, and their products with the fixed rows.
+LD_INLINE void tube_load(const int lanes, const tube_system *self, const launching_layout *at,
+                         const double *state, tube_state *tube)
+{
+    int nb = self->flexible.nb;
+    tube->r = v3_from(state + at->r);
+    tube->q_IR = q_from(state + at->quaternion);
+    tube->A_IR = q_matrix(tube->q_IR);
+    tube->v = v3_from(state + at->v);
+    tube->w = v3_from(state + at->w);
+    tube->g = m3_apply_transposed(tube->A_IR, v3_make(0, -self->gravity, 0));
+    modal_state *q = &tube->modal;
+    const double *from = state + at->q, *rate = state + at->q_dot;
+    memset(q->y, 0, (size_t)lanes * sizeof(v4d));
+    memset(q->z, 0, (size_t)lanes * sizeof(v4d));
+    memset(q->y_dot, 0, (size_t)lanes * sizeof(v4d));
+    memset(q->z_dot, 0, (size_t)lanes * sizeof(v4d));
+    memcpy(q->y, from, (size_t)nb * sizeof(double));
+    memcpy(q->z, from + nb, (size_t)nb * sizeof(double));
+    memcpy(q->y_dot, rate, (size_t)nb * sizeof(double));
+    memcpy(q->z_dot, rate + nb, (size_t)nb * sizeof(double));
+    q->t = from + 2 * nb;
+    q->t_dot = rate + 2 * nb;
+    q->a = q->t + self->flexible.nt;
+    q->a_dot = q->t_dot + self->flexible.nt;
+    // the fixed rows (supports, ct, c) times the four vectors of modal coordinates and speeds
+    for (int r = 0; r < self->row_lanes; r++) {
+        v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;
+        for (int j = 0; j < nb; j++) {
+            v4d row = v4d_lanes_of(self->rows_by_mode[j])[r];
+            y += row * v4d_all(q->y[j]);
+            z += row * v4d_all(q->z[j]);
+            y_dot += row * v4d_all(q->y_dot[j]);
+            z_dot += row * v4d_all(q->z_dot[j]);
+        }
+        v4d_lanes(tube->row_y)[r] = y;
+        v4d_lanes(tube->row_z)[r] = z;
+        v4d_lanes(tube->row_y_dot)[r] = y_dot;
+        v4d_lanes(tube->row_z_dot)[r] = z_dot;
+    }
+    int ct = self->ct, c = self->c;
+    tube->ct_y = tube->row_y[ct];
+    tube->ct_z = tube->row_z[ct];
+    tube->c_y = tube->row_y[c];
+    tube->c_z = tube->row_z[c];
+    tube->qy_qy = v4d_dot(lanes, q->y, q->y);
+    tube->qz_qz = v4d_dot(lanes, q->z, q->z);
+    tube->qy_qz = v4d_dot(lanes, q->y, q->z);
+}
+
+// Gyroscopic forces, gravity, stiffness and damping of tube and tail: h of formulation.md section 1
+// with the arrays of section 5 (no axial modes here).
+LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state *tube,
+                           tube_force *h, launching_output *out)
+{
+    const flexible_tube *data = &self->flexible;
+    const modal_state *q = &tube->modal;
+    v3 w = tube->w, g = tube->g;
+    int ct = self->ct, c = self->c;
+    double ct_yd = tube->row_y_dot[ct], ct_zd = tube->row_z_dot[ct];
+    double c_yd = tube->row_y_dot[c], c_zd = tube->row_z_dot[c];
+    double cp_td = 0;
+    for (int j = 0; j < data->nt; j++)
+        cp_td += data->cp[j] * q->t_dot[j];
+    tube->cp_t_dot = cp_td;
+    // translation: S with the tail folded in
+    v3 S = v3_make(self->Sx, tube->ct_y, tube->ct_z);
+    v3 inner = v3_add(v3_cross(w, S), v3_make(0, 2 * ct_yd, 2 * ct_zd));
+    h->f = v3_sub(v3_scale(self->m, g), v3_cross(w, inner));
+    // rotation: J_line w, with the tail's inertia in place
+    double p_xy = tube->c_y, p_xz = tube->c_z, p_yy = tube->qy_qy, p_zz = tube->qz_qz,
+           p_yz = tube->qy_qz, p_xx = data->j0;
+    v3 Jw = v3_make((p_yy + p_zz) * w.x - p_xy * w.y - p_xz * w.z,
+                    (p_xx + p_zz) * w.y - p_xy * w.x - p_yz * w.z,
+                    (p_xx + p_yy) * w.z - p_xz * w.x - p_yz * w.y);
+    v3 tail =
+        v3_make(self->tail_inertia.x * w.x, self->tail_inertia.y * w.y, self->tail_inertia.z * w.z);
+    Jw = v3_add(Jw, tail);
+    // W_ab = int p_a u_b dm: 2 (tr(W) w - W^T w)
+    double W_xy = c_yd, W_xz = c_zd;
+    double W_yy = v4d_dot(lanes, q->y, q->y_dot), W_yz = v4d_dot(lanes, q->y, q->z_dot);
+    double W_zy = v4d_dot(lanes, q->z, q->y_dot), W_zz = v4d_dot(lanes, q->z, q->z_dot);
+    double trace = W_yy + W_zz;
+    v3 coriolis =
+        v3_make(2 * trace * w.x, 2 * (trace * w.y - (W_xy * w.x + W_yy * w.y + W_zy * w.z)),
+                2 * (trace * w.z - (W_xz * w.x + W_yz * w.y + W_zz * w.z)));
+    double spin = data->j * w.x + cp_td;
+    h->m = v3_sub(v3_cross(S, g), v3_add(v3_cross(w, Jw), coriolis));
+    h->m = v3_sub(h->m, v3_cross(w, v3_make(spin, 0, 0)));
+    // modes: part y: (w^2 - w_y^2) q_y - w_x w_y c - w_y w_z q_z + 2 w_x q_z_dot, part z alike
+    double yy = w.x * w.x + w.z * w.z, zz = w.x * w.x + w.y * w.y, yz = -w.y * w.z;
+    double cy = -w.x * w.y, cz = -w.x * w.z, two_wx = 2 * w.x;
+    double dissipated = 0, stored = 0;
+    const v4d *row_ct = v4d_lanes_of(self->rows[ct]), *row_c = v4d_lanes_of(self->rows[c]);
+    const v4d *om2 = v4d_lanes_of(self->om2), *dmp = v4d_lanes_of(self->dmp);
+    const v4d *qy = v4d_lanes_of(q->y), *qz = v4d_lanes_of(q->z);
+    const v4d *qy_dot = v4d_lanes_of(q->y_dot), *qz_dot = v4d_lanes_of(q->z_dot);
+    v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
+    v4d damped = v4d_all(0), elastic = v4d_all(0);
+    for (int k = 0; k < lanes; k++) {
+        v4d ky = om2[k] * qy[k], kz = om2[k] * qz[k];
+        v4d dy = dmp[k] * qy_dot[k], dz = dmp[k] * qz_dot[k];
+        hy[k] = v4d_all(yy) * qy[k] + v4d_all(yz) * qz[k] + v4d_all(cy) * row_c[k] +
+                v4d_all(two_wx) * qz_dot[k] + v4d_all(g.y) * row_ct[k] - ky - dy;
+        hz[k] = v4d_all(zz) * qz[k] + v4d_all(yz) * qy[k] + v4d_all(cz) * row_c[k] -
+                v4d_all(two_wx) * qy_dot[k] + v4d_all(g.z) * row_ct[k] - kz - dz;
+        damped += dy * qy_dot[k] + dz * qz_dot[k];
+        elastic += ky * qy[k] + kz * qz[k];
+    }
+    for (int j = 0; j < data->nt; j++) {
+        double kt = data->om2_t[j] * q->t[j], dt = data->dmp_t[j] * q->t_dot[j];
+        h->t[j] = -kt - dt;
+        dissipated += dt * q->t_dot[j];
+        stored += kt * q->t[j];
+    }
+    out->power[POWER_MODAL_DAMPING] = -(v4d_sum(damped) + dissipated);
+    out->elastic = 0.5 * (v4d_sum(elastic) + stored);
+}
+
+// The condensed 6 x 6 matrix (vx vy vz wx | wy wz): its first four rows are diagonal and the last
+// two couple to them, so the factors are the six numbers l and the 2 x 2 rest.
+LD_INLINE void tube_factor(const tube_system *self, tube_state *tube)
+{
+    const flexible_tube *data = &self->flexible;
+    double my = self->m - data->ctct, off = data->ctc - self->Sx;
+    tube->per_m = 1 / self->m;
+    tube->per_my = 1 / my;
+    tube->per_jx = 1 / self->jx;
+    tube->l_yx = tube->ct_z * tube->per_m;  // (wy, vx)/m
+    tube->l_yz = off * tube->per_my;        // (wy, vz)/my
+    tube->l_zx = -tube->ct_y * tube->per_m; // (wz, vx)/m
+    tube->l_zy = -off * tube->per_my;       // (wz, vy)/my
+    double j = data->j0 - data->cc;
+    double syy =
+        j + self->tail_inertia.y + tube->qz_qz - tube->l_yx * tube->ct_z - tube->l_yz * off;
+    double szz =
+        j + self->tail_inertia.z + tube->qy_qy + tube->l_zx * tube->ct_y + tube->l_zy * off;
+    double szy = -tube->qy_qz - tube->l_zx * tube->ct_z;
+    tube->per_dy = 1 / syy;
+    tube->l_zwy = szy * tube->per_dy;
+    tube->per_dz = 1 / (szz - tube->l_zwy * szy);
+}
+
+// L^-1 of (force, moment); kept undivided by the diagonal.
+LD_INLINE void tube_forward(const tube_state *tube, v3 f, v3 m, double out[6])
+{
+    out[0] = f.x;
+    out[1] = f.y;
+    out[2] = f.z;
+    out[3] = m.x;
+    out[4] = m.y - tube->l_yx * f.x - tube->l_yz * f.z;
+    out[5] = m.z - tube->l_zx * f.x - tube->l_zy * f.y - tube->l_zwy * out[4];
+}
+
+// x^T D^-1 y of two forward-substituted vectors.
+LD_INLINE double tube_product(const tube_state *tube, const double x[6], const double y[6])
+{
+    return x[0] * y[0] * tube->per_m + (x[1] * y[1] + x[2] * y[2]) * tube->per_my +
+           x[3] * y[3] * tube->per_jx + x[4] * y[4] * tube->per_dy + x[5] * y[5] * tube->per_dz;
+}
+
+// L^-T D^-1 of a forward-substituted vector: translational and rotational acceleration.
+LD_INLINE void tube_backward(const tube_state *tube, const double x[6], v3 *a, v3 *w_dot)
+{
+    double wz = x[5] * tube->per_dz;
+    double wy = x[4] * tube->per_dy - tube->l_zwy * wz;
+    *a = v3_make(x[0] * tube->per_m - tube->l_yx * wy - tube->l_zx * wz,
+                 x[1] * tube->per_my - tube->l_zy * wz, x[2] * tube->per_my - tube->l_yz * wy);
+    *w_dot = v3_make(x[3] * tube->per_jx, wy, wz);
+}
+
+// C h_q: what the modal forces put on the rigid equations.
+LD_INLINE void tube_condense(const int lanes, const tube_system *self, const tube_state *tube,
+                             const tube_force *h, v3 *f, v3 *m)
+{
+    int ct = self->ct, c = self->c;
+    const modal_state *q = &tube->modal;
+    double twist = 0;
+    for (int j = 0; j < self->flexible.nt; j++)
+        twist += self->flexible.cp[j] * h->t[j];
+    *f = v3_make(0, v4d_dot(lanes, self->rows[ct], h->y), v4d_dot(lanes, self->rows[ct], h->z));
+    *m = v3_make(v4d_dot(lanes, q->y, h->z) - v4d_dot(lanes, q->z, h->y) + twist,
+                 -v4d_dot(lanes, self->rows[c], h->z), v4d_dot(lanes, self->rows[c], h->y));
+}
+
+// q_ddot = h_q - B_q - C^T (a, w_dot), with B_q of the constraint force and moment at the section.
+LD_INLINE void tube_modal_accelerations(const int lanes, const tube_system *self,
+                                        const tube_state *tube, const section_shapes *shapes,
+                                        const tube_force *h, v3 force, v3 mu, v3 a, v3 w_dot,
+                                        double *q_ddot)
+{
+    int ct = self->ct, c = self->c, nb = self->flexible.nb;
+    const modal_state *q = &tube->modal;
+    v4d y[LD_NB / 4], z[LD_NB / 4];
+    const v4d *hy = v4d_lanes_of(h->y), *hz = v4d_lanes_of(h->z);
+    const v4d *qy = v4d_lanes_of(q->y), *qz = v4d_lanes_of(q->z);
+    const v4d *row_ct = v4d_lanes_of(self->rows[ct]), *row_c = v4d_lanes_of(self->rows[c]);
+    for (int i = 0; i < lanes; i++) {
+        y[i] = hy[i] - v4d_all(a.y) * row_ct[i] + v4d_all(w_dot.x) * qz[i] -
+               v4d_all(w_dot.z) * row_c[i];
+        z[i] = hz[i] - v4d_all(a.z) * row_ct[i] - v4d_all(w_dot.x) * qy[i] +
+               v4d_all(w_dot.y) * row_c[i];
+        if (shapes) {
+            const v4d *b = v4d_lanes_of(shapes->b), *b1 = v4d_lanes_of(shapes->b1);
+            y[i] -= v4d_all(force.y) * b[i] + v4d_all(mu.z) * b1[i];
+            z[i] -= v4d_all(force.z) * b[i] - v4d_all(mu.y) * b1[i];
+        }
+    }
+    memcpy(q_ddot, y, (size_t)nb * sizeof(double));
+    memcpy(q_ddot + nb, z, (size_t)nb * sizeof(double));
+    for (int j = 0; j < self->flexible.nt; j++)
+        q_ddot[2 * nb + j] =
+            h->t[j] - self->flexible.cp[j] * w_dot.x - (shapes ? shapes->tau[j] * mu.x : 0);
+}
+
+#endif
