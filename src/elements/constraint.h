@@ -9,6 +9,7 @@
 #define LD_ELEMENTS_CONSTRAINT_H
 
 #include "elements/rocket.h"
+#include "math/ldl.h"
 
 enum { LD_MAX_CONSTRAINTS = 8 };
 
@@ -194,25 +195,26 @@ LD_INLINE void constraint_products_load(const tube_state *tube, const constraint
     }
 }
 
-// Constraint forces for r = what the free accelerations miss. False where the knob jams: then no
-// sign of N is consistent, or both are.
-LD_INLINE bool constraints_solve(const constraint_products *D, const double r[],
-                                 constraint_set *set)
+// Constraint forces for r = what the free accelerations miss: D x = r, and with friction -rub x_k
+// of the slot (row k) along the tangent (D - rub Dt e_k^T) x = r, by D^-1 r + rub x_k D^-1 Dt.
+// False where the knob jams: mu |(D^-1 Dt)_k| >= 1, no sign of x_k is consistent, or both are.
+LD_INLINE bool constraints_solve(constraint_products *D, const double r[], constraint_set *set)
 {
-    if (set->count == 2) {
-        double determinant = D->D[0][0] * D->D[1][1] - D->D[0][1] * D->D[0][1];
-        set->x[0] = (D->D[1][1] * r[0] - D->D[0][1] * r[1]) / determinant;
-        set->x[1] = (D->D[0][0] * r[1] - D->D[0][1] * r[0]) / determinant;
+    double *x = set->x;
+    int n = set->count, k = set->slot_row;
+    ldl_factor(n, LD_MAX_CONSTRAINTS, D->D[0]);
+    for (int i = 0; i < n; i++)
+        x[i] = r[i];
+    ldl_solve(n, LD_MAX_CONSTRAINTS, D->D[0], x);
+    if (!set->sliding)
         return true;
-    }
-    double rub = 0;
-    if (set->sliding) {
-        if (!(set->mu * fabs(D->Dt[0]) < D->D[0][0]))
-            return false;
-        rub = r[0] < 0 ? -set->rub : set->rub;
-    }
-    set->x[0] = r[0] / (D->D[0][0] - rub * D->Dt[0]);
-    set->friction = -rub * set->x[0];
+    ldl_solve(n, LD_MAX_CONSTRAINTS, D->D[0], D->Dt);
+    if (!(set->mu * fabs(D->Dt[k]) < 1))
+        return false;
+    double rub = x[k] < 0 ? -set->rub : set->rub;
+    set->friction = -rub * (x[k] / (1 - rub * D->Dt[k]));
+    for (int i = 0; i < n; i++)
+        x[i] -= set->friction * D->Dt[i];
     return true;
 }
 
