@@ -1,9 +1,7 @@
-// Samples side by side on the threads of one process.
+#include "studies/study.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
-
-#include "studies/ledger.h"
-#include "studies/worker.h"
 
 // OpenBLAS, where that is the one.
 extern void openblas_set_num_threads(int count) __attribute__((weak));
@@ -20,42 +18,6 @@ ld_status study_check(const ld_study *study, ld_error *error)
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT,
                    "the scenario has neither scatter nor sweep: nothing to study");
-}
-
-static ld_status check_shard(const ld_study *study, const ld_study_options *options,
-                             ld_error *error)
-{
-    if (options->shards > 0 && study->nominal->scatter.until_count > 0)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "scatter.until wants all samples, of which a shard knows its own only: run "
-                       "the shards with --set scatter.until=, or the study as a whole");
-    if (options->shards == 0 || (options->shard >= 1 && options->shard <= options->shards))
-        return LD_OK;
-    return ld_fail(error, LD_ERR_INPUT, "there is no shard %d of %d: they go from 1/%d to %d/%d",
-                   options->shard, options->shards, options->shards, options->shards,
-                   options->shards);
-}
-
-ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study_options *options,
-                       ld_study_counts *counts, ld_error *error)
-{
-    static const ld_study_options none = {0};
-    ld_error own;
-    study_ledger ledger;
-    error = error ? error : &own;
-    options = options ? options : &none;
-    *counts = (ld_study_counts){0};
-    ld_status status = study_check(study, error);
-    if (!status)
-        status = check_shard(study, options, error);
-    if (status)
-        return status;
-    study_calm_blas();
-    ledger_open(&ledger, study, folder, options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD, options,
-                counts, error);
-#pragma omp parallel num_threads(options->threads > 1 ? options->threads : 1)
-    worker_run_all(study, &ledger);
-    return ledger_close(&ledger);
 }
 
 // ---- one sample alone
