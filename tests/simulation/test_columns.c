@@ -24,6 +24,7 @@ typedef struct observer {
     ld_model weightless;
     double power[LAUNCHER_WORKS], work[LAUNCHER_WORKS]; // of the row before, since the start
     double t, height[2], energy;                        // at the start: sum of m y; energies
+    m3 aim;                                             // the undeformed tube at the ignition
     int rows;
 } observer;
 
@@ -114,6 +115,13 @@ static moving rocket_frame(const instant *at)
                     m3_apply(A, v3_from(at->place.w_B)), A};
 }
 
+// The undeformed tube on its base.
+static moving carrier(const instant *at)
+{
+    const dense_base *base = &at->input.conditions.base;
+    return (moving){v3_from(base->r), v3_from(base->v), v3_from(base->w), matrix(base->A[0])};
+}
+
 static v3 velocity_at(const moving *body, v3 place)
 {
     return v3_add(body->v, v3_cross(body->w, v3_sub(place, body->r)));
@@ -121,13 +129,22 @@ static v3 velocity_at(const moving *body, v3 place)
 
 // ---- what is there
 
+// Pitch and yaw of the x axis, and their rates.
+static void direction(const moving *body, double value[4])
+{
+    v3 d = m3_column(body->A, 0), d_dot = v3_cross(body->w, d);
+    double level = hypot(d.x, d.z);
+    value[0] = asin(d.y);
+    value[1] = atan2(-d.z, d.x);
+    value[2] = d_dot.y / level;
+    value[3] = (d.z * d_dot.x - d.x * d_dot.z) / (level * level);
+}
+
 static void expect_direction(column_book *book, const char *stem, const moving *body)
 {
     const char *names[] = {"pitch", "yaw", "pitch_rate", "yaw_rate"};
-    v3 d = m3_column(body->A, 0), d_dot = v3_cross(body->w, d);
-    double level = hypot(d.x, d.z);
-    double value[] = {asin(d.y), atan2(-d.z, d.x), d_dot.y / level,
-                      (d.z * d_dot.x - d.x * d_dot.z) / (level * level)};
+    double value[4];
+    direction(body, value);
     for (int i = 0; i < 4; i++) {
         char name[64];
         snprintf(name, sizeof name, "%s%s", stem, names[i]);
@@ -198,10 +215,61 @@ static void say_tip(instant *at)
         expect(book, names[i], tip[i]);
     moving end = section(at, at->run->model->tubes.length);
     expect3(book, "tip.inertial_", xyz, (double[]){end.r.x, end.r.y, end.r.z});
+    expect3(book, "tip.inertial_v", xyz, (double[]){end.v.x, end.v.y, end.v.z});
     expect_direction(book, "tip.inertial_", &end);
 }
 
 // ---- rocket
+
+// Angles of A_SB = Rz(psi) Ry(theta) Rx(gamma) from its elements, as A_SB turns at w.
+static void expect_rates_of_angles(column_book *book, const m3 *A, v3 w)
+{
+    v3 d[3];
+    for (int i = 0; i < 3; i++)
+        d[i] = v3_cross(w, m3_column(*A, i));
+    expect(book, "rocket.psi_dot",
+           (A->a[0][0] * d[0].y - A->a[1][0] * d[0].x) /
+               (A->a[0][0] * A->a[0][0] + A->a[1][0] * A->a[1][0]));
+    expect(book, "rocket.theta_dot", -d[0].z / sqrt(1 - A->a[2][0] * A->a[2][0]));
+    expect(book, "rocket.gamma_dot",
+           (A->a[2][2] * d[1].z - A->a[2][1] * d[2].z) /
+               (A->a[2][2] * A->a[2][2] + A->a[2][1] * A->a[2][1]));
+}
+
+// The rocket's direction in axes A, its rates, and y and z of its mass centre's velocity: all as
+// `from` has them, which may move.
+static void look(const instant *at, const m3 *A, const moving *from, double value[6])
+{
+    moving rocket = rocket_frame(at);
+    v3 center = v3_add(rocket.r, m3_apply(rocket.A, v3_from(at->input.conditions.center)));
+    v3 v = v3_sub(velocity_at(&rocket, center), velocity_at(from, center));
+    moving seen = {.A = m3_mul(m3_transpose(*A), rocket.A),
+                   .w = m3_apply_transposed(*A, v3_sub(rocket.w, from->w))};
+    direction(&seen, value);
+    value[4] = m3_apply_transposed(*A, v).y;
+    value[5] = m3_apply_transposed(*A, v).z;
+}
+
+static void say_against_launcher(instant *at)
+{
+    static const char *const names[] = {"pitch", "yaw", "pitch_rate", "yaw_rate", "vy", "vz"};
+    observer *run = at->run;
+    moving tube = carrier(at), still = {.v = {0}};
+    if (at->t == at->self->t_ignition)
+        run->aim = tube.A;
+    double inertial[6], relative[6], aimed[6];
+    look(at, &tube.A, &still, inertial);
+    look(at, &tube.A, &tube, relative);
+    look(at, &run->aim, &still, aimed);
+    for (int i = 0; i < 6; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s_relative", names[i]);
+        expect_of(&run->book, "tip_off", names[i], inertial[i]);
+        if (i > 1)
+            expect_of(&run->book, "tip_off", name, relative[i]);
+        expect_of(&run->book, "aim", names[i], at->t < at->self->t_ignition ? NAN : aimed[i]);
+    }
+}
 
 static void say_rocket(instant *at)
 {
@@ -228,6 +296,8 @@ static void say_rocket(instant *at)
     expect(book, "rocket.s_dot", out->s_dot);
     expect(book, "rocket.y_dot", slip.y);
     expect(book, "rocket.z_dot", slip.z);
+    m3 relative = m3_mul(m3_transpose(under.A), rocket.A);
+    expect_rates_of_angles(book, &relative, v3_from(out->w_SB));
     expect3(book, "rocket.w_", xyz, out->w_SB);
     expect3(book, "rocket.v", xyz, (double[]){rocket.v.x, rocket.v.y, rocket.v.z});
     expect_direction(book, "rocket.", &rocket);
@@ -236,6 +306,8 @@ static void say_rocket(instant *at)
     expect(book, "thrust", at->input.conditions.thrust);
     expect(book, "slot.force", out->slot_force);
     expect(book, "lock.force", out->lock_force);
+    expect(book, "breech.force", out->breech_force);
+    say_against_launcher(at);
 }
 
 // Adaptor i: its columns; powers of its normal force and of its friction on rocket and tube.
@@ -264,6 +336,14 @@ static void say_contact(instant *at, int i, double power[LAUNCHER_WORKS])
     double all = v3_dot(force, slip), pressing = -normal * v3_dot(outward, slip);
     power[POWER_CONTACT_NORMAL] += pressing;
     power[POWER_CONTACT_FRICTION] += all - pressing;
+}
+
+static void breech_power(const instant *at, double power[LAUNCHER_WORKS])
+{
+    moving rocket = rocket_frame(at), under = section(at, at->out.s),
+           stop = section(at, at->input.conditions.breech);
+    v3 slip = v3_sub(rocket.v, velocity_at(&stop, rocket.r));
+    power[POWER_CONTACT_NORMAL] += at->out.breech_force * v3_dot(m3_column(under.A, 0), slip);
 }
 
 // The friction of the slot against the knob's sliding, and its power.
@@ -327,10 +407,9 @@ static void rocket_powers(const instant *at, double power[LAUNCHER_WORKS])
 static void tube_powers(const instant *at, double power[LAUNCHER_WORKS])
 {
     const flexible_tube *tube = at->run->dense.tube;
-    const dense_base *base = &at->input.conditions.base;
-    m3 A = matrix(base->A[0]);
-    moving carrier = {v3_from(base->r), v3_from(base->v), v3_from(base->w), A};
-    v3 v = m3_apply_transposed(A, carrier.v), w = m3_apply_transposed(A, carrier.w);
+    moving under = carrier(at);
+    m3 A = under.A;
+    v3 v = m3_apply_transposed(A, under.v), w = m3_apply_transposed(A, under.w);
     power[POWER_BASE] =
         -v3_dot(v3_from(at->out.base_force), v) - v3_dot(v3_from(at->out.base_moment), w);
     for (int i = 0; i < 2 * tube->nb + tube->nt; i++) {
@@ -341,8 +420,8 @@ static void tube_powers(const instant *at, double power[LAUNCHER_WORKS])
     for (int i = 0; i < at->run->model->tubes.support_count; i++) {
         const ld_support *support = &at->run->model->tubes.support[i];
         moving held = section(at, support->at);
-        v3 rate = m3_apply_transposed(A, v3_sub(held.v, velocity_at(&carrier, held.r)));
-        v3 turning = m3_apply_transposed(A, v3_sub(held.w, carrier.w));
+        v3 rate = m3_apply_transposed(A, v3_sub(held.v, velocity_at(&under, held.r)));
+        v3 turning = m3_apply_transposed(A, v3_sub(held.w, under.w));
         power[POWER_SUPPORT_DAMPING] -=
             v3_dot(v3_mul(v3_from(support->damping), rate), rate) +
             v3_dot(v3_mul(v3_from(support->rotational_damping), turning), turning);
@@ -555,6 +634,8 @@ static void load(instant *at)
     on->locked = at->self->phase.locked;
     memcpy(on->passed, at->self->phase.passed, sizeof on->passed);
     memcpy(on->touch_speed, at->self->phase.touch_speed, sizeof on->touch_speed);
+    on->breech = at->run->model->rocket.start_at;
+    on->breech_speed = at->self->phase.breech_speed;
     at->orientating = y + at->self->launcher.orientating_at;
     at->marching = y + at->self->launcher.marching_at;
     if (at->run->model->base.kind != LD_BASE_VEHICLE) {
@@ -595,6 +676,7 @@ static void look_at_row(observer *run, const ld_simulation *self, double t, cons
     say_rocket(&at);
     for (int i = 0; i < run->model->rocket.adaptor_count; i++)
         say_contact(&at, i, power);
+    breech_power(&at, power);
     say_slot(&at, power);
     rocket_powers(&at, power);
     tube_powers(&at, power);
@@ -704,9 +786,15 @@ static void watch_run(const ld_model *model, const column_bound *bound, size_t b
 // Differences for velocities meet the kinks of the tube's shapes; quadratures the rows' distance.
 static const column_bound bounds[] = {
     {"rocket.[yz]_dot", 2e-6, false},
+    {"tip.inertial_v?", 4e-9, false},
     {"tip.inertial_*_rate", 1e-9, false},
+    {"rocket.*_dot", 1e-13, false},
+    {"tip_off.*", 3e-13, false},
+    {"aim.*", 3e-13, false},
     {"work.slot", 3e-5, true},
     {"work.lock", 1e-11, true},
+    {"lock.force", 5e-8, true},
+    {"breech.force", 1e-7, true},
     {"work.contact_*", 6e-3, false},
     {"work.*_damping", 5e-4, false},
     {"work.slot_friction", 4e-4, false},
@@ -726,15 +814,8 @@ static void sine(ld_sines *sines, double amplitude, double frequency, double pha
     sines->term[0] = (ld_sine){amplitude, frequency, phase};
 }
 
-static void test_prescribed_base(void **state)
+static void move_base(ld_base *base)
 {
-    (void)state;
-    ld_model model;
-    reference_model(&model);
-    make_uneven(&model);
-    model.run.lead_in = 0.02;
-    model.tubes.slot.angle.data[1] *= -1; // a negative slot force
-    ld_base *base = &model.base;
     base->kind = LD_BASE_PRESCRIBED;
     base->azimuth = 0.4;
     base->velocity[0] = 5;
@@ -746,6 +827,17 @@ static void test_prescribed_base(void **state)
     sine(&base->yaw, 0.05, 0.8, 0.5);
     sine(&base->pitch, 0.03, 0.9, 1.2);
     sine(&base->roll, 0.04, 1.1, 0.2);
+}
+
+static void test_prescribed_base(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    make_uneven(&model);
+    model.run.lead_in = 0.02;
+    model.tubes.slot.angle.data[1] *= -1; // a negative slot force
+    move_base(&model.base);
     watch_run(&model, bounds, sizeof bounds / sizeof *bounds);
     reference_model_free(&model);
 }
@@ -764,6 +856,20 @@ static void test_vehicle(void **state)
     given->bump_count = 1;
     given->bump[0] = (ld_bump){1.5, 2, 0.04, LD_TRACK_LEFT};
     model.platform.azimuth.stabiliser.command.data[1] = 0.3;
+    watch_run(&model, bounds, sizeof bounds / sizeof *bounds);
+    reference_model_free(&model);
+}
+
+// Without a lock the rocket rests on the breech until its thrust lifts it off.
+static void test_breech(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    make_uneven(&model);
+    model.rocket.lock.present = false;
+    model.run.lead_in = 0.02;
+    move_base(&model.base);
     watch_run(&model, bounds, sizeof bounds / sizeof *bounds);
     reference_model_free(&model);
 }
@@ -817,6 +923,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_prescribed_base),
         cmocka_unit_test(test_vehicle),
+        cmocka_unit_test(test_breech),
         cmocka_unit_test(test_undeformed_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
