@@ -15,14 +15,14 @@ enum { LD_MAX_CONSTRAINTS = 8 };
 
 // A direction of constraint: unit wrench on the rocket about O1 and on the tube (formulation.md,
 // section 3, G_e and B_e), and what the solve makes of them.
-typedef struct direction {
+typedef struct constraint_direction {
     v3 G_f, G_m;     // on the rocket
     v3 r_a, r_alpha; // M3^-1 G
     v3 force, mu;    // at the section: force, and Jl^T moment, that act on the modes
     double rigid[6]; // L^-1 (B_r - C B_q): forward-substituted
     double beta;     // right-hand side besides accelerations
     double drift;    // e . v_rel
-} direction;
+} constraint_direction;
 
 // Velocity-dependent accelerations of the section at s (formulation.md, section 4: gv, gw).
 typedef struct section_bias {
@@ -35,12 +35,12 @@ typedef struct constraint_set {
     section_shapes shapes; // at the rocket's section, on which all act
     section_bias bias;
     int count;
-    direction e[LD_MAX_CONSTRAINTS];
+    constraint_direction e[LD_MAX_CONSTRAINTS];
     double x[LD_MAX_CONSTRAINTS]; // forces found
     int slot_row, lock_row;       // of these, or -1
     // friction of the slot, -rub |x| along the tangent
     bool sliding;
-    direction tangent;
+    constraint_direction tangent;
     double v_tau;    // [m/s] along it
     double mu, rub;  // coefficient; mu v_tau/sqrt(v_tau^2 + v_eps^2)
     double friction; // [N] found, along tau
@@ -60,7 +60,8 @@ typedef struct constrained {
 } constrained;
 
 // Modal part of B_1^T M^-1 B_2 for forces at one section.
-LD_INLINE double modal_product(const section_shapes *shapes, const direction *p, const direction *q)
+LD_INLINE double modal_product(const section_shapes *shapes, const constraint_direction *p,
+                               const constraint_direction *q)
 {
     return shapes->bb * (p->force.y * q->force.y + p->force.z * q->force.z) +
            shapes->b1b1 * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
@@ -72,7 +73,7 @@ LD_INLINE double modal_product(const section_shapes *shapes, const direction *p,
 // Sets up a direction from its wrench at the section: force f at the section's point P + r_T and
 // pure moment m on the rocket, opposite on the tube.
 LD_INLINE void direction_load(const launching_instant *now, const section_shapes *shapes, v3 f,
-                              v3 m, v3 r_T, v3 rho, direction *e)
+                              v3 m, v3 r_T, v3 rho, constraint_direction *e)
 {
     const tube_state *tube = &now->tube;
     const rocket_state *rocket = &now->rocket;
@@ -97,7 +98,7 @@ LD_INLINE void direction_load(const launching_instant *now, const section_shapes
 
 // G_p^T M3^-1 G_q + B_p^T M2^-1 B_q.
 LD_INLINE double direction_product(const tube_state *tube, const section_shapes *shapes,
-                                   const direction *p, const direction *q)
+                                   const constraint_direction *p, const constraint_direction *q)
 {
     return v3_dot(p->G_f, q->r_a) + v3_dot(p->G_m, q->r_alpha) +
            tube_product(tube, p->rigid, q->rigid) + modal_product(shapes, p, q);
@@ -105,8 +106,8 @@ LD_INLINE double direction_product(const tube_state *tube, const section_shapes 
 
 // G^T r_O - B^T e_0 for the accelerations without constraint forces.
 LD_INLINE double free_acceleration(const int lanes, const tube_system *self, const tube_state *tube,
-                                   const section_shapes *shapes, const direction *e, v3 r_a,
-                                   v3 r_alpha, const double rigid[6], const tube_force *h)
+                                   const section_shapes *shapes, const constraint_direction *e,
+                                   v3 r_a, v3 r_alpha, const double rigid[6], const tube_force *h)
 {
     double modal =
         e->force.y * v4d_dot(lanes, shapes->b, h->y) + e->mu.z * v4d_dot(lanes, shapes->b1, h->y) +
@@ -135,7 +136,7 @@ LD_INLINE section_bias bias_of(const tube_state *tube, const rocket_state *rocke
 
 // beta and drift of a direction of force n at the knob (or O1): formulation.md, section 4.
 LD_INLINE void force_bias(const launching_instant *now, const section_bias *bias, v3 n, v3 dn_dt,
-                          v3 r_T, v3 rho, direction *e)
+                          v3 r_T, v3 rho, constraint_direction *e)
 {
     const tube_state *tube = &now->tube;
     const rocket_state *rocket = &now->rocket;
@@ -151,7 +152,7 @@ LD_INLINE void force_bias(const launching_instant *now, const section_bias *bias
 }
 
 // Adds the accelerations that a force x along e makes.
-LD_INLINE void constraint_apply(const direction *e, double x, constrained *to)
+LD_INLINE void constraint_apply(const constraint_direction *e, double x, constrained *to)
 {
     to->a = v3_axpy(to->a, x, e->r_a);
     to->alpha = v3_axpy(to->alpha, x, e->r_alpha);
@@ -174,10 +175,10 @@ LD_INLINE void constraints_begin(const int lanes, const tube_system *guide,
 }
 
 // The next direction, a force along n at the point P + r_T of the section, O1 + rho of the rocket.
-LD_INLINE direction *constrain_force(const launching_instant *now, v3 n, v3 dn_dt, v3 r_T, v3 rho,
-                                     constraint_set *set)
+LD_INLINE constraint_direction *constrain_force(const launching_instant *now, v3 n, v3 dn_dt,
+                                                v3 r_T, v3 rho, constraint_set *set)
 {
-    direction *e = &set->e[set->count++];
+    constraint_direction *e = &set->e[set->count++];
     direction_load(now, &set->shapes, n, v3_zero(), r_T, rho, e);
     force_bias(now, &set->bias, n, dn_dt, r_T, rho, e);
     return e;

@@ -10,7 +10,7 @@
 LD_INLINE void roll_constrain(const launching_instant *now, constraint_set *set)
 {
     const rocket_state *rocket = &now->rocket;
-    direction *roll = &set->e[set->count++];
+    constraint_direction *roll = &set->e[set->count++];
     v3 axis = m3_column(rocket->at.A, 0);
     direction_load(now, &set->shapes, v3_zero(), axis, v3_zero(), v3_zero(), roll);
     v3 axis_dot = v3_cross(v3_add(now->tube.w, rocket->Om), axis);

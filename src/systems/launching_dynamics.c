@@ -163,7 +163,7 @@ void launching_project(const launching_system *self, const launching_input *inpu
     constraints_begin(lanes, &self->tube, &now, &set);
     slot_constrain(&self->slot, &now, &set);
     // V -= r_n eps/Dn, eta += e_n eps/Dn: an impulse along the constraint
-    const direction *e = &set.e[0];
+    const constraint_direction *e = &set.e[0];
     double x = e->drift / direction_product(&now.tube, &set.shapes, e, e);
     v3 a, w_dot;
     double q_dot[LD_MAX_MODAL];

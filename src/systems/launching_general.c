@@ -56,7 +56,7 @@ static void modal_energies(const launching_system *self, const double *state, la
 
 // B = L(s)^T (f, m) of a direction's wrench on the section.
 static void direction_force(const uncoupled *u, const tube_section_state *at_rocket,
-                            const direction *e, double *B)
+                            const constraint_direction *e, double *B)
 {
     // the wrench on the rocket about O1, moved to the section's axis point
     v3 arm = v3_sub(u->now.rocket.p1, at_rocket->position);
@@ -173,7 +173,7 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
         }
         constraint_products D;
         for (int i = 0; i < count; i++) {
-            const direction *p = &u->c.e[i];
+            const constraint_direction *p = &u->c.e[i];
             r[i] =
                 -(v3_dot(p->G_f, r_a) + v3_dot(p->G_m, r_alpha) - dot(n, u->B[i], e_0) + p->beta);
             for (int j = 0; j < count; j++)
@@ -187,7 +187,7 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
             return LAUNCHING_JAMMED;
         for (int i = 0; i < count + u->c.sliding; i++) {
             int row = i < count ? i : MAX_CONSTRAINTS;
-            const direction *p = i < count ? &u->c.e[i] : &u->c.tangent;
+            const constraint_direction *p = i < count ? &u->c.e[i] : &u->c.tangent;
             double x = i < count ? u->c.x[i] : u->c.friction;
             r_a = v3_axpy(r_a, x, p->r_a);
             r_alpha = v3_axpy(r_alpha, x, p->r_alpha);
@@ -406,7 +406,7 @@ static void fill_constraint_rows(int size, int count, const uncoupled *u,
                                  const relative_kinematics *k, double *A, double *b)
 {
     for (int i = 0; i < count; i++) {
-        const direction *e = &u->c.e[i];
+        const constraint_direction *e = &u->c.e[i];
         double G[6];
         v3_store(G, e->G_f);
         v3_store(G + 3, e->G_m);
@@ -432,7 +432,7 @@ static bool solve_overall(const launching_system *self, const double *state, unc
         v3_store(G[i] + 3, u->c.e[i].G_m);
     }
     if (rub != 0) { // friction rides on N: G = G_n - rub G_tau, B alike
-        const direction *tangent = &u->c.tangent;
+        const constraint_direction *tangent = &u->c.tangent;
         v3_store(G[0], v3_axpy(u->c.e[0].G_f, -rub, tangent->G_f));
         v3_store(G[0] + 3, v3_axpy(u->c.e[0].G_m, -rub, tangent->G_m));
         for (int j = 0; j < n; j++)
