@@ -547,6 +547,7 @@ typedef struct ld_run_settings {
     double tolerance;           ///< [-] relative tolerance of the integrator
     double max_step;            ///< [s] longest step until the last rocket has left its tube; NaN:
                                 ///< see ld_model_complete()
+    double max_step_completed;  ///< [s] what ld_model_complete() has put there; 0: nothing
     double output_step_lead_in; ///< [s]
     double output_step_tube;    ///< [s]
     double output_step_flight;  ///< [s]

@@ -75,6 +75,16 @@ static void complete_firing(ld_model *model)
         model->firing[i] = (ld_firing){order->tube[i], order->start + i * order->interval};
 }
 
+// A step's error grows with its fifth power; at 1e-5 and below the step that touches need is
+// enough. Many modes allow no longer one, for stability.
+static void complete_max_step(ld_run_settings *run)
+{
+    if (!isnan(run->max_step))
+        return;
+    run->max_step = 2e-4 * pow(fmax(1, run->tolerance / 1e-5), 0.2);
+    run->max_step_completed = run->max_step;
+}
+
 void ld_model_complete(ld_model *model)
 {
     ld_environment *environment = &model->environment;
@@ -95,7 +105,5 @@ void ld_model_complete(ld_model *model)
     if (isnan(model->run.stuck_time) && thrust->rows > 0)
         model->run.stuck_time =
             thrust->data[(thrust->rows - 1) * thrust->columns] * rocket->motor.time_scale + 1;
-    // the step of equal error, of a method of order five; below 1e-5 the touches alone count
-    if (isnan(model->run.max_step))
-        model->run.max_step = 2e-4 * pow(fmax(1, model->run.tolerance / 1e-5), 0.2);
+    complete_max_step(&model->run);
 }

@@ -102,6 +102,8 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
     int rockets = sampler->nominal->firing_count;
     self->model = *sampler->nominal;
     self->model.sample = (int)number;
+    if (self->model.run.max_step == self->model.run.max_step_completed)
+        self->model.run.max_step = NAN; // it follows the tolerance drawn
     draw_row(self, sampler, number, 0);
     ld_rocket shared = self->model.rocket;
     ld_status status = LD_OK;

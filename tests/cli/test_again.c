@@ -106,6 +106,18 @@ static void test_names_do_not_tell_where(void **state)
     must(line);
 }
 
+// The longest step, whether it follows from the tolerance or is given.
+static void test_longest_step(void **state)
+{
+    (void)state;
+    must("launchdyn run examples/fixed.yaml --set run.tolerance=1e-3 --out a -q; "
+         "jq -r .scenario a/summary.json | grep -c '^  max_step: 0.000502377286301'");
+    expect_same("a", "-q");
+    must("launchdyn run examples/fixed.yaml --set run.tolerance=1e-3 --set run.max_step='1 ms' "
+         "--out c -q; ! cmp -s c/history.h5 b/history.h5");
+    expect_same("c", "-q");
+}
+
 static void test_standard_input(void **state)
 {
     (void)state;
@@ -334,6 +346,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_run_of_many_files),
         TEST(test_names_do_not_tell_where),
+        TEST(test_longest_step),
         TEST(test_standard_input),
         TEST(test_a_sample),
         TEST(test_a_study),

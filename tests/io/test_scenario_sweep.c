@@ -167,6 +167,26 @@ static void test_overrides(void **state)
     ld_model_free(&model);
 }
 
+// The longest step follows a swept tolerance, unless it is given.
+static void test_longest_step(void **state)
+{
+    (void)state;
+    static const char text[] = "include: fixed.yaml\nsweep: {run.tolerance: [1e-6, 1e-3]}\n";
+    static const char *const given[] = {"run.max_step=0.2 ms"};
+    static const double expected[] = {2e-4, 2e-4, 5.0237728630191603e-4}; // nominal, points
+    for (int point = 0; point < 3; point++) {
+        ld_model model = read_good(text, NULL, 0, point), other = read_good(text, given, 1, point);
+        CHECK_NEAR("longest step [s]", model.run.max_step, expected[point], 1e-18);
+        assert_true(other.run.max_step == 2e-4);
+        char *printed = print_model(&model);
+        assert_non_null(strstr(printed, point == 2 ? "  max_step: 0.0005023772863019"
+                                                   : "  max_step: 0.0002 s"));
+        free(printed);
+        ld_model_free(&model);
+        ld_model_free(&other);
+    }
+}
+
 static void expect_message(const char *text, int point, const char *path, int line, int column,
                            const char *part)
 {
@@ -237,8 +257,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_axes),         cmocka_unit_test(test_points),
-        cmocka_unit_test(test_several_keys), cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_messages),     cmocka_unit_test(test_texts),
+        cmocka_unit_test(test_several_keys), cmocka_unit_test(test_longest_step),
+        cmocka_unit_test(test_overrides),    cmocka_unit_test(test_messages),
+        cmocka_unit_test(test_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

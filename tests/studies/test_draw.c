@@ -278,6 +278,44 @@ static void test_several_keys(void **state)
     ld_model_free(&model);
 }
 
+// The longest step of sample 3, whose tolerance is drawn.
+static double longest_step(const char *factors, double given, double *tolerance)
+{
+    ld_model model = read_text(factors);
+    study_sampler sampler;
+    ld_error error;
+    if (given > 0) {
+        model.run.max_step = given;
+        model.run.max_step_completed = 0;
+    }
+    assert_int_equal(sampler_create(&sampler, &model, &error), LD_OK);
+    study_sample *sample = sample_create(sampler.factor_count);
+    assert_int_equal(sample_draw(sample, &sampler, 3, &error), LD_OK);
+    double step = sample->model.run.max_step;
+    *tolerance = sample->model.run.tolerance;
+    sample_free(sample);
+    sampler_free(&sampler);
+    ld_model_free(&model);
+    return step;
+}
+
+// The longest step follows a drawn tolerance, but not where it is given or drawn itself.
+static void test_longest_step(void **state)
+{
+    (void)state;
+    static const char tolerance[] = "    run.tolerance: {uniform: 1e-4 1e-3}\n",
+                      both[] = "    run.tolerance: {uniform: 1e-4 1e-3}\n"
+                               "    run.max_step: {uniform: 0.3 0.31 ms}\n",
+                      neither[] = "    rocket.mass_error: {normal: 0.1 kg}\n";
+    double drawn;
+    double step = longest_step(tolerance, 0, &drawn);
+    CHECK_WITHIN("tolerance drawn", drawn, 1e-4, 1e-3);
+    CHECK_NEAR("longest step with it [s]", step, 2e-4 * pow(drawn / 1e-5, 0.2), 1e-18);
+    assert_true(longest_step(tolerance, 2e-4, &drawn) == 2e-4);
+    CHECK_WITHIN("drawn itself [s]", longest_step(both, 0, &drawn), 3e-4, 3.1e-4);
+    assert_true(longest_step(neither, 0, &drawn) == 2e-4 && drawn == 1e-5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -285,6 +323,7 @@ int main(void)
         cmocka_unit_test(test_between_anywhere),      cmocka_unit_test(test_possible_far_out),
         cmocka_unit_test(test_permutation),           cmocka_unit_test(test_hypercube),
         cmocka_unit_test(test_factors_of_a_scenario), cmocka_unit_test(test_several_keys),
+        cmocka_unit_test(test_longest_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
