@@ -5,6 +5,7 @@ import { MM, MRAD, ROCKET } from "./results.js";
 
 const EQUILIBRIUM = [
   ["lock_force", "force of the lock", "N", 1],
+  ["breech_force", "force of the breech", "N", 1],
   ["slot_force", "force of the slot", "N", 1],
   ["contact_force.*", "contact force, %s", "N", 1],
   ["tip_sag.y", "sag of the tip, y", ...MM],

@@ -61,7 +61,9 @@ void ld_scenario_point_name(const ld_model *model, int point, char *text, size_t
 /// Reads the scenario with the values of point `point` (from 1 to ld_scenario_points()) of its
 /// sweep in place of the nominal ones; 0: the nominal ones. A value's place in messages is that in
 /// the sweep. An override of a swept key takes its axis away; other overrides are laid over the
-/// point. The model keeps the axes, and everything else may differ between points.
+/// point. The model keeps the axes, and everything else may differ between points. Standard input
+/// can be read once only: its points from 1 on come from what the nominal model keeps, by
+/// ld_scenario_read_source().
 ld_status ld_scenario_read_point(const char *path, const char *const *sets, size_t count, int point,
                                  ld_model *model, ld_messages *messages);
 ld_status ld_scenario_read_text_point(const char *text, size_t length, const char *name,

@@ -97,11 +97,11 @@ static ld_status print_messages(ld_status status, ld_messages *messages)
     return status;
 }
 
-ld_status command_read(const char *file, char **sets, int point, ld_model *model)
+static ld_status read_file(const char *file, char **sets, ld_model *model)
 {
     ld_messages messages = {0};
-    ld_status status = ld_scenario_read_point(file, (const char *const *)sets, count_sets(sets),
-                                              point, model, &messages);
+    ld_status status =
+        ld_scenario_read(file, (const char *const *)sets, count_sets(sets), model, &messages);
     return print_messages(status, &messages);
 }
 
@@ -137,7 +137,7 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
                     void *data)
 {
     ld_model model;
-    if (command_read(file, sets, 0, &model))
+    if (read_file(file, sets, &model))
         return EXIT_INPUT;
     int code = work(&model, data);
     ld_model_free(&model);

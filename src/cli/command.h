@@ -84,10 +84,9 @@ int command_on_model(const command *self, int argc, const char **argv,
                      const struct poptOption *options, char ***sets,
                      int (*work)(const ld_model *model, void *data), void *data);
 
-// The parts of it: the study or the model of the file with its overrides, or the model of texts, at
-// a point of its sweep (0: the nominal one), after messages LD_ERR_INPUT or another; `work` on the
-// nominal one; the end of the overrides.
-ld_status command_read(const char *file, char **sets, int point, ld_model *model);
+// The parts of it: `work` on the nominal model of the file with its overrides; the model of texts
+// at a point of its sweep (0: the nominal one), or a study, after messages LD_ERR_INPUT or another;
+// the end of the overrides.
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
 ld_status command_read_source(ld_source *source, int point, ld_model *model);

@@ -135,12 +135,15 @@ int command_run(const command *self, int argc, const char **argv)
     const struct poptOption options[] = {
         COMMAND_SETS(&wishes.sets),
         {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
-         "Write summary.json and history.h5 into this folder", "DIR"},
+         "Write summary.json, history.h5 and, where the place on the Earth is given, "
+         "trajectories.kml into this folder",
+         "DIR"},
         {"again", '\0', POPT_ARG_STRING, &again, 0,
          "In place of FILE: run what the results in this folder are of, from the texts that they "
          "keep",
          "FOLDER"},
-        {"csv", '\0', POPT_ARG_NONE, &wishes.csv, 0, "Write history.csv there too", NULL},
+        {"csv", '\0', POPT_ARG_NONE, &wishes.csv, 0,
+         "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
         {"report", '\0', POPT_ARG_NONE, &wishes.report, 0, "Write report.html there too", NULL},
         {"quiet", 'q', POPT_ARG_NONE, &wishes.quiet, 0, "Print nothing but errors", NULL},
         COMMAND_HELP,

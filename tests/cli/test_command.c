@@ -160,6 +160,26 @@ static void test_set_overrides(void **state)
                      0);
 }
 
+#define SWEEP(mass)                                                                                \
+    "{ echo 'include: examples/fixed.yaml'; "                                                      \
+    "echo 'sweep: {rocket.empty.mass: [30 kg, " mass " kg]}'; } >sweep.yaml; "
+
+static void test_check_of_a_sweep(void **state)
+{
+    (void)state;
+    // from standard input as from a file
+    assert_int_equal(run(SWEEP("33") "launchdyn check sweep.yaml >one.yaml && "
+                                     "launchdyn check - <sweep.yaml >two.yaml && "
+                                     "cmp one.yaml two.yaml && grep -q 33 two.yaml"),
+                     0);
+    expect_complaint(SWEEP("70") "launchdyn check sweep.yaml", 2,
+                     "sweep.yaml:2:36: error: rocket.");
+    expect_in(shell.err, "this is point 2 of the sweep: rocket.empty.mass 70 kg\n");
+    expect_complaint(SWEEP("70") "launchdyn check - <sweep.yaml", 2,
+                     "<stdin>:2:36: error: rocket.");
+    expect_in(shell.err, "this is point 2 of the sweep: rocket.empty.mass 70 kg\n");
+}
+
 static void test_bad_input_leaves_nothing(void **state)
 {
     (void)state;
@@ -370,6 +390,7 @@ int main(void)
         TEST(test_report),
         TEST(test_table_alone_writes_nothing),
         TEST(test_set_overrides),
+        TEST(test_check_of_a_sweep),
         TEST(test_bad_input_leaves_nothing),
         TEST(test_places_that_cannot_be_written),
         TEST(test_a_launch_that_cannot_happen),

@@ -297,7 +297,9 @@ static void say_rocket(instant *at)
     expect(book, "rocket.y_dot", slip.y);
     expect(book, "rocket.z_dot", slip.z);
     m3 relative = m3_mul(m3_transpose(under.A), rocket.A);
-    expect_rates_of_angles(book, &relative, v3_from(out->w_SB));
+    // at the tip the curvature jumps, and S with it: a row there may be on either side
+    if (fabs(out->s - at->run->model->tubes.length) > 1e-9)
+        expect_rates_of_angles(book, &relative, v3_from(out->w_SB));
     expect3(book, "rocket.w_", xyz, out->w_SB);
     expect3(book, "rocket.v", xyz, (double[]){rocket.v.x, rocket.v.y, rocket.v.z});
     expect_direction(book, "rocket.", &rocket);
