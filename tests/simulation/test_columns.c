@@ -710,7 +710,10 @@ void __wrap_history_row(const ld_simulation *self, double t, const double *y, do
                         double *row)
 {
     __real_history_row(self, t, y, energy_start, row);
-    if (watching)
+    // at the tip the curvature jumps, and the rate of S with it: that row may be on either side
+    const launching_system *launching = &self->launcher.launching;
+    bool at_tip = fabs(y[launching->layout.x] - launching->tube.flexible.length) < 1e-9;
+    if (watching && !at_tip)
         look_at_row(watching, self, t, y, row);
 }
 
