@@ -97,6 +97,7 @@ void reference_model(ld_model *model)
     model->title = malloc(sizeof title);
     memcpy(model->title, title, sizeof title);
     model->gravity = 9.80665;
+    model->environment.ground_height = 0;
     model->base.kind = LD_BASE_FIXED;
     model->base.elevation = 19.8 * degree;
     fill_tubes(&model->tubes);
