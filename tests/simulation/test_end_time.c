@@ -52,7 +52,7 @@ static ld_status flight(void *self, int number, const ld_column *columns, size_t
 
 static ld_summary fly(const ld_model *model, flight_rows *rows)
 {
-    ld_summary summary;
+    ld_summary summary = {0};
     ld_simulation *simulation;
     ld_error error;
     ld_sink sink = {.self = rows, .begin = begin, .row = row, .flight = flight};

@@ -215,9 +215,9 @@ static void test_columns_on_a_ship(void **state)
 {
     (void)state;
     static const char *const sets[] = {
-        "run={lead_in: 0.02 s, tolerance: 1e-7, output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
+        "run={lead_in: 0.02 s, tolerance: 1e-9, output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
         "rocket.eccentricity=3 -2 mm", "rocket.empty.center=0.4 0 0 m"};
-    const double a = 3e-16, y = 4e-5, z = 2e-5;
+    const double a = 3e-16, y = 3e-6, z = 1.5e-6;
     const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z};
     check_run("ship.yaml", sets, 3, 0, bound);
 }
@@ -226,10 +226,10 @@ static void test_columns_on_a_ship(void **state)
 static void test_columns_of_the_second_rocket(void **state)
 {
     (void)state;
-    static const char *const sets[] = {"run={lead_in: 0.1 s, end: tip, tolerance: 1e-7, "
+    static const char *const sets[] = {"run={lead_in: 0.1 s, end: tip, tolerance: 1e-10, "
                                        "output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
                                        "firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.6 s}]"};
-    const double a = 3e-16, y = 8e-6, z = 3e-6;
+    const double a = 3e-16, y = 4e-6, z = 1.5e-6;
     const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z};
     check_run("sequence.yaml", sets, 2, 1, bound);
 }

@@ -176,7 +176,8 @@ static int dense_modes(const ld_model *model, const flexible_tube *tube, m3 pose
     static double J[4 * DENSE_MAX_COORDINATES * DENSE_MAX_COORDINATES];
     double plus[2 * DENSE_MAX_COORDINATES], minus[2 * DENSE_MAX_COORDINATES];
     dense_launch dense;
-    dense_conditions conditions = {.mass = 1, .inertia = {1, 1, 1}, .frictionless = true};
+    dense_conditions conditions = {
+        .mass = 1, .inertia = {1, 1, 1}, .frictionless = true, .breech = -INFINITY};
     dense_state at = {.r_O1 = {1}};
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
         conditions.passed[i] = true;

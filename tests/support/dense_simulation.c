@@ -861,8 +861,7 @@ static bool jacobian_of(launch_run *launch, double t, double *x, double *jacobia
     return true;
 }
 
-int dense_poles(const ld_model *model, const flexible_tube *tube, double least, dense_pole *pole,
-                int capacity)
+int dense_poles(const ld_model *model, const flexible_tube *tube, dense_pole *pole, int capacity)
 {
     static _Thread_local double jacobian[STATE_MAX * STATE_MAX];
     static _Thread_local dense_summary unused;
@@ -876,9 +875,8 @@ int dense_poles(const ld_model *model, const flexible_tube *tube, double least, 
     if (found && jacobian_of(&launch, t, x, jacobian) &&
         LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', n, jacobian, n, real, imaginary, NULL, 1, NULL,
                       1) == 0)
-        for (int i = 0; i < n && count < capacity; i++)
-            if (imaginary[i] >= 0 && hypot(real[i], imaginary[i]) >= least)
-                pole[count++] = (dense_pole){real[i], imaginary[i]};
+        for (; count < n && count < capacity; count++)
+            pole[count] = (dense_pole){real[count], imaginary[count]};
     release(&launch);
     qsort(pole, (size_t)count, sizeof *pole, by_modulus);
     return count;

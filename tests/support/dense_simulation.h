@@ -50,15 +50,13 @@ void dense_rocket_at(const ld_model *model, double since, double middle, dense_c
 bool dense_simulate(const ld_model *model, const flexible_tube *tube, double step,
                     dense_summary *summary);
 
-// One eigenvalue [1/s] of each conjugate pair.
-typedef struct dense_pole {
+typedef struct dense_pole { // [1/s]
     double real, imaginary;
 } dense_pole;
 
 // Eigenvalues of the equations of a vehicle with its launching subsystem, lock closed, linearised
-// at the start of a run by central differences, without Coulomb friction, by ascending modulus;
-// those below `least` are left out. Returns their number; 0 where the equilibrium fails.
-int dense_poles(const ld_model *model, const flexible_tube *tube, double least, dense_pole *pole,
-                int capacity);
+// at the start of a run by central differences, without Coulomb friction, by ascending modulus,
+// both of each conjugate pair. Returns their number; 0 where the equilibrium fails.
+int dense_poles(const ld_model *model, const flexible_tube *tube, dense_pole *pole, int capacity);
 
 #endif

@@ -100,7 +100,7 @@ static void upright_model(ld_model *model)
     model->rocket.contact.stiffness = 1e5;
     model->rocket.contact.restitution = 1;
     model->run.start = LD_START_UNDEFORMED;
-    model->run.tolerance = 1e-8;
+    model->run.tolerance = 1e-9;
 }
 
 // Let go at no depth: s = s_0 - m g/k (1 - cos(omega t)).

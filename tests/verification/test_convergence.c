@@ -216,7 +216,7 @@ static void tolerance_converges(void **state)
     static const tolerance_bounds bound = {
         .instant = {4e-8, 2.5e-9, 5e-10, 8e-11, 1e-11, 7e-12, 2e-12},
         .speed = {6e-7, 3e-7, 1.6e-7, 8e-8, 3e-8, 1.2e-8, 3.5e-9},
-        .rate = {7e-6, 3e-6, 6e-7, 6e-7, 2e-8, 1.2e-8, 1e-9},
+        .rate = {7e-6, 3e-6, 6e-7, 6e-7, 5e-8, 2.5e-8, 6e-9},
         .spin = {1.2e-5, 1.2e-5, 4e-6, 2e-6, 2e-6, 8e-7, 2.5e-7}};
     check_tolerances(&model, &bound);
     reference_model_free(&model);

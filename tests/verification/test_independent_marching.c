@@ -342,28 +342,21 @@ static void run_scenario(void **state)
 
 // ---------------------------------------------------------------- poles
 
-// Every pole of the whole, parked and rolling, against the one nearest to it.
-static void poles(void **state)
+// Both poles of each conjugate pair; returns their number.
+static int both_of_each(const ld_pole *pole, int count, dense_pole *all, int capacity)
 {
-    enum { MOST = 400 };
-    const double *speed = *state;
-    ld_model model;
-    ld_error error;
-    ld_simulation *simulation = NULL;
-    static ld_mode mode[MOST];
-    static ld_pole pole[MOST];
-    static dense_pole dense[MOST];
-    int mode_count, count = 0;
-    reference_vehicle(&model, *speed);
-    if (ld_simulation_create(&model, &simulation, &error) ||
-        ld_simulation_system_modes(simulation, mode, MOST, &mode_count, pole, MOST, &count, &error))
-        fail_msg("%s", error.text);
-    flexible_tube tube;
-    assert_int_equal(flexible_tube_build(&tube, &model.tubes, &error), LD_OK);
-    int dense_count = dense_poles(&model, &tube, 1e-2, dense, MOST);
-    printf("    %d poles\n", count);
-    assert_true(count > 50);
-    assert_int_equal(count, dense_count);
+    int n = 0;
+    for (int i = 0; i < count; i++)
+        for (int sign = 1; sign >= (pole[i].imaginary > 0 ? -1 : 1); sign -= 2) {
+            assert_true(n < capacity);
+            all[n++] = (dense_pole){pole[i].real, sign * pole[i].imaginary};
+        }
+    return n;
+}
+
+// The largest distance of a pole from the one nearest to it that is not taken, relative.
+static double farthest(const dense_pole *pole, dense_pole *dense, int count)
+{
     double worst = 0;
     for (int i = 0; i < count; i++) {
         int nearest = 0;
@@ -377,7 +370,41 @@ static void poles(void **state)
         worst = fmax(worst, least / hypot(dense[nearest].real, dense[nearest].imaginary));
         dense[nearest].real = INFINITY; // taken
     }
-    CHECK_BELOW("poles [relative]", worst, 5e-5);
+    return worst;
+}
+
+// Every pole of the whole, parked and rolling, against the one nearest to it. The wheels' side
+// forces relax at one rate, a multiple real pole, of which rounding may make conjugate pairs a
+// hair's breadth apart: it counts as many poles either way. What the dense program has beyond those
+// must be the poles at zero of lock, slot and neutral directions, which the differences' error
+// spreads: some are multiple and lack eigenvectors.
+static void poles(void **state)
+{
+    enum { MOST = 400 };
+    const double *speed = *state;
+    ld_model model;
+    ld_error error;
+    ld_simulation *simulation = NULL;
+    static ld_mode mode[MOST];
+    static ld_pole pole[MOST];
+    static dense_pole all[MOST], dense[MOST];
+    int mode_count, pole_count = 0;
+    reference_vehicle(&model, *speed);
+    if (ld_simulation_create(&model, &simulation, &error) ||
+        ld_simulation_system_modes(simulation, mode, MOST, &mode_count, pole, MOST, &pole_count,
+                                   &error))
+        fail_msg("%s", error.text);
+    flexible_tube tube;
+    assert_int_equal(flexible_tube_build(&tube, &model.tubes, &error), LD_OK);
+    int count = both_of_each(pole, pole_count, all, MOST);
+    int zeros = dense_poles(&model, &tube, dense, MOST) - count;
+    printf("    %d poles, and %d at zero; the smallest of modulus %.3f 1/s\n", count, zeros,
+           hypot(all[0].real, all[0].imaginary));
+    assert_true(count > 100);
+    assert_true(zeros > 0);
+    CHECK_BELOW("poles at zero, by the dense program [1/s]",
+                hypot(dense[zeros - 1].real, dense[zeros - 1].imaginary), 5e-3);
+    CHECK_BELOW("poles [relative]", farthest(all, dense + zeros, count), 5e-5);
     flexible_tube_free(&tube);
     ld_simulation_free(simulation);
     reference_model_free(&model);
