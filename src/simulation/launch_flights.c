@@ -1,0 +1,93 @@
+// The flights of the rockets that have left their tubes.
+#include <math.h>
+
+#include "simulation/free_flight.h"
+#include "simulation/launch_run.h"
+
+static ld_status write_flight_row(void *user, const flight_phase *phase, double t,
+                                  const double *state, ld_error *error)
+{
+    launch_run *run = user;
+    const ld_sink *sink = run->options->sink;
+    double row[FLIGHT_MAX_COLUMNS], start = launch_cpu_now();
+    flight_row(&run->self->flight, phase, t, state, row);
+    ld_status status = sink->row(sink->self, row, (size_t)run->flight_column_count, error);
+    run->cpu_output += launch_cpu_now() - start;
+    return status;
+}
+
+static ld_status begin_flight_rows(launch_run *run, int i)
+{
+    const ld_sink *sink = run->options->sink;
+    double start = launch_cpu_now();
+    ld_column columns[FLIGHT_MAX_COLUMNS];
+    run->flight_column_count = flight_columns(&run->self->flight, columns);
+    ld_status status =
+        sink->flight(sink->self, i + 1, columns, (size_t)run->flight_column_count, run->error);
+    run->cpu_output += launch_cpu_now() - start;
+    return status;
+}
+
+// Flies rocket i from the state in which it left its tube; nothing jumps.
+static ld_status fly(launch_run *run, int i)
+{
+    ld_simulation *self = run->self;
+    ld_rocket_summary *rocket = &run->summary->rocket[i];
+    flight_free(&self->flight);
+    simulation_select_rocket(self, i);
+    ld_status status = flight_build(&self->flight, self->model, i, run->error);
+    if (status)
+        return status;
+    double t = rocket->t_ignition + rocket->t_rear, state[FLIGHT_STATES];
+    bool rows = run->options && run->options->sink && run->options->sink->flight;
+    quat q = q_from(rocket->exit.quaternion);
+    const earth *globe = &self->flight.earth;
+    m3 A_EB = m3_mul(globe->A_EI, q_matrix(q));
+    flight_pose pose = {
+        .r_O1 = v3_from(rocket->exit.position),
+        .v_O1 = v3_from(rocket->exit.velocity),
+        .q_IB = q,
+        .w = v3_add(v3_from(rocket->exit.rate), m3_apply_transposed(A_EB, earth_rate(globe))),
+    };
+    flight_phase phase = free_flight_phase(&self->flight, rocket->t_ignition, t);
+    flight_enter(&self->flight, &phase, t, &pose, state);
+    double height = flight_center(&self->flight, t, state).r.y;
+    if (self->model->run.end == LD_END_TIME && self->flight.has_ground &&
+        height < self->flight.ground) {
+        simulation_note(
+            run->summary,
+            "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
+            "mass centre at y = %.4g m",
+            rocket->tube, height);
+        return LD_OK;
+    }
+    free_flight job = {
+        .system = &self->flight,
+        .model = self->model,
+        .t_ignition = rocket->t_ignition,
+        .t_start = t,
+        .t_end = run->t_end,
+        .launch_x = run->point[i][0],
+        .launch_z = run->point[i][1],
+        .options = run->options,
+        .row = rows ? write_flight_row : NULL,
+        .self = run,
+    };
+    if (rows)
+        status = begin_flight_rows(run, i);
+    if (!status)
+        status = free_flight_run(&job, state, rocket, run->summary, run->error);
+    return status;
+}
+
+// Every rocket that has left its tube flies to the ground, or until the run's end.
+ld_status launch_fly_all(launch_run *run)
+{
+    ld_status status = LD_OK;
+    if (run->self->model->run.end == LD_END_TIP)
+        return LD_OK;
+    for (int i = 0; i < run->summary->rocket_count && !status; i++)
+        if (!isnan(run->summary->rocket[i].t_rear))
+            status = fly(run, i);
+    return status;
+}

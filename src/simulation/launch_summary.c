@@ -1,0 +1,153 @@
+// What a launch leaves besides its rows.
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "simulation/launch_run.h"
+
+void launch_record_exit(launch_run *run, double t, const double *landed)
+{
+    ld_simulation *self = run->self;
+    const launching_layout *at = &self->launcher.launching.layout;
+    // the curvature jumps at the tip: its inner value counts, on whichever side the step landed
+    double y[LD_MAX_STATES];
+    memcpy(y, landed, (size_t)self->launcher.state_count * sizeof(double));
+    y[at->x] = fmin(y[at->x], self->launcher.launching.tube.flexible.length);
+    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
+    launching_output out;
+    launching_pose pose;
+    launcher_input input;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &out);
+    simulation_input(self, t, y, &input);
+    m3 A_IR = q_matrix(q_from(y + at->quaternion));
+    v3 axis = m3_column(pose.A_RB, 0);
+    direction_angles angles =
+        direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(pose.w_B, axis)));
+    rocket->muzzle_speed = out.y[0];
+    rocket->inertial_speed = v3_norm(pose.v_O1);
+    rocket->spin_rate = v3_dot(axis, pose.w_B);
+    rocket->pitch = angles.pitch;
+    rocket->yaw = angles.yaw;
+    rocket->pitch_rate = angles.pitch_rate;
+    rocket->yaw_rate = angles.yaw_rate;
+    memcpy(&rocket->relative.y, y + at->x + 1, 5 * sizeof(double));
+    memcpy(&rocket->relative.w_x, out.y + 3, 3 * sizeof(double));
+    v3_store(rocket->exit.position, v3_add(v3_from(y + at->r), m3_apply(A_IR, pose.p1)));
+    v3_store(rocket->exit.velocity, m3_apply(A_IR, pose.v_O1));
+    quat q = q_from_matrix(m3_mul(A_IR, pose.A_RB));
+    memcpy(rocket->exit.quaternion, &q, sizeof q);
+    v3_store(rocket->exit.rate, m3_apply_transposed(pose.A_RB, pose.w_B));
+    tip_state tip = tip_state_of(self, &input.launching.base, y);
+    rocket->tip.y = tip.offset.y;
+    rocket->tip.z = tip.offset.z;
+    rocket->tip.pitch = tip.angles.pitch;
+    rocket->tip.yaw = tip.angles.yaw;
+    rocket->tip.vy = tip.offset_dot.y;
+    rocket->tip.vz = tip.offset_dot.z;
+    rocket->tip.pitch_rate = tip.angles.pitch_rate;
+    rocket->tip.yaw_rate = tip.angles.yaw_rate;
+    rocket_motion motion = rocket_motion_of(&pose, input.launching.mass.c, y, at);
+    rocket->tip_off = tip_off_of(&input.launching.base, &motion);
+    rocket->aim = aim_of(self, t, &motion);
+}
+
+// Where the rocket is when it is lit, over the ground, and how its tube is aimed.
+void launch_record_ignition(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    const launching_layout *at = &self->launcher.launching.layout;
+    launching_output unused;
+    launching_pose pose;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+    v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), pose.p1));
+    run->point[self->current][0] = r.x;
+    run->point[self->current][1] = r.z;
+    launcher_input input;
+    launcher_place(&self->launcher, t, y, &input);
+    self->aim = input.launching.base.A;
+}
+
+// Largest contact and slot forces so far.
+void launch_watch_forces(launch_run *run, double t, const double *y)
+{
+    ld_simulation *self = run->self;
+    if (!self->phase.rocket)
+        return;
+    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
+    const launcher_output *at = simulation_output(self, t, y);
+    if (!at)
+        return;
+    const launching_output *out = &at->launching;
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
+        if (!self->phase.passed[i])
+            rocket->max_contact_force[i] =
+                fmax(rocket->max_contact_force[i], out->adaptor[i].force);
+    rocket->max_slot_force = fmax(rocket->max_slot_force, fabs(out->N));
+    if (self->phase.locked)
+        run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
+}
+
+void launch_energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
+                      ld_energy *energy)
+{
+    launcher_input input;
+    launcher_output out = {0};
+    simulation_input(self, t, y, &input);
+    launcher_evaluate(&self->launcher, &input, &self->phase, y, &out);
+    simulation_energy(self, &input, &out, y, energy_start, energy);
+}
+
+void simulation_note(ld_summary *summary, const char *format, ...)
+{
+    int capacity = (int)(sizeof summary->note / sizeof summary->note[0]);
+    if (summary->note_count == capacity)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(summary->note[summary->note_count++], sizeof summary->note[0], format, arguments);
+    va_end(arguments);
+}
+
+static void note_formulation(const ld_simulation *self, ld_summary *summary)
+{
+    if (self->model->run.formulation != LD_FORMULATION_OVERALL)
+        return;
+    simulation_note(summary, "overall form: condition of the tube's transfer matrix up to %.2g",
+                    self->worst_condition);
+    if (self->fallbacks)
+        simulation_note(summary,
+                        "overall form: %lld of %lld evaluations fell back on the reduced form",
+                        (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
+}
+
+void launch_summarise(launch_run *run, ld_status status, double cpu_seconds)
+{
+    ld_simulation *self = run->self;
+    ld_summary *summary = run->summary;
+    summary->complete = status == LD_OK;
+    if (status && !run->error->text[0])
+        ld_fail(run->error, status, "the receiver of the rows stopped the run");
+    if (status)
+        memcpy(summary->stopped, run->error->text, sizeof summary->stopped);
+    summary->statistics.cpu_seconds = cpu_seconds;
+    summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
+    summary->mode_count = self->mode_count;
+    memcpy(summary->mode, self->mode, sizeof summary->mode);
+    if (!run->propagator)
+        return;
+    double t = propagator_time(run->propagator);
+    summary->t_end = t;
+    launch_energy_at(self, t, propagator_state(run->propagator), run->energy_start,
+                     &summary->energy);
+    summary->statistics.steps += propagator_steps(run->propagator);
+    summary->statistics.rhs_evaluations += propagator_evaluations(run->propagator);
+    note_formulation(self, summary);
+    for (int i = 0; i < summary->rocket_count; i++)
+        if (summary->rocket[i].t_release < 0)
+            simulation_note(summary, "the lock of tube %d let go %.4g s before its ignition",
+                            summary->rocket[i].tube, -summary->rocket[i].t_release);
+    if (self->growing.real > 0)
+        simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
+                        self->growing.real, self->growing.shape);
+}

@@ -1,0 +1,119 @@
+// A simulation: made, renewed for another model, freed.
+#include "simulation/simulation.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+// The stretch of road [m] that the wheels will see in a launch.
+static void road_under(const ld_model *model, double x[2])
+{
+    const ld_vehicle *vehicle = &model->base.vehicle;
+    double speed = vehicle->speed, rear = 0, front = 0;
+    for (int j = 0; j < vehicle->wheel_count; j++) {
+        rear = fmin(rear, vehicle->wheel[j].mount[0]);
+        front = fmax(front, vehicle->wheel[j].mount[0]);
+    }
+    double end = model->run.end == LD_END_TIME ? model->run.end_time : 1;
+    x[0] = rear - speed * model->run.lead_in - 1;
+    x[1] = front + speed * (model->firing[model->firing_count - 1].at + end) + 1;
+}
+
+static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_error *error)
+{
+    const ld_model *model = self->model;
+    double stretch[2];
+    road_under(model, stretch);
+    ld_status status = launcher_build(&self->launcher, model, kept, stretch[0], stretch[1], error);
+    int count = model->salvo ? model->firing_count : 1;
+    for (int i = 0; i < count && !status; i++) {
+        status = motor_build(&self->motor_of[i], model->salvo ? &model->salvo[i] : &model->rocket,
+                             error);
+        self->motor_count += !status;
+    }
+    if (status)
+        return status;
+    simulation_select_rocket(self, 0);
+    self->t_ignition = model->firing[0].at;
+    history_build(self);
+    return LD_OK;
+}
+
+// Makes it empty, but for the columns' texts, which are many and mean nothing until they are
+// counted.
+static void clear(ld_simulation *self)
+{
+    memset(self, 0, offsetof(ld_simulation, column));
+}
+
+static void release(ld_simulation *self)
+{
+    launcher_free(&self->launcher);
+    flight_free(&self->flight);
+    for (int i = 0; i < self->motor_count; i++)
+        motor_free(&self->motor_of[i]);
+    clear(self);
+}
+
+ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)
+{
+    ld_simulation *self = *simulation;
+    launching_tube kept = {0};
+    if (self) {
+        kept = launching_take_tube(&self->launcher.launching);
+        release(self);
+    } else {
+        // its lanes want their alignment
+        self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
+        if (!self)
+            return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
+        clear(self);
+        *simulation = self;
+    }
+    self->model = model;
+    if (model->salvo) {
+        self->own = *model;
+        self->model = &self->own;
+    }
+    ld_status status = model->base.kind == LD_BASE_NONE ? flight_alone_create(self, error)
+                                                        : create_launch(self, &kept, error);
+    launching_tube_free(&kept);
+    if (status)
+        release(self);
+    return status;
+}
+
+ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
+{
+    clock_t start = clock();
+    ld_simulation *self = NULL;
+    ld_status status = simulation_renew(&self, model, error);
+    if (status) {
+        ld_simulation_free(self);
+        return status;
+    }
+    self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
+    self->cpu_seconds_setup = (double)(clock() - start) / CLOCKS_PER_SEC;
+    *out = self;
+    return LD_OK;
+}
+
+void ld_simulation_free(ld_simulation *self)
+{
+    if (self)
+        release(self);
+    free(self);
+}
+
+void simulation_select_rocket(ld_simulation *self, int i)
+{
+    bool differ = self->model->salvo != NULL;
+    self->rocket = i;
+    self->motor = self->motor_of[differ ? i : 0];
+    if (!differ)
+        return;
+    self->own.rocket = self->model->salvo[i];
+    launching_set_rocket(&self->launcher.launching);
+}
