@@ -28,22 +28,6 @@ static ld_status write_row(void *user, const flight_phase *phase, double t, cons
     return status;
 }
 
-// Marks what belongs to the tube as not there.
-static void clear_rocket(ld_rocket_summary *rocket, double t_ignition)
-{
-    double *tube[] = {&rocket->t_release,      &rocket->t_front,   &rocket->t_middle,
-                      &rocket->t_rear,         &rocket->spin_rate, &rocket->muzzle_speed,
-                      &rocket->inertial_speed, &rocket->pitch,     &rocket->yaw,
-                      &rocket->pitch_rate,     &rocket->yaw_rate,  &rocket->max_slot_force};
-    for (size_t i = 0; i < sizeof tube / sizeof tube[0]; i++)
-        *tube[i] = NAN;
-    for (int i = 0; i < 8; i++)
-        (&rocket->relative.y)[i] = (&rocket->tip.y)[i] = NAN;
-    rocket->tip_off = no_tip_off;
-    rocket->aim = no_aim;
-    rocket->t_ignition = t_ignition;
-}
-
 ld_status flight_alone_create(ld_simulation *self, ld_error *error)
 {
     ld_status status = flight_build(&self->flight, self->model, 0, error);
@@ -74,7 +58,8 @@ static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *
         .self = run,
     };
     summary->rocket_count = 1;
-    clear_rocket(&summary->rocket[0], ignition);
+    simulation_clear_rocket(&summary->rocket[0], ignition);
+    summary->rocket[0].max_slot_force = NAN;
     double start = cpu_now();
     ld_status status = LD_OK;
     if (run->sink)

@@ -18,20 +18,8 @@ static void set_up_rocket(launch_run *run, int i)
     run->greatest_lock_force = 0;
     ld_rocket_summary *rocket = &run->summary->rocket[i];
     run->summary->rocket_count = i + 1;
+    simulation_clear_rocket(rocket, firing->at);
     rocket->tube = firing->tube;
-    rocket->t_ignition = firing->at;
-    rocket->t_release = rocket->t_front = rocket->t_middle = rocket->t_rear = NAN;
-    for (int k = 0; k < LD_MAX_ADAPTORS; k++)
-        rocket->t_exit[k] = NAN;
-    rocket->muzzle_speed = rocket->inertial_speed = rocket->spin_rate = NAN;
-    rocket->pitch = rocket->yaw = rocket->pitch_rate = rocket->yaw_rate = NAN;
-    double *relative = &rocket->relative.y, *tip = &rocket->tip.y, *out = (double *)&rocket->exit;
-    for (int k = 0; k < 8; k++)
-        relative[k] = tip[k] = NAN;
-    for (int k = 0; k < 13; k++)
-        out[k] = NAN;
-    rocket->tip_off = no_tip_off;
-    rocket->aim = no_aim;
 }
 
 static ld_status find_start(launch_run *run, double *y)

@@ -6,6 +6,31 @@
 
 #include "simulation/launch_run.h"
 
+void simulation_clear_rocket(ld_rocket_summary *rocket, double t_ignition)
+{
+    *rocket = (ld_rocket_summary){
+        .t_ignition = t_ignition,
+        .t_release = NAN,
+        .t_front = NAN,
+        .t_middle = NAN,
+        .t_rear = NAN,
+        .muzzle_speed = NAN,
+        .inertial_speed = NAN,
+        .spin_rate = NAN,
+        .pitch = NAN,
+        .yaw = NAN,
+        .pitch_rate = NAN,
+        .yaw_rate = NAN,
+        .exit = {{NAN, NAN, NAN}, {NAN, NAN, NAN}, {NAN, NAN, NAN, NAN}, {NAN, NAN, NAN}},
+        .relative = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN},
+        .tip = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN},
+        .tip_off = no_tip_off,
+        .aim = no_aim,
+    };
+    for (int k = 0; k < LD_MAX_ADAPTORS; k++)
+        rocket->t_exit[k] = NAN;
+}
+
 void launch_record_exit(launch_run *run, double t, const double *landed)
 {
     ld_simulation *self = run->self;
@@ -31,8 +56,15 @@ void launch_record_exit(launch_run *run, double t, const double *landed)
     rocket->yaw = angles.yaw;
     rocket->pitch_rate = angles.pitch_rate;
     rocket->yaw_rate = angles.yaw_rate;
-    memcpy(&rocket->relative.y, y + at->x + 1, 5 * sizeof(double));
-    memcpy(&rocket->relative.w_x, out.y + 3, 3 * sizeof(double));
+    const double *x = y + at->x, *w = out.y + 3;
+    rocket->relative.y = x[1];
+    rocket->relative.z = x[2];
+    rocket->relative.psi = x[3];
+    rocket->relative.theta = x[4];
+    rocket->relative.gamma = x[5];
+    rocket->relative.w_x = w[0];
+    rocket->relative.w_y = w[1];
+    rocket->relative.w_z = w[2];
     v3_store(rocket->exit.position, v3_add(v3_from(y + at->r), m3_apply(A_IR, pose.p1)));
     v3_store(rocket->exit.velocity, m3_apply(A_IR, pose.v_O1));
     quat q = q_from_matrix(m3_mul(A_IR, pose.A_RB));
