@@ -215,7 +215,7 @@ static void test_columns_on_a_ship(void **state)
 {
     (void)state;
     static const char *const sets[] = {
-        "run={lead_in: 0.02 s, tolerance: 1e-9, output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
+        "run={lead_in: 0.02 s, tolerance: 1e-11, output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
         "rocket.eccentricity=3 -2 mm", "rocket.empty.center=0.4 0 0 m"};
     const double a = 3e-16, y = 3e-6, z = 1.5e-6;
     const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z};
