@@ -114,7 +114,7 @@ static bool add_key(scenario_reader *reader, const tree_node *root, const scenar
     tree_path(root, written, path);
     if (is_overridden(root, path, sets, count) || !may_be_swept(reader, before, axis, path))
         return false;
-    snprintf(axis->keys.path[axis->keys.count++], LD_MAX_PATH, "%s", path);
+    snprintf(axis->keys.path[axis->keys.count++], LD_MAX_PATH, "%.*s", LD_MAX_PATH - 1, path);
     return true;
 }
 
