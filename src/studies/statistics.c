@@ -116,17 +116,12 @@ static double linear_error(const grouped *self, const uint32_t *number, group_su
     return sqrt(g / (g - 1) * squares) / (sums.count * second);
 }
 
-// Draws as many groups as there are, with replacement; the numbers depend on `resample` alone.
-static group_sums draw_groups(const grouped *self, uint64_t resample, uint32_t *number)
+// Draws as many groups as there are, with replacement.
+static group_sums draw_groups(const grouped *self, const uint32_t *drawn, uint32_t *number)
 {
-    static const uint64_t key[2] = {0x626f6f7473747261, 0x70}; // "bootstrap"
     group_sums sums = {0};
-    uint64_t words[4];
     for (size_t i = 0; i < self->groups; i++) {
-        if (i % 8 == 0)
-            random_block(key, (uint64_t[]){resample, i / 8, 0, 0}, words);
-        uint64_t half = i % 2 ? words[i / 2 % 4] >> 32 : words[i / 2 % 4] & 0xffffffff;
-        number[i] = (uint32_t)(half * self->groups >> 32);
+        number[i] = (uint32_t)((uint64_t)drawn[i] * self->groups >> 32);
         add(&sums, self->of[number[i]]);
     }
     return sums;
@@ -145,15 +140,36 @@ void sort_values(double *value, size_t count)
 
 // Fewer groups: resamples are degenerate; more: Student's t does as well.
 enum { RESAMPLES = 999, FEWEST = 8, MOST = 1000 };
+typedef struct resample {
+    uint32_t drawn[MOST];
+} resample;
+
+// Resamples with at least so many random numbers, which are drawn once for all studies.
+static const resample *draw_resamples(size_t count)
+{
+    static const uint64_t key[2] = {0x626f6f7473747261, 0x70}; // "bootstrap"
+    static resample all[RESAMPLES];
+    static size_t known = 0;
+#pragma omp critical(resamples)
+    for (; known < count; known += 8)
+        for (uint64_t b = 0; b < RESAMPLES; b++) {
+            uint64_t words[4];
+            random_block(key, (uint64_t[]){b, known / 8, 0, 0}, words);
+            for (int i = 0; i < 8; i++)
+                all[b].drawn[known + (size_t)i] = (uint32_t)(words[i / 2] >> i % 2 * 32);
+        }
+    return all;
+}
 
 // Quantiles of the studentised logarithm of the variance, t[0] < 0 < t[1] (Efron and Tibshirani, An
 // introduction to the bootstrap, 1993, section 12.5).
 static void bootstrap_quantiles(const grouped *self, double t[2])
 {
+    const resample *resamples = draw_resamples(self->groups);
     double ratio[RESAMPLES], all = log(variance(self->all));
     uint32_t number[MOST];
-    for (uint64_t b = 0; b < RESAMPLES; b++) {
-        group_sums sums = draw_groups(self, b, number);
+    for (int b = 0; b < RESAMPLES; b++) {
+        group_sums sums = draw_groups(self, resamples[b].drawn, number);
         double error = linear_error(self, number, sums);
         ratio[b] = error > 0 ? (log(variance(sums)) - all) / error : 0;
     }

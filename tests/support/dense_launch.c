@@ -78,7 +78,7 @@ typedef struct jet_scene {
 } jet_scene;
 
 // sum over k of (-x)^k/(first + 2 k)!, with first = 1: sin t/t, first = 2: (1 - cos t)/t^2, x = t^2
-static jet rotation_series(jet x, int first)
+static jet rotation_series(const jet *x, int first)
 {
     double factorial = first == 1 ? 1 : 0.5, f = 0, f1 = 0, f2 = 0;
     double power = 1, power1 = 0, power2 = 0; // x^k, its derivatives
@@ -88,28 +88,29 @@ static jet rotation_series(jet x, int first)
         f2 += factorial * power2;
         power2 = (k + 1) * power1;
         power1 = (k + 1) * power;
-        power *= x.v;
+        power *= x->v;
         factorial /= -(double)((top + 1) * (top + 2));
         if (k > 1 && fabs(factorial * power2) < 1e-24)
             break;
     }
-    return jet_apply(x, f, f1, f2);
+    return jet_apply(*x, f, f1, f2);
 }
 
 // Exp(~th) = E + a ~th + b (th th^T - |th|^2 E)
 static jet33 rotation_of(const jet3 *th)
 {
-    jet x = jet3_dot(th, th), a = rotation_series(x, 1), b = rotation_series(x, 2);
+    jet x = jet3_dot(th, th), a = rotation_series(&x, 1), b = rotation_series(&x, 2), ath, bx;
     jet3 bth;
     jet33 A;
+    jet_product(&bx, &b, &x);
     for (int i = 0; i < 3; i++)
-        bth.c[i] = jet_mul(b, th->c[i]);
+        jet_product(&bth.c[i], &b, &th->c[i]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            A.c[i][j] = jet_mul(bth.c[i], th->c[j]);
+            jet_product(&A.c[i][j], &bth.c[i], &th->c[j]);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        jet ath = jet_mul(a, th->c[k]), bx = jet_mul(b, x);
+        jet_product(&ath, &a, &th->c[k]);
         A.c[i][i].v += 1;
         jet_increase(&A.c[i][i], -1, &bx);
         jet_increase(&A.c[j][i], 1, &ath);

@@ -102,24 +102,30 @@ JET_INLINE jet jet_sub(jet a, jet b)
     return a;
 }
 
+// r = a b; r is neither of them. (Jets are long: by address, none is copied.)
+JET_INLINE void jet_product(jet *r, const jet *a, const jet *b)
+{
+    r->v = a->v * b->v;
+    r->t = a->t * b->v + a->v * b->t;
+    r->e = a->e * b->v + a->v * b->e;
+    r->te = a->te * b->v + a->t * b->e + a->e * b->t + a->v * b->te;
+    if (a->n && b->n) {
+        r->n = a->n;
+        for (int k = 0; k < r->n; k++)
+            r->d[k] = a->d[k] * b->v + a->v * b->d[k];
+    } else {
+        const jet *full = a->n ? a : b;
+        double f = a->n ? b->v : a->v;
+        r->n = full->n;
+        for (int k = 0; k < r->n; k++)
+            r->d[k] = full->d[k] * f;
+    }
+}
+
 JET_INLINE jet jet_mul(jet a, jet b)
 {
     jet r;
-    r.v = a.v * b.v;
-    r.t = a.t * b.v + a.v * b.t;
-    r.e = a.e * b.v + a.v * b.e;
-    r.te = a.te * b.v + a.t * b.e + a.e * b.t + a.v * b.te;
-    if (a.n && b.n) {
-        r.n = a.n;
-        for (int k = 0; k < r.n; k++)
-            r.d[k] = a.d[k] * b.v + a.v * b.d[k];
-    } else {
-        const jet *full = a.n ? &a : &b;
-        double f = a.n ? b.v : a.v;
-        r.n = full->n;
-        for (int k = 0; k < r.n; k++)
-            r.d[k] = full->d[k] * f;
-    }
+    jet_product(&r, &a, &b);
     return r;
 }
 
