@@ -1,15 +1,9 @@
 // A run without launcher: the state that the scenario gives, flown to its end.
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "simulation/free_flight.h"
 #include "simulation/simulation.h"
-
-static double cpu_now(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
 
 typedef struct alone_run {
     const ld_simulation *self;
@@ -21,10 +15,10 @@ static ld_status write_row(void *user, const flight_phase *phase, double t, cons
                            ld_error *error)
 {
     alone_run *run = user;
-    double row[FLIGHT_MAX_COLUMNS], start = cpu_now();
+    double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
     flight_row(&run->self->flight, phase, t, state, row);
     ld_status status = run->sink->row(run->sink->self, row, (size_t)run->self->column_count, error);
-    run->cpu_output += cpu_now() - start;
+    run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
 
@@ -60,11 +54,11 @@ static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *
     summary->rocket_count = 1;
     simulation_clear_rocket(&summary->rocket[0], ignition);
     summary->rocket[0].max_slot_force = NAN;
-    double start = cpu_now();
+    double start = simulation_cpu_now();
     ld_status status = LD_OK;
     if (run->sink)
         status = run->sink->begin(run->sink->self, self->column, (size_t)self->column_count, error);
-    run->cpu_output += cpu_now() - start;
+    run->cpu_output += simulation_cpu_now() - start;
     if (!status)
         status = free_flight_run(&job, state, &summary->rocket[0], summary, error);
     return status;
@@ -74,14 +68,14 @@ ld_status flight_alone_run(ld_simulation *self, const ld_run_options *options, l
                            ld_error *error)
 {
     alone_run run = {.self = self, .sink = options ? options->sink : NULL};
-    double start = cpu_now();
+    double start = simulation_cpu_now();
     ld_status status = fly(&run, options, summary, error);
     summary->complete = status == LD_OK;
     if (status && !error->text[0])
         ld_fail(error, status, "the receiver of the rows stopped the run");
     if (status)
         memcpy(summary->stopped, error->text, sizeof summary->stopped);
-    summary->statistics.cpu_seconds = cpu_now() - start - run.cpu_output;
+    summary->statistics.cpu_seconds = simulation_cpu_now() - start - run.cpu_output;
     summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
     return status;
 }

@@ -157,12 +157,12 @@ static ld_status begin(launch_run *run)
     if (!status)
         status = find_start(run, y);
     const ld_sink *sink = run->options ? run->options->sink : NULL;
-    double before = launch_cpu_now();
+    double before = simulation_cpu_now();
     if (!status && sink)
         status = simulation_geometry(self, sink, run->error);
     if (!status && sink)
         status = sink->begin(sink->self, self->column, (size_t)self->column_count, run->error);
-    run->cpu_output += launch_cpu_now() - before;
+    run->cpu_output += simulation_cpu_now() - before;
     if (status)
         return status;
     ld_energy energy;
@@ -186,7 +186,7 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
                             ld_error *error)
 {
     ld_error own;
-    double start = launch_cpu_now();
+    double start = simulation_cpu_now();
     memset(summary, 0, sizeof *summary);
     double row[LD_MAX_COLUMNS], between[LD_MAX_STATES];
     launch_run run = {.self = self,
@@ -206,7 +206,7 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
         else
             status = launch_fly_all(&run);
     }
-    launch_summarise(&run, status, launch_cpu_now() - start - run.cpu_output);
+    launch_summarise(&run, status, simulation_cpu_now() - start - run.cpu_output);
     propagator_free(run.propagator);
     return status;
 }

@@ -9,22 +9,22 @@ static ld_status write_flight_row(void *user, const flight_phase *phase, double 
 {
     launch_run *run = user;
     const ld_sink *sink = run->options->sink;
-    double row[FLIGHT_MAX_COLUMNS], start = launch_cpu_now();
+    double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
     flight_row(&run->self->flight, phase, t, state, row);
     ld_status status = sink->row(sink->self, row, (size_t)run->flight_column_count, error);
-    run->cpu_output += launch_cpu_now() - start;
+    run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
 
 static ld_status begin_flight_rows(launch_run *run, int i)
 {
     const ld_sink *sink = run->options->sink;
-    double start = launch_cpu_now();
+    double start = simulation_cpu_now();
     ld_column columns[FLIGHT_MAX_COLUMNS];
     run->flight_column_count = flight_columns(&run->self->flight, columns);
     ld_status status =
         sink->flight(sink->self, i + 1, columns, (size_t)run->flight_column_count, run->error);
-    run->cpu_output += launch_cpu_now() - start;
+    run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
 

@@ -17,10 +17,10 @@ ld_status launch_write_row(launch_run *run, double t, const double *y)
     if (!sink || t == run->last_row)
         return LD_OK;
     run->last_row = t;
-    double start = launch_cpu_now();
+    double start = simulation_cpu_now();
     history_row(run->self, t, y, run->energy_start, run->row);
     ld_status status = sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
-    run->cpu_output += launch_cpu_now() - start;
+    run->cpu_output += simulation_cpu_now() - start;
     run->sink_failed = status != LD_OK;
     return status;
 }

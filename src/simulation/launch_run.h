@@ -2,8 +2,6 @@
 #ifndef LD_SIMULATION_LAUNCH_RUN_H
 #define LD_SIMULATION_LAUNCH_RUN_H
 
-#include <time.h>
-
 #include "simulation/propagator.h"
 
 typedef struct launch_run {
@@ -29,12 +27,6 @@ typedef struct launch_run {
     int flight_column_count;
     double cpu_output; // [s] spent on rows and their sink
 } launch_run;
-
-// CPU time of the process [s].
-static inline double launch_cpu_now(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
 
 // ---- rows (launch_rows.c)
 

@@ -7,6 +7,11 @@
 #include <string.h>
 #include <time.h>
 
+double simulation_cpu_now(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
 // The stretch of road [m] that the wheels will see in a launch.
 static void road_under(const ld_model *model, double x[2])
 {
@@ -87,7 +92,7 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
 
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
 {
-    clock_t start = clock();
+    double start = simulation_cpu_now();
     ld_simulation *self = NULL;
     ld_status status = simulation_renew(&self, model, error);
     if (status) {
@@ -95,7 +100,7 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
         return status;
     }
     self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
-    self->cpu_seconds_setup = (double)(clock() - start) / CLOCKS_PER_SEC;
+    self->cpu_seconds_setup = simulation_cpu_now() - start;
     *out = self;
     return LD_OK;
 }

@@ -10,6 +10,9 @@
 
 enum { LD_MAX_COLUMNS = 1024 };
 
+// CPU time of the process [s].
+double simulation_cpu_now(void);
+
 // What the equations depend on beside the state and the system as it was built.
 typedef struct run_conditions {
     double t, t_ignition;    // [s]

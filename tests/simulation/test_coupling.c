@@ -59,32 +59,35 @@ static void second_order(void **state)
     reference_model_free(&model);
 }
 
+// The launch together, and apart with this step.
+static void launch_both(double step, ld_summary *together, ld_summary *apart)
+{
+    ld_model model;
+    marching_model(&model);
+    *together = launch(&model);
+    model.run.coupling_step = step;
+    *apart = launch(&model);
+    reference_model_free(&model);
+}
+
 // Exchanges that fall on the corner of the thrust but for rounding (0.1 s of lead-in, 10 ms).
 static void exchange_at_a_corner(void **state)
 {
     (void)state;
-    ld_model model;
-    marching_model(&model);
-    ld_summary together = launch(&model);
-    model.run.coupling_step = 0.05e-3;
-    ld_summary apart = launch(&model);
+    ld_summary together, apart;
+    launch_both(0.05e-3, &together, &apart);
     CHECK_BELOW("exit attitude and rates at 0.05 ms [rad/s]", distance(&apart, &together), 1e-6);
     CHECK_NEAR("t_front [s]", apart.rocket[0].t_front, together.rocket[0].t_front, 4e-9);
-    reference_model_free(&model);
 }
 
 // A step that does not divide the lead-in: ignition is an exchange besides.
 static void any_step(void **state)
 {
     (void)state;
-    ld_model model;
-    marching_model(&model);
-    ld_summary together = launch(&model);
-    model.run.coupling_step = 0.37e-3;
-    ld_summary apart = launch(&model);
+    ld_summary together, apart;
+    launch_both(0.37e-3, &together, &apart);
     CHECK_BELOW("exit rates at 0.37 ms [rad/s]", distance(&apart, &together), 5e-5);
     CHECK_NEAR("t_rear [s]", apart.rocket[0].t_rear, together.rocket[0].t_rear, 1e-6);
-    reference_model_free(&model);
 }
 
 int main(void)
