@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-#include "io/study_results.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/study.h"
+#include "simulation/study_results.h"
 #include "support/recorded_run.h"
 
 #define LAUNCHER                                                                                   \
