@@ -2,7 +2,7 @@
 // launch. Medians of many, process CPU time; the reference launcher on a fixed base at default
 // settings.
 #include "bench_sample.h"
-#include "launchdyn/scenario.h"
+#include "io/scenario.h"
 #include "simulation/simulation.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
@@ -83,7 +83,7 @@ int main(void)
     ld_model model;
     ld_messages messages = {0};
     ld_simulation *simulation;
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages) ||
+    if (scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL))
         return 1;
     bench_evaluation(simulation, 2, NULL); // the processor warms up
@@ -93,6 +93,6 @@ int main(void)
     bench_form(simulation, LD_FORMULATION_OVERALL, "evaluation, overall 19 x 19");
     ld_simulation_free(simulation);
     bench_run(&model);
-    ld_model_free(&model);
+    model_clear(&model);
     return 0;
 }

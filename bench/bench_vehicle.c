@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "bench_sample.h"
-#include "launchdyn/scenario.h"
+#include "io/scenario.h"
 #include "simulation/simulation.h"
 
 enum { REPEATS = 11, PARTS = 41, EVALUATIONS = 2000 };
@@ -56,7 +56,7 @@ static double bench_run(const char *what, const char *file, const char *const *s
     ld_simulation *simulation;
     ld_summary summary;
     double sample[REPEATS];
-    if (ld_scenario_read(file, sets, (size_t)count, &model, &messages) ||
+    if (scenario_read(file, sets, (size_t)count, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL))
         return 0;
     for (int r = 0; r < REPEATS; r++) {
@@ -67,7 +67,7 @@ static double bench_run(const char *what, const char *file, const char *const *s
     print(what, sample, REPEATS, 1e-3, "ms");
     printf("    %lld evaluations\n", (long long)summary.statistics.rhs_evaluations);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
     return sample[0];
 }
 
@@ -83,13 +83,13 @@ int main(void)
     ld_model model;
     ld_messages messages = {0};
     ld_simulation *simulation;
-    if (ld_scenario_read(reference, NULL, 0, &model, &messages) ||
+    if (scenario_read(reference, NULL, 0, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL))
         return 1;
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
         bench_evaluation(simulation, &parts[i]);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
     bench_run("whole run, 3 s lead-in, to the ground", reference, NULL, 0);
     double vehicle = bench_run("in the tube alone, vehicle", reference, in_tube, 2);
     double base = bench_run("in the tube alone, fixed base", fixed, NULL, 0);

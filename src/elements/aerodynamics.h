@@ -3,7 +3,7 @@
 #ifndef LD_ELEMENTS_AERODYNAMICS_H
 #define LD_ELEMENTS_AERODYNAMICS_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "math/curves.h"
 #include "math/vec3.h"
 

@@ -10,7 +10,7 @@
 #ifndef LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
 #define LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "launchdyn/status.h"
 
 // Stations of the nodes: at section steps, point masses and supports, evenly between them.

@@ -3,7 +3,7 @@
 #ifndef LD_ELEMENTS_CONTACT_H
 #define LD_ELEMENTS_CONTACT_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "math/vec3.h"
 
 typedef struct contact_law {

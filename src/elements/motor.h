@@ -3,7 +3,7 @@
 #ifndef LD_ELEMENTS_MOTOR_H
 #define LD_ELEMENTS_MOTOR_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "math/mat3.h"
 
 // Mass data of the rocket at one instant; rates for the energy balance.

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "math/mat3.h"
 
 typedef struct earth {

@@ -2,7 +2,7 @@
 #ifndef LD_ENVIRONMENT_TURBULENCE_H
 #define LD_ENVIRONMENT_TURBULENCE_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "math/vec3.h"
 
 enum { TURBULENCE_COMPONENTS = 3 };

@@ -2,7 +2,7 @@
 #ifndef LD_ENVIRONMENT_WIND_H
 #define LD_ENVIRONMENT_WIND_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "math/curves.h"
 #include "math/vec3.h"
 

@@ -6,7 +6,7 @@
 
 #include "launchdyn/origin.h"
 #include "launchdyn/results.h"
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "launchdyn/status.h"
 
 // history.h5, laid out as docs/results.md says. Rows are gathered in blocks; after each block the

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
 

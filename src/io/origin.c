@@ -5,7 +5,7 @@
 
 #include "io/json_text.h"
 #include "io/program.h"
-#include "launchdyn/scenario.h"
+#include "io/scenario.h"
 #include "model/source.h"
 
 static ld_status no_memory(ld_error *error)
@@ -60,7 +60,7 @@ void ld_origin_free(ld_origin *origin)
     }
     free(origin->fact);
     free(origin->scenario);
-    ld_source_free(origin->source);
+    source_free(origin->source);
     *origin = (ld_origin){0};
 }
 

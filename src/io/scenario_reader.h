@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 #include "io/units.h"
-#include "launchdyn/scenario.h"
+#include "io/scenario.h"
 
 enum {
     READER_MAX_DEPTH = 32,             // of nested lists and mappings

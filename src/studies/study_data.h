@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "launchdyn/status.h"
 
 // A number of each rocket, or of each sample.

@@ -4,7 +4,7 @@
 #define LD_SYSTEMS_BASE_MOTION_H
 
 #include "elements/base_frame.h"
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "math/spline.h"
 
 // The frame T of the undeformed tube: origin at its rear end, x along it.

@@ -8,7 +8,7 @@
 #ifndef LD_SYSTEMS_ORIENTATING_H
 #define LD_SYSTEMS_ORIENTATING_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 #include "launchdyn/mstmm.h"
 #include "systems/base_motion.h"
 

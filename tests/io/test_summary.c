@@ -7,7 +7,7 @@
 #include "io/history.h"
 #include "io/study_results.h"
 #include "launchdyn/output.h"
-#include "launchdyn/scenario.h"
+#include "io/scenario.h"
 #include "math/mat3.h"
 #include "math/quaternion.h"
 #include "support/column_book.h"
@@ -47,7 +47,7 @@ static void run_example(finished_run *run)
     ld_error error;
     ld_simulation *simulation;
     ld_output *output;
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/reference.yaml", sets, sizeof sets / sizeof *sets,
+    if (scenario_read(LD_SOURCE_DIR "/examples/reference.yaml", sets, sizeof sets / sizeof *sets,
                          &run->model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
@@ -704,7 +704,7 @@ static int clear(void **state)
 {
     finished_run *run = *state;
     history_free(&run->tube);
-    ld_model_free(&run->model);
+    model_clear(&run->model);
     free(run);
     return scratch_remove(state);
 }
