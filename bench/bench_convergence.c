@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/summary.h"
 
 enum { MOST = 12 };
@@ -131,7 +131,7 @@ int main(void)
         ld_model model;
         ld_messages messages = {0};
         if (scenario_read(launches[i].file, &launches[i].set, launches[i].set != NULL, &model,
-                             &messages)) {
+                          &messages)) {
             ld_messages_print(&messages, stderr);
             return 1;
         }

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/free_flight.h"
 #include "simulation/simulation.h"
 

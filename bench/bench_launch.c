@@ -2,7 +2,7 @@
 // launch. Medians of many, process CPU time; the reference launcher on a fixed base at default
 // settings.
 #include "bench_sample.h"
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/simulation.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };

@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "io/history.h"
+#include "results/history.h"
 
 enum { MOST_COLUMNS = 110, ROWS = 50000 };
 

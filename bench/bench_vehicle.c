@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "bench_sample.h"
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/simulation.h"
 
 enum { REPEATS = 11, PARTS = 41, EVALUATIONS = 2000 };

@@ -364,7 +364,7 @@ static void measure_rocket(const record *run, const ld_summary *rocket, result *
     put(out, "time in the tube", "ms", 1e3, number(rocket, "t_rear"));
     put(out, "muzzle speed", "m/s", 1, number(rocket, "muzzle_speed"));
     put(out, "spin rate at exit", "rad/s", 1, number(rocket, "spin_rate"));
-    put(out, "roll at exit", "deg", 180 / pi, number(rocket, "relative.gamma"));
+    put(out, "roll at exit", "deg", 180 / pi, at(run, GAMMA, number(rocket, "t_rear") - 1e-6));
     put_heading(out, "(d) pitch and yaw");
     const struct {
         const char *name;

@@ -63,12 +63,12 @@ int ld_scenario_value(const ld_model *model, int point, int axis);
 /// long is cut.
 void ld_scenario_point_name(const ld_model *model, int point, char *text, size_t size);
 
-/// Reads a point of its sweep (from 1 to ld_scenario_points(); 0: the nominal values) from texts that
-/// have been read before, those of another model or of results (ld_origin_read()). A value's place
-/// in messages is that in the sweep. An override of a swept key takes its axis away; other overrides
-/// are laid over the point. The model keeps the axes, and everything else may differ between points.
-/// Files that are not among them are read, and
-/// added, where the source has a folder.
+/// Reads a point of its sweep (from 1 to ld_scenario_points(); 0: the nominal values) from texts
+/// that have been read before, those of another model or of results (ld_origin_read()). A value's
+/// place in messages is that in the sweep. An override of a swept key takes its axis away; other
+/// overrides are laid over the point. The model keeps the axes, and everything else may differ
+/// between points. Files that are not among them are read, and added, where the source has a
+/// folder.
 /// @param source the model gets a share of it
 ld_status ld_scenario_read_source(ld_source *source, int point, ld_model **model,
                                   ld_messages *messages);

@@ -108,8 +108,8 @@ static int run_again(const char *folder, run_wishes *wishes)
         command_complain("%s cannot be run again: its model was not read from a scenario", folder);
     } else if (command_read_source(origin.source, origin.point, &model) == LD_OK) {
         command_tell_difference(folder, &origin);
-        code = origin.sample > 0 ? run_sample(model, origin.sample, wishes)
-                                 : run_model(model, wishes);
+        code =
+            origin.sample > 0 ? run_sample(model, origin.sample, wishes) : run_model(model, wishes);
         ld_model_free(model);
     }
     ld_origin_free(&origin);

@@ -1,11 +1,11 @@
 /// The model: what a scenario says, validated, as plain data in SI units and radians.
 ///
 /// A model is constant while it runs. It is read from a scenario, or filled by hand in tests,
-/// starting from model_init(). To users it is a handle (launchdyn/model.h). Counts say how many entries of a fixed array are
-/// used; tables are pointers to memory that the model owns (see model_clear()).
-/// Frames: `I` inertial (x forward, y up, z right), `B` rocket (origin at the rear adaptor's
-/// centre, x along the axis, forward), tube axes (origin at the undeformed tube's rear end, x along
-/// it).
+/// starting from model_init(). To users it is a handle (launchdyn/model.h). Counts say how many
+/// entries of a fixed array are used; tables are pointers to memory that the model owns (see
+/// model_clear()). Frames: `I` inertial (x forward, y up, z right), `B` rocket (origin at the rear
+/// adaptor's centre, x along the axis, forward), tube axes (origin at the undeformed tube's rear
+/// end, x along it).
 #ifndef LD_MODEL_MODEL_H
 #define LD_MODEL_MODEL_H
 

@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/numeric_locale.h"
-#include "io/text_file.h"
+#include "base/numeric_locale.h"
+#include "base/text_file.h"
 #include "report/report_parts.h"
 
 enum { MOST_SUMMARY = 1 << 28 };

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/text_file.h"
+#include "base/text_file.h"
 
 // Text between tags.
 static void write_text(FILE *page, const char *text)

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-#include "io/json_text.h"
+#include "model/model.h"
+#include "results/json_text.h"
 
 // A text, where there is room for it.
 static void write_fitting(FILE *json, const char *text, size_t *room)

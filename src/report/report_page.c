@@ -1,7 +1,7 @@
 // The page of a report: what it shows as JSON, and the page around that.
-#include "io/json_text.h"
 #include "report/report_origin.h"
 #include "report/report_parts.h"
+#include "results/json_text.h"
 
 #include <stdlib.h>
 

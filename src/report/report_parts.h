@@ -6,12 +6,12 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "io/history.h"
-#include "io/plot.h"
+#include "figures/plot.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/report.h"
 #include "launchdyn/status.h"
 #include "report/report_html.h"
+#include "results/history.h"
 
 enum { REPORT_ROCKETS = 64 };
 

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/json_text.h"
 #include "math/quaternion.h"
 #include "math/rotation_vector.h"
 #include "report/report_parts.h"
+#include "results/json_text.h"
 
 enum { DERIVED = 6 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/numeric_locale.h"
+#include "base/numeric_locale.h"
 
 // ---- what is laid side by side
 

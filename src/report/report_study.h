@@ -2,9 +2,9 @@
 #ifndef LD_REPORT_REPORT_STUDY_H
 #define LD_REPORT_REPORT_STUDY_H
 
-#include "io/study_results.h"
 #include "launchdyn/study.h"
 #include "report/report_html.h"
+#include "simulation/study_results.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
 

@@ -2,8 +2,8 @@
 #include <inttypes.h>
 #include <math.h>
 
-#include "io/json_text.h"
 #include "report/report_study.h"
+#include "results/json_text.h"
 
 // Bytes for what grows with the number of series; the rest of a report fits beside them.
 enum {

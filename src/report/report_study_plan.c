@@ -2,11 +2,11 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "io/json_text.h"
-#include "io/scenario_text.h"
-#include "io/scenario.h"
 #include "report/report_origin.h"
 #include "report/report_study.h"
+#include "results/json_text.h"
+#include "scenario/scenario.h"
+#include "scenario/scenario_text.h"
 
 // A pair of texts, the second made by fprintf.
 static void write_line(FILE *json, bool *first, const char *name, const char *format, ...)

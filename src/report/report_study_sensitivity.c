@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "io/json_text.h"
 #include "report/report_study.h"
+#include "results/json_text.h"
 #include "studies/sensitivity.h"
 
 // The most wanted first: of many series and factors there is no room for all.

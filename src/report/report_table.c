@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/json_text.h"
 #include "report/report_parts.h"
+#include "results/json_text.h"
 
 // ---- numbers as bytes ----
 

@@ -3,8 +3,8 @@
 #define LD_SIMULATION_SIMULATION_H
 
 #include "elements/motor.h"
-#include "simulation/summary.h"
 #include "simulation/integrator.h"
+#include "simulation/summary.h"
 #include "systems/flight.h"
 #include "systems/launcher.h"
 

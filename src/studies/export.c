@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/numeric_locale.h"
-#include "io/text_file.h"
+#include "base/numeric_locale.h"
+#include "base/text_file.h"
 #include "launchdyn/study.h"
 #include "studies/store.h"
 

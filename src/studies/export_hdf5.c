@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/hdf5_support.h"
+#include "results/hdf5_support.h"
 #include "studies/export.h"
 
 enum { BLOCK = 1024, STATUS = 16 };

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "io/study_results.h"
+#include "simulation/study_results.h"
 
 typedef struct study_rocket {
     int64_t tube;

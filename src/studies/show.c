@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/numeric_locale.h"
 #include "base/printed.h"
-#include "io/numeric_locale.h"
-#include "io/study_results.h"
 #include "launchdyn/study.h"
+#include "simulation/study_results.h"
 #include "studies/sensitivity.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "io/scenario.h"
 #include "model/field.h"
+#include "scenario/scenario.h"
 #include "studies/statistics.h"
 #include "studies/store.h"
 
@@ -117,7 +117,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
     ld_messages messages;
     char why[384];
     ld_status status = scenario_read_text(data->scenario, strlen(data->scenario), "study", ".",
-                                             NULL, 0, &model, &messages);
+                                          NULL, 0, &model, &messages);
     if (status) {
         ld_messages_free(&messages);
         return LD_OK;

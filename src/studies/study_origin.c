@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/origin.h"
 #include "model/source.h"
+#include "results/origin.h"
 #include "studies/store.h"
 
 static char *copy_of(const char *text, size_t length)

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "studies/study.h"
 
 // Adds to a message which point it is about: " (point 5 of the sweep, rocket.mass: 61 kg)".

@@ -6,7 +6,8 @@
 
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
-#include "io/scenario.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 
 static void write_text(const char *name, const char *text)
 {

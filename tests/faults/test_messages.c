@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 
 enum { MAX_TEXT = 8192, MAX_SETS = 8 };
 
@@ -92,7 +92,7 @@ static char *messages_of(const fault_case *c, const char *text)
     for (int i = 0; i < c->sets; i++)
         sets[i] = c->set[i];
     ld_status status = scenario_read_text(text, strlen(text), "case.yaml", "", sets,
-                                             (size_t)c->sets, &model, &messages);
+                                          (size_t)c->sets, &model, &messages);
     if (status != LD_ERR_INPUT)
         fail_msg("%s: status %s", c->title, ld_status_name(status));
     FILE *stream = open_memstream(&printed, &length);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "support/model_compare.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -37,8 +37,7 @@ static void check_model(const ld_model *model)
     ld_error error;
     size_t length;
     char *text = print_model(model, &length);
-    ld_status status =
-        scenario_read_text(text, length, "printed", "", NULL, 0, &again, &messages);
+    ld_status status = scenario_read_text(text, length, "printed", "", NULL, 0, &again, &messages);
     if (status != LD_OK) {
         ld_messages_print(&messages, stderr);
         abort();
@@ -75,7 +74,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ld_model model;
     ld_messages messages;
     ld_status status = scenario_read_text(text + before, size - before, "fuzz", "examples", sets,
-                                             zero ? 1 : 0, &model, &messages);
+                                          zero ? 1 : 0, &model, &messages);
     if ((status == LD_OK) != (messages.count == 0) || status == LD_ERR_MEMORY)
         abort();
     if (status == LD_OK) {

@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -26,8 +26,8 @@ static void read_with(const char *set)
 {
     ld_model model;
     ld_messages messages;
-    ld_status status = scenario_read_text(scenario, sizeof scenario - 1, "fuzz", "", &set, 1,
-                                             &model, &messages);
+    ld_status status =
+        scenario_read_text(scenario, sizeof scenario - 1, "fuzz", "", &set, 1, &model, &messages);
     if ((status == LD_OK) != (messages.count == 0) || status == LD_ERR_MEMORY)
         abort();
     if (status == LD_OK)

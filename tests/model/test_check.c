@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 
 static ld_model good_model(const char *file)
 {
@@ -21,10 +21,10 @@ static ld_model good_model(const char *file)
         ld_model m = good_model(file);                                                             \
         ld_error error;                                                                            \
         change;                                                                                    \
-        assert_int_equal(model_check(&m, &error), LD_ERR_INPUT);                                \
+        assert_int_equal(model_check(&m, &error), LD_ERR_INPUT);                                   \
         assert_string_equal(error.text, text_);                                                    \
         m.rocket.contact.law = LD_CONTACT_HUNT_CROSSLEY;                                           \
-        model_clear(&m);                                                                         \
+        model_clear(&m);                                                                           \
     } while (0)
 
 static void test_good(void **state)

@@ -6,7 +6,7 @@
 #include "support/check.h"
 #include "support/reference_model.h"
 
-#include "io/units.h"
+#include "scenario/units.h"
 
 // The unit of a label: in its brackets, or the whole of it; "" of plain numbers.
 static void unit_of(const char *label, char unit[32])

@@ -2,7 +2,7 @@
 // their way to the ground.
 #include "support/check.h"
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "support/recorded_run.h"
 
 static ld_model fixed_model(const char *end)

@@ -5,10 +5,10 @@
 
 #include <stdlib.h>
 
-#include "io/study_results.h"
-#include "io/scenario.h"
 #include "math/mat3.h"
+#include "scenario/scenario.h"
 #include "simulation/simulation.h"
+#include "simulation/study_results.h"
 #include "support/draw.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"

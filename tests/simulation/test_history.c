@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scenario.h"
-#include "simulation/summary.h"
 #include "math/mat3.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 
 enum { ROWS = 10000, COLUMNS = 32 };
 

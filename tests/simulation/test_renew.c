@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/simulation.h"
 
 static void read_example(const char *name, ld_model *model)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/simulation.h"
 #include "support/check.h"
 #include "support/recorded_run.h"

@@ -1,7 +1,7 @@
 // A flight through turbulence: what acts is the turbulence of the distance flown through the air,
 // and it is the same at any tolerance.
 #include "environment/turbulence.h"
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 
@@ -23,7 +23,7 @@ static void read_model_of(const char *const *sets, size_t count, ld_model *model
 {
     ld_messages messages = {0};
     if (scenario_read_text(scenario, sizeof scenario - 1, "ball", ".", sets, count, model,
-                              &messages)) {
+                           &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "io/scenario.h"
 #include "math/distributions.h"
+#include "scenario/scenario.h"
 #include "studies/draw.h"
 #include "studies/sample.h"
 
@@ -109,8 +109,8 @@ static ld_model read_text(const char *factors)
     int length =
         snprintf(text, sizeof text,
                  "include: fixed.yaml\nscatter:\n  seed: 5\n  samples: 8\n  factors:\n%s", factors);
-    ld_status status = scenario_read_text(text, (size_t)length, "text",
-                                             LD_SOURCE_DIR "/examples", NULL, 0, &model, &messages);
+    ld_status status = scenario_read_text(text, (size_t)length, "text", LD_SOURCE_DIR "/examples",
+                                          NULL, 0, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     return model;

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "io/hdf5_support.h"
 #include "launchdyn/study.h"
+#include "results/hdf5_support.h"
 
 // Two points of a sweep, three samples at each with two rockets; sample 3 failed, the second
 // rocket of sample 6 did not leave.

@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-#include "io/study_results.h"
-#include "io/scenario.h"
 #include "launchdyn/study.h"
+#include "scenario/scenario.h"
+#include "simulation/study_results.h"
 #include "support/recorded_run.h"
 
 #define LAUNCHER                                                                                   \
@@ -21,7 +21,7 @@ static ld_model read_text(const char *text)
     ld_model model;
     ld_messages messages;
     ld_status status = scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
-                                             NULL, 0, &model, &messages);
+                                          NULL, 0, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     return model;

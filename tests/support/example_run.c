@@ -1,7 +1,7 @@
 #include "support/example_run.h"
 
 #include "launchdyn/output.h"
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 
 void example_run(const char *folder, const char *name, const char *const *sets, size_t count,

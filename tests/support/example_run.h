@@ -2,7 +2,7 @@
 #ifndef LD_TESTS_SUPPORT_EXAMPLE_RUN_H
 #define LD_TESTS_SUPPORT_EXAMPLE_RUN_H
 
-#include "io/history.h"
+#include "results/history.h"
 
 // Runs examples/NAME with `count` keys set ("path=value") and leaves the results in `folder`.
 // `read` is to be freed by history_free().

@@ -5,8 +5,8 @@
 
 #include <stddef.h>
 
-#include "model/model.h"
 #include "launchdyn/results.h"
+#include "model/model.h"
 #include "simulation/summary.h"
 
 enum { MADE_COLUMNS = 115 };

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "support/recorded_run.h"
 
 #define TIGHT "run.tolerance=1e-9", "run.flight_tolerance=1e-10"

@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
-#include "io/scenario.h"
-#include "simulation/summary.h"
 #include "math/quaternion.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 #include "support/recorded_run.h"
 
 static const double degree = 0.017453292519943295, g = 9.80665;

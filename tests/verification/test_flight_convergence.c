@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "support/recorded_run.h"
 
 static ld_model read_model(const char *name, const char *const *sets, size_t count)

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/summary.h"
 #include "support/dense_flight.h"
 

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "io/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/summary.h"
 
 static const double degree = 0.017453292519943295;

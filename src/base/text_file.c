@@ -1,0 +1,62 @@
+#include "base/text_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <sys/stat.h>
+
+static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *length,
+                             ld_error *error)
+{
+    size_t capacity = 1 << 14, used = 0;
+    char *buffer = NULL;
+    for (;;) {
+        char *larger = realloc(buffer, capacity + 1);
+        if (!larger) {
+            free(buffer);
+            return ld_fail(error, LD_ERR_MEMORY, "no memory");
+        }
+        buffer = larger;
+        used += fread(buffer + used, 1, capacity - used, stream);
+        if (used < capacity)
+            break;
+        capacity *= 2;
+    }
+    if (ferror(stream) || used > limit) {
+        free(buffer);
+        if (used > limit)
+            return ld_fail(error, LD_ERR_FILE, "is larger than %zu kB", limit / 1024);
+        return ld_fail(error, LD_ERR_FILE, "cannot be read: %s", strerror(errno));
+    }
+    buffer[used] = '\0';
+    *text = buffer;
+    *length = used;
+    return LD_OK;
+}
+
+ld_status text_file_read(const char *path, size_t limit, char **text, size_t *length,
+                         ld_error *error)
+{
+    struct stat about;
+    if (strcmp(path, "-") == 0)
+        return read_stream(stdin, limit, text, length, error);
+    if (stat(path, &about) != 0)
+        return ld_fail(error, LD_ERR_FILE, "cannot be read: %s", strerror(errno));
+    if (!S_ISREG(about.st_mode))
+        return ld_fail(error, LD_ERR_FILE, "is not a regular file");
+    if (about.st_size > (off_t)limit)
+        return ld_fail(error, LD_ERR_FILE, "is larger than %zu kB", limit / 1024);
+    FILE *stream = fopen(path, "rb");
+    if (!stream)
+        return ld_fail(error, LD_ERR_FILE, "cannot be read: %s", strerror(errno));
+    ld_status status = read_stream(stream, limit, text, length, error);
+    fclose(stream);
+    return status;
+}
+
+bool text_file_is_replaced(const char *path)
+{
+    struct stat there;
+    return stat(path, &there) != 0 || S_ISREG(there.st_mode) || S_ISDIR(there.st_mode);
+}

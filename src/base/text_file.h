@@ -1,0 +1,21 @@
+// A text file, read whole.
+#ifndef LD_BASE_TEXT_FILE_H
+#define LD_BASE_TEXT_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "launchdyn/status.h"
+
+// Reads the regular file `path` ("-": standard input) into memory to be freed, with a zero after
+// its end. Fails with a sentence without the name, e.g. "cannot be read: No such file or
+// directory".
+ld_status text_file_read(const char *path, size_t limit, char **text, size_t *length,
+                         ld_error *error);
+
+// Whether a file is to be written under a temporary name, which then becomes its own: not where
+// something else than a file is, as /dev/stdout.
+bool text_file_is_replaced(const char *path);
+
+#endif

@@ -1,0 +1,207 @@
+#include "figures/chart.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/numeric_locale.h"
+#include "figures/plot.h"
+
+enum { HEADING = 40, HEIGHT = 330 };
+
+typedef struct chart_page {
+    const char *heading;
+    const chart *charts;
+    size_t count;
+} chart_page;
+
+// The values of one curve as they are drawn, and which of them are needed.
+typedef struct drawn_curve {
+    size_t count;
+    double *x, *y;
+    char *keep;
+    size_t *stack;
+} drawn_curve;
+
+static ld_status allocate(drawn_curve *drawn, const chart_page *page, ld_error *error)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < page->count; i++)
+        for (int j = 0; j < page->charts[i].count; j++)
+            if (page->charts[i].curve[j].count > most)
+                most = page->charts[i].curve[j].count;
+    drawn->x = malloc((2 * most + 1) * sizeof(double));
+    drawn->y = drawn->x + most;
+    drawn->keep = malloc(most + 1);
+    drawn->stack = malloc((2 * most + 8) * sizeof(size_t));
+    if (!drawn->x || !drawn->keep || !drawn->stack)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the charts");
+    return LD_OK;
+}
+
+static void set_values(drawn_curve *drawn, const chart *self, const chart_curve *curve)
+{
+    drawn->count = curve->count;
+    for (size_t i = 0; i < curve->count; i++) {
+        double x = curve->x[i] * self->x_factor, y = curve->y[i] * self->y_factor;
+        drawn->x[i] = self->logarithmic ? log10(x) : x;
+        drawn->y[i] = self->logarithmic ? log10(y) : y;
+    }
+}
+
+static bool drawable(const drawn_curve *drawn, size_t i)
+{
+    return isfinite(drawn->x[i]) && isfinite(drawn->y[i]);
+}
+
+// Ranges of the curves that are not faint, with some room above and below.
+static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], double y[2])
+{
+    x[0] = y[0] = INFINITY;
+    x[1] = y[1] = -INFINITY;
+    for (int j = 0; j < self->count; j++) {
+        set_values(drawn, self, &self->curve[j]);
+        for (size_t i = 0; i < drawn->count; i++)
+            if (!self->curve[j].faint && drawable(drawn, i)) {
+                x[0] = fmin(x[0], drawn->x[i]), x[1] = fmax(x[1], drawn->x[i]);
+                y[0] = fmin(y[0], drawn->y[i]), y[1] = fmax(y[1], drawn->y[i]);
+            }
+    }
+    double room = fmax(0.06 * (y[1] - y[0]), 1e-9 * fmax(fabs(y[0]), fabs(y[1])));
+    if (!(x[1] > x[0]))
+        x[0] = 0, x[1] = 1;
+    if (!(room > 0))
+        room = 1;
+    if (!(y[1] >= y[0]))
+        y[0] = y[1] = 0;
+    y[0] -= room, y[1] += room;
+}
+
+// Each run of drawable points becomes a line; an empty line of data parts them.
+static void write_data(FILE *script, size_t index, int j, drawn_curve *drawn, const chart *self,
+                       double x_span, double y_span)
+{
+    memset(drawn->keep, 0, drawn->count);
+    fprintf(script, "$c%zud%d << EOD\n", index, j);
+    for (size_t first = 0; first < drawn->count; first++) {
+        if (!drawable(drawn, first))
+            continue;
+        size_t last = first;
+        while (last + 1 < drawn->count && drawable(drawn, last + 1))
+            last++;
+        plot_thin(drawn->x, drawn->y, x_span, y_span, first, last, drawn->keep, drawn->stack);
+        for (size_t i = first; i <= last; i++)
+            if (drawn->keep[i])
+                fprintf(script, "%.6g %.6g\n", self->curve[j].x[i] * self->x_factor,
+                        self->curve[j].y[i] * self->y_factor);
+        fputc('\n', script);
+        first = last;
+    }
+    fputs("EOD\n", script);
+}
+
+// The name of a faint curve where it leaves the chart on the right or below.
+static void write_faint_label(FILE *script, const drawn_curve *drawn, const char *label,
+                              const double x[2], const double y[2], bool logarithmic)
+{
+    for (size_t i = *label ? drawn->count : 0; i-- > 0;)
+        if (drawable(drawn, i) && drawn->x[i] >= x[0] && drawn->x[i] <= x[1] &&
+            drawn->y[i] >= y[0] && drawn->y[i] <= y[1]) {
+            fputs("set label ", script);
+            plot_write_quoted(script, label);
+            fprintf(script, " at %.6g,%.6g right offset 0,0.9 font ',9' tc rgb '#909090'\n",
+                    logarithmic ? pow(10, drawn->x[i]) : drawn->x[i],
+                    logarithmic ? pow(10, drawn->y[i]) : drawn->y[i]);
+            return;
+        }
+}
+
+static void write_axes(FILE *script, const chart *self, const double x[2], const double y[2])
+{
+    bool log = self->logarithmic;
+    fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", log ? pow(10, x[0]) : x[0],
+            log ? pow(10, x[1]) : x[1], log ? pow(10, y[0]) : y[0], log ? pow(10, y[1]) : y[1]);
+    fputs(log ? "set logscale xy\n" : "unset logscale\n", script);
+    fputs("set title ", script);
+    plot_write_quoted(script, self->title);
+    fputs(" font ',12' offset 0,-0.3\nset xlabel ", script);
+    plot_write_quoted(script, self->x_label);
+    fputs(" font ',10'\nset ylabel ", script);
+    plot_write_quoted(script, self->y_label);
+    fputs(" font ',10'\n", script);
+}
+
+static void write_plot(FILE *script, const chart *self, size_t index)
+{
+    int style = 1;
+    for (int j = 0; j < self->count; j++) {
+        const chart_curve *curve = &self->curve[j];
+        fprintf(script, "%s $c%zud%d using 1:2 with lines ", j ? ", \\\n    " : "plot", index, j);
+        if (curve->faint)
+            fputs("lw 0.8 lc rgb '#b0b0b0' notitle", script);
+        else
+            fprintf(script, "ls %d ", style++);
+        if (!curve->faint && *curve->label) {
+            fputs("title ", script);
+            plot_write_quoted(script, curve->label);
+        } else if (!curve->faint) {
+            fputs("notitle", script);
+        }
+    }
+    fputc('\n', script);
+}
+
+static void write_chart(FILE *script, const chart *self, size_t index, drawn_curve *drawn)
+{
+    double x[2], y[2];
+    set_ranges(drawn, self, x, y);
+    fputs("unset label\n", script);
+    for (int j = 0; j < self->count; j++) {
+        set_values(drawn, self, &self->curve[j]);
+        write_data(script, index, j, drawn, self, x[1] - x[0], y[1] - y[0]);
+        if (self->curve[j].faint)
+            write_faint_label(script, drawn, self->curve[j].label, x, y, self->logarithmic);
+    }
+    write_axes(script, self, x, y);
+}
+
+static ld_status write_charts(FILE *script, const void *what, plot_format format,
+                              const char *output, ld_error *error)
+{
+    const chart_page *page = what;
+    drawn_curve drawn = {0};
+    ld_status status = allocate(&drawn, page, error);
+    if (!status) {
+        double height = HEADING + HEIGHT * (double)page->count;
+        locale_t before = numeric_locale_enter();
+        plot_begin(script, format, height, output);
+        fputs("set clip two\n", script);
+        for (size_t i = 0; i < page->count; i++) {
+            write_chart(script, &page->charts[i], i, &drawn);
+            fprintf(script, "set origin 0,%.6f\nset size 1,%.6f\n",
+                    1 - (HEADING + HEIGHT * (double)(i + 1)) / height, HEIGHT / height);
+            if (i == 0) {
+                fputs("set label ", script);
+                plot_write_quoted(script, page->heading);
+                fprintf(script, " at screen 0.016, screen %.6f left font ',17'\n",
+                        1 - 0.5 * HEADING / height);
+            }
+            write_plot(script, &page->charts[i], i);
+        }
+        fputs("unset multiplot\nunset output\n", script);
+        numeric_locale_leave(before);
+    }
+    free(drawn.x);
+    free(drawn.keep);
+    free(drawn.stack);
+    return status;
+}
+
+ld_status charts_draw(const char *file, const char *heading, const chart *charts, size_t count,
+                      ld_error *error)
+{
+    chart_page page = {heading, charts, count};
+    plot_format format = PLOT_SVG;
+    ld_status status = plot_format_of(file, &format, error);
+    return status ? status : plot_draw(write_charts, &page, format, file, error);
+}

@@ -1,0 +1,252 @@
+// Drawing figures: from folders of results through gnuplot to a picture.
+#include "figures/plot.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { MOST_FIGURES = 32 };
+
+extern char **environ;
+
+static ld_status unknown_figure(const char *name, ld_error *error)
+{
+    const char *names[MOST_FIGURES];
+    char list[512] = "";
+    size_t count = 0;
+    for (const ld_figure *figure; (figure = ld_figure_at(count)) != NULL; count++) {
+        names[count] = figure->name;
+        size_t length = strlen(list);
+        snprintf(list + length, sizeof list - length, "%s%s", count ? ", " : "", figure->name);
+    }
+    const char *nearest = ld_nearest_name(name, names, count);
+    return ld_fail(error, LD_ERR_INPUT, "there is no figure \"%.40s\"%s%s%s; there are %s", name,
+                   nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "",
+                   list);
+}
+
+ld_status plot_format_of(const char *file, plot_format *format, ld_error *error)
+{
+    static const char *const endings[] = {
+        [PLOT_SVG] = ".svg", [PLOT_PDF] = ".pdf", [PLOT_PNG] = ".png"};
+    const char *ending = strrchr(file, '.');
+    for (int i = 0; ending && i < 3; i++)
+        if (strcasecmp(ending, endings[i]) == 0) {
+            *format = (plot_format)i;
+            return LD_OK;
+        }
+    return ld_fail(error, LD_ERR_INPUT, "a picture's name ends in .svg, .pdf or .png: %.200s",
+                   file);
+}
+
+// ---- gnuplot ----
+
+// The last line that gnuplot printed, its complaint.
+static void read_complaint(FILE *printed, char *complaint, size_t size)
+{
+    char line[256];
+    snprintf(complaint, size, "it gives no reason");
+    rewind(printed);
+    while (fgets(line, sizeof line, printed)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (line[strspn(line, " \t^")])
+            snprintf(complaint, size, "%s", line + strspn(line, " \t"));
+    }
+}
+
+// Runs gnuplot from PATH on the script, without a shell and without the user's settings.
+static ld_status run_gnuplot(FILE *script, FILE *printed, ld_error *error)
+{
+    char *arguments[] = {"gnuplot", "--default-settings", NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, fileno(script), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(printed), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(printed), STDERR_FILENO);
+    pid_t child = 0;
+    int problem = posix_spawnp(&child, arguments[0], &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (problem == ENOENT)
+        return ld_fail(error, LD_ERR_MISSING,
+                       "gnuplot not found: install it (Debian: apt install gnuplot-nox)");
+    if (problem)
+        return ld_fail(error, LD_ERR_MISSING, "cannot run gnuplot: %s", strerror(problem));
+    int code = 0;
+    while (waitpid(child, &code, 0) < 0 && errno == EINTR)
+        ;
+    if (code == 0)
+        return LD_OK;
+    char complaint[256];
+    read_complaint(printed, complaint, sizeof complaint);
+    return ld_fail(error, LD_ERR_FILE, "gnuplot failed: %s", complaint);
+}
+
+// Draws into the file `part`.
+static ld_status draw(plot_writer *write, const void *page, plot_format format, const char *part,
+                      ld_error *error)
+{
+    FILE *script = tmpfile(), *printed = tmpfile();
+    ld_status status = LD_OK;
+    if (!script || !printed)
+        status = ld_fail(error, LD_ERR_FILE, "cannot make a temporary file: %s", strerror(errno));
+    if (!status)
+        status = write(script, page, format, part, error);
+    if (!status && (fflush(script) != 0 || ferror(script) || lseek(fileno(script), 0, SEEK_SET)))
+        status = ld_fail(error, LD_ERR_FILE, "cannot write a temporary file: %s", strerror(errno));
+    if (!status)
+        status = run_gnuplot(script, printed, error);
+    if (script)
+        fclose(script);
+    if (printed)
+        fclose(printed);
+    return status;
+}
+
+// Under a temporary name beside the picture, which then gets its own.
+ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
+                    ld_error *error)
+{
+    char part[4096];
+    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
+        return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
+    int probe = open(part, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (probe < 0)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
+    close(probe);
+    ld_status status = draw(write, page, format, part, error);
+    if (!status && rename(part, file) != 0)
+        status = ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
+    if (status)
+        unlink(part);
+    return status;
+}
+
+// ---- the page ----
+
+static ld_status read_folder(const char *folder, history_data *history, ld_error *error)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/history.h5", folder);
+    if (access(path, F_OK) != 0)
+        return ld_fail(error, LD_ERR_INPUT, "no results in %.400s: there is no history.h5", folder);
+    return history_read(path, history, error);
+}
+
+// Runs are known by their titles where these differ, else by their folders.
+static void name_runs(const ld_picture *picture, const history_data *run, const char **name)
+{
+    bool differ = true;
+    for (size_t i = 0; i < picture->folder_count; i++) {
+        name[i] = run[i].title;
+        differ = differ && name[i];
+        for (size_t j = 0; differ && j < i; j++)
+            differ = strcmp(name[i], name[j]) != 0;
+    }
+    if (!differ)
+        memcpy(name, picture->folder, picture->folder_count * sizeof *name);
+}
+
+static ld_status add_figure(const plot_figure **figure, size_t *count, const plot_figure *added,
+                            ld_error *error)
+{
+    if (*count == MOST_FIGURES)
+        return ld_fail(error, LD_ERR_INPUT, "at most %d figures fit on a page", MOST_FIGURES);
+    figure[(*count)++] = added;
+    return LD_OK;
+}
+
+// All figures for which some run has a column.
+static ld_status add_all(const plot_figure **figure, size_t *count, const history_data *run,
+                         size_t runs, ld_error *error)
+{
+    ld_status status = LD_OK;
+    const ld_figure *about;
+    for (size_t i = 0; !status && (about = ld_figure_at(i)) != NULL; i++) {
+        const plot_figure *found = plot_figure_find(about->name);
+        bool has = false;
+        for (size_t j = 0; j < runs; j++)
+            has = has || plot_figure_has_columns(found, &run[j]);
+        if (has)
+            status = add_figure(figure, count, found, error);
+    }
+    return status;
+}
+
+// What is drawn where no figure is named: the launch, or a flight alone.
+static ld_status add_usual(const plot_figure **figure, size_t *count, const history_data *run,
+                           ld_error *error)
+{
+    static const char *const of_launch[] = {"tip", "contact", "relative", NULL};
+    static const char *const of_flight[] = {"trajectory", "flight", NULL};
+    bool alone = run->flights > 0 && !plot_figure_has_columns(plot_figure_find("tip"), run);
+    ld_status status = LD_OK;
+    for (const char *const *name = alone ? of_flight : of_launch; *name && !status; name++)
+        status = add_figure(figure, count, plot_figure_find(*name), error);
+    return status;
+}
+
+static ld_status draw_runs(const ld_picture *picture, const history_data *run, plot_format format,
+                           const char *file, ld_error *error)
+{
+    const plot_figure *figure[MOST_FIGURES];
+    const char *name[PLOT_RUNS];
+    size_t count = 0;
+    ld_status status = LD_OK;
+    if (picture->figure_count == 0)
+        status = add_usual(figure, &count, run, error);
+    for (size_t i = 0; i < picture->figure_count && !status; i++)
+        if (strcmp(picture->figure[i], "all") == 0)
+            status = add_all(figure, &count, run, picture->folder_count, error);
+        else
+            status = add_figure(figure, &count, plot_figure_find(picture->figure[i]), error);
+    if (!status && count == 0)
+        status = ld_fail(error, LD_ERR_INPUT, "no figure shows a column of these results");
+    if (status)
+        return status;
+    name_runs(picture, run, name);
+    plot_page page = {.run = run,
+                      .name = name,
+                      .runs = picture->folder_count,
+                      .figure = figure,
+                      .figures = count,
+                      .from = picture->from,
+                      .to = picture->to};
+    return plot_draw(plot_write_script, &page, format, file, error);
+}
+
+static ld_status check_picture(const ld_picture *picture, ld_error *error)
+{
+    if (picture->folder_count == 0 || picture->folder_count > PLOT_RUNS)
+        return ld_fail(error, LD_ERR_INPUT, "name 1 to %d folders with results", PLOT_RUNS);
+    for (size_t i = 0; i < picture->figure_count; i++)
+        if (strcmp(picture->figure[i], "all") != 0 && !plot_figure_find(picture->figure[i]))
+            return unknown_figure(picture->figure[i], error);
+    if (picture->from >= picture->to)
+        return ld_fail(error, LD_ERR_INPUT, "there is nothing to draw from %g ms to %g ms",
+                       picture->from * 1e3, picture->to * 1e3);
+    return LD_OK;
+}
+
+ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
+{
+    plot_format format = PLOT_SVG;
+    ld_status status = check_picture(picture, error);
+    if (!status)
+        status = plot_format_of(file, &format, error);
+    history_data run[PLOT_RUNS];
+    size_t read = 0;
+    while (!status && read < picture->folder_count) {
+        status = read_folder(picture->folder[read], &run[read], error);
+        read += !status;
+    }
+    if (!status)
+        status = draw_runs(picture, run, format, file, error);
+    while (read > 0)
+        history_free(&run[--read]);
+    return status;
+}

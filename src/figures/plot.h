@@ -1,0 +1,93 @@
+// Figures of a launch: what they show, as data, and the drawing of them.
+#ifndef LD_FIGURES_PLOT_H
+#define LD_FIGURES_PLOT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "launchdyn/output.h"
+#include "launchdyn/status.h"
+#include "results/history.h"
+
+enum { PLOT_PANELS = 8, PLOT_CURVES = 8, PLOT_RUNS = 8 };
+
+// A column of the history and its name in the legend. A '*' in the column stands for any text: a
+// curve for each that matches, named by that text.
+typedef struct plot_curve {
+    const char *column, *label;
+} plot_curve;
+
+// One diagram. Values times the factor have the unit that the label names.
+typedef struct plot_panel {
+    const char *title;
+    const char *y_label;
+    double y_factor;
+    plot_curve curve[PLOT_CURVES]; // up to the first without a column
+    const char *x_column;          // NULL: time from ignition
+    const char *x_label;
+    double x_factor;
+    bool wide;  // takes a row of its own
+    bool since; // values less those at ignition
+    bool each;  // a diagram for each text that the '*' stands for, which takes the title's %s
+} plot_panel;
+
+// What time a figure shows: the launch, in milliseconds from shortly before ignition; all of the
+// launcher's motion, in seconds; the flight of each rocket, in seconds from its ignition.
+typedef enum plot_time { PLOT_LAUNCH, PLOT_VEHICLE, PLOT_FLIGHT } plot_time;
+
+// A standard figure: panels in rows of two under a heading.
+typedef struct plot_figure {
+    ld_figure about;
+    plot_panel panel[PLOT_PANELS]; // up to the first without a title
+    plot_time time;
+} plot_figure;
+
+// The figure with this name, or NULL.
+const plot_figure *plot_figure_find(const char *name);
+
+typedef enum plot_format { PLOT_SVG, PLOT_PDF, PLOT_PNG } plot_format;
+
+// What stands on a page.
+typedef struct plot_page {
+    const history_data *run; // [runs], laid one over the other
+    const char *const *name; // [runs], in the legend of several
+    size_t runs;
+    const plot_figure *const *figure; // [figures]
+    size_t figures;
+    double from, to; // [s] from ignition, NaN: what the figure shows by itself
+} plot_page;
+
+// Whether `name` is the pattern, whose one '*' stands for any text; that text becomes the label.
+bool plot_column_matches(const char *name, const char *pattern, char *label, size_t size);
+
+// Whether a run has a column that the figure shows.
+bool plot_figure_has_columns(const plot_figure *figure, const history_data *run);
+
+// Writes the commands with which gnuplot draws `page` into `output`.
+typedef ld_status plot_writer(FILE *script, const void *page, plot_format format,
+                              const char *output, ld_error *error);
+
+// The writer of a plot_page.
+plot_writer plot_write_script;
+
+// The format that the ending of a picture's name says.
+ld_status plot_format_of(const char *file, plot_format *format, ld_error *error);
+
+// Draws a page with gnuplot.
+ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
+                    ld_error *error);
+
+// Sets terminal, output and styles 1 to 6 of lines, and begins a page of this height: pixels of an
+// svg 1000 wide, points of a pdf, half pixels of a png.
+void plot_begin(FILE *script, plot_format format, double height, const char *output);
+
+// Text between the single quotes of gnuplot.
+void plot_write_quoted(FILE *script, const char *text);
+
+// Marks in `keep` the points from first to last that a curve needs to be within 1/3000 of a panel
+// of the spans; stack has room for 2 count + 8.
+void plot_thin(const double *x, const double *y, double x_span, double y_span, size_t first,
+               size_t last, char *keep, size_t *stack);
+
+#endif

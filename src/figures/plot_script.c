@@ -1,0 +1,673 @@
+// The gnuplot script of a page of figures, with its data in it.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/numeric_locale.h"
+#include "figures/plot.h"
+
+// Lengths of the page in pixels of the svg; pdf takes one for a point, png makes two of it.
+enum {
+    WIDTH = 1000,
+    TITLE = 34,
+    NAMES = 24,
+    HEADING = 34,
+    PANEL = 240,
+    LEFT = 75,
+    RIGHT = 25,
+    TOP = 44,
+    BOTTOM = 50
+};
+enum { MOST_CURVES = 64, DASHES = 5, COLOURS = PLOT_RUNS };
+
+typedef struct instant {
+    const char *name;
+    double t;           // [s] from ignition
+    const char *offset; // of the name from a point of a curve, in letters
+} instant;
+
+// Ignition, then those that are marked in the tube.
+enum { INSTANTS = 5, INSTANT_REAR = 4 };
+
+// One run of the page.
+typedef struct plot_source {
+    const history_data *history;
+    const double *t; // [s] on the run's clock
+    double t_ignition;
+    instant instant[INSTANTS];
+} plot_source;
+
+// A curve of a panel, found in the history of a run.
+typedef struct found_curve {
+    const plot_source *source;
+    const double *y;
+    const double *x; // NULL: time from ignition
+    int run, column; // which run it is of, and which column among those that match
+    char label[LD_MAX_NAME + 8];
+} found_curve;
+
+// A panel in the making: its curves in the units shown, its place and its axes.
+typedef struct plot_drawing {
+    FILE *script;
+    const plot_page *page;
+    const plot_figure *figure;
+    const plot_panel *panel;
+    plot_source source[PLOT_RUNS];
+    plot_source *flight[PLOT_RUNS]; // [flights of the run]
+    bool headed;                    // the figure's heading is written
+    int index;                      // of the panel on the page
+    double height;                  // of the page
+    double left, top, width;        // of the panel on the page, from above
+    double *x, *y;                  // [rows] scaled values of one curve
+    char *keep;                     // [rows] points that are drawn
+    size_t *stack;                  // [2 rows] of the thinning
+    int count;                      // curves
+    int columns;                    // different columns among them
+    found_curve curve[MOST_CURVES];
+    double x_range[2], y_range[2];
+} plot_drawing;
+
+static const char *const colour[COLOURS] = {"0072B2", "D55E00", "009E73", "CC79A7",
+                                            "E69F00", "56B4E9", "000000", "999999"};
+static const char *const dash[DASHES] = {"solid", "(8,4)", "(2,3)", "(8,3,2,3)", "(14,4)"};
+
+static bool several(const plot_drawing *drawing)
+{
+    return drawing->page->runs > 1;
+}
+
+// ---- curves ----
+
+bool plot_column_matches(const char *name, const char *pattern, char *label, size_t size)
+{
+    const char *star = strchr(pattern, '*');
+    if (!star)
+        return strcmp(name, pattern) == 0;
+    size_t before = (size_t)(star - pattern), after = strlen(star + 1), length = strlen(name);
+    if (length <= before + after || strncmp(name, pattern, before) != 0 ||
+        strcmp(name + length - after, star + 1) != 0)
+        return false;
+    snprintf(label, size, "%.*s", (int)(length - before - after), name + before);
+    return true;
+}
+
+bool plot_figure_has_columns(const plot_figure *figure, const history_data *run)
+{
+    if (figure->time == PLOT_FLIGHT && run->flights == 0)
+        return false;
+    if (figure->time == PLOT_FLIGHT)
+        run = &run->flight[0];
+    char unused[LD_MAX_NAME + 8];
+    for (const plot_panel *panel = figure->panel;
+         panel < figure->panel + PLOT_PANELS && panel->title; panel++)
+        for (const plot_curve *curve = panel->curve; curve->column; curve++)
+            for (size_t i = 0; i < run->columns; i++)
+                if (plot_column_matches(run->name[i], curve->column, unused, sizeof unused))
+                    return true;
+    return false;
+}
+
+static bool any_finite(const double *values, size_t rows)
+{
+    for (size_t i = 0; i < rows; i++)
+        if (isfinite(values[i]))
+            return true;
+    return false;
+}
+
+// The curves of a history that a column or a pattern names.
+static int find_in_source(plot_drawing *drawing, const plot_curve *wanted,
+                          const plot_source *source, int run, int column)
+{
+    const history_data *history = source->history;
+    const char *against = drawing->panel->x_column;
+    const double *x = against ? history_column(history, against) : NULL;
+    if (against && !x)
+        return column;
+    for (size_t i = 0; i < history->columns && drawing->count < MOST_CURVES; i++) {
+        found_curve *curve = &drawing->curve[drawing->count];
+        snprintf(curve->label, sizeof curve->label, "%s", wanted->label);
+        if (!plot_column_matches(history->name[i], wanted->column, curve->label,
+                                 sizeof curve->label))
+            continue;
+        curve->source = source;
+        curve->y = history->value + i * history->rows;
+        curve->x = x;
+        curve->run = run;
+        curve->column = column++;
+        drawing->count += any_finite(curve->y, history->rows);
+    }
+    return column;
+}
+
+// The same of one run: of its launcher, or of each of its flights, which are then named.
+static int find_in_run(plot_drawing *drawing, const plot_curve *wanted, int run, int column)
+{
+    if (drawing->figure->time != PLOT_FLIGHT)
+        return find_in_source(drawing, wanted, &drawing->source[run], run, column);
+    const history_data *history = drawing->source[run].history;
+    for (size_t i = 0; i < history->flights; i++) {
+        char name[LD_MAX_NAME];
+        const history_data *flight = &history->flight[i];
+        if (flight->tube > 0)
+            snprintf(name, sizeof name, "rocket %d, tube %d", flight->number, flight->tube);
+        else
+            snprintf(name, sizeof name, "rocket %d", flight->number);
+        plot_curve of_flight = {wanted->column, history->flights > 1 ? name : ""};
+        column = find_in_source(drawing, &of_flight, &drawing->flight[run][i], run, column);
+    }
+    return column;
+}
+
+static void find_curves(plot_drawing *drawing)
+{
+    drawing->count = drawing->columns = 0;
+    for (const plot_curve *wanted = drawing->panel->curve; wanted->column; wanted++) {
+        int first = drawing->columns;
+        for (size_t run = 0; run < drawing->page->runs; run++)
+            drawing->columns =
+                (int)fmax(drawing->columns, find_in_run(drawing, wanted, (int)run, first));
+    }
+}
+
+// From and to [s] from ignition: what was asked for, else all of a vehicle's motion, and of a
+// launch what comes after ignition.
+static bool shown(const plot_drawing *drawing, double t)
+{
+    const double before = 5e-3;
+    double from = drawing->page->from, to = drawing->page->to;
+    if (isnan(from))
+        from = drawing->figure->time == PLOT_LAUNCH ? -before : -INFINITY;
+    return t >= from && !(t > to);
+}
+
+// The row at ignition, or the first after it.
+static size_t row_of_ignition(const plot_source *source)
+{
+    size_t row = 0;
+    while (row + 1 < source->history->rows && source->t[row] < source->t_ignition)
+        row++;
+    return row;
+}
+
+// x and y of a curve, in the units shown; NaN outside the time that is shown.
+static void set_points(plot_drawing *drawing, const found_curve *curve)
+{
+    const plot_panel *panel = drawing->panel;
+    const plot_source *source = curve->source;
+    double in_time = drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1;
+    double reference =
+        panel->since && source->history->rows > 0 ? curve->y[row_of_ignition(source)] : 0;
+    for (size_t i = 0; i < source->history->rows; i++) {
+        double t = source->t[i] - source->t_ignition;
+        drawing->x[i] = curve->x ? curve->x[i] * panel->x_factor : t * in_time;
+        drawing->y[i] = shown(drawing, t) ? (curve->y[i] - reference) * panel->y_factor : NAN;
+    }
+}
+
+static bool drawable(const plot_drawing *drawing, size_t i)
+{
+    return isfinite(drawing->x[i]) && isfinite(drawing->y[i]);
+}
+
+static void include(double range[2], double value)
+{
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
+}
+
+// Room around the values; something to draw even where they are all the same.
+static void widen(double range[2], double share)
+{
+    double room = (range[1] - range[0]) * share, largest = fmax(fabs(range[0]), fabs(range[1]));
+    if (!(room > largest * 1e-12))
+        room = largest > 0 ? largest * 0.1 : 1;
+    range[0] -= room;
+    range[1] += room;
+}
+
+// The ranges of what is drawn; 0 to 1 where that is nothing.
+static void set_ranges(plot_drawing *drawing)
+{
+    double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};
+    for (int i = 0; i < drawing->count; i++) {
+        set_points(drawing, &drawing->curve[i]);
+        for (size_t row = 0; row < drawing->curve[i].source->history->rows; row++)
+            if (drawable(drawing, row)) {
+                include(x, drawing->x[row]);
+                include(y, drawing->y[row]);
+            }
+    }
+    if (x[0] > x[1]) {
+        drawing->count = 0;
+        x[0] = y[0] = 0;
+        x[1] = y[1] = 1;
+    }
+    widen(x, drawing->panel->x_column ? 0.05 : 0.01);
+    widen(y, 0.06);
+    memcpy(drawing->x_range, x, sizeof x);
+    memcpy(drawing->y_range, y, sizeof y);
+}
+
+// Each run of drawable points becomes a line; an empty line of data parts them.
+static void write_curve(plot_drawing *drawing, int curve)
+{
+    size_t rows = drawing->curve[curve].source->history->rows;
+    set_points(drawing, &drawing->curve[curve]);
+    memset(drawing->keep, 0, rows);
+    fprintf(drawing->script, "$p%dc%d << EOD\n", drawing->index, curve);
+    for (size_t first = 0; first < rows; first++) {
+        if (!drawable(drawing, first))
+            continue;
+        size_t last = first;
+        while (last + 1 < rows && drawable(drawing, last + 1))
+            last++;
+        plot_thin(drawing->x, drawing->y, drawing->x_range[1] - drawing->x_range[0],
+                  drawing->y_range[1] - drawing->y_range[0], first, last, drawing->keep,
+                  drawing->stack);
+        for (size_t i = first; i <= last; i++)
+            if (drawing->keep[i])
+                fprintf(drawing->script, "%.8g %.8g\n", drawing->x[i], drawing->y[i]);
+        fputc('\n', drawing->script);
+        first = last;
+    }
+    fputs("EOD\n", drawing->script);
+}
+
+// ---- the panel ----
+
+void plot_write_quoted(FILE *script, const char *text)
+{
+    fputc('\'', script);
+    for (; *text; text++) {
+        if (*text == '\'')
+            fputc('\'', script);
+        fputc((unsigned char)*text < 0x20 ? ' ' : *text, script);
+    }
+    fputc('\'', script);
+}
+
+// Which instants are marked: of a vehicle's whole way, ignition and the end of the launch; of
+// flights none.
+static bool marked(const plot_drawing *drawing, int which)
+{
+    plot_time time = drawing->figure->time;
+    return time == PLOT_VEHICLE ? which == 0 || which == INSTANT_REAR
+                                : time == PLOT_LAUNCH && which > 0;
+}
+
+// Places of the instants of a run on the time axis, NaN where they are not on it.
+static void place_instants(const plot_drawing *drawing, const plot_source *source,
+                           double place[INSTANTS])
+{
+    for (int i = 0; i < INSTANTS; i++) {
+        double x = source->instant[i].t * (drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1);
+        bool there = x >= drawing->x_range[0] && x <= drawing->x_range[1];
+        place[i] = there && marked(drawing, i) ? x : NAN;
+    }
+}
+
+// Names above the panel; where two would meet, one a step higher, or on either side of the two.
+static void write_instant_names(const plot_drawing *drawing, const double place[INSTANTS])
+{
+    double pixels = (drawing->width - LEFT - RIGHT) / (drawing->x_range[1] - drawing->x_range[0]);
+    static const char *const sides[] = {"right", "left"};
+    bool vehicle = drawing->figure->time == PLOT_VEHICLE, raised = false;
+    double before = -INFINITY;
+    for (int i = 0; i < INSTANTS; i++) {
+        if (isnan(place[i]))
+            continue;
+        double at = (place[i] - drawing->x_range[0]) * pixels;
+        raised = !raised && !vehicle && at - before < 45;
+        before = at;
+        fprintf(drawing->script, "set label '%s' at %.8g, graph %g %s font ',9' tc rgb '#606060'\n",
+                drawing->source[0].instant[i].name, place[i], raised ? 1.10 : 1.03,
+                vehicle   ? sides[i > 0]
+                : at < 20 ? "left"
+                          : "center");
+    }
+}
+
+// A vertical line at each key instant; of several runs in their colours, where they differ.
+static void write_instants_in_time(const plot_drawing *drawing)
+{
+    double first[INSTANTS], place[INSTANTS];
+    double seen = (drawing->x_range[1] - drawing->x_range[0]) / 300;
+    place_instants(drawing, &drawing->source[0], first);
+    write_instant_names(drawing, first);
+    for (size_t run = 0; run < drawing->page->runs; run++) {
+        place_instants(drawing, &drawing->source[run], place);
+        for (int i = 0; i < INSTANTS; i++)
+            if (isfinite(place[i]) && (run == 0 || !(fabs(place[i] - first[i]) < seen)))
+                fprintf(drawing->script,
+                        "set arrow from %.8g, graph 0 to %.8g, graph 1 nohead lw 1 dt (4,3) lc rgb "
+                        "'#%s' back\n",
+                        place[i], place[i], run == 0 ? "808080" : colour[run]);
+    }
+}
+
+// The row of a curve that is nearest to a time, of those that are drawn; `rows` if there is none.
+static size_t nearest_row(const plot_drawing *drawing, const plot_source *source, double t)
+{
+    size_t rows = source->history->rows, nearest = rows;
+    for (size_t row = 0; row < rows; row++)
+        if (drawable(drawing, row) &&
+            (nearest == rows || fabs(source->t[row] - t) < fabs(source->t[nearest] - t)))
+            nearest = row;
+    return nearest;
+}
+
+// A dot on each run's curve at each key instant, with its name on the only one.
+static void write_instants_on_curve(plot_drawing *drawing, const found_curve *curve)
+{
+    const plot_source *source = curve->source;
+    set_points(drawing, curve);
+    for (int i = 0; i < INSTANTS; i++) {
+        const instant *at = &source->instant[i];
+        size_t row = nearest_row(drawing, source, at->t + source->t_ignition);
+        if (!marked(drawing, i) || !isfinite(at->t) || row == source->history->rows)
+            continue;
+        fprintf(drawing->script,
+                "set label '%s' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#%s' offset %s "
+                "font ',9' tc rgb '#606060' front\n",
+                several(drawing) ? "" : at->name, drawing->x[row], drawing->y[row],
+                several(drawing) ? colour[curve->run] : "404040", at->offset);
+    }
+}
+
+// A text at a place of the page, `top` pixels below its upper edge.
+static void write_text(const plot_drawing *drawing, const char *text, double left, double top,
+                       const char *style)
+{
+    fputs("set label ", drawing->script);
+    plot_write_quoted(drawing->script, text);
+    fprintf(drawing->script, " at screen %.6f, screen %.6f %s\n", left / WIDTH,
+            1 - top / drawing->height, style);
+}
+
+// The runs' colours and names in rows above the figures; returns the height that they take.
+static double place_run_names(const plot_drawing *drawing, const plot_page *page)
+{
+    const double line = 26, letter = 6.6;
+    double left = 16, top = 0;
+    for (size_t run = 0; run < page->runs; run++) {
+        double width = line + 28 + letter * (double)strlen(page->name[run]);
+        if (left > 16 && left + width > WIDTH) {
+            left = 16;
+            top += NAMES;
+        }
+        if (drawing) {
+            double middle = 1 - (top + NAMES * 0.6) / drawing->height;
+            fprintf(drawing->script,
+                    "set arrow from screen %.6f, screen %.6f to screen %.6f, screen %.6f nohead "
+                    "lw 2.5 lc rgb '#%s'\n",
+                    left / WIDTH, middle, (left + line) / WIDTH, middle, colour[run]);
+            write_text(drawing, page->name[run], left + line + 6, top + NAMES * 0.6,
+                       "left font ',12'");
+        }
+        left += width;
+    }
+    return top + NAMES + 6;
+}
+
+static void write_headings(plot_drawing *drawing)
+{
+    const plot_page *page = drawing->page;
+    if (drawing->index == 0 && several(drawing))
+        place_run_names(drawing, page);
+    else if (drawing->index == 0 && page->run[0].title)
+        write_text(drawing, page->run[0].title, 16, TITLE * 0.55, "left font ',17'");
+    if (!drawing->headed) {
+        double above = 1 - (drawing->top - HEADING) / drawing->height;
+        fprintf(drawing->script,
+                "set arrow from screen 0.016, screen %.6f to screen 0.984, screen %.6f nohead lw 1 "
+                "lc rgb '#c0c0c0'\n",
+                above, above);
+        write_text(drawing, drawing->figure->about.description, 16, drawing->top - HEADING * 0.35,
+                   "left font ',14'");
+    }
+    drawing->headed = true;
+}
+
+static void write_axes(plot_drawing *drawing)
+{
+    const plot_panel *panel = drawing->panel;
+    FILE *script = drawing->script;
+    double top = drawing->top + TOP, bottom = drawing->top + PANEL - BOTTOM;
+    char unit[64];
+    fprintf(script, "set lmargin at screen %.6f\nset rmargin at screen %.6f\n",
+            (drawing->left + LEFT) / WIDTH, (drawing->left + drawing->width - RIGHT) / WIDTH);
+    fprintf(script, "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
+            1 - top / drawing->height, 1 - bottom / drawing->height);
+    fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", drawing->x_range[0],
+            drawing->x_range[1], drawing->y_range[0], drawing->y_range[1]);
+    snprintf(unit, sizeof unit, panel->x_column || !*panel->y_label ? "%s" : "[%s]",
+             panel->y_label);
+    write_text(drawing, panel->title, drawing->left + LEFT, top - 26, "left font ',11'");
+    write_text(drawing, unit, drawing->left + 18, (top + bottom) / 2,
+               "center rotate by 90 font ',10'");
+    const char *time =
+        drawing->figure->time == PLOT_LAUNCH ? "time from ignition [ms]" : "time from ignition [s]";
+    write_text(drawing, panel->x_column ? panel->x_label : time,
+               drawing->left + (LEFT + drawing->width - RIGHT) / 2, bottom + 34,
+               "center font ',10'");
+}
+
+static void write_title(FILE *script, const char *title)
+{
+    fputs(*title ? "title " : "notitle", script);
+    if (*title)
+        plot_write_quoted(script, title);
+}
+
+// Of one run, a colour for each column. Of several, a colour for each run, and where there are
+// several columns a dash for each, in the legend in grey.
+static void write_plot(const plot_drawing *drawing)
+{
+    FILE *script = drawing->script;
+    for (int i = 0; i < drawing->count; i++) {
+        const found_curve *curve = &drawing->curve[i];
+        int lines = several(drawing) ? curve->run : curve->column;
+        fprintf(script, "%s $p%dc%d using 1:2 with lines ls %d ", i ? ", \\\n    " : "plot",
+                drawing->index, i, lines % COLOURS + 1);
+        if (several(drawing))
+            fprintf(script, "dt %s ", dash[curve->column % DASHES]);
+        write_title(script, several(drawing) ? "" : curve->label);
+    }
+    int shown = 0;
+    for (int i = 0; i < drawing->count && several(drawing) && drawing->columns > 1; i++)
+        if (drawing->curve[i].column == shown) {
+            fprintf(script, ", \\\n     keyentry with lines lw 1.5 lc rgb '#404040' dt %s ",
+                    dash[shown++ % DASHES]);
+            write_title(script, drawing->curve[i].label);
+        }
+    if (drawing->count == 0)
+        fputs("set label 'nothing to show' at graph 0.5, 0.5 center\nplot NaN notitle", script);
+    fputc('\n', script);
+}
+
+static void write_panel(plot_drawing *drawing)
+{
+    find_curves(drawing);
+    set_ranges(drawing);
+    for (int i = 0; i < drawing->count; i++)
+        write_curve(drawing, i);
+    fputs("unset label\nunset arrow\n", drawing->script);
+    write_headings(drawing);
+    write_axes(drawing);
+    if (drawing->count > 0 && !drawing->panel->x_column)
+        write_instants_in_time(drawing);
+    for (int i = 0; i < drawing->count && drawing->panel->x_column; i++)
+        write_instants_on_curve(drawing, &drawing->curve[i]);
+    write_plot(drawing);
+    drawing->index++;
+}
+
+// ---- the page ----
+
+// The `copy`-th diagram of a panel; of one that is drawn for each text that its '*' stands for,
+// that text goes into title and column. False after the last.
+static bool panel_copy(const plot_panel *panel, const history_data *history, int copy,
+                       plot_panel *made, char text[2][96])
+{
+    char found[LD_MAX_NAME + 8];
+    *made = *panel;
+    if (!panel->each)
+        return copy == 0;
+    for (size_t i = 0; i < history->columns; i++)
+        if (plot_column_matches(history->name[i], panel->curve[0].column, found, sizeof found) &&
+            copy-- == 0) {
+            const char *percent = strstr(panel->title, "%s");
+            snprintf(text[0], sizeof *text, "%.*s%s%s", (int)(percent - panel->title), panel->title,
+                     found, percent + 2);
+            snprintf(text[1], sizeof *text, "%s", history->name[i]);
+            made->title = text[0];
+            made->curve[0].column = text[1];
+            return true;
+        }
+    return false;
+}
+
+static void draw_panel(plot_drawing *drawing, const plot_panel *panel, bool right, double top)
+{
+    drawing->panel = panel;
+    drawing->left = right ? WIDTH / 2.0 : 0;
+    drawing->width = panel->wide ? WIDTH : WIDTH / 2.0;
+    drawing->top = top;
+    write_panel(drawing);
+}
+
+// Places of the panels of a figure from `top` on; returns where the next figure begins. Draws them
+// if `drawing` is not NULL.
+static double place_panels(const plot_figure *figure, const history_data *history, double top,
+                           plot_drawing *drawing)
+{
+    bool right = false;
+    plot_panel made;
+    char text[2][96];
+    top += HEADING;
+    if (drawing) {
+        drawing->figure = figure;
+        drawing->headed = false;
+    }
+    for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++)
+        for (int copy = 0; panel_copy(&figure->panel[i], history, copy, &made, text); copy++) {
+            if (drawing)
+                draw_panel(drawing, &made, right, top);
+            right = !right && !made.wide;
+            if (!right)
+                top += PANEL;
+        }
+    return right ? top + PANEL : top;
+}
+
+static double place_figures(const plot_page *page, plot_drawing *drawing)
+{
+    double top = page->runs > 1 ? place_run_names(NULL, page) : TITLE;
+    for (size_t i = 0; i < page->figures; i++)
+        top = place_panels(page->figure[i], &page->run[0], top, drawing);
+    return top;
+}
+
+void plot_begin(FILE *script, plot_format format, double height, const char *output)
+{
+    if (format == PLOT_SVG)
+        fprintf(script, "set terminal svg size %d,%.0f font 'sans-serif,12' background 'white'",
+                WIDTH, height);
+    else if (format == PLOT_PDF)
+        fprintf(script,
+                "set terminal pdfcairo size %.4fin,%.4fin font 'sans-serif,12' fontscale 0.75",
+                WIDTH / 72.0, height / 72);
+    else
+        fprintf(script,
+                "set terminal pngcairo size %d,%.0f font 'sans-serif,12' fontscale 1.5 linewidth "
+                "2 pointscale 2 background 'white'",
+                2 * WIDTH, 2 * height);
+    fputs(" noenhanced\nset encoding utf8\nset output ", script);
+    plot_write_quoted(script, output);
+    fputs("\nset multiplot\n"
+          "set key at graph 1, 1.15 right center horizontal Left reverse samplen 2 font ',10'\n"
+          "set grid lc rgb '#e0e0e0' lw 0.8\nset border 3 lc rgb '#404040'\n"
+          "set tics nomirror font ',10'\nset format '%g'\n",
+          script);
+    for (int i = 0; i < COLOURS; i++)
+        fprintf(script, "set style line %d lw 1.5 lc rgb '#%s'\n", i + 1, colour[i]);
+}
+
+static void set_source(plot_source *source, const history_data *history)
+{
+    *source = (plot_source){
+        .history = history,
+        .t = history_column(history, "t"),
+        .t_ignition = isfinite(history->t_ignition) ? history->t_ignition : 0,
+        .instant = {{"ignition", 0, "0, 0"},
+                    {"release", history->t_release, "-3.2, -0.8"},
+                    {"front", history->t_front, "0.8, 0.6"},
+                    {"middle", history->t_middle, "0.8, -0.8"},
+                    {"rear", history->t_rear, "0.8, 0.6"}},
+    };
+}
+
+// A run and its flights.
+static ld_status set_sources(plot_drawing *drawing, size_t run, ld_error *error)
+{
+    const history_data *history = &drawing->page->run[run];
+    set_source(&drawing->source[run], history);
+    bool has_time = history->columns == 0 || drawing->source[run].t;
+    drawing->flight[run] = malloc((history->flights + 1) * sizeof *drawing->flight[run]);
+    if (!drawing->flight[run])
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
+    for (size_t i = 0; i < history->flights; i++) {
+        set_source(&drawing->flight[run][i], &history->flight[i]);
+        has_time = has_time && drawing->flight[run][i].t;
+    }
+    return has_time ? LD_OK : ld_fail(error, LD_ERR_INPUT, "the history has no column t");
+}
+
+// Rows of the longest history on the page.
+static size_t most_rows(const plot_page *page)
+{
+    size_t rows = 0;
+    for (size_t i = 0; i < page->runs; i++) {
+        const history_data *run = &page->run[i];
+        rows = run->rows > rows ? run->rows : rows;
+        for (size_t j = 0; j < run->flights; j++)
+            rows = run->flight[j].rows > rows ? run->flight[j].rows : rows;
+    }
+    return rows;
+}
+
+ld_status plot_write_script(FILE *script, const void *what, plot_format format, const char *output,
+                            ld_error *error)
+{
+    const plot_page *page = what;
+    size_t rows = most_rows(page);
+    plot_drawing drawing = {
+        .script = script,
+        .page = page,
+        .height = place_figures(page, NULL),
+        .x = malloc((rows + 1) * sizeof(double)),
+        .y = malloc((rows + 1) * sizeof(double)),
+        .keep = malloc(rows + 1),
+        .stack = malloc((2 * rows + 8) * sizeof(size_t)),
+    };
+    ld_status status = LD_OK;
+    if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack)
+        status = ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
+    for (size_t i = 0; i < page->runs && !status; i++)
+        status = set_sources(&drawing, i, error);
+    if (!status) {
+        locale_t before = numeric_locale_enter();
+        plot_begin(script, format, drawing.height, output);
+        place_figures(page, &drawing);
+        fputs("unset multiplot\nunset output\n", script);
+        numeric_locale_leave(before);
+    }
+    for (size_t i = 0; i < page->runs; i++)
+        free(drawing.flight[i]);
+    free(drawing.x);
+    free(drawing.y);
+    free(drawing.keep);
+    free(drawing.stack);
+    return status;
+}

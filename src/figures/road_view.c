@@ -1,0 +1,240 @@
+// Roads to look at: profile and spectrum as tables, files and charts.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/printed.h"
+#include "environment/road.h"
+#include "figures/chart.h"
+#include "launchdyn/environment.h"
+#include "math/spectrum.h"
+#include "results/columns.h"
+
+enum { MOST_PLACES = 10000000, MOST_BANDS = 200, CLASSES = 8 };
+
+struct ld_road_view {
+    const ld_road *model;
+    ld_stretch stretch;
+    size_t count;
+    double *x, *height[ROAD_TRACKS]; // [count]
+    size_t bands;
+    double edge[MOST_BANDS + 1]; // [1/m]
+    double density[ROAD_TRACKS][MOST_BANDS], line[MOST_BANDS];
+};
+
+static bool is_random(const ld_road *model)
+{
+    return model->iso_class != LD_ROAD_SMOOTH;
+}
+
+static char class_letter(int iso_class)
+{
+    return (char)('A' + iso_class);
+}
+
+// ---- the view ----
+
+static ld_status set_stretch(ld_road_view *view, ld_stretch stretch, ld_error *error)
+{
+    double usual = is_random(view->model) ? fmin(0.02, view->model->wavelengths[0] / 10) : 0.02;
+    ld_stretch *s = &view->stretch;
+    s->from = isnan(stretch.from) ? -100 : stretch.from;
+    s->to = isnan(stretch.to) ? 100 : stretch.to;
+    s->step = isnan(stretch.step) ? usual : stretch.step;
+    double places = floor((s->to - s->from) / s->step * (1 + 1e-12)) + 1;
+    if (!(s->step > 0 && places >= 2 && places <= MOST_PLACES))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a stretch of road needs 2 to %d places: from %g m to %g m by %g m has not",
+                       MOST_PLACES, s->from, s->to, s->step);
+    view->count = (size_t)places;
+    return LD_OK;
+}
+
+// Mean over a band of what the class says.
+static double class_mean(const ld_road *model, double from, double to)
+{
+    return road_class_density(model->iso_class, sqrt(from * to));
+}
+
+// Thirds of octaves (base 10), from two periods in the stretch to half the sampling rate; of a
+// random road, from end to end of its harmonics.
+static void set_bands(ld_road_view *view)
+{
+    const ld_road *model = view->model;
+    double low = 2 / ((double)view->count * view->stretch.step), high = 0.5 / view->stretch.step;
+    if (is_random(model)) {
+        low = fmax(low, 1 / model->wavelengths[1]);
+        high = fmin(high, 1 / model->wavelengths[0]);
+    }
+    view->bands = 0;
+    view->edge[0] = low;
+    int third = (int)floor(10 * log10(low) + 1); // a first band at least half as wide
+    for (; view->bands < MOST_BANDS && view->edge[view->bands] < high; third++)
+        view->edge[++view->bands] = fmin(pow(10, (third + 0.5) / 10), high);
+    for (size_t i = 0; i < view->bands; i++)
+        view->line[i] =
+            is_random(model) ? class_mean(model, view->edge[i], view->edge[i + 1]) : NAN;
+}
+
+static ld_status fill(ld_road_view *view, ld_error *error)
+{
+    road *self = NULL;
+    const ld_stretch *s = &view->stretch;
+    view->x = malloc(3 * view->count * sizeof(double));
+    if (!view->x)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %zu places", view->count);
+    for (size_t i = 0; i < view->count; i++)
+        view->x[i] = s->from + (double)i * s->step;
+    ld_status status = road_build(view->model, s->from, s->from, &self, error);
+    for (int track = 0; track < ROAD_TRACKS && !status; track++) {
+        view->height[track] = view->x + (size_t)(track + 1) * view->count;
+        status = road_profile(self, (road_track)track, s->from, s->step, view->count,
+                              view->height[track], error);
+    }
+    road_free(self);
+    set_bands(view);
+    if (!status)
+        status = spectrum_in_bands(
+            view->count, s->step, view->height[ROAD_LEFT], view->height[ROAD_RIGHT], view->bands,
+            view->edge, view->density[ROAD_LEFT], view->density[ROAD_RIGHT], NULL, error);
+    return status;
+}
+
+ld_status ld_road_view_create(const ld_model *model, ld_stretch stretch, ld_road_view **view,
+                              ld_error *error)
+{
+    if (model->base.kind != LD_BASE_VEHICLE)
+        return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is no vehicle");
+    ld_road_view *created = calloc(1, sizeof *created);
+    if (!created)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a road");
+    created->model = &model->base.vehicle.road;
+    ld_status status = set_stretch(created, stretch, error);
+    if (!status)
+        status = fill(created, error);
+    if (status)
+        ld_road_view_free(created);
+    else
+        *view = created;
+    return status;
+}
+
+void ld_road_view_free(ld_road_view *view)
+{
+    if (view)
+        free(view->x);
+    free(view);
+}
+
+// ---- as a table ----
+
+static void describe(const ld_road_view *view, char *text, size_t size)
+{
+    static const char *const tracks[] = {"same", "independent", "coherent"};
+    const ld_road *model = view->model;
+    if (is_random(model))
+        snprintf(text, size, "Road: class %c, seed %d, tracks %s", class_letter(model->iso_class),
+                 model->seed, tracks[model->tracks]);
+    else
+        snprintf(text, size, "Road without a random part");
+}
+
+static void print_heights(const ld_road_view *view, FILE *stream)
+{
+    double rms[2], low[2], high[2];
+    for (int track = 0; track < ROAD_TRACKS; track++) {
+        const double *h = view->height[track];
+        double mean = 0, square = 0;
+        low[track] = high[track] = h[0];
+        for (size_t i = 0; i < view->count; i++) {
+            mean += h[i] / (double)view->count;
+            low[track] = fmin(low[track], h[i]);
+            high[track] = fmax(high[track], h[i]);
+        }
+        for (size_t i = 0; i < view->count; i++)
+            square += (h[i] - mean) * (h[i] - mean) / (double)view->count;
+        rms[track] = sqrt(square);
+    }
+    fprintf(stream, "\nHeight [mm]%18s%12s\n", "left", "right");
+    fprintf(stream, "  rms about the mean%9.3f%12.3f\n", 1e3 * rms[0], 1e3 * rms[1]);
+    fprintf(stream, "  lowest%21.3f%12.3f\n", printed_fixed(1e3 * low[0], 3),
+            printed_fixed(1e3 * low[1], 3));
+    fprintf(stream, "  highest%20.3f%12.3f\n", printed_fixed(1e3 * high[0], 3),
+            printed_fixed(1e3 * high[1], 3));
+}
+
+void ld_road_view_print(const ld_road_view *view, FILE *stream)
+{
+    char title[128];
+    describe(view, title, sizeof title);
+    fprintf(stream, "%s, x = %g m to %g m every %g m\n", title, view->stretch.from,
+            view->stretch.to, view->stretch.step);
+    print_heights(view, stream);
+    fprintf(stream, "\nPower spectral density [1e-6 m3]\n  n [1/m]%28s%12s", "left", "right");
+    if (is_random(view->model))
+        fprintf(stream, "%11s%c", "class ", class_letter(view->model->iso_class));
+    for (size_t i = 0; i < view->bands; i++) {
+        fprintf(stream, "\n  %8.4f to %8.4f%13.4g%12.4g", view->edge[i], view->edge[i + 1],
+                1e6 * view->density[ROAD_LEFT][i], 1e6 * view->density[ROAD_RIGHT][i]);
+        if (is_random(view->model))
+            fprintf(stream, "%12.4g", 1e6 * view->line[i]);
+    }
+    fputc('\n', stream);
+}
+
+// ---- as files ----
+
+ld_status ld_road_view_write(const ld_road_view *view, const char *folder, ld_error *error)
+{
+    static const ld_column profile[] = {
+        {.name = "x", .unit = "m"}, {.name = "left", .unit = "m"}, {.name = "right", .unit = "m"}};
+    static const ld_column spectrum[] = {{.name = "from", .unit = "1/m"},
+                                         {.name = "to", .unit = "1/m"},
+                                         {.name = "left", .unit = "m3"},
+                                         {.name = "right", .unit = "m3"},
+                                         {.name = "class", .unit = "m3"}};
+    ld_status status = columns_write(
+        folder, "road.csv", profile,
+        (const double *const[]){view->x, view->height[0], view->height[1]}, 3, view->count, error);
+    if (!status)
+        status = columns_write(folder, "road-spectrum.csv", spectrum,
+                               (const double *const[]){view->edge, view->edge + 1, view->density[0],
+                                                       view->density[1], view->line},
+                               is_random(view->model) ? 5 : 4, view->bands, error);
+    return status;
+}
+
+// ---- as charts ----
+
+ld_status ld_road_view_draw(const ld_road_view *view, const char *file, ld_error *error)
+{
+    char title[128], names[CLASSES][16];
+    double middle[MOST_BANDS], lines[CLASSES][MOST_BANDS + 1];
+    chart charts[2] = {
+        {.title = "Height", .x_label = "x [m]", .y_label = "mm", .x_factor = 1, .y_factor = 1e3},
+        {.title = "Power spectral density",
+         .x_label = "n [1/m]",
+         .y_label = "10⁻⁶ m³",
+         .x_factor = 1,
+         .y_factor = 1e6,
+         .logarithmic = true}};
+    bool same = memcmp(view->height[0], view->height[1], view->count * sizeof(double)) == 0;
+    for (size_t i = 0; i < view->bands; i++)
+        middle[i] = sqrt(view->edge[i] * view->edge[i + 1]);
+    for (int i = 0; i < CLASSES; i++) {
+        snprintf(names[i], sizeof names[i], "class %c", class_letter(i));
+        for (size_t j = 0; j <= view->bands; j++)
+            lines[i][j] = road_class_density(i, view->edge[j]);
+        charts[1].curve[charts[1].count++] =
+            (chart_curve){names[i], view->bands + 1, view->edge, lines[i], true};
+    }
+    for (int track = 0; track < (same ? 1 : 2); track++) {
+        const char *label = same ? "both tracks" : track == ROAD_LEFT ? "left" : "right";
+        charts[0].curve[charts[0].count++] =
+            (chart_curve){label, view->count, view->x, view->height[track], false};
+        charts[1].curve[charts[1].count++] =
+            (chart_curve){label, view->bands, middle, view->density[track], false};
+    }
+    describe(view, title, sizeof title);
+    return charts_draw(file, title, charts, 2, error);
+}

@@ -1,0 +1,42 @@
+#include "results/columns.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "results/folder.h"
+#include "results/history.h"
+
+static ld_status make_folder(const char *folder, ld_error *error)
+{
+    char *path = strdup(folder);
+    size_t there = 0;
+    if (!path)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the folder's name");
+    ld_status status = folder_make(path, &there, error);
+    free(path);
+    return status;
+}
+
+ld_status columns_write(const char *folder, const char *name, const ld_column *columns,
+                        const double *const *values, size_t width, size_t rows, ld_error *error)
+{
+    char path[4096];
+    history_csv *csv = NULL;
+    if (!*folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
+        return ld_fail(error, LD_ERR_INPUT, "the folder has no name, or one that is too long");
+    ld_status status = make_folder(folder, error);
+    if (!status)
+        status = history_csv_create(path, &csv, error);
+    if (status)
+        return status;
+    status = history_csv_begin(csv, columns, width, error);
+    for (size_t i = 0; i < rows && !status; i++) {
+        double row[COLUMNS_MOST];
+        for (size_t j = 0; j < width; j++)
+            row[j] = values[j][i];
+        status = history_csv_row(csv, row, width, error);
+    }
+    ld_status closed = history_csv_close(csv, status ? NULL : error);
+    return status ? status : closed;
+}

@@ -1,0 +1,48 @@
+// What HDF5 needs around it: silence, errors as one sentence, attributes.
+#ifndef LD_RESULTS_HDF5_SUPPORT_H
+#define LD_RESULTS_HDF5_SUPPORT_H
+
+#include <hdf5.h>
+#include <stdbool.h>
+
+#include "launchdyn/status.h"
+
+// HDF5 prints its error stack unless told not to; the setting before is put back at the end.
+typedef struct hdf5_quiet {
+    H5E_auto2_t function;
+    void *data;
+} hdf5_quiet;
+
+hdf5_quiet hdf5_quiet_begin(void);
+void hdf5_quiet_end(const hdf5_quiet *quiet);
+
+// LD_ERR_FILE with "cannot `what` `path`: reason", the reason from HDF5's error stack.
+ld_status hdf5_failed(ld_error *error, const char *what, const char *path);
+
+// A group whose members keep the order in which they were made.
+hid_t hdf5_create_group(hid_t parent, const char *name);
+// An array of fixed size; of rank 0 a single value.
+hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size);
+// UTF-8 text of variable length, to be closed.
+hid_t hdf5_text_type(void);
+
+// Attributes of an open object: UTF-8 text of variable length, integer, double.
+bool hdf5_write_text(hid_t object, const char *name, const char *text);
+bool hdf5_write_integer(hid_t object, const char *name, int value);
+bool hdf5_write_number(hid_t object, const char *name, double value);
+
+// UTF-8 text of fixed length: an attribute, or a dataset of its own with an attribute `name` (NULL:
+// without).
+bool hdf5_write_string(hid_t object, const char *name, const char *text);
+bool hdf5_write_document(hid_t group, const char *key, const char *name, const char *text,
+                         size_t length);
+// Read back, new; NULL: there is none, or none of fixed length.
+char *hdf5_read_string(hid_t object, const char *name);
+char *hdf5_read_document(hid_t group, const char *key, char **name, size_t *length);
+
+// Attributes read back: the text is new (NULL: no such attribute), the number NaN where there is
+// none.
+char *hdf5_read_text(hid_t object, const char *name);
+double hdf5_read_number(hid_t object, const char *name);
+
+#endif

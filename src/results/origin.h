@@ -1,0 +1,21 @@
+// Where results come from, in files: JSON of summary.json and of reports, groups of history.h5.
+#ifndef LD_RESULTS_ORIGIN_H
+#define LD_RESULTS_ORIGIN_H
+
+#include <hdf5.h>
+#include <stdio.h>
+
+#include "launchdyn/origin.h"
+
+// Adds a fact; false: no memory.
+bool origin_add_fact(ld_origin *origin, const char *name, const char *text);
+
+// {"version": ..., "commit": ..., ...} of the program; {"files": [{"name", "text"}], "set": [...],
+// "point", "sample"} of the source. Indented by two blanks a level as members of an object.
+void origin_write_program(FILE *json, const ld_origin *origin);
+void origin_write_source(FILE *json, const ld_origin *origin);
+
+// The groups program and source and the text scenario of an open file.
+bool origin_write_hdf5(hid_t file, const ld_origin *origin);
+
+#endif

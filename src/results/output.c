@@ -1,0 +1,265 @@
+#include "launchdyn/output.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "results/folder.h"
+#include "results/history.h"
+#include "results/kml.h"
+
+// Files of a results folder, in the order in which they get their names: summary.json comes last,
+// so that where it stands the others belong to it.
+enum { MOST_FLIGHT_COLUMNS = 256 };
+enum { HDF5, CSV, FLIGHTS, MAP, SUMMARY, FILES };
+
+static const char *const file_name[FILES] = {"history.h5", "history.csv", "flights.csv",
+                                             "trajectories.kml", "summary.json"};
+
+struct ld_output {
+    const ld_model *model;
+    char *folder;
+    size_t made_from; // length of the folder's part that was there before
+    char *path[FILES], *part[FILES];
+    char *report; // what launchdyn report made of an earlier run
+    history_hdf5 *hdf5;
+    history_csv *csv;     // NULL: not wanted
+    history_csv *flights; // NULL: not wanted, or none has flown on
+    kml_file *map;        // NULL: no place on the Earth is given, or none has flown on
+    double flying;        // number of the rocket whose flight's rows come; 0: the launcher's
+    ld_sink sink;
+};
+
+// The rows that follow are of the flight of this rocket: a line of the map, where there is one.
+static ld_status begin_line(ld_output *output, int rocket, const ld_column *columns, size_t count,
+                            ld_error *error)
+{
+    if (!kml_has_place(output->model))
+        return LD_OK;
+    ld_status status = LD_OK;
+    if (!output->map)
+        status = kml_create(output->part[MAP], output->model, &output->map, error);
+    return status ? status : kml_flight(output->map, rocket, columns, count, error);
+}
+
+static ld_status geometry(void *self, const ld_array *arrays, size_t count, ld_error *error)
+{
+    ld_output *output = self;
+    return history_hdf5_geometry(output->hdf5, arrays, count, error);
+}
+
+static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
+{
+    ld_output *output = self;
+    ld_status status = history_hdf5_begin(output->hdf5, columns, count, error);
+    if (!status && output->csv)
+        status = history_csv_begin(output->csv, columns, count, error);
+    if (!status && output->model->base.kind == LD_BASE_NONE)
+        status = begin_line(output, 1, columns, count, error);
+    return status;
+}
+
+// Rows of all flights go into one file, with the rocket's number before them.
+static ld_status begin_flights(ld_output *output, const ld_column *columns, size_t count,
+                               ld_error *error)
+{
+    ld_column *with_number = malloc((count + 1) * sizeof *with_number);
+    if (!with_number)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
+    with_number[0] = (ld_column){"rocket", "1", "number in the order of firing"};
+    memcpy(with_number + 1, columns, count * sizeof *columns);
+    ld_status status = history_csv_create(output->part[FLIGHTS], &output->flights, error);
+    if (!status)
+        status = history_csv_begin(output->flights, with_number, count + 1, error);
+    free(with_number);
+    return status;
+}
+
+static ld_status flight(void *self, int rocket, const ld_column *columns, size_t count,
+                        ld_error *error)
+{
+    ld_output *output = self;
+    output->flying = rocket;
+    ld_status status = history_hdf5_flight(output->hdf5, rocket, columns, count, error);
+    if (!status && output->csv && !output->flights)
+        status = begin_flights(output, columns, count, error);
+    return status ? status : begin_line(output, rocket, columns, count, error);
+}
+
+static ld_status csv_flight_row(ld_output *output, const double *values, size_t count,
+                                ld_error *error)
+{
+    double with_number[MOST_FLIGHT_COLUMNS] = {output->flying};
+    if (count + 1 > MOST_FLIGHT_COLUMNS)
+        return ld_fail(error, LD_ERR_INPUT, "a flight has at most %d columns",
+                       MOST_FLIGHT_COLUMNS - 1);
+    memcpy(with_number + 1, values, count * sizeof *values);
+    return history_csv_row(output->flights, with_number, count + 1, error);
+}
+
+static ld_status row(void *self, const double *values, size_t count, ld_error *error)
+{
+    ld_output *output = self;
+    ld_status status = history_hdf5_row(output->hdf5, values, error);
+    if (!status && output->csv && output->flying > 0)
+        status = csv_flight_row(output, values, count, error);
+    else if (!status && output->csv)
+        status = history_csv_row(output->csv, values, count, error);
+    if (!status && output->map)
+        status = kml_row(output->map, values, error);
+    return status;
+}
+
+static char *join(const char *folder, const char *name, const char *ending)
+{
+    size_t size = strlen(folder) + strlen(name) + strlen(ending) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s%s", folder, name, ending);
+    return path;
+}
+
+static ld_status set_paths(ld_output *output, const char *folder, ld_error *error)
+{
+    bool fine = (output->folder = strdup(folder)) != NULL;
+    for (int i = 0; fine && i < FILES; i++) {
+        output->path[i] = join(folder, file_name[i], "");
+        output->part[i] = join(folder, file_name[i], ".part");
+        fine = output->path[i] && output->part[i];
+    }
+    fine = fine && (output->report = join(folder, "report.html", "")) != NULL;
+    if (!fine)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
+    return LD_OK;
+}
+
+static void free_output(ld_output *output)
+{
+    for (int i = 0; i < FILES; i++) {
+        free(output->path[i]);
+        free(output->part[i]);
+    }
+    free(output->report);
+    free(output->folder);
+    free(output);
+}
+
+static ld_status create_hdf5(ld_output *output, ld_error *error)
+{
+    const char *title = output->model->title;
+    ld_origin origin;
+    ld_status status =
+        history_hdf5_create(output->part[HDF5], title ? title : "", &output->hdf5, error);
+    if (!status)
+        status = ld_origin_of(output->model, &origin, error);
+    if (status)
+        return status;
+    status = history_hdf5_origin(output->hdf5, &origin, error);
+    ld_origin_free(&origin);
+    return status;
+}
+
+ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld_output **output,
+                         ld_error *error)
+{
+    if (!*folder)
+        return ld_fail(error, LD_ERR_INPUT, "the results need the name of a folder");
+    ld_output *opened = calloc(1, sizeof *opened);
+    if (!opened)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
+    opened->model = model;
+    opened->sink = (ld_sink){
+        .self = opened, .begin = begin, .row = row, .flight = flight, .geometry = geometry};
+    ld_status status = set_paths(opened, folder, error);
+    if (!status)
+        status = folder_make(opened->folder, &opened->made_from, error);
+    if (!status)
+        status = create_hdf5(opened, error);
+    if (!status && csv)
+        status = history_csv_create(opened->part[CSV], &opened->csv, error);
+    if (status)
+        ld_output_discard(opened);
+    else
+        *output = opened;
+    return status;
+}
+
+const ld_sink *ld_output_sink(ld_output *output)
+{
+    return &output->sink;
+}
+
+static ld_status first_failure(ld_status before, ld_status after)
+{
+    return before ? before : after;
+}
+
+// Closes the histories; `summary` NULL: they are not wanted any more.
+static ld_status close_histories(ld_output *output, const ld_summary *summary, ld_error *error)
+{
+    ld_status status = LD_OK;
+    if (output->csv)
+        status = first_failure(status, history_csv_close(output->csv, status ? NULL : error));
+    if (output->flights)
+        status = first_failure(status, history_csv_close(output->flights, status ? NULL : error));
+    if (output->map)
+        status = first_failure(status, kml_close(output->map, status ? NULL : error));
+    if (output->hdf5)
+        status =
+            first_failure(status, history_hdf5_close(output->hdf5, summary, status ? NULL : error));
+    output->csv = output->flights = NULL;
+    output->map = NULL;
+    output->hdf5 = NULL;
+    return status;
+}
+
+static ld_status take_away(const char *path, ld_error *error)
+{
+    if (unlink(path) != 0 && errno != ENOENT)
+        return ld_fail(error, LD_ERR_FILE, "cannot replace %s: %s", path, strerror(errno));
+    return LD_OK;
+}
+
+// Takes an earlier run's summary and report away, then gives every file its name.
+static ld_status put_in_place(ld_output *output, ld_error *error)
+{
+    ld_status status = take_away(output->path[SUMMARY], error);
+    if (!status)
+        status = take_away(output->report, error);
+    if (status)
+        return status;
+    for (int i = 0; i < FILES; i++)
+        if (rename(output->part[i], output->path[i]) != 0 &&
+            (errno != ENOENT || (unlink(output->path[i]) != 0 && errno != ENOENT)))
+            return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", output->path[i],
+                           strerror(errno));
+    return LD_OK;
+}
+
+ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error)
+{
+    ld_status status = close_histories(output, summary, error);
+    if (!status)
+        status = ld_summary_write(output->part[SUMMARY], output->model, summary, error);
+    if (!status)
+        status = put_in_place(output, error);
+    if (status)
+        ld_output_discard(output);
+    else
+        free_output(output);
+    return status;
+}
+
+void ld_output_discard(ld_output *output)
+{
+    if (!output)
+        return;
+    close_histories(output, NULL, NULL);
+    for (int i = 0; i < FILES; i++)
+        if (output->part[i])
+            unlink(output->part[i]);
+    if (output->folder)
+        folder_remove(output->folder, output->made_from);
+    free_output(output);
+}

@@ -1,0 +1,408 @@
+// A model as a scenario in SI units: every key, in the order of the tables.
+#include <locale.h>
+
+#include "model/field.h"
+#include "scenario/scenario_reader.h"
+#include "scenario/scenario_text.h"
+#include "simulation/study_results.h"
+
+#include <string.h>
+
+static void print_number(FILE *stream, const double *values, int count, const char *unit)
+{
+    char text[32];
+    for (int i = 0; i < count; i++) {
+        field_number_text(values[i], text);
+        fprintf(stream, "%s%s", i ? " " : "", text);
+    }
+    fprintf(stream, "%s%s", unit[0] ? " " : "", unit);
+}
+
+// The UTF-8 character of two or three bytes at `c` that YAML wants escaped, with its length; 0:
+// none.
+static unsigned long special_character(const unsigned char *c, int *length)
+{
+    unsigned long code = 0;
+    *length = 1;
+    if ((*c & 0xe0) == 0xc0 && c[1]) {
+        code = (*c & 0x1fUL) << 6 | (c[1] & 0x3fUL);
+        *length = 2;
+    } else if ((*c & 0xf0) == 0xe0 && c[1] && c[2]) {
+        code = (*c & 0x0fUL) << 12 | (c[1] & 0x3fUL) << 6 | (c[2] & 0x3fUL);
+        *length = 3;
+    }
+    bool special = (code >= 0x80 && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
+                   code == 0xfeff || code >= 0xfffe;
+    return special ? code : 0;
+}
+
+void scenario_print_text(FILE *stream, const char *text)
+{
+    fputc('"', stream);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        int length;
+        unsigned long special = special_character(c, &length);
+        if (*c == '"' || *c == '\\')
+            fprintf(stream, "\\%c", *c);
+        else if (*c < 0x20 || *c == 0x7f)
+            fprintf(stream, "\\x%02X", *c);
+        else if (special)
+            fprintf(stream, "\\u%04lX", special);
+        else
+            fputc(*c, stream);
+        c += special ? length - 1 : 0;
+    }
+    fputc('"', stream);
+}
+
+static void print_choice(FILE *stream, const field_row *f, const void *base)
+{
+    int value = f->words[0].value;
+    if (f->offset != FIELD_NOWHERE)
+        memcpy(&value, field_at_const(base, f), sizeof value);
+    const field_word *word = field_word_of(f->words, value);
+    if (word->name[0])
+        fprintf(stream, "%s", word->name);
+    else
+        print_number(stream, (const double *)((const char *)base + f->other), 1, f->unit);
+}
+
+static void print_integers(FILE *stream, const int *values, int count)
+{
+    fputc('[', stream);
+    for (int i = 0; i < count; i++)
+        fprintf(stream, "%s%d", i ? ", " : "", values[i]);
+    fputc(']', stream);
+}
+
+// The names of the marked entries; `all` where that is what they are.
+static void print_selection(FILE *stream, const field_row *f, const void *base)
+{
+    int count = field_switch(base, f), marked = 0;
+    for (int i = 0; i < count; i++)
+        marked += field_marked(base, f, i);
+    if (marked == count) {
+        fprintf(stream, "all");
+        return;
+    }
+    const char *between = "[";
+    for (int i = 0; i < count; i++)
+        if (field_marked(base, f, i)) {
+            fprintf(stream, "%s%s", between, (const char *)field_entry_const(base, f, i));
+            between = ", ";
+        }
+    fprintf(stream, marked ? "]" : "[]");
+}
+
+// A value that fits on one line.
+static void print_scalar(FILE *stream, const field_row *f, const void *base)
+{
+    int value;
+    switch (f->kind) {
+    case FIELD_NUMBER:
+        print_number(stream, field_at_const(base, f), f->count, f->unit);
+        return;
+    case FIELD_INTEGER:
+        value = (int)f->range.low;
+        if (f->offset != FIELD_NOWHERE)
+            memcpy(&value, field_at_const(base, f), sizeof value);
+        fprintf(stream, "%d", value);
+        return;
+    case FIELD_CHOICE:
+        print_choice(stream, f, base);
+        return;
+    case FIELD_WORD:
+        fprintf(stream, "%s", (const char *)field_at_const(base, f));
+        return;
+    case FIELD_INTEGERS:
+        print_integers(stream, field_at_const(base, f), field_switch(base, f));
+        return;
+    case FIELD_SELECTION:
+        print_selection(stream, f, base);
+        return;
+    default: // FIELD_TEXT; the others have no place on a line
+        scenario_print_text(stream, *(char *const *)field_at_const(base, f));
+        return;
+    }
+}
+
+// Whether the key has a value to print.
+static bool is_given(const field_row *f, const void *base, int form)
+{
+    if (f->kind == FIELD_LATER || !field_has_form(f, form))
+        return false;
+    if (f->kind == FIELD_NUMBER)
+        return !isnan(*(const double *)field_at_const(base, f));
+    if (f->kind == FIELD_TEXT)
+        return *(char *const *)field_at_const(base, f) != NULL;
+    if (f->kind == FIELD_TABLE)
+        return ((const ld_table *)field_at_const(base, f))->rows > 0;
+    if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP)
+        return field_switch(base, f) > 0;
+    return true;
+}
+
+static void print_entry(FILE *stream, const field_block *block, const void *base)
+{
+    const char *between = "";
+    int form = field_form(block, base);
+    for (const field_row *f = block->fields; f->name; f++) {
+        if (!is_given(f, base, form))
+            continue;
+        fprintf(stream, "%s%s: ", between, f->name);
+        print_scalar(stream, f, base);
+        between = ", ";
+    }
+}
+
+static void print_list(FILE *stream, const field_row *f, const void *base, int depth)
+{
+    int count = field_switch(base, f);
+    if (count == 0)
+        fprintf(stream, " []");
+    fputc('\n', stream);
+    for (int i = 0; i < count; i++) {
+        fprintf(stream, "%*s- {", depth * 2, "");
+        print_entry(stream, f->block, field_entry_const(base, f, i));
+        fprintf(stream, "}\n");
+    }
+}
+
+static void print_table(FILE *stream, const field_row *f, const ld_table *table, int depth)
+{
+    const table_format *format = field_table_format(f->table, table->columns);
+    fputc('\n', stream);
+    for (size_t i = 0; i < table->rows; i++) {
+        fprintf(stream, "%*s- [", depth * 2, "");
+        for (size_t k = 0; k < table->columns; k++) {
+            fprintf(stream, "%s", k ? ", " : "");
+            print_number(stream, &table->data[i * table->columns + k], 1, format->column[k].unit);
+        }
+        fprintf(stream, "]\n");
+    }
+}
+
+static void print_distribution(FILE *stream, const ld_factor *factor, const char *unit)
+{
+    const char *between = "";
+    switch (factor->distribution) {
+    case LD_NORMAL:
+        fprintf(stream, "normal: ");
+        print_number(stream, &factor->deviation, 1, unit);
+        break;
+    case LD_LOGNORMAL:
+        fprintf(stream, "lognormal: ");
+        print_number(stream, &factor->deviation, 1, "");
+        break;
+    case LD_UNIFORM:
+        fprintf(stream, isnan(factor->between[0]) ? "uniform: +-" : "uniform: ");
+        print_number(stream, isnan(factor->between[0]) ? &factor->spread : factor->between,
+                     isnan(factor->between[0]) ? 1 : 2, unit);
+        return;
+    case LD_DISCRETE:
+        fprintf(stream, "discrete: [");
+        for (int i = 0; i < factor->value_count; i++, between = ", ") {
+            fprintf(stream, "%s", between);
+            print_number(stream, &factor->value[i], 1, unit);
+        }
+        fprintf(stream, "], weights: [");
+        between = "";
+        for (int i = 0; i < factor->value_count; i++, between = ", ") {
+            fprintf(stream, "%s", between);
+            print_number(stream, &factor->weight[i], 1, "");
+        }
+        fprintf(stream, "]");
+        return;
+    case LD_EACH_SAMPLE:
+        fprintf(stream, "each: sample");
+        return;
+    }
+    if (!isnan(factor->within)) {
+        fprintf(stream, ", within: ");
+        print_number(stream, &factor->within, 1, "");
+    }
+    if (!isnan(factor->between[0])) {
+        fprintf(stream, ", between: ");
+        print_number(stream, factor->between, 2, unit);
+    }
+}
+
+// "paths: [one, other], " of several keys under one name.
+static void print_together(FILE *stream, const ld_together *together)
+{
+    for (int i = 0; i < together->count; i++)
+        fprintf(stream, "%s%s", i ? ", " : "paths: [", together->path[i]);
+    fputs(together->count ? "], " : "", stream);
+}
+
+// Its keys where it has a name of its own, its distribution with the unit in the model.
+static void print_factor(FILE *stream, const ld_model *model, const ld_factor *factor)
+{
+    field_place place;
+    char why[384];
+    field_locate(model, factor_path(factor, 0), &place, why, sizeof why);
+    print_together(stream, &factor->together);
+    print_distribution(stream, factor, place.row && place.row->unit ? place.row->unit : "");
+}
+
+static void print_factors(FILE *stream, const field_row *f, const ld_scatter *scatter, int depth)
+{
+    fputc('\n', stream);
+    for (int i = 0; i < field_switch(scatter, f); i++) {
+        const ld_factor *factor = &scatter->factor[i];
+        // scatter is a part of the model whose numbers it names
+        const ld_model *model = (const void *)((const char *)scatter - offsetof(ld_model, scatter));
+        fprintf(stream, "%*s%s: {", depth * 2, "", factor->path);
+        print_factor(stream, model, factor);
+        fprintf(stream, "%s}\n",
+                factor_may_be_per_rocket(factor) && !factor->per_rocket ? ", per: sample" : "");
+    }
+}
+
+static void print_correlated(FILE *stream, const ld_scatter *scatter, int depth)
+{
+    fputc('\n', stream);
+    for (int g = 0; g < scatter->correlated_count; g++) {
+        const ld_correlated *group = &scatter->correlated[g];
+        fprintf(stream, "%*s- {factors: [", depth * 2, "");
+        for (int i = 0; i < group->count; i++)
+            fprintf(stream, "%s%s", i ? ", " : "", scatter->factor[group->factor[i]].path);
+        fprintf(stream, "], matrix: [");
+        for (int i = 0; i < group->count; i++) {
+            fprintf(stream, i ? ", [" : "[");
+            for (int k = 0; k < group->count; k++) {
+                fprintf(stream, k ? ", " : "");
+                print_number(stream, &group->matrix[i][k], 1, "");
+            }
+            fprintf(stream, "]");
+        }
+        fprintf(stream, "]}\n");
+    }
+}
+
+// The number of hundredths that reads back as `share`.
+static double percent(double share)
+{
+    double near = share * 100, low = nextafter(near, 0), high = nextafter(near, INFINITY);
+    if (near / 100 == share)
+        return near;
+    return low / 100 == share ? low : high;
+}
+
+static void print_statistic(FILE *stream, const ld_until *until)
+{
+    const study_result *result = study_result_named(until->result);
+    double value = until->relative ? percent(until->half_width) : until->half_width;
+    fprintf(stream, "%s.%s: ", until->result,
+            until->statistic == LD_STATISTIC_MEAN ? "mean" : "deviation");
+    print_number(stream, &value, 1, until->relative ? "%" : result ? result->unit : "");
+}
+
+static void print_until(FILE *stream, const ld_scatter *scatter, int depth)
+{
+    fputc('\n', stream);
+    for (int i = 0; i < scatter->until_count; i++) {
+        fprintf(stream, "%*s", depth * 2, "");
+        print_statistic(stream, &scatter->until[i]);
+        fputc('\n', stream);
+    }
+}
+
+static void print_sweep(FILE *stream, const ld_model *model, int depth)
+{
+    fputc('\n', stream);
+    for (int i = 0; i < model->sweep_count; i++) {
+        const ld_sweep_axis *axis = &model->sweep[i];
+        bool several = axis->together.count > 0;
+        fprintf(stream, "%*s%s: %s", depth * 2, "", axis->path, several ? "{" : "");
+        print_together(stream, &axis->together);
+        fputs(several ? "values: [" : "[", stream);
+        for (int k = 0; k < axis->count; k++)
+            fprintf(stream, "%s%s", k ? ", " : "", axis->value[k]);
+        fputs(several ? "]}\n" : "]\n", stream);
+    }
+}
+
+static void print_block(FILE *stream, const field_block *block, const void *base, int depth);
+
+static void print_field(FILE *stream, const field_row *f, const void *base, int depth)
+{
+    fprintf(stream, "%*s%s:", depth * 2, "", f->name);
+    if (f->kind == FIELD_BLOCK) {
+        const char *word = f->words ? field_word_of(f->words, field_switch(base, f))->name : "";
+        fprintf(stream, "%s%s\n", word[0] ? " " : "", word);
+        if (!word[0])
+            print_block(stream, f->block, field_at_const(base, f), depth + 1);
+    } else if (f->kind == FIELD_LIST && f->alternative && field_switch(base, f->alternative)) {
+        fputc('\n', stream);
+        print_block(stream, f->alternative->block, field_at_const(base, f->alternative), depth + 1);
+    } else if (f->kind == FIELD_LIST) {
+        print_list(stream, f, base, depth + 1);
+    } else if (f->kind == FIELD_FACTORS) {
+        print_factors(stream, f, base, depth + 1);
+    } else if (f->kind == FIELD_CORRELATED) {
+        print_correlated(stream, base, depth + 1);
+    } else if (f->kind == FIELD_UNTIL) {
+        print_until(stream, base, depth + 1);
+    } else if (f->kind == FIELD_SWEEP) {
+        print_sweep(stream, base, depth + 1);
+    } else if (f->kind == FIELD_TABLE) {
+        print_table(stream, f, field_at_const(base, f), depth + 1);
+    } else {
+        fputc(' ', stream);
+        print_scalar(stream, f, base);
+        fputc('\n', stream);
+    }
+}
+
+static bool anything_given(const field_block *block, const void *base)
+{
+    for (const field_row *f = block->fields; f->name; f++)
+        if (is_given(f, base, field_form(block, base)))
+            return true;
+    return false;
+}
+
+static void print_block(FILE *stream, const field_block *block, const void *base, int depth)
+{
+    int form = field_form(block, base);
+    for (const field_row *f = block->fields; f->name; f++) {
+        bool empty = f->kind == FIELD_BLOCK && !f->words &&
+                     !anything_given(f->block, field_at_const(base, f));
+        if (is_given(f, base, form) && !empty)
+            print_field(stream, f, base, depth);
+    }
+}
+
+void ld_model_print(const ld_model *model, FILE *stream)
+{
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
+    print_block(stream, &scenario_block, model, 0);
+    uselocale(before);
+    freelocale(plain);
+}
+
+// A stream into `text`, which holds "" where it cannot be; closed with its end marked.
+static FILE *open_text(char *text, size_t size)
+{
+    memset(text, 0, size);
+    return fmemopen(text, size - 1, "w");
+}
+
+void scenario_factor_text(const ld_model *model, const ld_factor *factor, char *text, size_t size)
+{
+    FILE *stream = open_text(text, size);
+    if (!stream)
+        return;
+    print_factor(stream, model, factor);
+    fclose(stream);
+}
+
+void scenario_until_text(const ld_until *until, char *text, size_t size)
+{
+    FILE *stream = open_text(text, size);
+    if (!stream)
+        return;
+    print_statistic(stream, until);
+    fclose(stream);
+}

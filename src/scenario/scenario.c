@@ -1,0 +1,379 @@
+// Reading a scenario: files and what they include, overrides, then tree to model.
+#include <locale.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text_file.h"
+#include "model/source.h"
+#include "scenario/scenario.h"
+#include "scenario/scenario_reader.h"
+
+// The files being read, outermost first.
+typedef struct open_file {
+    const struct open_file *outer;
+    const char *real_name;
+    int depth;
+} open_file;
+
+// The name of a file beside others in a folder, in the pool.
+static char *beside(scenario_reader *reader, const char *folder, const char *name)
+{
+    bool alone = name[0] == '/' || !folder || !folder[0];
+    size_t length = strlen(name) + (alone ? 0 : strlen(folder)) + 2;
+    char *joined = pool_take(reader, length);
+    if (joined)
+        snprintf(joined, length, "%s%s%s", alone ? "" : folder, alone ? "" : "/", name);
+    return joined;
+}
+
+// The folder part of a file's name: "" without.
+static char *folder_of(scenario_reader *reader, const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    return pool_text(reader, name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
+}
+
+// Reads a file into the source, as `within`; NULL after a message.
+static const ld_source_file *read_file(scenario_reader *reader, text_place place, const char *path,
+                                       const char *file_name, const char *within)
+{
+    char *text;
+    size_t length;
+    ld_error error;
+    if (!reader->source->folder) {
+        reader_refuse(reader, place, path, "file \"%s\" is not among the texts that are kept",
+                      within);
+        return NULL;
+    }
+    ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
+    if (status == LD_ERR_MEMORY)
+        reader->no_memory = true;
+    if (status != LD_OK) {
+        reader_refuse(reader, place, path, "file \"%s\" %s", file_name, error.text);
+        return NULL;
+    }
+    const ld_source_file *file = source_add(reader->source, within, text, length);
+    reader->no_memory |= !file;
+    return file;
+}
+
+text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
+                         const char *name)
+{
+    char *file_name = beside(reader, place.source->folder, name);
+    char *within = beside(reader, place.source->within, name);
+    if (!file_name || !within)
+        return NULL;
+    const ld_source_file *file = source_find(reader->source, within);
+    if (!file)
+        file = read_file(reader, place, path, file_name, within);
+    text_source *opened = file ? pool_take(reader, sizeof *opened) : NULL;
+    if (opened)
+        *opened = (text_source){file_name,
+                                file->text,
+                                file->length,
+                                folder_of(reader, file_name),
+                                1,
+                                folder_of(reader, within)};
+    return reader->no_memory ? NULL : opened;
+}
+
+static tree_node *load(scenario_reader *reader, const text_source *source, const open_file *file);
+
+// The file by which a text is known again where it includes itself, to be freed; NULL: its name.
+static char *real_name_of(const scenario_reader *reader, const text_source *source)
+{
+    return reader->source->folder ? realpath(source->name, NULL) : NULL;
+}
+
+// Loads the file that `value` names, below what includes it.
+static tree_node *load_included(scenario_reader *reader, const tree_node *value,
+                                const open_file *file)
+{
+    if (value->kind != NODE_SCALAR || tree_is_empty(value)) {
+        reader_refuse(reader, value->at, "include", "expected the name of a file");
+        return NULL;
+    }
+    text_source *opened = reader_open(reader, value->at, "include", value->text);
+    if (!opened)
+        return NULL;
+    char *real_name = real_name_of(reader, opened);
+    open_file inner = {file, real_name ? real_name : opened->name, file->depth + 1};
+    tree_node *root = NULL;
+    bool cycle = false;
+    for (const open_file *outer = file; outer; outer = outer->outer)
+        cycle = cycle || strcmp(outer->real_name, inner.real_name) == 0;
+    if (cycle)
+        reader_refuse(reader, value->at, "include", "file \"%s\" includes itself", opened->name);
+    else if (inner.depth > READER_MAX_INCLUDES)
+        reader_refuse(reader, value->at, "include", "more than %d files one inside the other",
+                      READER_MAX_INCLUDES);
+    else
+        root = load(reader, opened, &inner);
+    free(real_name);
+    return root;
+}
+
+// Parses a source and lays it over what it includes; NULL after a message.
+static tree_node *load(scenario_reader *reader, const text_source *source, const open_file *file)
+{
+    tree_node *root = tree_parse(reader, source, source->text, source->length, 1);
+    tree_node *include = root && root->kind == NODE_MAP ? tree_member(root, "include") : NULL;
+    if (!include)
+        return root;
+    tree_remove(root, include);
+    tree_node *under = load_included(reader, include, file);
+    if (!under)
+        return NULL;
+    if (under->kind != NODE_MAP) {
+        reader_refuse(reader, under->at, "", "an included file must be a block of keys");
+        return NULL;
+    }
+    return tree_merge(reader, under, root, "");
+}
+
+// ---- overrides
+
+// The mapping {key: {key: ... value}} of a text "key.key...=value"; NULL after a message.
+static tree_node *parse_override(scenario_reader *reader, const text_source *source)
+{
+    const char *text = source->text, *equals = strchr(text, '=');
+    text_place begin = {source, source->first_line, 1};
+    if (!equals) {
+        reader_refuse(reader, begin, "", "expected path=value");
+        return NULL;
+    }
+    const char *path = pool_text(reader, text, (size_t)(equals - text)), *value = equals + 1;
+    tree_node *node;
+    if (value[strspn(value, " \t")] == '\0') {
+        node = tree_new(reader, NODE_SCALAR, begin);
+        if (node) {
+            node->plain = true;
+            node->text = "";
+        }
+    } else {
+        node = tree_parse(reader, source, value, strlen(value), (int)(value - text) + 1);
+    }
+    return path && node ? tree_at_path(reader, path, begin, node) : NULL;
+}
+
+static tree_node *apply_override(scenario_reader *reader, tree_node *root, const char *text,
+                                 const char *folder, int number)
+{
+    text_source *source = pool_take(reader, sizeof *source);
+    if (!source)
+        return root;
+    *source = (text_source){
+        "--set", pool_text(reader, text, strlen(text)), strlen(text), folder, number, ""};
+    tree_node *over = source->text ? parse_override(reader, source) : NULL;
+    return over ? tree_merge(reader, root, over, "") : root;
+}
+
+// ---- the whole
+
+static tree_node *apply_overrides(scenario_reader *reader, tree_node *root)
+{
+    const ld_source *source = reader->source;
+    for (size_t i = 0; i < source->set_count; i++)
+        root = apply_override(reader, root, source->set[i], source->folder, (int)i + 1);
+    return root;
+}
+
+// Reads each value of each axis by itself, only for messages about its key: whether values of
+// several go together is seen when their point is read.
+static void check_values(scenario_reader *reader, const tree_node *file,
+                         const scenario_sweep *sweep)
+{
+    for (int i = 0; i < sweep->count; i++)
+        for (int k = 0; k < sweep->axis[i].list->count && !reader->no_memory; k++) {
+            ld_model model;
+            memory_pool before = pool_mark(reader);
+            size_t messages = reader->messages->count;
+            model_init(&model);
+            tree_node *root = tree_copy(reader, file);
+            root = root ? sweep_lay(reader, root, &sweep->axis[i], k) : NULL;
+            if (root)
+                root = apply_overrides(reader, root);
+            if (root && !reader->no_memory)
+                scenario_fill_values(reader, root, &model);
+            model_clear(&model);
+            reader_keep_messages(reader, messages, &sweep->axis[i].keys);
+            pool_return(reader, before);
+        }
+}
+
+static void read_root(scenario_reader *reader, const text_source *source, int point,
+                      ld_model *model)
+{
+    char *real_name = real_name_of(reader, source);
+    open_file open = {NULL, real_name ? real_name : source->name, 0};
+    tree_node *file = load(reader, source, &open);
+    free(real_name);
+    tree_node *root = file ? tree_copy(reader, file) : NULL;
+    if (!root)
+        return;
+    const char *const *sets = (const char *const *)reader->source->set;
+    root = apply_overrides(reader, root);
+    scenario_sweep sweep = sweep_find(reader, root, sets, reader->source->set_count);
+    sweep_fill(reader, &sweep, model);
+    if (point > ld_scenario_points(model)) {
+        reader_refuse(reader, (text_place){source, 0, 0}, "sweep",
+                      "there is no point %d: they go from 1 to %d", point,
+                      ld_scenario_points(model));
+        return;
+    }
+    if (point > 0) {
+        // overrides come last: they have the last word
+        root = tree_copy(reader, file);
+        for (int i = 0; i < sweep.count && root; i++)
+            root = sweep_lay(reader, root, &sweep.axis[i], ld_scenario_value(model, point, i));
+        root = root ? apply_overrides(reader, root) : NULL;
+    }
+    if (root && !reader->no_memory)
+        scenario_fill(reader, root, model);
+    if (point == 0)
+        check_values(reader, file, &sweep);
+}
+
+// udunits keeps the state of its parser in global variables.
+static pthread_mutex_t one_reader = PTHREAD_MUTEX_INITIALIZER;
+
+static void read_in_turn(scenario_reader *reader, int point, ld_model *model)
+{
+    const ld_source *from = reader->source;
+    text_source root = {from->name, from->file[0]->text, from->file[0]->length, from->folder, 1,
+                        ""};
+    pthread_mutex_lock(&one_reader);
+    reader->units = units_open();
+    if (reader->units)
+        read_root(reader, &root, point, model);
+    else
+        reader->no_memory = true;
+    pthread_mutex_unlock(&one_reader);
+}
+
+ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
+{
+    scenario_reader reader = {.messages = messages, .source = source};
+    ld_model fresh;
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
+    *messages = (ld_messages){0};
+    model_init(&fresh);
+    if (plain)
+        read_in_turn(&reader, point, &fresh);
+    else
+        reader.no_memory = true;
+    reader_finish_messages(&reader);
+    ld_status status = reader.no_memory      ? LD_ERR_MEMORY
+                       : messages->count > 0 ? LD_ERR_INPUT
+                                             : LD_OK;
+    if (status == LD_OK) {
+        fresh.source = source_hold(source);
+        fresh.point = point;
+        *model = fresh;
+    } else {
+        model_clear(&fresh);
+    }
+    pool_free(&reader);
+    uselocale(before);
+    if (plain)
+        freelocale(plain);
+    return status;
+}
+
+// ---- where the texts come from
+
+static bool is_stdin(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+// A source of the scenario's text, which becomes its own in any case; NULL: no memory.
+static ld_source *source_of(char *text, size_t length, const char *name, const char *folder,
+                            const char *const *sets, size_t count)
+{
+    const char *slash = strrchr(name, '/');
+    ld_source *source = source_new(name, folder ? folder : "");
+    if (!source) {
+        free(text);
+        return NULL;
+    }
+    bool fine = source_add(source, slash ? slash + 1 : name, text, length);
+    for (size_t i = 0; i < count && fine; i++)
+        fine = source_add_set(source, sets[i]);
+    if (fine)
+        return source;
+    source_free(source);
+    return NULL;
+}
+
+// What is wrong with a file as a whole; returns `status`.
+static ld_status refuse_file(ld_messages *messages, const char *name, const char *path,
+                             ld_status status, const char *text)
+{
+    scenario_reader reader = {.messages = messages};
+    text_source file = {.name = name};
+    *messages = (ld_messages){0};
+    reader_refuse(&reader, (text_place){&file, 0, 0}, path, "%s", text);
+    return reader.no_memory ? LD_ERR_MEMORY : status;
+}
+
+// Reads a point of the source, which is given up.
+static ld_status read_and_release(ld_source *source, int point, ld_model *model,
+                                  ld_messages *messages)
+{
+    *messages = (ld_messages){0};
+    ld_status status =
+        source ? scenario_read_source(source, point, model, messages) : LD_ERR_MEMORY;
+    source_free(source);
+    return status;
+}
+
+ld_status scenario_read_point(const char *path, const char *const *sets, size_t count, int point,
+                              ld_model *model, ld_messages *messages)
+{
+    const char *name = is_stdin(path) ? "<stdin>" : path, *slash = strrchr(name, '/');
+    char *text, why[2 * LD_ERROR_TEXT];
+    size_t length;
+    ld_error error;
+    if (is_stdin(path) && point > 0)
+        return refuse_file(messages, name, "sweep", LD_ERR_INPUT,
+                           "its points are read one by one: give a file, not standard input");
+    ld_status status = text_file_read(path, READER_MAX_BYTES, &text, &length, &error);
+    if (status) {
+        snprintf(why, sizeof why, "file \"%s\" %s", path, error.text);
+        return refuse_file(messages, name, "", status, why);
+    }
+    char *folder = strndup(name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
+    ld_source *source = source_of(text, length, name, folder, sets, count);
+    free(folder);
+    return read_and_release(source, point, model, messages);
+}
+
+ld_status scenario_read_text_point(const char *text, size_t length, const char *name,
+                                   const char *folder, const char *const *sets, size_t count,
+                                   int point, ld_model *model, ld_messages *messages)
+{
+    char *own = malloc(length + 1);
+    if (own) {
+        memcpy(own, text, length);
+        own[length] = '\0';
+    }
+    ld_source *source = own ? source_of(own, length, name, folder, sets, count) : NULL;
+    return read_and_release(source, point, model, messages);
+}
+
+ld_status scenario_read(const char *path, const char *const *sets, size_t count, ld_model *model,
+                        ld_messages *messages)
+{
+    return scenario_read_point(path, sets, count, 0, model, messages);
+}
+
+ld_status scenario_read_text(const char *text, size_t length, const char *name, const char *folder,
+                             const char *const *sets, size_t count, ld_model *model,
+                             ld_messages *messages)
+{
+    return scenario_read_text_point(text, length, name, folder, sets, count, 0, model, messages);
+}

@@ -1,0 +1,201 @@
+#include "scenario/scenario_reader.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void free_message(ld_message *message)
+{
+    free(message->file);
+    free(message->path);
+    free(message->text);
+    free(message->source);
+}
+
+void ld_messages_free(ld_messages *messages)
+{
+    for (size_t i = 0; i < messages->count; i++)
+        free_message(&messages->item[i]);
+    free(messages->item);
+    *messages = (ld_messages){0};
+}
+
+static bool is_control(char c)
+{
+    return ((unsigned char)c < 0x20 && c != '\t') || c == 0x7f;
+}
+
+// Prints the part of the source line around the column, and a caret below it. Columns count
+// characters: bytes that continue a UTF-8 character add none.
+static void print_excerpt(const ld_message *m, FILE *stream)
+{
+    enum { BEFORE = 80, WIDTH = 120 };
+    int from = m->column > BEFORE ? m->column - BEFORE : 1, column = 0;
+    fprintf(stream, "    ");
+    for (const char *c = m->source; *c; c++) {
+        column += ((unsigned char)*c & 0xc0) != 0x80;
+        if (column >= from && column < from + WIDTH)
+            fputc(is_control(*c) ? '?' : *c, stream);
+    }
+    fprintf(stream, "\n    ");
+    column = 0;
+    for (const char *c = m->source; *c; c++) {
+        if (((unsigned char)*c & 0xc0) == 0x80)
+            continue;
+        column++;
+        if (column >= from && column < m->column)
+            fputc(*c == '\t' ? '\t' : ' ', stream);
+    }
+    fprintf(stream, "^\n");
+}
+
+void ld_messages_print(const ld_messages *messages, FILE *stream)
+{
+    for (size_t i = 0; i < messages->count; i++) {
+        const ld_message *m = &messages->item[i];
+        fprintf(stream, "%s:", m->file);
+        if (m->line > 0)
+            fprintf(stream, "%d:%d:", m->line, m->column);
+        fprintf(stream, " error: %s%s%s\n", m->path, m->path[0] ? ": " : "", m->text);
+        if (m->source[0])
+            print_excerpt(m, stream);
+    }
+}
+
+// The line of the source's text that holds `place`.
+static char *source_line(text_place place)
+{
+    const text_source *source = place.source;
+    if (place.line == 0)
+        return strdup("");
+    const char *text = source->text, *end = text + source->length;
+    for (int line = source->first_line; line < place.line && text < end; text++)
+        line += *text == '\n';
+    size_t length = 0;
+    while (text + length < end && text[length] != '\n' && text[length] != '\r' && text[length])
+        length++;
+    return strndup(text, length);
+}
+
+void reader_refuse(scenario_reader *reader, text_place place, const char *path, const char *format,
+                   ...)
+{
+    char text[768];
+    ld_messages *messages = reader->messages;
+    if (messages->count == READER_MAX_MESSAGES) {
+        reader->cut = true;
+        return;
+    }
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    ld_message *larger = realloc(messages->item, (messages->count + 1) * sizeof *larger);
+    if (!larger) {
+        reader->no_memory = true;
+        return;
+    }
+    messages->item = larger;
+    ld_message m = {
+        strdup(place.source->name), place.line, place.column, strdup(path), strdup(text),
+        source_line(place)};
+    messages->item[messages->count++] = m;
+    if (!m.file || !m.path || !m.text || !m.source)
+        reader->no_memory = true;
+}
+
+static int in_order_of_text(const void *left, const void *right)
+{
+    const ld_message *a = left, *b = right;
+    int files = strcmp(a->file, b->file);
+    if (files)
+        return files;
+    if (a->line != b->line)
+        return a->line < b->line ? -1 : 1;
+    if (a->column != b->column)
+        return a->column < b->column ? -1 : 1;
+    int paths = strcmp(a->path, b->path);
+    return paths ? paths : strcmp(a->text, b->text);
+}
+
+void reader_finish_messages(scenario_reader *reader)
+{
+    ld_messages *messages = reader->messages;
+    if (!reader->no_memory && messages->count > 1)
+        qsort(messages->item, messages->count, sizeof *messages->item, in_order_of_text);
+    if (!reader->cut)
+        return;
+    // the last one kept makes room
+    ld_message *last = &messages->item[messages->count - 1];
+    free(last->text);
+    last->text = strdup("and more errors, which are not shown");
+    reader->no_memory = reader->no_memory || !last->text;
+}
+
+// Whether the path `inner` is `outer` or a key below it.
+static bool is_at_or_below(const char *inner, const char *outer)
+{
+    size_t length = strlen(outer);
+    return length > 0 && strncmp(inner, outer, length) == 0 &&
+           (inner[length] == '\0' || inner[length] == '.');
+}
+
+bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path)
+{
+    for (size_t i = 0; i < count; i++) {
+        const char *other = reader->messages->item[i].path;
+        if (other && (is_at_or_below(other, path) || is_at_or_below(path, other)))
+            return true;
+    }
+    return false;
+}
+
+static bool is_same(const ld_message *a, const ld_message *b)
+{
+    return a->line == b->line && a->column == b->column && strcmp(a->file, b->file) == 0 &&
+           strcmp(a->path, b->path) == 0 && strcmp(a->text, b->text) == 0;
+}
+
+static bool is_about(const ld_message *message, const ld_together *keys)
+{
+    bool about = false;
+    for (int i = 0; i < keys->count; i++)
+        about |= is_at_or_below(message->path, keys->path[i]) ||
+                 is_at_or_below(keys->path[i], message->path);
+    return about;
+}
+
+void reader_keep_messages(scenario_reader *reader, size_t count, const ld_together *keys)
+{
+    ld_messages *messages = reader->messages;
+    size_t kept = count;
+    for (size_t i = count; i < messages->count && !reader->no_memory; i++) {
+        ld_message *m = &messages->item[i];
+        bool wanted = is_about(m, keys);
+        for (size_t k = 0; wanted && k < kept; k++)
+            wanted = !is_same(m, &messages->item[k]);
+        if (wanted)
+            messages->item[kept++] = *m;
+        else
+            free_message(m);
+    }
+    if (!reader->no_memory)
+        messages->count = kept;
+}
+
+const char *reader_quote(const char *text, char buffer[64])
+{
+    enum { LONGEST = 40 };
+    size_t n = 0;
+    buffer[n++] = '"';
+    const char *c = text;
+    for (; *c && n < LONGEST; c++)
+        buffer[n++] = is_control(*c) || *c == '\t' ? '?' : *c;
+    // no half of a UTF-8 character at the cut
+    while (*c && n > 1 && ((unsigned char)*c & 0xc0) == 0x80) {
+        c--;
+        n--;
+    }
+    snprintf(buffer + n, 64 - n, "%s\"", *c ? "..." : "");
+    return buffer;
+}

@@ -1,0 +1,183 @@
+// Numbers with units.
+#include <ctype.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/field.h"
+#include "scenario/scenario_reader.h"
+
+static const char *skip_digits(const char *text, bool *any)
+{
+    for (; *text >= '0' && *text <= '9'; text++)
+        *any = true;
+    return text;
+}
+
+// Words and notations that strtod would take.
+static const char *foreign_notation(const char *text)
+{
+    text += *text == '+' || *text == '-' || *text == '.';
+    if (text[0] == '0' && (text[1] == 'x' || text[1] == 'X'))
+        return "a hexadecimal number";
+    if (strncasecmp(text, "nan", 3) == 0)
+        return "not a number";
+    if (strncasecmp(text, "inf", 3) == 0)
+        return "not a finite number";
+    return NULL;
+}
+
+const char *number_parse(const char *text, double *value, const char **reason)
+{
+    bool digits = false, exponent = false;
+    const char *end = skip_digits(text + (*text == '+' || *text == '-'), &digits);
+    *reason = foreign_notation(text);
+    *value = NAN;
+    if (*reason)
+        return NULL;
+    if (*end == '.')
+        end = skip_digits(end + 1, &digits);
+    if (!digits)
+        return NULL;
+    const char *mantissa_end = end;
+    if (*end == 'e' || *end == 'E') {
+        const char *power = end + 1;
+        power = skip_digits(power + (*power == '+' || *power == '-'), &exponent);
+        end = exponent ? power : end;
+    }
+    *value = strtod(text, NULL);
+    bool nothing = strcspn(text, "123456789") >= (size_t)(mantissa_end - text);
+    if (!isfinite(*value))
+        *reason = "too large a number";
+    else if (!nothing && fabs(*value) < DBL_MIN)
+        *reason = "too small a number";
+    return *reason ? NULL : end;
+}
+
+// What stands in the text of a quantity.
+typedef struct quantity {
+    int count; // numbers found, of which `most` are kept
+    double number[4];
+    const char *unit;   // the rest of the text, "" without
+    const char *reason; // why the next number is none, or NULL
+} quantity;
+
+static quantity split(const char *text, int most)
+{
+    quantity q = {0};
+    for (;;) {
+        double value;
+        text += strspn(text, " \t\r\n");
+        if (q.count > 0 && strncmp(text, "1/", 2) == 0) // the unit 1/m
+            break;
+        const char *end = number_parse(text, &value, &q.reason);
+        if (!end)
+            break;
+        if (q.count < most)
+            q.number[q.count] = value;
+        q.count++;
+        text = end;
+        if (*end && !isspace((unsigned char)*end))
+            break;
+    }
+    q.unit = text;
+    return q;
+}
+
+// Says what is wrong with the unit.
+static void refuse_unit(scenario_reader *reader, const field_row *f, text_place place,
+                        const char *path, const char *text, const char *unit, units_result result,
+                        const char *unknown)
+{
+    char found[64], quoted[64], expected[256];
+    const char *likely = result == UNITS_UNKNOWN ? units_suggestion(unknown) : NULL;
+    field_expectation(f, expected, sizeof expected);
+    reader_quote(text, found);
+    if (unit[0] == ',')
+        reader_refuse(reader, place, path, "found %s; decimals are written with a point", found);
+    else if (!f->unit[0])
+        reader_refuse(reader, place, path, "found %s with a unit; expected %s", found, expected);
+    else if (result == UNITS_SYNTAX)
+        reader_refuse(reader, place, path,
+                      "found %s, where %s is not a unit of the form N.m/rad, m2 or kg.m.s-2; "
+                      "expected %s",
+                      found, reader_quote(unit, quoted), expected);
+    else if (likely)
+        reader_refuse(reader, place, path, "found %s; unknown unit %s, did you mean \"%s\"?", found,
+                      reader_quote(unknown, quoted), likely);
+    else if (result == UNITS_UNKNOWN)
+        reader_refuse(reader, place, path, "found %s; unknown unit %s, expected %s", found,
+                      reader_quote(unknown, quoted), expected);
+    else
+        reader_refuse(reader, place, path, "found %s, a unit of another dimension; expected %s",
+                      found, expected);
+}
+
+// Factor of the quantity's unit; NaN after a message.
+static double unit_factor(scenario_reader *reader, const field_row *f, text_place place,
+                          const char *path, const char *text, const char *rest)
+{
+    char unit[64], unknown[32] = "", found[64], expected[256];
+    double factor = 1;
+    size_t length = strlen(rest);
+    while (length > 0 && isspace((unsigned char)rest[length - 1]))
+        length--;
+    if (length == 0 && f->unit[0]) {
+        field_expectation(f, expected, sizeof expected);
+        reader_refuse(reader, place, path, "found %s without a unit; expected %s",
+                      reader_quote(text, found), expected);
+        return NAN;
+    }
+    if (length == 0)
+        return 1;
+    snprintf(unit, sizeof unit, "%.*s", length < 63 ? (int)length : 63, rest);
+    units_result result =
+        length > 60 ? UNITS_SYNTAX : units_factor(reader->units, unit, f->unit, &factor, unknown);
+    if (result == UNITS_OK && (f->unit[0] || strcmp(unit, "%") == 0))
+        return factor;
+    if (result == UNITS_MEMORY)
+        reader->no_memory = true;
+    refuse_unit(reader, f, place, path, text, unit, result, unknown);
+    return NAN;
+}
+
+bool quantity_read(scenario_reader *reader, const field_row *f, text_place place, const char *path,
+                   const char *text, double *values, int count)
+{
+    char found[64], expected[256];
+    quantity q = split(text, count);
+    field_row single = *f;
+    single.count = count;
+    reader_quote(text, found);
+    field_expectation(&single, expected, sizeof expected);
+    if (q.reason) {
+        reader_refuse(reader, place, path, "found %s, %s; expected %s", found, q.reason, expected);
+        return false;
+    }
+    if (q.count == 0) {
+        reader_refuse(reader, place, path, "found %s; expected %s", found, expected);
+        return false;
+    }
+    if (q.count != count) {
+        reader_refuse(reader, place, path, "found %s, %d number%s; expected %s", found, q.count,
+                      q.count > 1 ? "s" : "", expected);
+        return false;
+    }
+    double factor = unit_factor(reader, &single, place, path, text, q.unit);
+    if (isnan(factor))
+        return false;
+    for (int i = 0; i < count; i++) {
+        values[i] = units_scale(q.number[i], factor);
+        bool large = !isfinite(values[i]), small = q.number[i] != 0 && fabs(values[i]) < DBL_MIN;
+        const char *size = large   ? ", in SI too large a number"
+                           : small ? ", in SI too small a number"
+                                   : "";
+        if (large || small || !field_in_range(f->range, values[i])) {
+            reader_refuse(reader, place, path, "found %s%s; expected %s", found, size, expected);
+            return false;
+        }
+    }
+    return true;
+}

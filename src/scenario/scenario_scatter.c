@@ -1,0 +1,365 @@
+// Scatter: distributions of numbers of the scenario, by their paths.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/suggestion.h"
+#include "model/field.h"
+#include "scenario/scenario_reader.h"
+
+// One factor while it is read.
+typedef struct factor_reader {
+    scenario_reader *reader;
+    const tree_node *map; // its block
+    char path[LD_MAX_PATH + 64];
+    field_row number; // a number with the key's unit and range
+    ld_factor *factor;
+} factor_reader;
+
+static const char *const distribution_names[] = {"normal", "uniform", "lognormal", "discrete",
+                                                 "each"};
+enum { DISTRIBUTIONS = sizeof distribution_names / sizeof *distribution_names };
+static const char *const other_names[] = {"within", "between", "weights", "per", "paths"};
+enum { OTHERS = sizeof other_names / sizeof *other_names };
+
+static const field_range any = {-INFINITY, INFINITY, 1, 1}, positive = {0, INFINITY, 1, 1},
+                         not_negative = {0, INFINITY, 0, 1};
+
+static const char *path_of(const factor_reader *self, const char *key, char *path, size_t size)
+{
+    snprintf(path, size, "%s.%s", self->path, key);
+    return path;
+}
+
+// Reads `count` numbers of the key `node`, in the unit given.
+static bool read_numbers(const factor_reader *self, const tree_node *node, const char *text,
+                         const char *unit, field_range range, double *values, int count)
+{
+    char path[256], expected[192];
+    field_row row = {
+        .name = node->key, .kind = FIELD_NUMBER, .unit = unit, .range = range, .count = count};
+    path_of(self, node->key ? node->key : "discrete", path, sizeof path);
+    if (node->kind != NODE_SCALAR || tree_is_empty(node)) {
+        field_expectation(&row, expected, sizeof expected);
+        reader_refuse(self->reader, node->at, path, "expected %s", expected);
+        return false;
+    }
+    return quantity_read(self->reader, &row, node->at, path, text, values, count);
+}
+
+// Two values, the first the smaller.
+static bool read_ends(const factor_reader *self, const tree_node *node, field_range range,
+                      double ends[2])
+{
+    char path[256];
+    if (!read_numbers(self, node, node->text, self->number.unit, range, ends, 2))
+        return false;
+    if (ends[0] < ends[1])
+        return true;
+    reader_refuse(self->reader, node->at, path_of(self, node->key, path, sizeof path),
+                  "the first value must be less than the second");
+    return false;
+}
+
+static bool read_uniform(const factor_reader *self, const tree_node *node)
+{
+    ld_factor *factor = self->factor;
+    if (node->kind == NODE_SCALAR && strncmp(node->text, "+-", 2) == 0)
+        return read_numbers(self, node, node->text + 2, self->number.unit, positive,
+                            &factor->spread, 1);
+    return read_ends(self, node, self->number.range, factor->between);
+}
+
+// A list of values with the key's unit, or of weights.
+static bool read_values(const factor_reader *self, const tree_node *list, const char *unit,
+                        field_range range, double *values, int *count)
+{
+    char path[256];
+    int number = 0;
+    path_of(self, list->key, path, sizeof path);
+    if (list->kind != NODE_LIST || list->count < 1 || list->count > LD_MAX_CHOICES) {
+        reader_refuse(self->reader, list->at, path, "expected a list of 1 to %d values",
+                      LD_MAX_CHOICES);
+        return false;
+    }
+    for (const tree_node *entry = list->first; entry; entry = entry->next)
+        if (!read_numbers(self, entry, entry->text, unit, range, &values[number++], 1))
+            return false;
+    *count = number;
+    return true;
+}
+
+static bool read_discrete(const factor_reader *self, const tree_node *node, bool whole)
+{
+    ld_factor *factor = self->factor;
+    char path[256];
+    path_of(self, "discrete", path, sizeof path);
+    if (!read_values(self, node, self->number.unit, self->number.range, factor->value,
+                     &factor->value_count))
+        return false;
+    for (int i = 0; i < factor->value_count; i++) {
+        factor->weight[i] = 1;
+        if (whole && factor->value[i] != floor(factor->value[i])) {
+            reader_refuse(self->reader, node->at, path, "expected whole numbers");
+            return false;
+        }
+    }
+    const tree_node *weights = tree_member(self->map, "weights");
+    if (!weights)
+        return true;
+    int count;
+    double sum = 0;
+    if (!read_values(self, weights, "", not_negative, factor->weight, &count))
+        return false;
+    for (int i = 0; i < count; i++)
+        sum += factor->weight[i];
+    if (count == factor->value_count && sum > 0)
+        return true;
+    reader_refuse(self->reader, weights->at, path_of(self, "weights", path, sizeof path),
+                  "expected %d weights, not all of them 0", factor->value_count);
+    return false;
+}
+
+static bool read_word(const factor_reader *self, const tree_node *node, const char *first,
+                      const char *second)
+{
+    char path[256], quoted[64];
+    bool scalar = node->kind == NODE_SCALAR && !tree_is_empty(node);
+    if (scalar && (strcmp(node->text, first) == 0 || (second && strcmp(node->text, second) == 0)))
+        return true;
+    reader_refuse(self->reader, node->at, path_of(self, node->key, path, sizeof path),
+                  "found %s; expected %s%s%s",
+                  scalar ? reader_quote(node->text, quoted) : "no word", first,
+                  second ? " or " : "", second ? second : "");
+    return false;
+}
+
+// Reads the numbers of the distribution `node`.
+static bool read_distribution(const factor_reader *self, const tree_node *node, bool whole)
+{
+    switch (self->factor->distribution) {
+    case LD_NORMAL:
+        return read_numbers(self, node, node->text, self->number.unit, positive,
+                            &self->factor->deviation, 1);
+    case LD_LOGNORMAL:
+        return read_numbers(self, node, node->text, "", positive, &self->factor->deviation, 1);
+    case LD_UNIFORM:
+        return read_uniform(self, node);
+    case LD_DISCRETE:
+        return read_discrete(self, node, whole);
+    case LD_EACH_SAMPLE:
+        return read_word(self, node, "sample", NULL);
+    }
+    return false;
+}
+
+// What a normal distribution is kept within.
+static bool read_bounds(const factor_reader *self)
+{
+    const tree_node *within = tree_member(self->map, "within");
+    const tree_node *between = tree_member(self->map, "between");
+    char path[256];
+    if (within && between) {
+        reader_refuse(self->reader, between->key_at, path_of(self, "between", path, sizeof path),
+                      "stands beside within; one of them is enough");
+        return false;
+    }
+    return (!within ||
+            read_numbers(self, within, within->text, "", positive, &self->factor->within, 1)) &&
+           (!between || read_ends(self, between, any, self->factor->between));
+}
+
+// The one distribution that the block gives, or NULL after a message.
+static const tree_node *find_distribution(factor_reader *self)
+{
+    const tree_node *found = NULL;
+    char path[256];
+    for (int i = 0; i < DISTRIBUTIONS; i++) {
+        const tree_node *node = tree_member(self->map, distribution_names[i]);
+        if (node && found) {
+            reader_refuse(self->reader, node->key_at, path_of(self, node->key, path, sizeof path),
+                          "stands beside %s; a factor has one distribution", found->key);
+            return NULL;
+        }
+        if (node) {
+            found = node;
+            self->factor->distribution = (ld_distribution)i;
+        }
+    }
+    if (!found)
+        reader_refuse(self->reader, self->map->key_at, self->path,
+                      "has no distribution; expected normal, uniform, lognormal, discrete or each");
+    return found;
+}
+
+// Whether each key of the block is one of a distribution, and goes with the one it has.
+static bool check_keys(const factor_reader *self)
+{
+    ld_distribution given = self->factor->distribution;
+    bool good = true;
+    for (const tree_node *member = self->map->first; member; member = member->next) {
+        char path[256];
+        const char *key = member->key, *other = NULL;
+        bool known = false;
+        name_suggestion best = suggestion_begin(key);
+        for (int i = 0; i < DISTRIBUTIONS + OTHERS; i++) {
+            const char *name =
+                i < DISTRIBUTIONS ? distribution_names[i] : other_names[i - DISTRIBUTIONS];
+            known = known || strcmp(name, key) == 0;
+            suggestion_offer(&best, name);
+        }
+        if ((strcmp(key, "within") == 0 || strcmp(key, "between") == 0) && given != LD_NORMAL)
+            other = "normal";
+        if (strcmp(key, "weights") == 0 && given != LD_DISCRETE)
+            other = "discrete";
+        path_of(self, key, path, sizeof path);
+        if (!known)
+            reader_refuse(self->reader, member->key_at, path, "unknown key%s%s%s",
+                          best.name ? ", did you mean \"" : "", best.name ? best.name : "",
+                          best.name ? "\"?" : "");
+        else if (other)
+            reader_refuse(self->reader, member->key_at, path, "goes with %s only", other);
+        good = good && known && !other;
+    }
+    return good;
+}
+
+// Finds what the factor scatters: the key with its path, or those of `paths` under its name; false
+// after a message.
+static bool find_numbers(factor_reader *self, const ld_model *model, field_place *first)
+{
+    ld_factor *factor = self->factor;
+    const tree_node *node = self->map;
+    char why[384], path[256];
+    bool several = node->kind == NODE_MAP && tree_member(node, "paths");
+    const tree_node *paths = several ? together_paths(self->reader, node, self->path) : NULL;
+    if (!several && !field_locate(model, node->key, first, why, sizeof why))
+        reader_refuse(self->reader, node->key_at, self->path, "%s", why);
+    else if (!several)
+        memcpy(factor->path, first->path, sizeof factor->path);
+    if (!several || !paths)
+        return factor->path[0] != '\0';
+    for (const tree_node *entry = paths->first; entry; entry = entry->next) {
+        field_place place;
+        int count = factor->together.count;
+        if (!field_locate(model, entry->text, &place, why, sizeof why)) {
+            snprintf(path, sizeof path, "%s.paths.%d", self->path, count + 1);
+            reader_refuse(self->reader, entry->at, path, "%s", why);
+            return false;
+        }
+        if (count == 0)
+            *first = place;
+        memcpy(factor->together.path[count], place.path, sizeof place.path);
+        factor->together.count++;
+    }
+    snprintf(factor->path, sizeof factor->path, "%s", node->key);
+    return true;
+}
+
+// Whether the value in the scenario of one of the factor's numbers was refused already.
+static bool has_refused_numbers(const factor_reader *self)
+{
+    scenario_reader *reader = self->reader;
+    bool refused = false;
+    for (int i = 0; i < factor_numbers(self->factor); i++)
+        refused |=
+            reader_has_refused(reader, reader->messages->count, factor_path(self->factor, i));
+    return refused;
+}
+
+static void read_factor(scenario_reader *reader, const tree_node *node, const ld_model *model,
+                        ld_factor *factor)
+{
+    factor_reader self = {.reader = reader, .map = node, .factor = factor};
+    field_place place;
+    char why[384];
+    snprintf(self.path, sizeof self.path, "scatter.factors.%.*s", LD_MAX_PATH, node->key);
+    memset(factor, 0, sizeof *factor);
+    factor->within = factor->between[0] = factor->between[1] = factor->spread = NAN;
+    factor->deviation = NAN;
+    if (!find_numbers(&self, model, &place))
+        return;
+    if (node->kind != NODE_MAP) {
+        reader_refuse(reader, node->at, self.path,
+                      "expected a distribution, such as {normal: 1 %s}",
+                      place.row->unit && place.row->unit[0] ? place.row->unit : "%");
+        return;
+    }
+    self.number =
+        (field_row){.unit = place.row->unit ? place.row->unit : "", .range = place.row->range};
+    const tree_node *given = find_distribution(&self), *per = tree_member(node, "per");
+    factor->per_rocket = factor_may_be_per_rocket(factor);
+    if (!given || !check_keys(&self) || !read_distribution(&self, given, place.whole) ||
+        !read_bounds(&self) || (per && !read_word(&self, per, "sample", "rocket")))
+        return;
+    if (per)
+        factor->per_rocket = strcmp(per->text, "rocket") == 0;
+    if (!has_refused_numbers(&self) && !factor_is_possible(model, factor, why, sizeof why))
+        reader_refuse(reader, node->key_at, self.path, "%s", why);
+}
+
+// Refuses number `number` of the last factor where it is one of factor `i` too, below `end`.
+static void refuse_same(scenario_reader *reader, const tree_node *node, const ld_scatter *scatter,
+                        int last, int number, int i, int end)
+{
+    const char *own = factor_path(&scatter->factor[last], number);
+    for (int k = 0; k < end; k++) {
+        char path[LD_MAX_PATH + 64];
+        if (strcmp(factor_path(&scatter->factor[i], k), own) != 0)
+            continue;
+        snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH, node->key);
+        if (scatter->factor[last].together.count)
+            reader_refuse(reader, node->key_at, path, "%s stands above already", own);
+        else
+            reader_refuse(reader, node->key_at, path, "is the same as %s, which stands above", own);
+    }
+}
+
+// Refuses a number that is scattered twice, by the last factor or by one before it.
+static void refuse_double(scenario_reader *reader, const tree_node *node, const ld_scatter *scatter,
+                          int last)
+{
+    const ld_factor *factor = &scatter->factor[last];
+    for (int number = 0; factor->path[0] && number < factor_numbers(factor); number++)
+        for (int i = 0; i <= last; i++)
+            refuse_same(reader, node, scatter, last, number, i,
+                        i < last ? factor_numbers(&scatter->factor[i]) : number);
+}
+
+static void fill_factors(scenario_reader *reader, const tree_node *factors, ld_model *model)
+{
+    ld_scatter *scatter = &model->scatter;
+    if (factors->kind != NODE_MAP || factors->count == 0) {
+        reader_refuse(reader, factors->key_at, "scatter.factors",
+                      "expected paths with their distributions, such as "
+                      "rocket.mass: {normal: 0.2 kg}");
+        return;
+    }
+    scatter->factor = calloc((size_t)factors->count, sizeof *scatter->factor);
+    if (!scatter->factor) {
+        reader->no_memory = true;
+        return;
+    }
+    for (const tree_node *node = factors->first; node; node = node->next) {
+        read_factor(reader, node, model, &scatter->factor[scatter->factor_count]);
+        refuse_double(reader, node, scatter, scatter->factor_count);
+        scatter->factor_count++;
+    }
+}
+
+void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_model *model)
+{
+    const tree_node *block = tree_member(root, "scatter");
+    if (!block || block->kind != NODE_MAP)
+        return;
+    const tree_node *factors = tree_member(block, "factors");
+    const tree_node *correlated = tree_member(block, "correlated");
+    const tree_node *until = tree_member(block, "until");
+    if (factors)
+        fill_factors(reader, factors, model);
+    if (correlated && factors)
+        fill_correlated(reader, correlated, model);
+    if (until)
+        fill_until(reader, until, &model->scatter);
+}

@@ -1,0 +1,14 @@
+// Parts of a scenario as it prints them, for those who show them.
+#ifndef LD_SCENARIO_SCENARIO_TEXT_H
+#define LD_SCENARIO_SCENARIO_TEXT_H
+
+#include <stddef.h>
+
+#include "model/model.h"
+
+// A factor's distribution, "normal: 0.2 kg, within: 3"; what is too long is cut.
+void scenario_factor_text(const ld_model *model, const ld_factor *factor, char *text, size_t size);
+// A statistic with the half width that it is run until, "range.mean: 2 m".
+void scenario_until_text(const ld_until *until, char *text, size_t size);
+
+#endif

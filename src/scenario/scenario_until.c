@@ -1,0 +1,80 @@
+// The stopping rule of a study: statistics of results, and how well each must be known.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/suggestion.h"
+#include "model/field.h"
+#include "scenario/scenario_reader.h"
+#include "simulation/study_results.h"
+
+static const char *const statistic_names[] = {"mean", "deviation"};
+enum { STATISTICS = sizeof statistic_names / sizeof *statistic_names };
+
+// Refuses a key that names no statistic of a result.
+static void refuse_name(scenario_reader *reader, const tree_node *node, const char *path,
+                        const char *result)
+{
+    name_suggestion best = suggestion_begin(result), whole = suggestion_begin(node->key);
+    for (const study_result *r = study_results; r->name; r++) {
+        suggestion_offer(&best, r->name);
+        suggestion_offer(&whole, r->name);
+    }
+    // without a statistic, what stands before the last point is no result's name
+    const char *near = study_result_named(result) ? result : whole.name ? whole.name : best.name;
+    if (near)
+        reader_refuse(reader, node->key_at, path,
+                      "no statistic of a result, did you mean \"%s.mean\" or \"%s.deviation\"?",
+                      near, near);
+    else
+        reader_refuse(reader, node->key_at, path,
+                      "no statistic of a result; expected such as t_rear.mean or yaw.deviation");
+}
+
+static void read_half_width(scenario_reader *reader, const tree_node *node, const char *path,
+                            const study_result *result, ld_until *until)
+{
+    field_row row = {
+        .kind = FIELD_NUMBER, .unit = result->unit, .range = {0, INFINITY, 1, 1}, .count = 1};
+    char expected[192];
+    if (node->kind != NODE_SCALAR || tree_is_empty(node)) {
+        field_expectation(&row, expected, sizeof expected);
+        reader_refuse(reader, node->at, path, "expected half a width in %%, or %s", expected);
+        return;
+    }
+    size_t length = strlen(node->text);
+    until->relative = node->text[length - 1] == '%';
+    row.unit = until->relative ? "" : result->unit;
+    quantity_read(reader, &row, node->at, path, node->text, &until->half_width, 1);
+}
+
+static void read_until(scenario_reader *reader, const tree_node *node, ld_until *until)
+{
+    char path[READER_MAX_PATH], name[LD_MAX_NAME] = "";
+    const char *point = strrchr(node->key, '.');
+    size_t length = point ? (size_t)(point - node->key) : strlen(node->key);
+    int statistic = 0;
+    snprintf(path, sizeof path, "scatter.until.%s", node->key);
+    snprintf(name, sizeof name, "%.*s", (int)length, node->key);
+    while (point && statistic < STATISTICS && strcmp(point + 1, statistic_names[statistic]) != 0)
+        statistic++;
+    const study_result *result = study_result_named(name);
+    if (!point || statistic == STATISTICS || !result) {
+        refuse_name(reader, node, path, name);
+        return;
+    }
+    memcpy(until->result, name, sizeof name);
+    until->statistic = (ld_statistic)statistic;
+    read_half_width(reader, node, path, result, until);
+}
+
+void fill_until(scenario_reader *reader, const tree_node *map, ld_scatter *scatter)
+{
+    if (map->kind != NODE_MAP || map->count < 1 || map->count > LD_MAX_UNTIL) {
+        reader_refuse(reader, map->key_at, "scatter.until",
+                      "expected 1 to %d statistics, such as {t_rear.mean: 0.1 %%}", LD_MAX_UNTIL);
+        return;
+    }
+    for (const tree_node *node = map->first; node; node = node->next)
+        read_until(reader, node, &scatter->until[scatter->until_count++]);
+}

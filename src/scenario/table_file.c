@@ -1,0 +1,289 @@
+// Tables in files of their own: RASP .eng thrust curves and motions as CSV.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/field.h"
+#include "scenario/scenario_reader.h"
+
+enum { MAX_FIELDS = 16, LINE = 1024 };
+
+// Lines of a file one after the other, split into fields.
+typedef struct line_reader {
+    scenario_reader *reader;
+    const char *path; // of the key that names the file
+    const text_source *source;
+    const char *next;
+    int number;      // of the line at hand, from 1
+    char text[LINE]; // of the line at hand, cut into fields
+    int count;
+    const char *field[MAX_FIELDS];
+    int column[MAX_FIELDS];
+    bool failed;
+} line_reader;
+
+static void refuse_line(line_reader *lines, int field, const char *text)
+{
+    text_place at = {lines->source, lines->number, field < lines->count ? lines->column[field] : 1};
+    reader_refuse(lines->reader, at, lines->path, "%s", text);
+    lines->failed = true;
+}
+
+// Copies the next line; false at the end.
+static bool take_line(line_reader *lines)
+{
+    const char *end = lines->source->text + lines->source->length;
+    if (lines->next >= end || lines->failed)
+        return false;
+    const char *stop = memchr(lines->next, '\n', (size_t)(end - lines->next));
+    size_t length = (size_t)((stop ? stop : end) - lines->next);
+    lines->number++;
+    lines->count = 0;
+    bool good = length < LINE && !memchr(lines->next, '\0', length);
+    memcpy(lines->text, lines->next, good ? length : 0);
+    lines->text[good ? length : 0] = '\0';
+    lines->next += length + 1;
+    if (!good)
+        refuse_line(lines, 0, "this line is no text, or too long");
+    return good;
+}
+
+static char *trim(char *text)
+{
+    text += strspn(text, " \t\r");
+    size_t length = strlen(text);
+    while (length > 0 && strchr(" \t\r", text[length - 1]))
+        text[--length] = '\0';
+    return text;
+}
+
+static void add_field(line_reader *lines, char *text)
+{
+    if (lines->count < MAX_FIELDS) {
+        lines->column[lines->count] = (int)(text - lines->text) + 1;
+        lines->field[lines->count++] = text;
+    }
+}
+
+// The next line that is neither blank nor a comment, its fields cut at blanks or at commas.
+static bool next_line(line_reader *lines, char comment, bool commas)
+{
+    while (take_line(lines)) {
+        char *text = lines->text;
+        if (text[strspn(text, " \t\r")] == comment || *trim(text) == '\0')
+            continue;
+        const char *between = commas ? "," : " \t\r";
+        for (char *part = text; part;) {
+            char *end = part + strcspn(part, between);
+            char *rest = *end ? end + 1 : NULL;
+            *end = '\0';
+            if (commas || *part)
+                add_field(lines, trim(part));
+            part = rest;
+        }
+        return true;
+    }
+    return false;
+}
+
+static bool line_number(line_reader *lines, int field, double *value)
+{
+    const char *reason, *end = number_parse(lines->field[field], value, &reason);
+    char text[160], quoted[64];
+    if (end && *end == '\0')
+        return true;
+    snprintf(text, sizeof text, "found %s%s%s; expected a number",
+             reader_quote(lines->field[field], quoted), reason ? ", " : "", reason ? reason : "");
+    refuse_line(lines, field, text);
+    return false;
+}
+
+static bool append_row(line_reader *lines, ld_table *table, size_t columns, const double *row)
+{
+    // room is doubled at each power of two
+    if ((table->rows & (table->rows - 1)) == 0) {
+        size_t room = table->rows ? 2 * table->rows : 1;
+        double *larger = realloc(table->data, room * columns * sizeof *larger);
+        if (!larger) {
+            lines->reader->no_memory = lines->failed = true;
+            return false;
+        }
+        table->data = larger;
+    }
+    memcpy(table->data + table->rows * columns, row, columns * sizeof *row);
+    table->rows++;
+    table->columns = columns;
+    return true;
+}
+
+// ---- RASP .eng: comments, a header of seven fields, lines "time thrust" up to thrust 0
+
+static void read_rasp_header(line_reader *lines)
+{
+    double propellant, total, value;
+    if (!next_line(lines, ';', false)) {
+        if (!lines->failed)
+            refuse_line(lines, 0, "no engine in this file");
+        return;
+    }
+    if (lines->count < 7) {
+        refuse_line(lines, 0,
+                    "the header of an engine has seven fields: name, diameter, length, "
+                    "delays, propellant mass, total mass, manufacturer");
+        return;
+    }
+    if (line_number(lines, 1, &value) && line_number(lines, 2, &value) &&
+        line_number(lines, 4, &propellant) && line_number(lines, 5, &total) && propellant > total)
+        refuse_line(lines, 4, "more propellant than the whole engine weighs");
+}
+
+// One point of the curve; the point 0, 0 is implied where the first is later.
+static bool read_rasp_point(line_reader *lines, ld_table *table)
+{
+    const double origin[2] = {0, 0};
+    double row[2];
+    if (lines->count != 2) {
+        refuse_line(lines, 0, "expected two numbers, time in s and thrust in N");
+        return false;
+    }
+    if (!line_number(lines, 0, &row[0]) || !line_number(lines, 1, &row[1]))
+        return false;
+    double before = table->rows ? table->data[2 * (table->rows - 1)] : 0;
+    if (row[0] < before)
+        refuse_line(lines, 0,
+                    table->rows ? "a time before that of the line above"
+                                : "a time before ignition");
+    else if (row[0] > 10000)
+        refuse_line(lines, 0, "a time of more than 10000 s");
+    else if (row[1] < 0)
+        refuse_line(lines, 1, "a negative thrust");
+    else if (table->rows >= 2 && row[0] == before && table->data[2 * (table->rows - 2)] == before)
+        refuse_line(lines, 0, "a time that stands there a third time");
+    if (lines->failed)
+        return false;
+    if (table->rows == 0 && row[0] > 0 && !append_row(lines, table, 2, origin))
+        return false;
+    return append_row(lines, table, 2, row);
+}
+
+static void read_rasp(line_reader *lines, ld_table *table)
+{
+    read_rasp_header(lines);
+    while (next_line(lines, ';', false)) {
+        if (!read_rasp_point(lines, table))
+            return;
+        double thrust = table->data[2 * table->rows - 1];
+        if (thrust == 0 && table->data[2 * table->rows - 2] > 0)
+            break;
+    }
+    if (lines->failed)
+        return;
+    if (table->rows == 0)
+        refuse_line(lines, 0, "an engine without a thrust curve");
+    else if (table->data[2 * table->rows - 1] != 0)
+        refuse_line(lines, 0, "the last thrust of a curve must be 0");
+    else if (next_line(lines, ';', false))
+        refuse_line(lines, 0, "the curve ends at thrust 0; more lines (a second engine?) follow");
+}
+
+// ---- CSV: a header such as "t [s], x [m], .., roll [deg]", then rows of numbers
+
+// Factor from the unit in brackets behind a column's name; NaN after a message.
+static double header_factor(line_reader *lines, const field_row *column, int i)
+{
+    char name[32], unit[32], unknown[32], text[192];
+    double factor;
+    int end = 0;
+    if (!column->unit[0] && i < lines->count && strcmp(lines->field[i], column->name) == 0)
+        return 1;
+    if (column->unit[0] && i < lines->count &&
+        sscanf(lines->field[i], "%31[a-z_] [%31[^]]]%n", name, unit, &end) == 2 && end > 0 &&
+        lines->field[i][end] == '\0' && strcmp(name, column->name) == 0 &&
+        units_factor(lines->reader->units, unit, column->unit, &factor, unknown) == UNITS_OK)
+        return factor;
+    if (column->unit[0])
+        snprintf(text, sizeof text,
+                 "column %d of the header must be \"%s [unit]\" with a unit of %s in the brackets",
+                 i + 1, column->name, column->unit);
+    else
+        snprintf(text, sizeof text, "column %d of the header must be \"%s\"", i + 1, column->name);
+    refuse_line(lines, i, text);
+    return NAN;
+}
+
+// One number of a row, in SI; checks its range.
+static void read_cell(line_reader *lines, const field_row *column, int i, double factor,
+                      double *value)
+{
+    char text[192], expected[128];
+    if (!line_number(lines, i, value))
+        return;
+    *value = units_scale(*value, factor);
+    if (!isfinite(*value)) {
+        refuse_line(lines, i, "too large a number");
+    } else if (!field_in_range(column->range, *value)) {
+        field_range_text(column, expected, sizeof expected);
+        snprintf(text, sizeof text, "found %.40s; expected %s", lines->field[i], expected);
+        refuse_line(lines, i, text);
+    }
+}
+
+static void read_csv_row(line_reader *lines, const table_format *format, const double *factor,
+                         ld_table *table)
+{
+    double row[FIELD_MAX_COLUMNS];
+    char text[128];
+    if (lines->count != format->columns) {
+        snprintf(text, sizeof text, "expected %d numbers, found %d", format->columns, lines->count);
+        refuse_line(lines, 0, text);
+        return;
+    }
+    for (int i = 0; i < format->columns && !lines->failed; i++)
+        read_cell(lines, &format->column[i], i, factor[i], &row[i]);
+    if (!lines->failed && table->rows > 0 &&
+        row[0] <= table->data[(table->rows - 1) * table->columns]) {
+        snprintf(text, sizeof text, "%s does not come after that of the row before",
+                 format->column[0].name);
+        refuse_line(lines, 0, text);
+    }
+    if (!lines->failed)
+        append_row(lines, table, (size_t)format->columns, row);
+}
+
+static void read_csv(line_reader *lines, const table_format *format, ld_table *table)
+{
+    double factor[FIELD_MAX_COLUMNS];
+    if (!next_line(lines, '#', true) && !lines->failed)
+        refuse_line(lines, 0, "the file is empty");
+    // the header says which form of the table it is
+    const table_format *given = field_table_format(format, (size_t)lines->count);
+    format = given ? given : format;
+    // a table that may do without a header is in SI units then
+    bool bare = format->sources & TABLE_BARE && lines->count > 0 &&
+                strchr("0123456789+-.", lines->field[0][0]);
+    for (int i = 0; i < format->columns && !lines->failed; i++)
+        factor[i] = bare ? 1 : header_factor(lines, &format->column[i], i);
+    if (bare)
+        read_csv_row(lines, format, factor, table);
+    while (next_line(lines, '#', true) && !lines->failed)
+        read_csv_row(lines, format, factor, table);
+    if (!lines->failed && table->rows == 0)
+        refuse_line(lines, 0, "no row of numbers");
+}
+
+bool table_file_read(scenario_reader *reader, const field_row *f, text_place place,
+                     const char *path, const char *name, ld_table *table)
+{
+    text_source *opened = reader_open(reader, place, path, name);
+    line_reader lines = {.reader = reader, .path = path, .source = opened};
+    if (!opened)
+        return false;
+    lines.next = opened->text;
+    size_t length = strlen(name);
+    if (strcmp(name + length - 4, ".eng") == 0)
+        read_rasp(&lines, table);
+    else
+        read_csv(&lines, f->table, table);
+    return !lines.failed;
+}

@@ -1,0 +1,383 @@
+// Figures: what the script says against the history, what gnuplot makes of it, what can go wrong.
+#include "support/check.h"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "figures/plot.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
+#include "support/made_launch.h"
+#include "support/scratch.h"
+
+// A made-up run of 160 ms in `folder`/run.
+static int set_up(void **state)
+{
+    static ld_model model;
+    static ld_summary summary;
+    ld_output *output = NULL;
+    if (scratch_make(state))
+        return -1;
+    made_model(&model);
+    made_summary(&summary, 1);
+    return ld_output_open(in("run"), &model, false, &output, NULL) ||
+           made_run(ld_output_sink(output), 1605, NULL) || ld_output_finish(output, &summary, NULL);
+}
+
+static int run(const char *format, const char *path)
+{
+    char command[256];
+    snprintf(command, sizeof command, format, path);
+    return system(command);
+}
+
+// The script of one figure of the made-up run, `runs` times over, from `from` [s] on, to be freed.
+static char *script_of_runs(const char *name, size_t runs, double from)
+{
+    history_data history[2];
+    for (size_t i = 0; i < runs; i++)
+        assert_int_equal(history_read(in("run/history.h5"), &history[i], NULL), LD_OK);
+    const plot_figure *figure = plot_figure_find(name);
+    assert_non_null(figure);
+    const char *names[] = {"the one", "the other's"};
+    plot_page page = {.run = history,
+                      .name = names,
+                      .runs = runs,
+                      .figure = &figure,
+                      .figures = 1,
+                      .from = from,
+                      .to = NAN};
+    char *text = NULL;
+    size_t length = 0;
+    FILE *script = open_memstream(&text, &length);
+    assert_int_equal(plot_write_script(script, &page, PLOT_SVG, "it's", NULL), LD_OK);
+    fclose(script);
+    for (size_t i = 0; i < runs; i++)
+        history_free(&history[i]);
+    return text;
+}
+
+static char *script_of(const char *name)
+{
+    return script_of_runs(name, 1, NAN);
+}
+
+// Draws one figure of a run.
+static ld_status plot(const char *run_folder, const char *figure, const char *file, ld_error *error)
+{
+    return ld_plot(&(ld_picture){.folder = &run_folder,
+                                 .folder_count = 1,
+                                 .figure = &figure,
+                                 .figure_count = 1,
+                                 .from = NAN,
+                                 .to = NAN},
+                   file, error);
+}
+
+// Largest distance, over the rows of a made column, of the thinned curve from the full one, as a
+// share of the panel's size. Fails if the data block is not there.
+static double farthest(const char *script, const char *block, int column, double factor,
+                       size_t rows, size_t *points)
+{
+    const char *place = strstr(script, block);
+    assert_non_null(place);
+    double x[2], y[2], values[MADE_COLUMNS], a[2], b[2], worst2 = 0;
+    int read = 0;
+    size_t row = 0;
+    assert_int_equal(sscanf(strstr(place, "set xrange"),
+                            "set xrange [%lf:%lf]\nset yrange [%lf:%lf]", &x[0], &x[1], &y[0],
+                            &y[1]),
+                     4);
+    place += strlen(block);
+    assert_int_equal(sscanf(place, "%lf %lf\n%n", &a[0], &a[1], &read), 2);
+    for (*points = 1; row < rows; *points += 1) {
+        place += read;
+        assert_int_equal(sscanf(place, "%lf %lf\n%n", &b[0], &b[1], &read), 2);
+        double across = (b[0] - a[0]) / (x[1] - x[0]), up = (b[1] - a[1]) / (y[1] - y[0]);
+        for (; row < rows; row++) {
+            made_row(row, values);
+            if (values[0] * 1e3 > b[0] + 1e-9)
+                break;
+            double px = (values[0] * 1e3 - a[0]) / (x[1] - x[0]),
+                   py = (values[column] * factor - a[1]) / (y[1] - y[0]),
+                   cross = px * up - py * across;
+            worst2 = fmax(worst2, cross * cross / (across * across + up * up));
+        }
+        a[0] = b[0];
+        a[1] = b[1];
+    }
+    return sqrt(worst2);
+}
+
+static void test_curves_are_the_history(void **state)
+{
+    (void)state;
+    char *script = script_of("tip");
+    size_t points = 0;
+    CHECK_BELOW("thinned tip.y from the history, share of the panel",
+                farthest(script, "$p0c0 << EOD\n", 33, 1e3, 1605, &points), 1.0 / 3000);
+    CHECK_WITHIN("points left of 1605", (double)points, 80, 200);
+    CHECK_BELOW("thinned tip.yaw from the history, share of the panel",
+                farthest(script, "$p1c1 << EOD\n", 36, 1e3, 1605, &points), 1.0 / 3000);
+    free(script);
+    script = script_of("travel");
+    CHECK_BELOW("thinned rocket.s until it leaves, share of the panel",
+                farthest(script, "$p0c0 << EOD\n", 41, 1, 1601, &points), 1.0 / 3000);
+    free(script);
+}
+
+static void expect_in(const char *script, const char *const *expected, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!strstr(script, expected[i]))
+            fail_msg("not in the script: %s", expected[i]);
+}
+
+static void test_instants_titles_and_names(void **state)
+{
+    (void)state;
+    char *script = script_of("contact");
+    static const char *const expected[] = {
+        "set output 'it''s'\n",
+        "set label 'Made-up launch, \"in quotes\" and in ''quotes'', ±1 %' at screen",
+        "set arrow from 3.3336, graph 0 to 3.3336, graph 1 ",
+        "set arrow from 95.2, graph 0 to 95.2, graph 1 ",
+        "set arrow from 127.3, graph 0 to 127.3, graph 1 ",
+        "set label 'release' at 3.3336, graph ",
+        "set label 'middle' at 127.3, graph ",
+        "$p0c0 using 1:2 with lines ls 1 title 'rear'",
+        "$p0c1 using 1:2 with lines ls 2 title 'middle'",
+        "$p0c2 using 1:2 with lines ls 3 title 'front'",
+        "set label '[kN]' at screen",
+        "set label 'time from ignition [ms]' at screen",
+    };
+    expect_in(script, expected, sizeof expected / sizeof *expected);
+    free(script);
+}
+
+// Colours tell the runs, dashes the columns; the legend names both.
+static void test_several_runs(void **state)
+{
+    (void)state;
+    char *script = script_of_runs("tip", 2, NAN);
+    static const char *const expected[] = {
+        "set label 'the one' at screen",
+        "set label 'the other''s' at screen",
+        "$p0c0 using 1:2 with lines ls 1 dt solid notitle",
+        "$p0c1 using 1:2 with lines ls 2 dt solid notitle",
+        "$p0c2 using 1:2 with lines ls 1 dt (8,4) notitle",
+        "$p0c3 using 1:2 with lines ls 2 dt (8,4) notitle",
+        "keyentry with lines lw 1.5 lc rgb '#404040' dt solid title 'y'",
+        "keyentry with lines lw 1.5 lc rgb '#404040' dt (8,4) title 'z'",
+    };
+    expect_in(script, expected, sizeof expected / sizeof *expected);
+    assert_null(strstr(script, "Made-up launch"));
+    free(script);
+}
+
+// A diagram for each adaptor, and no more.
+static void test_each_of_a_kind(void **state)
+{
+    (void)state;
+    char *script = script_of("contact-force");
+    static const char *const expected[] = {"set label 'Adaptor rear' at",
+                                           "set label 'Adaptor middle' at",
+                                           "set label 'Adaptor front' at", "$p2c0 << EOD\n"};
+    expect_in(script, expected, sizeof expected / sizeof *expected);
+    assert_null(strstr(script, "$p3c0"));
+    free(script);
+}
+
+// The first time [ms] of a curve that is drawn.
+static double first_time(const char *script)
+{
+    double x = NAN;
+    const char *block = "$p0c0 << EOD\n";
+    assert_int_equal(sscanf(strstr(script, block) + strlen(block), "%lf", &x), 1);
+    return x;
+}
+
+static void test_window_of_time(void **state)
+{
+    (void)state;
+    char *whole = script_of("tip"), *part = script_of_runs("tip", 1, 0.08);
+    CHECK_WITHIN("first time drawn of all [ms]", first_time(whole), 0, 0);
+    CHECK_WITHIN("first time drawn from 80 ms on [ms]", first_time(part), 80, 80.1);
+    free(whole);
+    free(part);
+}
+
+static void test_every_figure_in_every_format(void **state)
+{
+    (void)state;
+    ld_error error = {0};
+    static const struct {
+        const char *file, *magic;
+    } formats[] = {{"all.svg", "<?xml"}, {"all.pdf", "%PDF-"}, {"all.PNG", "\x89PNG\r"}};
+    for (size_t i = 0; i < 3; i++) {
+        char start[6] = "";
+        if (plot(in("run"), "all", in(formats[i].file), &error))
+            fail_msg("%s", error.text);
+        FILE *file = fopen(in(formats[i].file), "r");
+        assert_non_null(fgets(start, sizeof start, file));
+        fclose(file);
+        assert_memory_equal(start, formats[i].magic, 5);
+    }
+    assert_int_equal(run("rsvg-convert %s >/dev/null", in("all.svg")), 0);
+    assert_int_equal(run("test \"$(ls %s)\" = 'all.PNG\nall.pdf\nall.svg\nrun'", folder), 0);
+}
+
+static bool is_column(const ld_simulation *simulation, const char *pattern)
+{
+    const ld_column *columns;
+    char unused[64];
+    size_t count = ld_history_columns(simulation, &columns);
+    for (size_t i = 0; i < count; i++)
+        if (plot_column_matches(columns[i].name, pattern, unused, sizeof unused))
+            return true;
+    return false;
+}
+
+// What the figures draw are columns of a launch from a vehicle, or of a flight.
+static void test_figures_name_columns(void **state)
+{
+    (void)state;
+    static const char *const file[] = {LD_SOURCE_DIR "/examples/reference.yaml",
+                                       LD_SOURCE_DIR "/examples/flight.yaml"};
+    ld_model model[2];
+    ld_simulation *simulation[2];
+    const ld_figure *about;
+    for (int k = 0; k < 2; k++) {
+        ld_messages messages = {0};
+        assert_int_equal(scenario_read(file[k], NULL, 0, &model[k], &messages), LD_OK);
+        assert_int_equal(ld_simulation_create(&model[k], &simulation[k], NULL), LD_OK);
+    }
+    for (size_t f = 0; (about = ld_figure_at(f)) != NULL; f++) {
+        const plot_figure *figure = plot_figure_find(about->name);
+        const ld_simulation *of = simulation[figure->time == PLOT_FLIGHT];
+        for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++) {
+            const plot_panel *panel = &figure->panel[i];
+            for (const plot_curve *curve = panel->curve; curve->column; curve++)
+                if (!is_column(of, curve->column))
+                    fail_msg("%s: no column %s", about->name, curve->column);
+            if (panel->x_column && !is_column(of, panel->x_column))
+                fail_msg("%s: no column %s", about->name, panel->x_column);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        ld_simulation_free(simulation[k]);
+        model_clear(&model[k]);
+    }
+}
+
+// The rates that belong to the angles of the figure before, not components of the angular velocity.
+static void test_relative_rates_are_of_the_angles(void **state)
+{
+    (void)state;
+    static const char *const rate[] = {"rocket.psi_dot", "rocket.theta_dot", "rocket.gamma_dot"};
+    const plot_figure *figure = plot_figure_find("relative-rate");
+    for (int i = 0; i < 3; i++) {
+        assert_string_equal(figure->panel[i].curve[0].column, rate[i]);
+        assert_null(figure->panel[i].curve[1].column);
+    }
+    assert_null(figure->panel[3].title);
+}
+
+// A run that ended before its first row, or has none of the columns, draws empty panels.
+static void test_nothing_to_show(void **state)
+{
+    (void)state;
+    const char *figures[] = {"contact", "phase", "chassis"};
+    const ld_column t = {"t", "s", "time"};
+    ld_error error = {0};
+    for (int rows = 0; rows < 2; rows++) {
+        history_hdf5 *history;
+        mkdir(in("few"), 0777);
+        assert_int_equal(history_hdf5_create(in("few/history.h5"), "few", &history, NULL), LD_OK);
+        assert_int_equal(history_hdf5_begin(history, &t, 1, NULL), LD_OK);
+        for (int i = 0; i < rows; i++)
+            assert_int_equal(history_hdf5_row(history, &(double){0}, NULL), LD_OK);
+        assert_int_equal(history_hdf5_close(history, NULL, NULL), LD_OK);
+        for (int i = 0; i < 3; i++)
+            if (plot(in("few"), figures[i], in("few.svg"), &error))
+                fail_msg("%s", error.text);
+    }
+    assert_int_equal(plot(in("few"), "all", in("few.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "no figure shows a column of these results");
+}
+
+static void expect(const char *where, const char *figure, const char *file, ld_status status,
+                   const char *text)
+{
+    ld_error error = {0};
+    assert_int_equal(plot(where, figure, file, &error), status);
+    if (!strstr(error.text, text))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, text);
+    printf("    %s\n", error.text);
+}
+
+static void test_what_can_be_wrong(void **state)
+{
+    (void)state;
+    expect(
+        in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
+        "there is no figure \"tipp\" (did you mean tip?); there are tip, tip-rate, tip-inertial, "
+        "travel, relative, phase, across, relative-rate, attitude, tip-off, contact, "
+        "contact-force, slot, "
+        "energy, wheels, tyres, chassis, platform, trajectory, flight");
+    expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT, "no figure \"spaghetti\"; there are");
+    expect(in("run"), "tip", in("x.jpg"), LD_ERR_INPUT, "ends in .svg, .pdf or .png");
+    expect(in("run"), "tip", in("none/x.svg"), LD_ERR_FILE, "No such file or directory");
+    expect(in("none"), "tip", in("x.svg"), LD_ERR_INPUT, "there is no history.h5");
+    const char *figure = "tip", *run_folder = in("run");
+    ld_picture picture = {&run_folder, 1, &figure, 1, .from = 0.1, .to = 0.05};
+    ld_error error = {0};
+    assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "there is nothing to draw from 100 ms to 50 ms");
+    picture.folder_count = 9;
+    assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "name 1 to 8 folders with results");
+    assert_int_not_equal(access(in("x.svg"), F_OK), 0);
+}
+
+// Another gnuplot, or none, in PATH; an earlier picture stays.
+static void test_without_gnuplot(void **state)
+{
+    (void)state;
+    char *path = strdup(getenv("PATH"));
+    assert_int_equal(plot(in("run"), "tip", in("x.svg"), NULL), LD_OK);
+    assert_int_equal(run("cd %s && cp x.svg before", folder), 0);
+    setenv("PATH", folder, 1);
+    expect(in("run"), "tip", in("x.svg"), LD_ERR_MISSING,
+           "gnuplot not found: install it (Debian: apt install gnuplot-nox)");
+    FILE *script = fopen(in("gnuplot"), "w");
+    fputs("#!/bin/sh\necho 'line 7: it cannot'\necho\nexit 1\n", script);
+    fclose(script);
+    chmod(in("gnuplot"), 0755);
+    expect(in("run"), "tip", in("x.svg"), LD_ERR_FILE, "gnuplot failed: line 7: it cannot");
+    setenv("PATH", path, 1);
+    free(path);
+    assert_int_equal(run("cd %s && cmp x.svg before", folder), 0);
+    assert_int_not_equal(access(in("x.svg.part"), F_OK), 0);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, scratch_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_curves_are_the_history),
+        TEST(test_instants_titles_and_names),
+        TEST(test_several_runs),
+        TEST(test_each_of_a_kind),
+        TEST(test_window_of_time),
+        TEST(test_every_figure_in_every_format),
+        TEST(test_nothing_to_show),
+        TEST(test_what_can_be_wrong),
+        TEST(test_without_gnuplot),
+        cmocka_unit_test(test_figures_name_columns),
+        cmocka_unit_test(test_relative_rates_are_of_the_angles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
