@@ -2,7 +2,7 @@
 // launch. Medians of many, process CPU time; the reference launcher on a fixed base at default
 // settings.
 #include "bench_sample.h"
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/launch_state.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
@@ -84,7 +84,7 @@ int main(void)
     ld_messages messages = {0};
     ld_simulation *simulation;
     launch_state launch;
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages) ||
+    if (scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL) ||
         launch_state_begin(&launch, simulation, NULL))
         return 1;
@@ -96,6 +96,6 @@ int main(void)
     launch_state_end(&launch);
     ld_simulation_free(simulation);
     bench_run(&model);
-    ld_model_free(&model);
+    model_clear(&model);
     return 0;
 }

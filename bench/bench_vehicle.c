@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "bench_sample.h"
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/launch_state.h"
 
 enum { REPEATS = 11, PARTS = 41, EVALUATIONS = 2000 };
@@ -56,7 +56,7 @@ static double bench_run(const char *what, const char *file, const char *const *s
     ld_simulation *simulation;
     ld_summary summary;
     double sample[REPEATS];
-    if (ld_scenario_read(file, sets, (size_t)count, &model, &messages) ||
+    if (scenario_read(file, sets, (size_t)count, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL))
         return 0;
     for (int r = 0; r < REPEATS; r++) {
@@ -67,7 +67,7 @@ static double bench_run(const char *what, const char *file, const char *const *s
     print(what, sample, REPEATS, 1e-3, "ms");
     printf("    %lld evaluations\n", (long long)summary.statistics.rhs_evaluations);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
     return sample[0];
 }
 
@@ -84,7 +84,7 @@ int main(void)
     ld_messages messages = {0};
     ld_simulation *simulation;
     launch_state launch;
-    if (ld_scenario_read(reference, NULL, 0, &model, &messages) ||
+    if (scenario_read(reference, NULL, 0, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL) ||
         launch_state_begin(&launch, simulation, NULL))
         return 1;
@@ -92,7 +92,7 @@ int main(void)
         bench_evaluation(&launch, &parts[i]);
     launch_state_end(&launch);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
     bench_run("whole run, 3 s lead-in, to the ground", reference, NULL, 0);
     double vehicle = bench_run("in the tube alone, vehicle", reference, in_tube, 2);
     double base = bench_run("in the tube alone, fixed base", fixed, NULL, 0);

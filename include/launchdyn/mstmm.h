@@ -29,7 +29,7 @@
 
 #include <stdint.h>
 
-#include "launchdyn/model.h"
+#include "launchdyn/section.h"
 #include "launchdyn/status.h"
 
 #ifdef __cplusplus

@@ -2,7 +2,7 @@
 #ifndef LD_MODEL_SALVO_H
 #define LD_MODEL_SALVO_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 
 // That of firing i, in the order of firing.
 static inline const ld_rocket *salvo_rocket(const ld_model *model, int i)

@@ -7,6 +7,7 @@
 #include "launchdyn/output.h"
 #include "results/json_text.h"
 #include "results/origin.h"
+#include "simulation/summary.h"
 
 // A JSON text on its way to a file: indented by two blanks a level, commas as they are needed.
 typedef struct json_writer {

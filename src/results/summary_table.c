@@ -3,6 +3,7 @@
 
 #include "base/printed.h"
 #include "launchdyn/output.h"
+#include "simulation/summary.h"
 
 static const double degree = 0.017453292519943295; // [rad]
 

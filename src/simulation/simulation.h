@@ -4,7 +4,7 @@
 #define LD_SIMULATION_SIMULATION_H
 
 #include "elements/motor.h"
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "systems/flight.h"
 #include "systems/launcher.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "launchdyn/origin.h"
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "studies/store.h"
 
 #define FORMAT "3"

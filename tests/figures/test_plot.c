@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "figures/plot.h"
-#include "launchdyn/scenario.h"
-#include "launchdyn/simulation.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 #include "support/made_launch.h"
 #include "support/scratch.h"
 
@@ -250,7 +250,7 @@ static void test_figures_name_columns(void **state)
     const ld_figure *about;
     for (int k = 0; k < 2; k++) {
         ld_messages messages = {0};
-        assert_int_equal(ld_scenario_read(file[k], NULL, 0, &model[k], &messages), LD_OK);
+        assert_int_equal(scenario_read(file[k], NULL, 0, &model[k], &messages), LD_OK);
         assert_int_equal(ld_simulation_create(&model[k], &simulation[k], NULL), LD_OK);
     }
     for (size_t f = 0; (about = ld_figure_at(f)) != NULL; f++) {
@@ -267,7 +267,7 @@ static void test_figures_name_columns(void **state)
     }
     for (int k = 0; k < 2; k++) {
         ld_simulation_free(simulation[k]);
-        ld_model_free(&model[k]);
+        model_clear(&model[k]);
     }
 }
 

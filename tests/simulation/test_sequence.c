@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"
@@ -17,7 +17,7 @@ static ld_model read_example(const char *file, const char *const *sets, size_t c
     ld_messages messages = {0};
     char path[512];
     snprintf(path, sizeof path, "%s/examples/%s", LD_SOURCE_DIR, file);
-    if (ld_scenario_read(path, sets, count, &model, &messages))
+    if (scenario_read(path, sets, count, &model, &messages))
         fail_msg("%s cannot be read", file);
     return model;
 }
@@ -117,7 +117,7 @@ static void nothing_jumps(void **state)
     }
     CHECK_BELOW("state at the hand-off [m, m/s, rad/s]", largest, 1e-13);
     CHECK_NEAR("time of the hand-off [s]", value_of(&first, "t"), rocket->t_rear, 1e-15);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // The same flight begun alone from the state at exit.
@@ -144,7 +144,7 @@ static void same_as_a_flight_alone(void **state)
     CHECK_BELOW("impact of the launch and of the flight alone [m]", distance, 1e-6);
     CHECK_NEAR("time of flight [s]", rocket->flight.time_of_flight,
                alone.rocket[0].flight.time_of_flight, 1e-9);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Fired downwards the rocket reaches the ground while its motor burns; the run says so.
@@ -158,7 +158,7 @@ static void into_the_ground(void **state)
     printf("    %s\n", summary.note[0]);
     assert_non_null(strstr(summary.note[0], "hit the ground"));
     CHECK_BELOW("mass centre's height at the end [m]", summary.rocket[0].final.center[1], 1e-9);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // ---- one tube in place of another ----
@@ -258,7 +258,7 @@ static void momentum_is_kept(void **state)
     CHECK_BELOW("angular momentum about the origin, of itself", v3_norm(dH) / scale_H, 2e-10);
     CHECK_WITHIN("kinetic energy dropped [J]", energy, 0, 1e3);
     fresh_launch_free(&launch);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Ten seconds after the first on a launcher at rest the second rocket does not feel it.
@@ -287,7 +287,7 @@ static void second_equals_a_single_launch(void **state)
     CHECK_NEAR("spin [rad/s]", p->spin_rate, q->spin_rate, 1e-6);
     // the first rocket leaves with its energy, the second tube comes with its own
     CHECK_BELOW("energy balance of both [J]", both.energy.residual, 1e-6);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // What the balance has missed so far stays missed when the next tube takes its place.
@@ -311,7 +311,7 @@ static void the_balance_goes_on(void **state)
     CHECK_WITHIN("missed up to the change of tubes [J], magnitude", fabs(before), 1e-6, 1);
     CHECK_BELOW("more after it, relative", after / before - 1, 1e-12);
     recorded_run_free(&launches);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 static void overlapping_launches_are_refused(void **state)
@@ -327,7 +327,7 @@ static void overlapping_launches_are_refused(void **state)
     printf("    %s\n", error.text);
     assert_non_null(strstr(error.text, "firing 2"));
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 int main(void)
