@@ -15,6 +15,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 enum { LD_SHAPE_TEXT = 64 };
 
@@ -85,6 +86,7 @@ ld_status ld_simulation_system_modes(ld_simulation *simulation, ld_mode *modes, 
 /// Columns of the history, in order.
 size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif
