@@ -64,8 +64,8 @@ static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *
     return status;
 }
 
-ld_status flight_alone_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,
-                           ld_error *error)
+ld_status flight_alone_run(const ld_simulation *self, const ld_run_options *options,
+                           ld_summary *summary, ld_error *error)
 {
     alone_run run = {.self = self, .sink = options ? options->sink : NULL};
     double start = simulation_cpu_now();
