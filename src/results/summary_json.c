@@ -5,6 +5,7 @@
 
 #include "base/numeric_locale.h"
 #include "launchdyn/output.h"
+#include "launchdyn/version.h"
 #include "results/json_text.h"
 #include "results/origin.h"
 #include "simulation/summary.h"
