@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
-#include "launchdyn/simulation.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 
 enum { MOST = 12 };
 
@@ -130,8 +130,8 @@ int main(void)
     for (int i = 0; i < 4; i++) {
         ld_model model;
         ld_messages messages = {0};
-        if (ld_scenario_read(launches[i].file, &launches[i].set, launches[i].set != NULL, &model,
-                             &messages)) {
+        if (scenario_read(launches[i].file, &launches[i].set, launches[i].set != NULL, &model,
+                          &messages)) {
             ld_messages_print(&messages, stderr);
             return 1;
         }
@@ -139,7 +139,7 @@ int main(void)
         for (int which = launches[i].first; which < 4; which++)
             print_series(&model, which);
         print_all_at_once(&model);
-        ld_model_free(&model);
+        model_clear(&model);
     }
     return 0;
 }

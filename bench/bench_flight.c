@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/free_flight.h"
 #include "simulation/simulation.h"
 
@@ -98,7 +98,7 @@ int main(void)
 {
     ld_model model;
     ld_messages messages = {0};
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", NULL, 0, &model, &messages))
+    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", NULL, 0, &model, &messages))
         return 1;
     bench_evaluation(&model, 1, "the same as the next, while the processor warms up");
     bench_evaluation(&model, 1, "evaluation, flat Earth, burning");
@@ -112,6 +112,6 @@ int main(void)
     bench_flight(&model, "the same, also J_xy = 0.02 kg m2");
     model.environment.earth.kind = LD_EARTH_WGS84;
     bench_evaluation(&model, 10, "evaluation, WGS 84, burnt out, not balanced");
-    ld_model_free(&model);
+    model_clear(&model);
     return 0;
 }

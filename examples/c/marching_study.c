@@ -5,6 +5,7 @@
 //     marching_study SEEDS SCENARIO.yaml... [PATH=VALUE...]
 #include <launchdyn/scenario.h>
 #include <launchdyn/simulation.h>
+#include <launchdyn/summary.h>
 
 #include <math.h>
 #include <pthread.h>
@@ -333,12 +334,20 @@ static void measure_jump(const record *run, const char *instant, double t, resul
     }
 }
 
-static void measure_jumps(const record *run, const ld_rocket_summary *rocket, result *out)
+// A result of the first rocket.
+static double number(const ld_summary *summary, const char *name)
+{
+    double value;
+    ld_summary_number(summary, 1, name, &value, NULL);
+    return value;
+}
+
+static void measure_jumps(const record *run, const ld_summary *rocket, result *out)
 {
     put_heading(out, "(b) the three jumps");
-    measure_jump(run, "release", rocket->t_release, out);
-    measure_jump(run, "front out", rocket->t_front, out);
-    measure_jump(run, "middle out", rocket->t_middle, out);
+    measure_jump(run, "release", number(rocket, "t_release"), out);
+    measure_jump(run, "front out", number(rocket, "t_front"), out);
+    measure_jump(run, "middle out", number(rocket, "t_middle"), out);
 }
 
 enum { ANGLES = 4 };
@@ -349,29 +358,29 @@ static const struct {
 } angle[ANGLES] = {
     {"relative pitch", PSI}, {"relative yaw", THETA}, {"pitch in I", PITCH}, {"yaw in I", YAW}};
 
-static void measure_rocket(const record *run, const ld_rocket_summary *rocket, result *out)
+static void measure_rocket(const record *run, const ld_summary *rocket, result *out)
 {
     put_heading(out, "(c) travel and spin");
-    put(out, "time in the tube", "ms", 1e3, rocket->t_rear);
-    put(out, "muzzle speed", "m/s", 1, rocket->muzzle_speed);
-    put(out, "spin rate at exit", "rad/s", 1, rocket->spin_rate);
-    put(out, "roll at exit", "deg", 180 / pi, rocket->relative.gamma);
+    put(out, "time in the tube", "ms", 1e3, number(rocket, "t_rear"));
+    put(out, "muzzle speed", "m/s", 1, number(rocket, "muzzle_speed"));
+    put(out, "spin rate at exit", "rad/s", 1, number(rocket, "spin_rate"));
+    put(out, "roll at exit", "deg", 180 / pi, at(run, GAMMA, number(rocket, "t_rear") - 1e-6));
     put_heading(out, "(d) pitch and yaw");
     const struct {
         const char *name;
         double t;
-    } instant[] = {{"release", rocket->t_release},
-                   {"front out", rocket->t_front},
-                   {"middle out", rocket->t_middle},
-                   {"rear out", rocket->t_rear - 1e-6}};
+    } instant[] = {{"release", number(rocket, "t_release")},
+                   {"front out", number(rocket, "t_front")},
+                   {"middle out", number(rocket, "t_middle")},
+                   {"rear out", number(rocket, "t_rear") - 1e-6}};
     char text[96];
     for (int i = 0; i < ANGLES; i++)
         for (int j = 0; j < 4; j++) {
             snprintf(text, sizeof text, "%s, %s", angle[i].name, instant[j].name);
             put(out, text, "mrad", 1e3, at(run, angle[i].column, instant[j].t));
         }
-    put(out, "pitch rate in I, rear out", "mrad/s", 1e3, rocket->pitch_rate);
-    put(out, "yaw rate in I, rear out", "mrad/s", 1e3, rocket->yaw_rate);
+    put(out, "pitch rate in I, rear out", "mrad/s", 1e3, number(rocket, "pitch_rate"));
+    put(out, "yaw rate in I, rear out", "mrad/s", 1e3, number(rocket, "yaw_rate"));
 }
 
 // Largest values from before the ramp of examples/marching/ramp.yaml on.
@@ -409,21 +418,21 @@ typedef struct study {
 static ld_status run_model(const ld_model *model, record *kept, result *out, ld_error *error)
 {
     ld_simulation *simulation = NULL;
-    ld_summary *summary = calloc(1, sizeof *summary);
+    ld_summary *summary = ld_summary_new();
     ld_sink sink = {.self = kept, .begin = begin, .row = row};
-    kept->t_ignition = model->firing[0].at;
-    ld_status status = ld_simulation_create(model, &simulation, error);
+    ld_status status = ld_model_number(model, "firing.1.at", &kept->t_ignition, error);
+    if (!status)
+        status = ld_simulation_create(model, &simulation, error);
     if (!status)
         status = ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, summary, error);
     if (!status) {
-        const ld_rocket_summary *rocket = &summary->rocket[0];
-        measure_after_exit(kept, rocket->t_rear, out);
-        measure_jumps(kept, rocket, out);
-        measure_rocket(kept, rocket, out);
+        measure_after_exit(kept, number(summary, "t_rear"), out);
+        measure_jumps(kept, summary, out);
+        measure_rocket(kept, summary, out);
         measure_stabilisers(kept, out);
     }
     ld_simulation_free(simulation);
-    free(summary);
+    ld_summary_free(summary);
     return status;
 }
 
@@ -439,7 +448,7 @@ static void run_one(const study *self, int scenario, int seed, record *kept)
     set[sets++] = seed_text;
     set[sets++] = "run.end=1.7 s";
     set[sets++] = "run.output_step={lead_in: 5 ms, tube: 0.1 ms}";
-    ld_model model;
+    ld_model *model;
     ld_messages messages = {0};
     ld_error error = {0};
     if (ld_scenario_read(self->scenario[scenario], set, (size_t)sets, &model, &messages)) {
@@ -448,9 +457,9 @@ static void run_one(const study *self, int scenario, int seed, record *kept)
         snprintf(out->problem, sizeof out->problem, "cannot read it");
         return;
     }
-    if (run_model(&model, kept, out, &error))
+    if (run_model(model, kept, out, &error))
         snprintf(out->problem, sizeof out->problem, "%.*s", LD_ERROR_TEXT - 1, error.text);
-    ld_model_free(&model);
+    ld_model_free(model);
 }
 
 static void *work(void *self_)

@@ -2,6 +2,8 @@
 #ifndef LAUNCHDYN_SCENARIO_H
 #define LAUNCHDYN_SCENARIO_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
 #include "launchdyn/model.h"
@@ -10,6 +12,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// One thing wrong with a scenario: where, which key, what was found and what is allowed.
 typedef struct ld_message {
@@ -35,17 +38,20 @@ void ld_messages_print(const ld_messages *messages, FILE *stream);
 /// nominal ones, and each swept value by itself. All errors of the file come in one pass.
 /// @param path     file name; "-" is standard input
 /// @param sets     `count` texts "path=value" that override the file (as of --set)
-/// @param model    filled on success (free with ld_model_free()); untouched on failure
+/// @param model    filled on success (free with ld_model_free()); NULL on failure
 /// @param messages filled on failure (free with ld_messages_free())
 /// @return LD_OK, LD_ERR_INPUT, LD_ERR_FILE or LD_ERR_MEMORY
-ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count, ld_model *model,
-                           ld_messages *messages);
+ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count,
+                           ld_model **model, ld_messages *messages);
 
 /// The same from text in memory; `name` stands for the file in messages, `folder` is where files
 /// that it names are looked for.
 ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
                                 const char *folder, const char *const *sets, size_t count,
-                                ld_model *model, ld_messages *messages);
+                                ld_model **model, ld_messages *messages);
+
+/// Number of axes of the model's sweep: 0 without.
+int ld_scenario_axes(const ld_model *model);
 
 /// Number of points of the model's sweep: the product of its axes' counts, 1 without.
 int ld_scenario_points(const ld_model *model);
@@ -58,28 +64,33 @@ int ld_scenario_value(const ld_model *model, int point, int axis);
 /// long is cut.
 void ld_scenario_point_name(const ld_model *model, int point, char *text, size_t size);
 
-/// Reads the scenario with the values of point `point` (from 1 to ld_scenario_points()) of its
-/// sweep in place of the nominal ones; 0: the nominal ones. A value's place in messages is that in
-/// the sweep. An override of a swept key takes its axis away; other overrides are laid over the
-/// point. The model keeps the axes, and everything else may differ between points. Standard input
-/// can be read once only: its points from 1 on come from what the nominal model keeps, by
-/// ld_scenario_read_source().
-ld_status ld_scenario_read_point(const char *path, const char *const *sets, size_t count, int point,
-                                 ld_model *model, ld_messages *messages);
-ld_status ld_scenario_read_text_point(const char *text, size_t length, const char *name,
-                                      const char *folder, const char *const *sets, size_t count,
-                                      int point, ld_model *model, ld_messages *messages);
-
-/// Reads a point (0: the nominal values) from texts that have been read before, model.source of
-/// another model or that of results (ld_origin_read()); files that are not among them are read, and
-/// added, where the source has a folder.
+/// Reads a point of its sweep (from 1 to ld_scenario_points(); 0: the nominal values) from texts
+/// that have been read before, those of another model or of results (ld_origin_read()). A value's
+/// place in messages is that in the sweep. An override of a swept key takes its axis away; other
+/// overrides are laid over the point. The model keeps the axes, and everything else may differ
+/// between points. Files that are not among them are read, and added, where the source has a
+/// folder.
 /// @param source the model gets a share of it
-ld_status ld_scenario_read_source(ld_source *source, int point, ld_model *model,
+ld_status ld_scenario_read_source(ld_source *source, int point, ld_model **model,
                                   ld_messages *messages);
+
+/// The texts that a model was read from, as long as the model is there.
+ld_source *ld_model_source(const ld_model *model);
+
+/// A number of the model by the path of its key, as in --set ("rocket.mass"; of a vector a
+/// component: "rocket.center.x"), in SI.
+/// @param value NaN on failure, and where it is not given
+/// @return LD_OK, LD_ERR_INPUT (no such number: why)
+ld_status ld_model_number(const ld_model *model, const char *path, double *value, ld_error *error);
+
+/// Whether a scenario has a launcher, and whether that is a vehicle; a flight alone has none.
+bool ld_model_has_launcher(const ld_model *model);
+bool ld_model_has_vehicle(const ld_model *model);
 
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again.
 void ld_model_print(const ld_model *model, FILE *stream);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -8,16 +8,16 @@
 static int check_points(const ld_model *model, void *data)
 {
     (void)data;
-    int points = model->sweep_count > 0 ? ld_scenario_points(model) : 0;
+    int points = ld_scenario_axes(model) > 0 ? ld_scenario_points(model) : 0;
     for (int point = 1; point <= points; point++) {
-        ld_model one;
-        if (command_read_source(model->source, point, &one)) {
+        ld_model *one;
+        if (command_read_source(ld_model_source(model), point, &one)) {
             char name[256];
             ld_scenario_point_name(model, point, name, sizeof name);
             command_complain("this is point %d of the sweep: %s", point, name);
             return EXIT_INPUT;
         }
-        ld_model_free(&one);
+        ld_model_free(one);
     }
     ld_model_print(model, stdout);
     return 0;

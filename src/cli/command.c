@@ -97,7 +97,7 @@ static ld_status print_messages(ld_status status, ld_messages *messages)
     return status;
 }
 
-static ld_status read_file(const char *file, char **sets, ld_model *model)
+static ld_status read_file(const char *file, char **sets, ld_model **model)
 {
     ld_messages messages = {0};
     ld_status status =
@@ -105,7 +105,7 @@ static ld_status read_file(const char *file, char **sets, ld_model *model)
     return print_messages(status, &messages);
 }
 
-ld_status command_read_source(ld_source *source, int point, ld_model *model)
+ld_status command_read_source(ld_source *source, int point, ld_model **model)
 {
     ld_messages messages = {0};
     return print_messages(ld_scenario_read_source(source, point, model, &messages), &messages);
@@ -136,11 +136,11 @@ void command_tell_difference(const char *folder, const ld_origin *origin)
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data)
 {
-    ld_model model;
+    ld_model *model;
     if (read_file(file, sets, &model))
         return EXIT_INPUT;
-    int code = work(&model, data);
-    ld_model_free(&model);
+    int code = work(model, data);
+    ld_model_free(model);
     return code;
 }
 

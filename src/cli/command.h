@@ -89,7 +89,7 @@ int command_on_model(const command *self, int argc, const char **argv,
 // the end of the overrides.
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
-ld_status command_read_source(ld_source *source, int point, ld_model *model);
+ld_status command_read_source(ld_source *source, int point, ld_model **model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
 void command_free_sets(char **sets);

@@ -2,9 +2,10 @@
 #include <stdio.h>
 
 #include "cli/command.h"
+#include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
 
-enum { MOST = 4 * LD_MAX_MODES };
+enum { MOST = 256 };
 
 // As "%.4f" prints it, without the sign of what rounds to nothing.
 static double to_four_decimals(double value)
@@ -33,7 +34,7 @@ static ld_status list_modes(const ld_model *model, ld_error *error)
     static ld_mode modes[MOST];
     static ld_pole poles[2 * MOST];
     ld_simulation *simulation = NULL;
-    if (model->base.kind == LD_BASE_NONE)
+    if (!ld_model_has_launcher(model))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
     ld_status status = ld_simulation_create(model, &simulation, error);
     if (status)
@@ -44,7 +45,7 @@ static ld_status list_modes(const ld_model *model, ld_error *error)
                                         &pole_count, error);
     if (!status) {
         putchar('\n');
-        print_modes(model->base.kind == LD_BASE_VEHICLE
+        print_modes(ld_model_has_vehicle(model)
                         ? "Vehicle with platforms, tube and locked rocket about their equilibrium "
                           "on a flat road, no Coulomb friction: moduli of the damped eigenvalues"
                         : "Tube, tail and locked rocket about their equilibrium, no Coulomb "

@@ -8,6 +8,7 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
 #include "launchdyn/simulation.h"
+#include "launchdyn/summary.h"
 
 // A run that ended early for reasons of its own leaves results up to there.
 static bool leaves_results(ld_status status)
@@ -54,8 +55,6 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
 int run_model(const ld_model *model, void *data)
 {
     const run_wishes *wishes = data;
-    static ld_summary summary;
-    ld_simulation *simulation = NULL;
     ld_error error;
     if (wishes->csv && !wishes->folder) {
         command_complain("--csv needs --out DIR");
@@ -65,10 +64,14 @@ int run_model(const ld_model *model, void *data)
         command_complain("--report needs --out DIR");
         return EXIT_INPUT;
     }
-    ld_status status = ld_simulation_create(model, &simulation, &error);
+    ld_simulation *simulation = NULL;
+    ld_summary *summary = ld_summary_new();
+    ld_status status = summary ? ld_simulation_create(model, &simulation, &error)
+                               : ld_fail(&error, LD_ERR_MEMORY, "no memory for a summary");
     if (!status)
-        status = simulate(simulation, model, wishes, &summary, &error);
+        status = simulate(simulation, model, wishes, summary, &error);
     ld_simulation_free(simulation);
+    ld_summary_free(summary);
     int code = 0;
     if (wishes->report && leaves_results(status))
         code = command_write_report(wishes->folder, NULL, wishes->quiet != 0);
@@ -94,7 +97,7 @@ static int run_sample(const ld_model *point, int number, run_wishes *wishes)
 // Runs what the results in a folder are of, from the texts that they keep.
 static int run_again(const char *folder, run_wishes *wishes)
 {
-    ld_model model;
+    ld_model *model;
     ld_origin origin;
     ld_error error;
     ld_status status = ld_origin_read(folder, &origin, &error);
@@ -105,9 +108,9 @@ static int run_again(const char *folder, run_wishes *wishes)
         command_complain("%s cannot be run again: its model was not read from a scenario", folder);
     } else if (command_read_source(origin.source, origin.point, &model) == LD_OK) {
         command_tell_difference(folder, &origin);
-        code = origin.sample > 0 ? run_sample(&model, origin.sample, wishes)
-                                 : run_model(&model, wishes);
-        ld_model_free(&model);
+        code =
+            origin.sample > 0 ? run_sample(model, origin.sample, wishes) : run_model(model, wishes);
+        ld_model_free(model);
     }
     ld_origin_free(&origin);
     return code;

@@ -3,9 +3,9 @@
 #ifndef LD_ELEMENTS_AERODYNAMICS_H
 #define LD_ELEMENTS_AERODYNAMICS_H
 
-#include "launchdyn/model.h"
 #include "math/curves.h"
 #include "math/vec3.h"
+#include "model/model.h"
 
 enum { AERODYNAMICS_COLUMNS = 7 };
 

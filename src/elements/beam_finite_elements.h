@@ -10,8 +10,8 @@
 #ifndef LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
 #define LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
 
-#include "launchdyn/model.h"
 #include "launchdyn/status.h"
+#include "model/model.h"
 
 // Stations of the nodes: at section steps, point masses and supports, evenly between them.
 typedef struct tube_mesh {

@@ -3,8 +3,8 @@
 #ifndef LD_ELEMENTS_CONTACT_H
 #define LD_ELEMENTS_CONTACT_H
 
-#include "launchdyn/model.h"
 #include "math/vec3.h"
+#include "model/model.h"
 
 typedef struct contact_law {
     ld_contact_law kind;

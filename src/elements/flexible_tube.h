@@ -11,8 +11,8 @@
 #ifndef LD_ELEMENTS_FLEXIBLE_TUBE_H
 #define LD_ELEMENTS_FLEXIBLE_TUBE_H
 
-#include "launchdyn/model.h"
 #include "launchdyn/status.h"
+#include "model/model.h"
 
 enum { LD_NB = LD_MAX_BENDING_MODES, LD_NT = LD_MAX_TORSION_MODES, LD_NA = LD_MAX_AXIAL_MODES };
 

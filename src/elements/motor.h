@@ -3,8 +3,8 @@
 #ifndef LD_ELEMENTS_MOTOR_H
 #define LD_ELEMENTS_MOTOR_H
 
-#include "launchdyn/model.h"
 #include "math/mat3.h"
+#include "model/model.h"
 
 // Mass data of the rocket at one instant; rates for the energy balance.
 typedef struct rocket_mass {

@@ -2,7 +2,7 @@
 #ifndef LD_ENVIRONMENT_ATMOSPHERE_H
 #define LD_ENVIRONMENT_ATMOSPHERE_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 
 enum { ATMOSPHERE_LAYERS = 7 };
 

@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
-#include "launchdyn/model.h"
 #include "math/mat3.h"
+#include "model/model.h"
 
 typedef struct earth {
     bool flat;

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 
 typedef enum road_track { ROAD_LEFT, ROAD_RIGHT, ROAD_TRACKS } road_track;
 

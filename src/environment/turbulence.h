@@ -2,8 +2,8 @@
 #ifndef LD_ENVIRONMENT_TURBULENCE_H
 #define LD_ENVIRONMENT_TURBULENCE_H
 
-#include "launchdyn/model.h"
 #include "math/vec3.h"
+#include "model/model.h"
 
 enum { TURBULENCE_COMPONENTS = 3 };
 

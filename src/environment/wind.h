@@ -2,9 +2,9 @@
 #ifndef LD_ENVIRONMENT_WIND_H
 #define LD_ENVIRONMENT_WIND_H
 
-#include "launchdyn/model.h"
 #include "math/curves.h"
 #include "math/vec3.h"
+#include "model/model.h"
 
 typedef struct wind {
     bool present;

@@ -245,7 +245,7 @@ static void check_block(model_checker *checker, const char *path, const field_bl
     }
 }
 
-// What ld_model_complete() computes must be there.
+// What model_complete() computes must be there.
 static void check_complete(model_checker *checker, const ld_model *model)
 {
     char path[32];
@@ -257,21 +257,21 @@ static void check_complete(model_checker *checker, const ld_model *model)
         snprintf(path, sizeof path, "tubes.sections.%d", i + 1);
         if (isnan(sum))
             refuse(checker, path,
-                   "its stiffnesses and masses are not computed; call ld_model_complete()");
+                   "its stiffnesses and masses are not computed; call model_complete()");
     }
     if (isnan(model->rocket.propellant))
-        refuse(checker, "rocket.propellant", "not computed; call ld_model_complete()");
+        refuse(checker, "rocket.propellant", "not computed; call model_complete()");
     if (launch && isnan(model->run.stuck_time))
-        refuse(checker, "run.stuck_time", "not computed; call ld_model_complete()");
+        refuse(checker, "run.stuck_time", "not computed; call model_complete()");
     if (launch && isnan(model->run.max_step))
-        refuse(checker, "run.max_step", "not computed; call ld_model_complete()");
+        refuse(checker, "run.max_step", "not computed; call model_complete()");
 }
 
-ld_status ld_model_check(const ld_model *model, ld_error *error)
+ld_status model_check(const ld_model *model, ld_error *error)
 {
     model_checker checker = {model, error, LD_OK};
     if (isnan(model->environment.ground_height))
-        refuse(&checker, "environment.ground", "not computed; call ld_model_complete()");
+        refuse(&checker, "environment.ground", "not computed; call model_complete()");
     check_block(&checker, "", &scenario_block, model);
     if (checker.status == LD_OK)
         model_check_rules(model, refuse_rule, &checker);

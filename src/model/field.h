@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 
 typedef enum field_kind {
     FIELD_NUMBER,     // `count` doubles with one unit

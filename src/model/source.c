@@ -13,7 +13,7 @@ ld_source *source_new(const char *name, const char *folder)
     self->folder = folder ? strdup(folder) : NULL;
     if (self->name && (self->folder || !folder))
         return self;
-    ld_source_free(self);
+    source_free(self);
     return NULL;
 }
 
@@ -61,7 +61,7 @@ ld_source *source_hold(ld_source *self)
     return self;
 }
 
-void ld_source_free(ld_source *self)
+void source_free(ld_source *self)
 {
     if (!self || --self->users > 0)
         return;

@@ -2,7 +2,7 @@
 #ifndef LD_MODEL_SOURCE_H
 #define LD_MODEL_SOURCE_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 
 // One without files, with one user; `folder` NULL: none are to be opened. NULL: no memory.
 ld_source *source_new(const char *name, const char *folder);

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "model/model.h"
 #include "results/json_text.h"
 
 // A text, where there is room for it.

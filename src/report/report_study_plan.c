@@ -2,10 +2,10 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
 #include "report/report_origin.h"
 #include "report/report_study.h"
 #include "results/json_text.h"
+#include "scenario/scenario.h"
 #include "scenario/scenario_text.h"
 
 // A pair of texts, the second made by fprintf.
@@ -85,11 +85,11 @@ void study_write_plan(FILE *json, const study_source *source, int index)
     ld_messages messages;
     fputs("{\"label\":", json);
     json_write_text(json, data->title && *data->title ? data->title : source->folder[index]);
-    if (!ld_scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages)) {
+    if (!scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages)) {
         fputc(',', json);
         write_plan(json, &model);
         write_factors(json, &model);
-        ld_model_free(&model);
+        model_clear(&model);
     } else {
         ld_messages_free(&messages);
     }

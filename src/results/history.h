@@ -6,8 +6,8 @@
 
 #include "launchdyn/origin.h"
 #include "launchdyn/results.h"
-#include "launchdyn/simulation.h"
 #include "launchdyn/status.h"
+#include "simulation/summary.h"
 
 // history.h5, laid out as docs/results.md says. Rows are gathered in blocks; after each block the
 // file on disk is complete up to there.

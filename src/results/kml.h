@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "launchdyn/model.h"
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
+#include "model/model.h"
 
 typedef struct kml_file kml_file;
 

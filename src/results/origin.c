@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
 #include "model/source.h"
 #include "results/json_text.h"
 #include "results/program.h"
+#include "scenario/scenario.h"
 
 static ld_status no_memory(ld_error *error)
 {
@@ -60,7 +60,7 @@ void ld_origin_free(ld_origin *origin)
     }
     free(origin->fact);
     free(origin->scenario);
-    ld_source_free(origin->source);
+    source_free(origin->source);
     *origin = (ld_origin){0};
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/text_file.h"
 #include "model/source.h"
+#include "scenario/scenario.h"
 #include "scenario/scenario_reader.h"
 
 // The files being read, outermost first.
@@ -190,14 +191,14 @@ static void check_values(scenario_reader *reader, const tree_node *file,
             ld_model model;
             memory_pool before = pool_mark(reader);
             size_t messages = reader->messages->count;
-            ld_model_init(&model);
+            model_init(&model);
             tree_node *root = tree_copy(reader, file);
             root = root ? sweep_lay(reader, root, &sweep->axis[i], k) : NULL;
             if (root)
                 root = apply_overrides(reader, root);
             if (root && !reader->no_memory)
                 scenario_fill_values(reader, root, &model);
-            ld_model_free(&model);
+            model_clear(&model);
             reader_keep_messages(reader, messages, &sweep->axis[i].keys);
             pool_return(reader, before);
         }
@@ -253,14 +254,13 @@ static void read_in_turn(scenario_reader *reader, int point, ld_model *model)
     pthread_mutex_unlock(&one_reader);
 }
 
-ld_status ld_scenario_read_source(ld_source *source, int point, ld_model *model,
-                                  ld_messages *messages)
+ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
 {
     scenario_reader reader = {.messages = messages, .source = source};
     ld_model fresh;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
-    ld_model_init(&fresh);
+    model_init(&fresh);
     if (plain)
         read_in_turn(&reader, point, &fresh);
     else
@@ -274,7 +274,7 @@ ld_status ld_scenario_read_source(ld_source *source, int point, ld_model *model,
         fresh.point = point;
         *model = fresh;
     } else {
-        ld_model_free(&fresh);
+        model_clear(&fresh);
     }
     pool_free(&reader);
     uselocale(before);
@@ -305,7 +305,7 @@ static ld_source *source_of(char *text, size_t length, const char *name, const c
         fine = source_add_set(source, sets[i]);
     if (fine)
         return source;
-    ld_source_free(source);
+    source_free(source);
     return NULL;
 }
 
@@ -326,13 +326,13 @@ static ld_status read_and_release(ld_source *source, int point, ld_model *model,
 {
     *messages = (ld_messages){0};
     ld_status status =
-        source ? ld_scenario_read_source(source, point, model, messages) : LD_ERR_MEMORY;
-    ld_source_free(source);
+        source ? scenario_read_source(source, point, model, messages) : LD_ERR_MEMORY;
+    source_free(source);
     return status;
 }
 
-ld_status ld_scenario_read_point(const char *path, const char *const *sets, size_t count, int point,
-                                 ld_model *model, ld_messages *messages)
+ld_status scenario_read_point(const char *path, const char *const *sets, size_t count, int point,
+                              ld_model *model, ld_messages *messages)
 {
     const char *name = is_stdin(path) ? "<stdin>" : path, *slash = strrchr(name, '/');
     char *text, why[2 * LD_ERROR_TEXT];
@@ -352,9 +352,9 @@ ld_status ld_scenario_read_point(const char *path, const char *const *sets, size
     return read_and_release(source, point, model, messages);
 }
 
-ld_status ld_scenario_read_text_point(const char *text, size_t length, const char *name,
-                                      const char *folder, const char *const *sets, size_t count,
-                                      int point, ld_model *model, ld_messages *messages)
+ld_status scenario_read_text_point(const char *text, size_t length, const char *name,
+                                   const char *folder, const char *const *sets, size_t count,
+                                   int point, ld_model *model, ld_messages *messages)
 {
     char *own = malloc(length + 1);
     if (own) {
@@ -365,15 +365,15 @@ ld_status ld_scenario_read_text_point(const char *text, size_t length, const cha
     return read_and_release(source, point, model, messages);
 }
 
-ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count, ld_model *model,
-                           ld_messages *messages)
+ld_status scenario_read(const char *path, const char *const *sets, size_t count, ld_model *model,
+                        ld_messages *messages)
 {
-    return ld_scenario_read_point(path, sets, count, 0, model, messages);
+    return scenario_read_point(path, sets, count, 0, model, messages);
 }
 
-ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
-                                const char *folder, const char *const *sets, size_t count,
-                                ld_model *model, ld_messages *messages)
+ld_status scenario_read_text(const char *text, size_t length, const char *name, const char *folder,
+                             const char *const *sets, size_t count, ld_model *model,
+                             ld_messages *messages)
 {
-    return ld_scenario_read_text_point(text, length, name, folder, sets, count, 0, model, messages);
+    return scenario_read_text_point(text, length, name, folder, sets, count, 0, model, messages);
 }

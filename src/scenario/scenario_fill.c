@@ -677,7 +677,7 @@ void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_mod
         return;
     }
     read_block(reader, &scenario_block, root, model, "");
-    ld_model_complete(model);
+    model_complete(model);
     scenario_fill_scatter(reader, root, model);
 }
 

@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "launchdyn/scenario.h"
+#include "model/model.h"
 #include "scenario/units.h"
 
 enum {

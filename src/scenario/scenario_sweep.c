@@ -273,6 +273,11 @@ void sweep_fill(scenario_reader *reader, const scenario_sweep *sweep, ld_model *
     }
 }
 
+int ld_scenario_axes(const ld_model *model)
+{
+    return model->sweep_count;
+}
+
 int ld_scenario_points(const ld_model *model)
 {
     int points = 1;

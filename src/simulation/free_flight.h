@@ -2,7 +2,7 @@
 #ifndef LD_SIMULATION_FREE_FLIGHT_H
 #define LD_SIMULATION_FREE_FLIGHT_H
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "systems/flight.h"
 
 // What is to be flown; the caller keeps what it points to.

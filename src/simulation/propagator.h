@@ -3,11 +3,12 @@
 #ifndef LD_SIMULATION_PROPAGATOR_H
 #define LD_SIMULATION_PROPAGATOR_H
 
-#include "simulation/simulation.h"
+#include "simulation/integrator.h"
+#include "simulation/launch_state.h"
 
 typedef struct propagator propagator;
 
-ld_status propagator_create(ld_simulation *simulation, propagator **out, ld_error *error);
+ld_status propagator_create(launch_state *launch, propagator **out, ld_error *error);
 void propagator_free(propagator *self);
 
 // As those of integrator.h, for the whole state. Events are numbered by simulation_event.
@@ -26,11 +27,11 @@ int64_t propagator_evaluations(const propagator *self);
 // alone), last the rocket's touching the breech (that law alone).
 enum { EVENT_RELEASE = 0, EVENT_ADAPTORS = 1 };
 
-int simulation_breech_event(const ld_simulation *self);
+int simulation_breech_event(const launch_state *self);
 
 // What the equations gave at (t, y): the latest evaluation where it is that of the same state under
 // the same conditions, else a new one.
 // NULL where they have no solution.
-const launcher_output *simulation_output(ld_simulation *self, double t, const double *y);
+const launcher_output *simulation_output(launch_state *self, double t, const double *y);
 
 #endif

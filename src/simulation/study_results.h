@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 
 typedef struct study_result {
     const char *name; // of its column

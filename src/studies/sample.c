@@ -110,9 +110,9 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
     for (int i = 1; i <= rockets; i++) {
         self->model.rocket = shared;
         draw_row(self, sampler, number, i);
-        ld_model_complete(&self->model);
+        model_complete(&self->model);
         if (!status)
-            status = ld_model_check(&self->model, error);
+            status = model_check(&self->model, error);
         self->salvo[i - 1] = self->model.rocket;
     }
     // a vehicle carries more rockets than are fired, which are as the scenario says

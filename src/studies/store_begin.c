@@ -6,7 +6,8 @@
 
 #include "base/random.h"
 #include "launchdyn/origin.h"
-#include "launchdyn/scenario.h"
+#include "launchdyn/version.h"
+#include "scenario/scenario.h"
 #include "studies/store.h"
 
 #define FORMAT "3"

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "launchdyn/scenario.h"
 #include "model/field.h"
+#include "scenario/scenario.h"
 #include "studies/statistics.h"
 #include "studies/store.h"
 
@@ -116,8 +116,8 @@ static ld_status read_scenario(study_data *data, ld_error *error)
     ld_model model;
     ld_messages messages;
     char why[384];
-    ld_status status = ld_scenario_read_text(data->scenario, strlen(data->scenario), "study", ".",
-                                             NULL, 0, &model, &messages);
+    ld_status status = scenario_read_text(data->scenario, strlen(data->scenario), "study", ".",
+                                          NULL, 0, &model, &messages);
     if (status) {
         ld_messages_free(&messages);
         return LD_OK;
@@ -133,7 +133,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
         self->column[i].seed = factor->distribution == LD_EACH_SAMPLE;
     }
     data->title = keep(self, strdup(model.title ? model.title : ""));
-    ld_model_free(&model);
+    model_clear(&model);
     return data->title ? LD_OK : no_memory(error);
 }
 

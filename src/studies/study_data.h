@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "launchdyn/model.h"
 #include "launchdyn/status.h"
+#include "model/model.h"
 
 // A number of each rocket, or of each sample.
 typedef struct study_column {

@@ -67,7 +67,7 @@ static ld_status read_origin(study_store *store, ld_origin *origin, ld_error *er
         return ld_fail(error, LD_ERR_INPUT, "%.300s is damaged: its scenario cannot be read",
                        store->path);
     if (origin->source->file_count == 0) {
-        ld_source_free(origin->source);
+        source_free(origin->source);
         origin->source = NULL;
         return LD_OK;
     }

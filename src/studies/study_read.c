@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "studies/study.h"
 
 // Adds to a message which point it is about: " (point 5 of the sweep, rocket.mass: 61 kg)".
@@ -56,7 +56,7 @@ static ld_status read_points(ld_study *self, ld_messages *messages)
     for (; self->points < points; self->points++) {
         int point = self->points + 1;
         ld_status status =
-            ld_scenario_read_source(nominal->source, point, &self->model[point - 1], messages);
+            scenario_read_source(nominal->source, point, &self->model[point - 1], messages);
         for (size_t i = 0; status && i < messages->count; i++)
             name_point(&messages->item[i], nominal, point);
         if (status)
@@ -93,7 +93,7 @@ static ld_status make_study(ld_status status, ld_model *nominal, const char *nam
         self->nominal = calloc(1, sizeof *self->nominal);
     if (status || !self || !self->nominal) {
         if (!status)
-            ld_model_free(nominal);
+            model_clear(nominal);
         status = status ? status : LD_ERR_MEMORY;
     } else {
         *self->nominal = *nominal;
@@ -113,7 +113,7 @@ ld_status ld_study_read(const char *path, const char *const *sets, size_t count,
                         ld_messages *messages)
 {
     ld_model nominal;
-    ld_status status = ld_scenario_read(path, sets, count, &nominal, messages);
+    ld_status status = scenario_read(path, sets, count, &nominal, messages);
     return make_study(status, &nominal, path, study, messages);
 }
 
@@ -123,14 +123,14 @@ ld_status ld_study_read_text(const char *text, size_t length, const char *name, 
 {
     ld_model nominal;
     ld_status status =
-        ld_scenario_read_text(text, length, name, folder, sets, count, &nominal, messages);
+        scenario_read_text(text, length, name, folder, sets, count, &nominal, messages);
     return make_study(status, &nominal, name, study, messages);
 }
 
 ld_status ld_study_read_source(ld_source *source, ld_study **study, ld_messages *messages)
 {
     ld_model nominal;
-    ld_status status = ld_scenario_read_source(source, 0, &nominal, messages);
+    ld_status status = scenario_read_source(source, 0, &nominal, messages);
     return make_study(status, &nominal, source->name, study, messages);
 }
 
@@ -142,10 +142,10 @@ void ld_study_free(ld_study *self)
         if (self->sampler)
             sampler_free(&self->sampler[i]);
         if (self->model != self->nominal)
-            ld_model_free(&self->model[i]);
+            model_clear(&self->model[i]);
     }
     if (self->nominal)
-        ld_model_free(self->nominal);
+        model_clear(self->nominal);
     if (self->model != self->nominal)
         free(self->model);
     free(self->nominal);

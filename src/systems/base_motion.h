@@ -4,8 +4,8 @@
 #define LD_SYSTEMS_BASE_MOTION_H
 
 #include "elements/base_frame.h"
-#include "launchdyn/model.h"
 #include "math/spline.h"
+#include "model/model.h"
 
 // The frame T of the undeformed tube: origin at its rear end, x along it.
 

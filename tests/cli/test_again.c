@@ -6,7 +6,8 @@
 
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 
 static void write_text(const char *name, const char *text)
 {
@@ -259,7 +260,7 @@ static void test_origin_reads_back(void **state)
     make_files();
     snprintf(path, sizeof path, "%s/made/under/launch.yaml", shell.folder);
     const char *const set[] = {"rocket.motor.thrust=../tables/motor.eng"};
-    assert_int_equal(ld_scenario_read(path, set, 1, &model, &messages), LD_OK);
+    assert_int_equal(scenario_read(path, set, 1, &model, &messages), LD_OK);
     assert_int_equal(ld_origin_of(&model, &before, &error), LD_OK);
     snprintf(path, sizeof path, "%s/kept", shell.folder);
     assert_int_equal(ld_output_open(path, &model, false, &output, &error), LD_OK);
@@ -283,7 +284,7 @@ static void test_origin_reads_back(void **state)
     assert_string_equal(text, "");
     ld_origin_free(&after);
     ld_origin_free(&before);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // What a page holds under a name, as JSON in the file page.json.

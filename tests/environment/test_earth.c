@@ -10,7 +10,7 @@ static earth earth_of(ld_earth_model kind, double latitude, double longitude, do
 {
     ld_model model;
     earth self;
-    ld_model_init(&model);
+    model_init(&model);
     model.environment.earth.kind = kind;
     model.environment.site = (ld_site){true, latitude, longitude, 100, azimuth};
     earth_build(&self, &model);

@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 
 enum { MAX_TEXT = 8192, MAX_SETS = 8 };
 
@@ -91,8 +91,8 @@ static char *messages_of(const fault_case *c, const char *text)
     size_t length = 0;
     for (int i = 0; i < c->sets; i++)
         sets[i] = c->set[i];
-    ld_status status = ld_scenario_read_text(text, strlen(text), "case.yaml", "", sets,
-                                             (size_t)c->sets, &model, &messages);
+    ld_status status = scenario_read_text(text, strlen(text), "case.yaml", "", sets,
+                                          (size_t)c->sets, &model, &messages);
     if (status != LD_ERR_INPUT)
         fail_msg("%s: status %s", c->title, ld_status_name(status));
     FILE *stream = open_memstream(&printed, &length);
@@ -149,10 +149,10 @@ static void test_bases_are_good(void **state)
     for (int i = 0; i < 2; i++) {
         ld_model model;
         ld_messages messages;
-        ld_status status = ld_scenario_read(bases[i], NULL, 0, &model, &messages);
+        ld_status status = scenario_read(bases[i], NULL, 0, &model, &messages);
         ld_messages_print(&messages, stdout);
         assert_int_equal(status, LD_OK);
-        ld_model_free(&model);
+        model_clear(&model);
     }
 }
 

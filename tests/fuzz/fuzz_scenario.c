@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/model_compare.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -37,15 +37,14 @@ static void check_model(const ld_model *model)
     ld_error error;
     size_t length;
     char *text = print_model(model, &length);
-    ld_status status =
-        ld_scenario_read_text(text, length, "printed", "", NULL, 0, &again, &messages);
+    ld_status status = scenario_read_text(text, length, "printed", "", NULL, 0, &again, &messages);
     if (status != LD_OK) {
         ld_messages_print(&messages, stderr);
         abort();
     }
-    if (!same_model(model, &again) || ld_model_check(model, &error) != LD_OK)
+    if (!same_model(model, &again) || model_check(model, &error) != LD_OK)
         abort();
-    ld_model_free(&again);
+    model_clear(&again);
     free(text);
 }
 
@@ -56,7 +55,7 @@ static void check_source(const ld_model *model)
     ld_messages messages;
     char *folder = model->source->folder;
     model->source->folder = NULL;
-    ld_status status = ld_scenario_read_source(model->source, 0, &again, &messages);
+    ld_status status = scenario_read_source(model->source, 0, &again, &messages);
     model->source->folder = folder;
     if (status != LD_OK) {
         ld_messages_print(&messages, stderr);
@@ -64,7 +63,7 @@ static void check_source(const ld_model *model)
     }
     if (!same_model(model, &again))
         abort();
-    ld_model_free(&again);
+    model_clear(&again);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -74,14 +73,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *const sets[] = {text};
     ld_model model;
     ld_messages messages;
-    ld_status status = ld_scenario_read_text(text + before, size - before, "fuzz", "examples", sets,
-                                             zero ? 1 : 0, &model, &messages);
+    ld_status status = scenario_read_text(text + before, size - before, "fuzz", "examples", sets,
+                                          zero ? 1 : 0, &model, &messages);
     if ((status == LD_OK) != (messages.count == 0) || status == LD_ERR_MEMORY)
         abort();
     if (status == LD_OK) {
         check_model(&model);
         check_source(&model);
-        ld_model_free(&model);
+        model_clear(&model);
     }
     print_messages(&messages);
     ld_messages_free(&messages);

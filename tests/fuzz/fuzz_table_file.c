@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -26,12 +26,12 @@ static void read_with(const char *set)
 {
     ld_model model;
     ld_messages messages;
-    ld_status status = ld_scenario_read_text(scenario, sizeof scenario - 1, "fuzz", "", &set, 1,
-                                             &model, &messages);
+    ld_status status =
+        scenario_read_text(scenario, sizeof scenario - 1, "fuzz", "", &set, 1, &model, &messages);
     if ((status == LD_OK) != (messages.count == 0) || status == LD_ERR_MEMORY)
         abort();
     if (status == LD_OK)
-        ld_model_free(&model);
+        model_clear(&model);
     ld_messages_free(&messages);
 }
 

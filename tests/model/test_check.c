@@ -3,13 +3,13 @@
 
 #include <string.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 
 static ld_model good_model(const char *file)
 {
     ld_model model;
     ld_messages messages;
-    assert_int_equal(ld_scenario_read(file, NULL, 0, &model, &messages), LD_OK);
+    assert_int_equal(scenario_read(file, NULL, 0, &model, &messages), LD_OK);
     return model;
 }
 
@@ -21,10 +21,10 @@ static ld_model good_model(const char *file)
         ld_model m = good_model(file);                                                             \
         ld_error error;                                                                            \
         change;                                                                                    \
-        assert_int_equal(ld_model_check(&m, &error), LD_ERR_INPUT);                                \
+        assert_int_equal(model_check(&m, &error), LD_ERR_INPUT);                                   \
         assert_string_equal(error.text, text_);                                                    \
         m.rocket.contact.law = LD_CONTACT_HUNT_CROSSLEY;                                           \
-        ld_model_free(&m);                                                                         \
+        model_clear(&m);                                                                           \
     } while (0)
 
 static void test_good(void **state)
@@ -34,8 +34,8 @@ static void test_good(void **state)
     for (int i = 0; i < 2; i++) {
         ld_model m = good_model(files[i]);
         ld_error error = {0};
-        assert_int_equal(ld_model_check(&m, &error), LD_OK);
-        ld_model_free(&m);
+        assert_int_equal(model_check(&m, &error), LD_OK);
+        model_clear(&m);
     }
 }
 
@@ -74,10 +74,10 @@ static void test_rules(void **state)
             "rocket.adaptors.2.clearance: missing; expected a number with a unit of m, > 0 m");
     REFUSED(m.tubes.section[0].mass_per_length = NAN,
             "tubes.sections.1: its stiffnesses and masses are not computed; call "
-            "ld_model_complete()");
-    REFUSED(m.rocket.propellant = NAN, "rocket.propellant: not computed; call ld_model_complete()");
-    REFUSED(m.run.stuck_time = NAN, "run.stuck_time: not computed; call ld_model_complete()");
-    REFUSED(m.run.max_step = NAN, "run.max_step: not computed; call ld_model_complete()");
+            "model_complete()");
+    REFUSED(m.rocket.propellant = NAN, "rocket.propellant: not computed; call model_complete()");
+    REFUSED(m.run.stuck_time = NAN, "run.stuck_time: not computed; call model_complete()");
+    REFUSED(m.run.max_step = NAN, "run.max_step: not computed; call model_complete()");
 }
 
 static void test_vehicle(void **state)
@@ -132,20 +132,20 @@ static void test_defaults(void **state)
     (void)state;
     ld_model m;
     ld_error error;
-    ld_model_init(&m);
+    model_init(&m);
     assert_int_equal(m.tubes.modes.bending, 6);
     assert_int_equal(m.tubes.modes.torsion, 2);
     assert_int_equal(m.tubes.modes.elements, 60);
     assert_true(m.run.tolerance == 1e-5 && m.run.output_step_tube == 1e-4);
     assert_true(m.gravity == 9.80665 && m.firing_count == 1 && m.firing[0].tube == 1);
     assert_true(isnan(m.rocket.full.mass));
-    assert_int_equal(ld_model_check(&m, &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "environment.ground: not computed; call ld_model_complete()");
-    ld_model_complete(&m);
-    assert_int_equal(ld_model_check(&m, &error), LD_ERR_INPUT);
+    assert_int_equal(model_check(&m, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "environment.ground: not computed; call model_complete()");
+    model_complete(&m);
+    assert_int_equal(model_check(&m, &error), LD_ERR_INPUT);
     assert_string_equal(error.text,
                         "tubes.length: nan m is not allowed; expected > 0 and <= 100 m");
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 int main(void)

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "figures/plot.h"
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/made_launch.h"
 #include "support/scratch.h"
 
@@ -241,7 +241,7 @@ static void test_map_of_an_ellipsoid(void **state)
     ld_output *output;
     history_data read;
     assert_int_equal(
-        ld_scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", sets, 3, &model, &messages), LD_OK);
+        scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", sets, 3, &model, &messages), LD_OK);
     assert_int_equal(ld_simulation_create(&model, &simulation, NULL), LD_OK);
     assert_int_equal(ld_output_open(in("round"), &model, false, &output, NULL), LD_OK);
     const ld_run_options options = {.sink = ld_output_sink(output)};
@@ -292,7 +292,7 @@ static void test_map_of_an_ellipsoid(void **state)
     fclose(file);
     history_free(&read);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 static const char *script_of(const history_data *history, size_t runs, const char *name)

@@ -5,10 +5,10 @@
 #include <sys/stat.h>
 
 #include "launchdyn/output.h"
-#include "launchdyn/scenario.h"
 #include "math/mat3.h"
 #include "math/quaternion.h"
 #include "results/history.h"
+#include "scenario/scenario.h"
 #include "simulation/study_results.h"
 #include "support/column_book.h"
 #include "support/scratch.h"
@@ -47,8 +47,8 @@ static void run_example(finished_run *run)
     ld_error error;
     ld_simulation *simulation;
     ld_output *output;
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/reference.yaml", sets, sizeof sets / sizeof *sets,
-                         &run->model, &messages)) {
+    if (scenario_read(LD_SOURCE_DIR "/examples/reference.yaml", sets, sizeof sets / sizeof *sets,
+                      &run->model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -704,7 +704,7 @@ static int clear(void **state)
 {
     finished_run *run = *state;
     history_free(&run->tube);
-    ld_model_free(&run->model);
+    model_clear(&run->model);
     free(run);
     return scratch_remove(state);
 }

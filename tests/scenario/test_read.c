@@ -8,8 +8,8 @@
 
 #include <unistd.h>
 
-#include "launchdyn/scenario.h"
 #include "model/field.h"
+#include "scenario/scenario.h"
 #include "support/model_compare.h"
 #include "support/reference_model.h"
 
@@ -28,7 +28,7 @@ static ld_model read_model(const char *name, const char *const *sets, size_t cou
     ld_model model;
     ld_messages messages;
     snprintf(path, sizeof path, "%s/%s", LD_SOURCE_DIR, name);
-    ld_status status = ld_scenario_read(path, sets, count, &model, &messages);
+    ld_status status = scenario_read(path, sets, count, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     assert_int_equal(messages.count, 0);
@@ -49,8 +49,8 @@ static ld_model read_text(const char *text, const char *const *sets, size_t coun
 {
     ld_model model;
     ld_messages messages;
-    ld_status status = ld_scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
-                                             sets, count, &model, &messages);
+    ld_status status = scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
+                                          sets, count, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     return model;
@@ -90,7 +90,7 @@ static void test_values(void **state)
     assert_true(m.run.end == LD_END_TIP && m.run.lead_in == 0);
     assert_true(m.run.output_step_lead_in == 1e-4 && m.run.output_step_tube == 1e-4);
     CHECK_BELOW("stuck time, end of thrust + 1 s", m.run.stuck_time - 3.55, 1e-15);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // Stiffnesses of a ring by numerical integration over its wall.
@@ -111,7 +111,7 @@ static void test_ring(void **state)
     CHECK_BELOW("bending stiffness", s->bending_stiffness / (210e9 * second) - 1, 1e-9);
     CHECK_BELOW("torsion stiffness", s->torsion_stiffness / (210e9 / 2.6 * 2 * second) - 1, 1e-9);
     CHECK_BELOW("polar inertia", s->polar_inertia / (7850 * 2 * second) - 1, 1e-9);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // Largest relative difference of the numbers that both models have; choices and counts are equal.
@@ -164,7 +164,7 @@ static void test_reference_model(void **state)
     filled.tubes.section[0].torsion_constant = read.tubes.section[0].torsion_constant;
     CHECK_BELOW("largest relative difference", difference(&scenario_block, &read, &filled), 1e-14);
     reference_model_free(&filled);
-    ld_model_free(&read);
+    model_clear(&read);
 }
 
 // The three ways to give a section are one.
@@ -196,9 +196,9 @@ static void test_section_forms(void **state)
         assert_true(s->bending_stiffness == r->bending_stiffness);
         assert_true(s->torsion_stiffness == r->torsion_stiffness);
         assert_true(s->polar_inertia == r->polar_inertia);
-        ld_model_free(&m);
+        model_clear(&m);
     }
-    ld_model_free(&ring);
+    model_clear(&ring);
 }
 
 // An included file lies below; mappings merge, list members by name, everything else is replaced.
@@ -213,17 +213,17 @@ static void test_include(void **state)
     assert_true(other.rocket.eccentricity[0] == 0.0005 && other.rocket.eccentricity[1] == -0.0003);
     assert_true(other.rocket.motor.misalignment[1] == -0.0005);
     assert_true(other.rocket.motor.thrust.rows == 4 && other.rocket.full.mass == 60);
-    ld_model_free(&other);
+    model_clear(&other);
     other = read_model("examples/smooth.yaml", NULL, 0);
     assert_int_equal(other.tubes.slot.kind, LD_SLOT_NONE);
-    ld_model_free(&other);
+    model_clear(&other);
     // with the overrides taken back, an including file is the included one
     const char *const back[] = {"title=Reference launcher on a fixed base",
                                 "tubes.slot.angle=4 deg"};
     other = read_model("examples/straight.yaml", back, 2);
     assert_true(same_model(&fixed, &other));
-    ld_model_free(&other);
-    ld_model_free(&fixed);
+    model_clear(&other);
+    model_clear(&fixed);
 }
 
 static void test_overrides(void **state)
@@ -259,7 +259,7 @@ static void test_overrides(void **state)
         "torsion stiffness by G",
         m.tubes.section[0].torsion_stiffness / (80e9 * m.tubes.section[0].torsion_constant) - 1,
         1e-15);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // Later overrides win, and one may open a block that another fills.
@@ -272,7 +272,7 @@ static void test_override_order(void **state)
     ld_model m = read_model("examples/fixed.yaml", sets, 5);
     assert_true(m.tubes.slot.kind == LD_SLOT_HELIX && m.tubes.slot.radius == 0.08);
     assert_true(m.tubes.slot.friction == 0 && m.rocket.full.mass == 62);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 static void test_engine_file(void **state)
@@ -284,7 +284,7 @@ static void test_engine_file(void **state)
     assert_true(thrust->data[0] == 0 && thrust->data[1] == 0); // implied by the format
     assert_true(thrust->data[2] == 0.004 && thrust->data[3] == 4200);
     assert_true(thrust->data[16] == 2.55 && thrust->data[17] == 0);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // Writes a file into the build folder and reads the example with `set` pointing at it.
@@ -312,7 +312,7 @@ static void test_engine_from_zero(void **state)
     const ld_table *thrust = &m.rocket.motor.thrust;
     assert_true(thrust->rows == 4 && thrust->data[0] == 0 && thrust->data[1] == 5);
     assert_true(thrust->data[2] == 0.5 && thrust->data[4] == 0.5 && thrust->data[5] == 4);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 static void test_motion_file(void **state)
@@ -329,7 +329,7 @@ static void test_motion_file(void **state)
     assert_true(motion->data[0] == -0.5 && motion->data[2] == 0.02 && motion->data[5] == 0.005);
     CHECK_BELOW("yaw, 90 deg", motion->data[4] - pi / 2, 1e-16);
     assert_true(motion->data[7] == 0 && motion->data[13] == 7);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // ---- printing and reading again
@@ -339,7 +339,7 @@ static void check_round_trip(const ld_model *model)
     char *text = print_model(model);
     ld_model again = read_text(text, NULL, 0);
     assert_true(same_model(model, &again));
-    ld_model_free(&again);
+    model_clear(&again);
     free(text);
 }
 
@@ -351,7 +351,7 @@ static void test_round_trip(void **state)
         snprintf(name, sizeof name, "examples/%s", examples[i]);
         ld_model m = read_model(name, NULL, 0);
         check_round_trip(&m);
-        ld_model_free(&m);
+        model_clear(&m);
     }
 }
 
@@ -393,9 +393,9 @@ static void test_round_trip_of_random_bits(void **state)
         snprintf(name, sizeof name, "examples/%s", examples[i % EXAMPLES]);
         ld_model m = read_model(name, NULL, 0);
         shake(&scenario_block, &m, &seed);
-        ld_model_complete(&m);
+        model_complete(&m);
         check_round_trip(&m);
-        ld_model_free(&m);
+        model_clear(&m);
     }
 }
 
@@ -406,7 +406,7 @@ static void test_awkward_title(void **state)
     free(m.title);
     m.title = strdup("\"quoted\", \\back: #slash\ttab\nline \xc3\xa9\xe2\x82\xac \x01");
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // ---- the program's surroundings
@@ -432,7 +432,7 @@ static void test_locale(void **state)
     if (!set_comma_locale()) {
         printf("    no locale with a decimal comma here\n");
         free(text);
-        ld_model_free(&before);
+        model_clear(&before);
         skip();
     }
     char comma[16];
@@ -443,8 +443,8 @@ static void test_locale(void **state)
     assert_string_equal(comma, "1,5");
     assert_true(same_model(&before, &after));
     assert_string_equal(text, text_after);
-    ld_model_free(&before);
-    ld_model_free(&after);
+    model_clear(&before);
+    model_clear(&after);
     free(text);
     free(text_after);
 }
@@ -457,18 +457,18 @@ static void test_failures(void **state)
     ld_messages messages;
     memset(&model, 0x5a, sizeof model);
     memcpy(&untouched, &model, sizeof model);
-    assert_int_equal(ld_scenario_read("/nowhere/at/all.yaml", NULL, 0, &model, &messages),
+    assert_int_equal(scenario_read("/nowhere/at/all.yaml", NULL, 0, &model, &messages),
                      LD_ERR_FILE);
     assert_int_equal(messages.count, 1);
     assert_int_equal(messages.item[0].line, 0);
     assert_string_equal(messages.item[0].text,
                         "file \"/nowhere/at/all.yaml\" cannot be read: No such file or directory");
     ld_messages_free(&messages);
-    assert_int_equal(ld_scenario_read("/dev/zero", NULL, 0, &model, &messages), LD_ERR_FILE);
+    assert_int_equal(scenario_read("/dev/zero", NULL, 0, &model, &messages), LD_ERR_FILE);
     ld_messages_free(&messages);
     const char bad[] = "launchdyn: 1\ntitle: \xff\xfe\n";
     assert_int_equal(
-        ld_scenario_read_text(bad, sizeof bad - 1, "bad", NULL, NULL, 0, &model, &messages),
+        scenario_read_text(bad, sizeof bad - 1, "bad", NULL, NULL, 0, &model, &messages),
         LD_ERR_INPUT);
     assert_string_equal(messages.item[0].text, "not valid text: invalid leading UTF-8 octet");
     assert_int_equal(messages.item[0].line, 2);
@@ -493,9 +493,8 @@ static void test_sizes(void **state)
         for (size_t k = 0; k < length; k++)
             text[k] = patterns[i][k % step];
         clock_t begin = clock();
-        assert_int_equal(
-            ld_scenario_read_text(text, length, "big", NULL, NULL, 0, &model, &messages),
-            LD_ERR_INPUT);
+        assert_int_equal(scenario_read_text(text, length, "big", NULL, NULL, 0, &model, &messages),
+                         LD_ERR_INPUT);
         printf("    CPU time for 3 MB of pattern %zu: %.2f s\n", i,
                (double)(clock() - begin) / CLOCKS_PER_SEC);
         CHECK_WITHIN("messages", (double)messages.count, 1, 100);

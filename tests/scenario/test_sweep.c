@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/model_compare.h"
 
 static ld_status read_point(const char *text, const char *const *sets, size_t count, int point,
                             ld_model *model, ld_messages *messages)
 {
-    return ld_scenario_read_text_point(text, strlen(text), "text", LD_SOURCE_DIR "/examples", sets,
-                                       count, point, model, messages);
+    return scenario_read_text_point(text, strlen(text), "text", LD_SOURCE_DIR "/examples", sets,
+                                    count, point, model, messages);
 }
 
 static ld_model read_good(const char *text, const char *const *sets, size_t count, int point)
@@ -78,7 +78,7 @@ static void test_axes(void **state)
             number = number * model.sweep[i].count + ld_scenario_value(&model, point, i);
         assert_int_equal(number, point - 1);
     }
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Each point against the plain scenario with overrides, and against the printed sweep's.
@@ -101,13 +101,13 @@ static void test_points(void **state)
         assert_true(same_model(&one, &again));
         assert_true(same_but_sweep(&one, &other));
         assert_int_equal(one.firing_count, ld_scenario_value(&nominal, point, 1) ? 1 : 3);
-        ld_model_free(&one);
-        ld_model_free(&again);
-        ld_model_free(&other);
+        model_clear(&one);
+        model_clear(&again);
+        model_clear(&other);
     }
     free(printed);
-    ld_model_free(&nominal);
-    ld_model_free(&alone);
+    model_clear(&nominal);
+    model_clear(&alone);
 }
 
 // An override takes the axis of its key away, and is laid over the points otherwise.
@@ -135,14 +135,14 @@ static void test_several_keys(void **state)
     assert_true(same_model(&one, &again));
     ld_scenario_point_name(&nominal, 4, name, sizeof name);
     assert_string_equal(name, "gap 0.25 mm, base.speed 15 km/h");
-    ld_model_free(&one);
+    model_clear(&one);
     one = read_good(text, sets, 1, 0);
     assert_int_equal(ld_scenario_points(&one), 2);
     free(printed);
-    ld_model_free(&nominal);
-    ld_model_free(&other);
-    ld_model_free(&one);
-    ld_model_free(&again);
+    model_clear(&nominal);
+    model_clear(&other);
+    model_clear(&one);
+    model_clear(&again);
 }
 
 static void test_overrides(void **state)
@@ -155,16 +155,16 @@ static void test_overrides(void **state)
     assert_int_equal(model.sweep_count, 2);
     assert_int_equal(ld_scenario_points(&model), 4);
     assert_string_equal(model.sweep[0].path, "firing.order");
-    ld_model_free(&model);
+    model_clear(&model);
     model = read_good(swept, sets, 4, 3);
     CHECK_NEAR("speed [m/s]", model.base.vehicle.speed, 20 / 3.6, 1e-15);
     assert_true(model.rocket.full.mass == 61 && model.rocket.adaptor[0].clearance == 0.22e-3);
     assert_true(model.firing_count == 1 && model.rocket.lock.release_force == 7000);
-    ld_model_free(&model);
+    model_clear(&model);
     static const char *const without[] = {"sweep="};
     model = read_good(swept, without, 1, 1);
     assert_true(model.sweep_count == 0 && ld_scenario_points(&model) == 1);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // The longest step follows a swept tolerance, unless it is given.
@@ -182,8 +182,8 @@ static void test_longest_step(void **state)
         assert_non_null(strstr(printed, point == 2 ? "  max_step: 0.0005023772863019"
                                                    : "  max_step: 0.0002 s"));
         free(printed);
-        ld_model_free(&model);
-        ld_model_free(&other);
+        model_clear(&model);
+        model_clear(&other);
     }
 }
 
@@ -215,10 +215,10 @@ static void test_messages(void **state)
     char name[128];
     ld_scenario_point_name(&model, 3, name, sizeof name);
     assert_string_equal(name, "firing {order: [3, 19], interval: 1 s}, tubes.modes.elements 10");
-    ld_model_free(&model);
+    model_clear(&model);
     model = read_good(text, NULL, 0, 1);
     assert_true(model.tubes.modes.elements == 10 && model.firing[0].tube == 2);
-    ld_model_free(&model);
+    model_clear(&model);
     expect_message(text, 2, "tubes.modes.bending", 50, 20, "need at least 6 elements, not 5");
     expect_message(text, 3, "firing.order.2", 4, 37, "the layout has tubes 1 to 18");
     expect_message(text, 5, "sweep", 0, 0, "no point 5: they go from 1 to 4");
@@ -245,12 +245,12 @@ static void test_texts(void **state)
         printf("    %s\n", model.sweep[0].value[point - 1]);
         assert_true(same_model(&one, &again));
         assert_true((point == 6) == (one.title == NULL));
-        ld_model_free(&one);
-        ld_model_free(&again);
+        model_clear(&one);
+        model_clear(&again);
     }
     assert_string_equal(model.sweep[0].value[6], "plain text");
     free(printed);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 int main(void)

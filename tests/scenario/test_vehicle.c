@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/model_compare.h"
 
 static const double pi = 3.14159265358979323846;
@@ -17,7 +17,7 @@ static ld_model read_model(const char *name, const char *const *sets, size_t cou
     ld_model model;
     ld_messages messages;
     snprintf(path, sizeof path, "%s/%s", LD_SOURCE_DIR, name);
-    ld_status status = ld_scenario_read(path, sets, count, &model, &messages);
+    ld_status status = scenario_read(path, sets, count, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     return model;
@@ -46,14 +46,13 @@ static void check_round_trip(const ld_model *model)
     ld_model again;
     ld_messages messages;
     ld_error error = {0};
-    ld_status status =
-        ld_scenario_read_text(text, length, "printed", "", NULL, 0, &again, &messages);
+    ld_status status = scenario_read_text(text, length, "printed", "", NULL, 0, &again, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     assert_true(same_model(model, &again));
-    if (ld_model_check(&again, &error) != LD_OK)
+    if (model_check(&again, &error) != LD_OK)
         fail_msg("%s", error.text);
-    ld_model_free(&again);
+    model_clear(&again);
     free(text);
 }
 
@@ -107,7 +106,7 @@ static void test_reference(void **state)
     assert_false(azimuth->lock.present || elevation->lock.present);
     assert_true(m.tubes.empty_count == 0 && m.run.coupling_step == 0 && m.run.lead_in == 3);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // What may be left out, and what it is then.
@@ -127,7 +126,7 @@ static void test_defaults(void **state)
     assert_true(azimuth->friction.viscous == 0 && azimuth->friction.coulomb == 0);
     assert_true(azimuth->friction.rate == 1e-3 && azimuth->stabiliser.ki == 0);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 static void test_roads(void **state)
@@ -137,7 +136,7 @@ static void test_roads(void **state)
     assert_true(m.base.vehicle.road.form == LD_ROAD_FLAT);
     assert_true(m.base.vehicle.road.iso_class == LD_ROAD_SMOOTH);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
     m = READ("base.road=",
              "base.road={class: D, tracks: coherent, coherence: [[0.01 1/m, 1], [5 m-1, 20 %]], "
              "seed: 9, harmonics: 50, wavelengths: 50 2000 cm, "
@@ -164,13 +163,13 @@ static void test_roads(void **state)
     assert_true(road->profile.rows == 3 && road->profile.columns == 3);
     assert_true(road->profile.data[3] == 0 && road->profile.data[5] == 0.003);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
     m = READ("base.road=",
              "base.road={tracks: independent, class: none, table: [[-40 m, 0 mm], [9 m, 2 mm]]}");
     assert_true(m.base.vehicle.road.profile.columns == 2);
     assert_true(m.base.vehicle.road.profile.data[3] == 0.002);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // Profiles and commands from files, for both tracks or each.
@@ -188,13 +187,13 @@ static void test_files(void **state)
     assert_true(command->rows == 2 && command->data[0] == -0.5 && command->data[2] == 1.5);
     CHECK_BELOW("command in a file, 30 deg", command->data[3] - pi / 6, 1e-16);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
     m = READ("base.road=", "base.road={table: " LD_BINARY_DIR "/each.csv}");
     profile = &m.base.vehicle.road.profile;
     assert_true(profile->rows == 2 && profile->columns == 3 && profile->data[0] == -40);
     assert_true(profile->data[1] == 0.001 && profile->data[2] == 0.02 && profile->data[5] == 0.04);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 static void test_wheels(void **state)
@@ -210,11 +209,11 @@ static void test_wheels(void **state)
     assert_true(v->suspension.bump_stop.compression == 0.09);
     assert_true(isnan(v->suspension.bump_stop.extension));
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
     m = READ("base.speed=0 m/s", "base.drive.wheels=[]");
     assert_true(m.base.vehicle.speed == 0 && !m.base.vehicle.wheel[0].driven);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 static void test_platforms(void **state)
@@ -233,7 +232,7 @@ static void test_platforms(void **state)
     assert_true(m.tubes.empty_count == 3 && m.tubes.empty[1] == 18 && m.tubes.empty[2] == 7);
     assert_true(m.run.coupling_step == 1e-4);
     check_round_trip(&m);
-    ld_model_free(&m);
+    model_clear(&m);
 }
 
 // The marching examples are the reference launcher but for speed and title.
@@ -251,8 +250,8 @@ static void test_marching(void **state)
         free(m.title);
         m.title = strdup(reference.title);
         assert_true(same_model(&m, &reference));
-        ld_model_free(&m);
-        ld_model_free(&reference);
+        model_clear(&m);
+        model_clear(&reference);
     }
 }
 

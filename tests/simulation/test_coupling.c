@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 

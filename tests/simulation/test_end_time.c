@@ -2,7 +2,7 @@
 // their way to the ground.
 #include "support/check.h"
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/recorded_run.h"
 
 static ld_model fixed_model(const char *end)
@@ -10,7 +10,7 @@ static ld_model fixed_model(const char *end)
     ld_model model;
     ld_messages messages;
     const char *set[] = {end, "run.output_step.tube=5 ms"};
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", set, 2, &model, &messages)) {
+    if (scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", set, 2, &model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -78,7 +78,7 @@ static void flies_until_then(void **state)
     assert_true(rows.last[0] == 1.5 && rocket->final.t == 1.5);
     assert_true(isnan(rocket->flight.t_impact) && isnan(rocket->flight.range));
     assert_true(isfinite(rocket->flight.apogee));
-    ld_model_free(&model);
+    model_clear(&model);
 
     // a nanosecond before it lands
     ld_model whole = fixed_model("run.end=landing");
@@ -86,7 +86,7 @@ static void flies_until_then(void **state)
     whole.run.flight_limit = 100;
     ld_summary landed = fly(&whole, &rows);
     assert_true(isfinite(landed.rocket[0].flight.t_impact));
-    ld_model_free(&whole);
+    model_clear(&whole);
     double t = landed.rocket[0].flight.t_impact;
     char end[64];
     snprintf(end, sizeof end, "run.end=%.17g s", t - 1e-9);
@@ -97,7 +97,7 @@ static void flies_until_then(void **state)
     assert_true(isnan(cut.rocket[0].flight.t_impact));
     CHECK_BELOW("a nanosecond before the ground [m]",
                 fmax(fabs(a[0] - b[0]), fmax(fabs(a[1] - b[1]), fabs(a[2] - b[2]))), 1e-6);
-    ld_model_free(&before);
+    model_clear(&before);
 }
 
 // Later than the impact: the flight ends on the ground, the launcher's motion at the time given.
@@ -113,7 +113,7 @@ static void ends_on_the_ground(void **state)
     printf("    on the ground after %.4f s\n", summary.rocket[0].flight.t_impact);
     assert_true(summary.rocket[0].flight.t_impact < 0.9);
     assert_true(rows.last[0] == summary.rocket[0].flight.t_impact);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Below the ground nothing can fly; that the launcher goes on is all that was asked for.
@@ -128,7 +128,7 @@ static void leaves_below_the_ground(void **state)
     assert_true(rows.launcher == 0.2 && summary.note_count == 1);
     printf("    %s\n", summary.note[0]);
     assert_non_null(strstr(summary.note[0], "the rocket of tube 8 does not fly"));
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // The end comes while the rocket is in the tube: it has not left, nothing flies.
@@ -140,7 +140,7 @@ static void ends_in_the_tube(void **state)
     ld_summary summary = fly(&model, &rows);
     assert_true(summary.complete && !summary.rocket[0].flown && rows.flights == 0);
     assert_true(isnan(summary.rocket[0].t_rear) && rows.launcher == 0.1);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 int main(void)

@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
 #include "math/mat3.h"
-#include "simulation/simulation.h"
+#include "scenario/scenario.h"
+#include "simulation/launch_state.h"
 #include "simulation/study_results.h"
 #include "support/draw.h"
 #include "support/recorded_run.h"
@@ -39,7 +39,7 @@ static void read_example(const char *file, const char *const *sets, size_t count
     char path[256];
     ld_messages messages = {0};
     snprintf(path, sizeof path, "%s/examples/%s", LD_SOURCE_DIR, file);
-    if (ld_scenario_read(path, sets, count, model, &messages))
+    if (scenario_read(path, sets, count, model, &messages))
         ld_messages_print(&messages, stderr);
 }
 
@@ -207,7 +207,7 @@ static void check_run(const char *file, const char *const *sets, size_t count, i
     for (int k = 0; k < FIGURES; k++)
         CHECK_BELOW(name[k], worst[k], bound[k]);
     recorded_run_free(&run);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // A deck that turns by 40 mrad/s; a mass centre off the axis that moves forward or back.
@@ -293,7 +293,7 @@ static void test_fixed_base(void **state)
     }
     CHECK_BELOW("pitch in I from both angles and the elevation [rad]", angle, 3e-16);
     recorded_run_free(&run);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // ---- steep launchers ----
@@ -329,7 +329,7 @@ static void test_same_launch_wherever_it_points(void **state)
     for (int k = 0; k < FIGURES; k++)
         CHECK_BELOW(name[k], worst[k],
                     strstr(name[k], "rate") || strstr(name[k], ".v") ? 3e-8 : 1.5e-9);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // On a ship, from 20 over 75 to 89 degrees of elevation, angles and rates go with the share of
@@ -363,7 +363,7 @@ static void test_steep_on_a_ship(void **state)
                  is[2].rocket[0].yaw - is[1].rocket[0].yaw, 0.7, 0.9);
     CHECK_WITHIN("yaw rate in I [rad/s]", is[2].rocket[0].yaw_rate - is[1].rocket[0].yaw_rate, -0.8,
                  -0.6);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 int main(void)

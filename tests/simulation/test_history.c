@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launchdyn/scenario.h"
-#include "launchdyn/simulation.h"
 #include "math/mat3.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 
 enum { ROWS = 10000, COLUMNS = 32 };
 
@@ -88,14 +88,14 @@ static record *record_launch(const char *scenario, const char *set)
     // so tight that the differences between rows are the error
     const char *sets[] = {set, "run.tolerance=1e-9",
                           "run.output_step={lead_in: 1 ms, tube: 0.02 ms}"};
-    if (ld_scenario_read(scenario, sets, 3, &model, &messages))
+    if (scenario_read(scenario, sets, 3, &model, &messages))
         ld_messages_print(&messages, stderr);
     assert_int_equal(ld_simulation_create(&model, &simulation, NULL), LD_OK);
     ld_sink sink = {.self = kept, .begin = begin, .row = row};
     assert_int_equal(
         ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, NULL), LD_OK);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
     return kept;
 }
 

@@ -2,7 +2,7 @@
 // and goes within a few milliseconds of smooth motion is found with it, as it is not without.
 #include <string.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 
@@ -14,8 +14,8 @@ static ld_model read_model(const char *text, const char *tolerance, const char *
     ld_messages messages;
     snprintf(set[0], sizeof set[0], "run.tolerance=%s", tolerance);
     snprintf(set[1], sizeof set[1], "run.max_step=%s", max_step ? max_step : "");
-    ld_status status = ld_scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
-                                             sets, max_step ? 2 : 1, &model, &messages);
+    ld_status status = scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
+                                          sets, max_step ? 2 : 1, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     return model;
@@ -26,7 +26,7 @@ static ld_summary run(const char *text, const char *tolerance, const char *max_s
 {
     ld_model model = read_model(text, tolerance, max_step);
     ld_summary summary = summary_of_run(&model);
-    ld_model_free(&model);
+    model_clear(&model);
     return summary;
 }
 

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "support/multibody_case.h"
 #include "support/reference_model.h"
 

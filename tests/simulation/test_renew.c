@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "simulation/simulation.h"
 
 static void read_example(const char *name, ld_model *model)
@@ -12,7 +12,7 @@ static void read_example(const char *name, ld_model *model)
     char path[256];
     ld_messages messages = {0};
     snprintf(path, sizeof path, LD_SOURCE_DIR "/examples/%s", name);
-    assert_int_equal(ld_scenario_read(path, NULL, 0, model, &messages), LD_OK);
+    assert_int_equal(scenario_read(path, NULL, 0, model, &messages), LD_OK);
 }
 
 static void run(ld_simulation *simulation, ld_summary *summary)
@@ -70,8 +70,8 @@ static void test_same_bits(void **state)
     check_same(&simulation, &flight);
     check_same(&simulation, &model);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
-    ld_model_free(&flight);
+    model_clear(&model);
+    model_clear(&flight);
 }
 
 // What fails leaves a simulation that the next sample can use.
@@ -96,7 +96,7 @@ static void test_after_failure(void **state)
     model.rocket.lock.release_force = force;
     check_same(&simulation, &model);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 int main(void)

@@ -1,5 +1,5 @@
 // Stabilisers that cannot hold their platforms are refused before the run, and no others.
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 

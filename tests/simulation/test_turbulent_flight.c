@@ -1,7 +1,7 @@
 // A flight through turbulence: what acts is the turbulence of the distance flown through the air,
 // and it is the same at any tolerance.
 #include "environment/turbulence.h"
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 
@@ -22,8 +22,8 @@ static void read_model_of(const char *const *sets, size_t count, ld_model *model
                           int seed)
 {
     ld_messages messages = {0};
-    if (ld_scenario_read_text(scenario, sizeof scenario - 1, "ball", ".", sets, count, model,
-                              &messages)) {
+    if (scenario_read_text(scenario, sizeof scenario - 1, "ball", ".", sets, count, model,
+                           &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -71,7 +71,7 @@ static void compare_along_path(const char *const *sets, size_t count)
     CHECK_BELOW("less that of the path [m/s]", error, 3e-4);
     turbulence_free(&air);
     recorded_run_free(&run);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 static void test_wind_of_the_path(void **state)
@@ -89,7 +89,7 @@ static ld_flight_summary fly(double tolerance, int seed)
     ld_model model;
     read_model(&model, tolerance, seed);
     ld_flight_summary flight = summary_of_run(&model).rocket[0].flight;
-    ld_model_free(&model);
+    model_clear(&model);
     return flight;
 }
 

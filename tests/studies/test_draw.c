@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "launchdyn/scenario.h"
 #include "math/distributions.h"
+#include "scenario/scenario.h"
 #include "studies/draw.h"
 #include "studies/sample.h"
 
@@ -109,8 +109,8 @@ static ld_model read_text(const char *factors)
     int length =
         snprintf(text, sizeof text,
                  "include: fixed.yaml\nscatter:\n  seed: 5\n  samples: 8\n  factors:\n%s", factors);
-    ld_status status = ld_scenario_read_text(text, (size_t)length, "text",
-                                             LD_SOURCE_DIR "/examples", NULL, 0, &model, &messages);
+    ld_status status = scenario_read_text(text, (size_t)length, "text", LD_SOURCE_DIR "/examples",
+                                          NULL, 0, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     return model;
@@ -157,7 +157,7 @@ static void test_possible_far_out(void **state)
         normal.between[1] = nominal + 0.5 * ends[k][1];
         assert_true(factor_is_possible(&model, &normal, why, sizeof why) == (k < 4));
     }
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 static void test_permutation(void **state)
@@ -237,8 +237,8 @@ static void test_factors_of_a_scenario(void **state)
     assert_true(field_locate(&two, "environment.ground", &at, why, sizeof why));
     field_set(&two, &at, -2);
     assert_true(two.environment.ground_height == -2);
-    ld_model_free(&one);
-    ld_model_free(&two);
+    model_clear(&one);
+    model_clear(&two);
 }
 
 // Several keys under one name: drawn once by the name, set all; the printed scenario reads back.
@@ -275,7 +275,7 @@ static void test_several_keys(void **state)
     CHECK_WITHIN("the largest from the middle [mm]", spread * 1e3, 0.05, 0.1);
     sample_free(sample);
     sampler_free(&sampler);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // The longest step of sample 3, whose tolerance is drawn.
@@ -295,7 +295,7 @@ static double longest_step(const char *factors, double given, double *tolerance)
     *tolerance = sample->model.run.tolerance;
     sample_free(sample);
     sampler_free(&sampler);
-    ld_model_free(&model);
+    model_clear(&model);
     return step;
 }
 

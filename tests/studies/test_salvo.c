@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
 #include "launchdyn/study.h"
+#include "scenario/scenario.h"
 #include "simulation/study_results.h"
 #include "support/recorded_run.h"
 
@@ -20,8 +20,8 @@ static ld_model read_text(const char *text)
 {
     ld_model model;
     ld_messages messages;
-    ld_status status = ld_scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
-                                             NULL, 0, &model, &messages);
+    ld_status status = scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
+                                          NULL, 0, &model, &messages);
     ld_messages_print(&messages, stdout);
     assert_int_equal(status, LD_OK);
     return model;
@@ -60,8 +60,8 @@ static void compare(const char *what, const char *plain, const char *scattered)
     assert_false(isnan(a.rocket[2].t_rear));
     CHECK_BELOW(what, differences(&a, &b), 0);
     ld_sample_free(sample);
-    ld_model_free(&sequence);
-    ld_model_free(&study);
+    model_clear(&sequence);
+    model_clear(&study);
 }
 
 static void test_rockets_alike(void **state)
@@ -115,8 +115,8 @@ static void check_weight(const char *what, const char *text)
                     (tyre_forces(drawn) - weight - errors * model.gravity) / weight, 5e-15);
         ld_sample_free(sample);
     }
-    ld_model_free(&model);
-    ld_model_free(&plain);
+    model_clear(&model);
+    model_clear(&plain);
 }
 
 static void test_masses_aboard(void **state)
@@ -145,7 +145,7 @@ static void test_interval(void **state)
         ld_sample_free(sample);
     }
     CHECK_WITHIN("intervals differ [s]", fabs(intervals[0] - intervals[1]), 1e-3, 0.2);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 int main(void)

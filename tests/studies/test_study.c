@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "studies/until.h"
 
 #define LAUNCH                                                                                     \

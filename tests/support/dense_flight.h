@@ -4,7 +4,7 @@
 #ifndef LD_TESTS_SUPPORT_DENSE_FLIGHT_H
 #define LD_TESTS_SUPPORT_DENSE_FLIGHT_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 
 typedef struct dense_flight_end {
     double t;           // [s] of the impact on the run's clock

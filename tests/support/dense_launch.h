@@ -14,7 +14,7 @@
 #include <stdbool.h>
 
 #include "elements/flexible_tube.h"
-#include "launchdyn/model.h"
+#include "model/model.h"
 
 enum { DENSE_MAX_MODES = 28, DENSE_MAX_COORDINATES = DENSE_MAX_MODES + 12 };
 

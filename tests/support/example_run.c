@@ -1,7 +1,7 @@
 #include "support/example_run.h"
 
 #include "launchdyn/output.h"
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 
 void example_run(const char *folder, const char *name, const char *const *sets, size_t count,
@@ -14,7 +14,7 @@ void example_run(const char *folder, const char *name, const char *const *sets, 
     ld_output *output = NULL;
     ld_simulation *simulation = NULL;
     snprintf(path, sizeof path, "%s/examples/%s", LD_SOURCE_DIR, name);
-    if (ld_scenario_read(path, sets, count, &model, &messages)) {
+    if (scenario_read(path, sets, count, &model, &messages)) {
         ld_messages_print(&messages, stderr);
         fail_msg("%s", path);
     }
@@ -25,7 +25,7 @@ void example_run(const char *folder, const char *name, const char *const *sets, 
         ld_output_finish(output, summary, &error))
         fail_msg("%s", error.text);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
     snprintf(path, sizeof path, "%s/history.h5", folder);
     if (history_read(path, read, &error))
         fail_msg("%s", error.text);

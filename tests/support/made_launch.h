@@ -5,9 +5,9 @@
 
 #include <stddef.h>
 
-#include "launchdyn/model.h"
 #include "launchdyn/results.h"
-#include "launchdyn/simulation.h"
+#include "model/model.h"
+#include "simulation/summary.h"
 
 enum { MADE_COLUMNS = 115 };
 

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"
@@ -251,7 +251,7 @@ static int run_random_model(int number, const ld_model *model)
     static ld_summary summary;
     watcher watch = {0};
     ld_sink sink = {.self = &watch, .begin = begin, .row = row};
-    if (ld_model_check(model, &error) || ld_simulation_create(model, &simulation, &error)) {
+    if (model_check(model, &error) || ld_simulation_create(model, &simulation, &error)) {
         printf("  %3d refused: %s\n", number, error.text);
         check_sentence(error.text);
         return 0;

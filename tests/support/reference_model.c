@@ -92,7 +92,7 @@ static void fill_rocket(ld_rocket *rocket)
 
 void reference_model(ld_model *model)
 {
-    ld_model_init(model);
+    model_init(model);
     static const char title[] = "Reference launcher, fixed base";
     model->title = malloc(sizeof title);
     memcpy(model->title, title, sizeof title);
@@ -176,6 +176,6 @@ void reference_vehicle(ld_model *model, double speed)
 
 void reference_model_free(ld_model *model)
 {
-    ld_model_free(model);
+    model_clear(model);
     memset(model, 0, sizeof *model);
 }

@@ -3,9 +3,9 @@
 #ifndef LD_TESTS_SUPPORT_REFERENCE_MODEL_H
 #define LD_TESTS_SUPPORT_REFERENCE_MODEL_H
 
-#include "launchdyn/model.h"
+#include "model/model.h"
 
-// Fills `model` on a fixed base; free with reference_model_free() or ld_model_free().
+// Fills `model` on a fixed base; free with reference_model_free() or model_clear().
 void reference_model(ld_model *model);
 
 // The same on its vehicle at `speed` [m/s], on a flat road.

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/recorded_run.h"
 
 #define TIGHT "run.tolerance=1e-9", "run.flight_tolerance=1e-10"
@@ -13,12 +13,12 @@ static ld_rocket_summary run_of(const char *const *set, size_t count, ld_summary
 {
     ld_model model;
     ld_messages messages;
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", set, count, &model, &messages)) {
+    if (scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", set, count, &model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
     *summary = summary_of_run(&model);
-    ld_model_free(&model);
+    model_clear(&model);
     return summary->rocket[0];
 }
 
@@ -79,12 +79,12 @@ static void impulse_over_mass(void **state)
         "run: {end: 3 s}\n";
     ld_model model;
     ld_messages messages;
-    if (ld_scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
+    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
     ld_summary summary = summary_of_run(&model);
-    ld_model_free(&model);
+    model_clear(&model);
     CHECK_NEAR("speed [m/s]", summary.rocket[0].final.velocity[0], 400, 1e-12);
     CHECK_NEAR("way [m]", summary.rocket[0].final.position[0], 800, 1e-11);
 }

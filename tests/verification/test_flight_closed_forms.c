@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
-#include "launchdyn/simulation.h"
 #include "math/quaternion.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 #include "support/recorded_run.h"
 
 static const double degree = 0.017453292519943295, g = 9.80665;
@@ -15,7 +15,7 @@ static ld_model read_text(const char *text)
 {
     ld_model model;
     ld_messages messages;
-    if (ld_scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
+    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -54,7 +54,7 @@ static void test_parabola(void **state)
     CHECK_NEAR("impact angle [deg]", rocket.flight.impact_angle / degree,
                atan2(g * t - vy, v) / degree, 1e-12);
     CHECK_NEAR("height of impact [m]", rocket.final.center[1], -3, 1e-12);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // An arc of a Kepler ellipse over a round Earth that does not turn: with l = r0 v cos(gamma) and
@@ -94,7 +94,7 @@ static void test_ellipse(void **state)
     CHECK_NEAR("latitude [rad]", rocket.final.latitude, north, 1e-14);
     CHECK_NEAR("longitude [rad]", rocket.final.longitude, east, 3e-14);
     CHECK_NEAR("altitude of the impact [m]", rocket.final.altitude, 400, 5e-9);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Without a height of its own the ground is as high as the site: half a circle of the orbit's
@@ -113,7 +113,7 @@ static void test_ground_of_site(void **state)
     CHECK_NEAR("altitude of the impact [m]", rocket.final.altitude, 1000, 5e-9);
     CHECK_NEAR("impact speed [m/s]", rocket.flight.impact_speed, 500, 2e-10);
     CHECK_NEAR("impact angle [deg]", rocket.flight.impact_angle / degree, 50, 2e-11);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Thrust along x without gravity: v = u ln(m0/m), with u the exhaust speed I/m_p of constant
@@ -139,7 +139,7 @@ static void test_rocket_equation(void **state)
     CHECK_NEAR("rear adaptor [m]", rocket.final.position[0], x, 3e-6);
     CHECK_NEAR("mass centre [m]", rocket.final.center[0], x + 1.3, 3e-6);
     CHECK_NEAR("end [s]", rocket.final.t, 3.5, 0);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // A free body without symmetry: energy and angular momentum in inertial axes.
@@ -175,7 +175,7 @@ static void test_free_body(void **state)
     CHECK_BELOW("angular momentum, relative", momentum, 1e-11);
     CHECK_BELOW("energy, relative", energy, 1e-11);
     recorded_run_free(&run);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // A symmetric body precesses about its angular momentum at L/J_t; its axis keeps the angle.
@@ -199,7 +199,7 @@ static void test_precession(void **state)
     CHECK_BELOW("axis", v3_norm(v3_sub(m3_column(A, 0), axis)), 1e-11);
     CHECK_NEAR("rate about y", rocket.final.rate[1], 0.1 * cos(own), 1e-11);
     CHECK_NEAR("rate about z", rocket.final.rate[2], 0.1 * sin(own), 1e-11);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // A torque fixed in a spinning body (thrust beside the axis, mass constant): in B the lateral rate
@@ -221,7 +221,7 @@ static void test_body_fixed_torque(void **state)
     CHECK_NEAR("rate about y", rocket.final.rate[1], M / (24 * k) * (1 - cos(k * 5)), 1e-11);
     CHECK_NEAR("rate about z", rocket.final.rate[2], M / (24 * k) * sin(k * 5), 1e-11);
     CHECK_NEAR("spin", rocket.final.rate[0], 30, 1e-12);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Falling from rest: v = v_t tanh(g t/v_t), fallen v_t^2/g ln cosh(g t/v_t).
@@ -240,7 +240,7 @@ static void test_terminal_speed(void **state)
     double v = sqrt(2 * 3 * g / (1.2 * 0.1 * 0.5));
     CHECK_NEAR("speed [m/s]", -rocket.final.velocity[1], v * tanh(g * 10 / v), 1e-9);
     CHECK_NEAR("fallen [m]", -rocket.final.position[1], v * v / g * log(cosh(g * 10 / v)), 2e-8);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Constant coefficients in uniform air along a straight level course without drag: roll obeys
@@ -265,7 +265,7 @@ static void test_fin_cant(void **state)
     double damping = 0.5 * 1.2 * V * S * d * d / 2 * 7;
     CHECK_NEAR("spin [rad/s]", rocket.final.rate[0],
                torque / damping * (1 - exp(-damping * 0.7 / 0.2)), 1e-9);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // Small pitch oscillation of a stable body: q_dd + 2 n q_d + w^2 q = 0 for the angle to a straight
@@ -289,7 +289,7 @@ static void test_pitch_oscillation(void **state)
     double n = q * d * d / 2 * 300 / 24 / 2, w = sqrt(q * V * 6 * 0.3 / 24 - n * n);
     double t = 1.3, expected = 1e-6 * exp(-n * t) * (cos(w * t) - n / w * sin(w * t));
     CHECK_NEAR("pitch rate [rad/s]", rocket.final.rate[2] * 1e6, expected * 1e6, 2e-6);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // How a flight that cannot be flown ends.
@@ -305,7 +305,7 @@ static void expect_failure(const char *text, const char *message)
     assert_non_null(strstr(error.text, message));
     assert_false(summary.complete);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 static void test_failures(void **state)
@@ -348,7 +348,7 @@ static void test_ground(void **state)
     model.flight.velocity[1] = 0;
     rocket = fly(&model);
     CHECK_NEAR("lying on the ground [s]", rocket.flight.time_of_flight, 0, 1e-9);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 int main(void)

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
+#include "scenario/scenario.h"
 #include "support/recorded_run.h"
 
 static ld_model read_model(const char *name, const char *const *sets, size_t count)
@@ -13,7 +13,7 @@ static ld_model read_model(const char *name, const char *const *sets, size_t cou
     ld_messages messages;
     char path[128];
     snprintf(path, sizeof path, LD_SOURCE_DIR "/examples/%s", name);
-    if (ld_scenario_read(path, sets, count, &model, &messages)) {
+    if (scenario_read(path, sets, count, &model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -54,7 +54,7 @@ static void test_tolerance(void **state)
         CHECK_BELOW("impact at 1e-9 [m]", impact[4], 1e-5);
         CHECK_WITHIN("decades of the impact's error", log10(impact[0] / impact[4]), 2, 5);
         CHECK_WITHIN("decades of the apogee's error", log10(apogee[0] / apogee[4]), 1.5, 5);
-        ld_model_free(&model);
+        model_clear(&model);
     }
 }
 
@@ -82,8 +82,8 @@ static void test_hand_off(void **state)
     CHECK_BELOW("impact [m]", impact_apart(&flown, &other), 1e-9);
     CHECK_BELOW("impact from ignition [s]", flown.flight.t_impact - other.flight.t_impact, 1e-10);
     CHECK_BELOW("apogee [m]", flown.flight.apogee - other.flight.apogee, 1e-10);
-    ld_model_free(&launch);
-    ld_model_free(&alone);
+    model_clear(&launch);
+    model_clear(&alone);
 }
 
 int main(void)

@@ -4,15 +4,15 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
-#include "launchdyn/simulation.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 #include "support/dense_flight.h"
 
 static ld_model read_model(const char *const *sets, size_t count)
 {
     ld_model model;
     ld_messages messages;
-    if (ld_scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", sets, count, &model, &messages)) {
+    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", sets, count, &model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -61,7 +61,7 @@ static void compare(const char *what, const char *const *sets, size_t count, dou
         CHECK_NEAR("altitude of the impact [m]", ours->altitude, model.environment.ground_height,
                    5e-9);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 #define COMPARE(what, bound, ...)                                                                  \

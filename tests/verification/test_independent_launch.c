@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "support/dense_simulation.h"
 #include "support/reference_model.h"
 
@@ -237,7 +237,7 @@ static void run_scenario(void **state)
     reference_model(&model);
     model.tubes.modes.elements = 12; // the independent program's cost goes with them
     s->change(&model);
-    if (ld_model_check(&model, &error) || ld_simulation_create(&model, &simulation, &error) ||
+    if (model_check(&model, &error) || ld_simulation_create(&model, &simulation, &error) ||
         ld_simulation_run(simulation, NULL, &summary, &error))
         fail_msg("%s", error.text);
     flexible_tube tube;

@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/simulation.h"
+#include "simulation/summary.h"
 #include "support/dense_simulation.h"
 #include "support/reference_model.h"
 
@@ -312,7 +312,7 @@ static void run_scenario(void **state)
     rows kept = {.t_ignition = model.firing[0].at, .least_tyre = INFINITY};
     ld_sink sink = {.self = &kept, .begin = begin_rows, .row = keep_row};
     ld_run_options options = {.sink = &sink};
-    if (ld_model_check(&model, &error) || ld_simulation_create(&model, &simulation, &error) ||
+    if (model_check(&model, &error) || ld_simulation_create(&model, &simulation, &error) ||
         ld_simulation_run(simulation, &options, &summary, &error))
         fail_msg("%s", error.text);
     flexible_tube tube;

@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-#include "launchdyn/scenario.h"
-#include "launchdyn/simulation.h"
+#include "scenario/scenario.h"
+#include "simulation/summary.h"
 
 static const double degree = 0.017453292519943295;
 
@@ -69,7 +69,7 @@ static void simulate(int number, course *out)
     ld_summary summary;
     ld_error error;
     snprintf(name, sizeof name, LD_SOURCE_DIR "/tests/data/nesc/case%02d.yaml", number);
-    if (ld_scenario_read(name, NULL, 0, &model, &messages)) {
+    if (scenario_read(name, NULL, 0, &model, &messages)) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -81,7 +81,7 @@ static void simulate(int number, course *out)
     assert_int_equal(ld_simulation_run(simulation, &options, &summary, &error), LD_OK);
     assert_int_equal(out->rows, ROWS);
     ld_simulation_free(simulation);
-    ld_model_free(&model);
+    model_clear(&model);
 }
 
 // ---- what was published

@@ -1,8 +1,9 @@
 #include "model/field.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-void ld_model_init(ld_model *model)
+void model_init(ld_model *model)
 {
     memset(model, 0, sizeof *model);
     field_initialise(&scenario_block, model);
@@ -11,11 +12,18 @@ void ld_model_init(ld_model *model)
     model->environment.ground_height = NAN;
 }
 
-void ld_model_free(ld_model *model)
+void model_clear(ld_model *model)
 {
     field_release(&scenario_block, model);
-    ld_source_free(model->source);
-    ld_model_init(model);
+    source_free(model->source);
+    model_init(model);
+}
+
+void ld_model_free(ld_model *model)
+{
+    if (model)
+        model_clear(model);
+    free(model);
 }
 
 // Saint-Venant torsion and polar inertia of a ring; E A, E I, G I_t.
@@ -85,7 +93,7 @@ static void complete_max_step(ld_run_settings *run)
     run->max_step_completed = run->max_step;
 }
 
-void ld_model_complete(ld_model *model)
+void model_complete(ld_model *model)
 {
     ld_environment *environment = &model->environment;
     if (isnan(environment->ground_height))

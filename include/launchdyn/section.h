@@ -1,0 +1,41 @@
+/// Stretches of a slender tube or beam with constant section.
+#ifndef LAUNCHDYN_SECTION_H
+#define LAUNCHDYN_SECTION_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/// What a section is given by; the model computes the rest from it and the material.
+typedef enum ld_section_form {
+    LD_SECTION_STIFFNESS, ///< stiffnesses and masses per length, as they stand: nothing to compute
+    LD_SECTION_ANNULUS,   ///< inner and outer radius
+    LD_SECTION_AREA,      ///< area and second moments, with masses per length
+} ld_section_form;
+
+/// A stretch of the tube with constant section, from `from` to the next section's or to the end.
+typedef struct ld_section {
+    ld_section_form form;
+    double from;              ///< [m] station where it begins
+    double bore_radius;       ///< [m] inner radius
+    double outer_radius;      ///< [m] (annulus)
+    double area;              ///< [m2] A (area)
+    double second_moment;     ///< [m4] I (area)
+    double torsion_constant;  ///< [m4] I_t (area)
+    double mass_per_length;   ///< [kg/m]
+    double axial_stiffness;   ///< [N] E A
+    double bending_stiffness; ///< [N m2] E I, the same in both planes
+    double torsion_stiffness; ///< [N m2] G I_t
+    double polar_inertia;     ///< [kg m] rho I_p per length
+} ld_section;
+
+/// How the shapes of a tube or beam are held.
+typedef enum ld_mode_span { LD_SPAN_SUPPORTED, LD_SPAN_CLAMPED, LD_SPAN_FREE_FREE } ld_mode_span;
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+
+#endif

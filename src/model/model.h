@@ -1,0 +1,676 @@
+/// The model: what a scenario says, validated, as plain data in SI units and radians.
+///
+/// A model is constant while it runs. It is read from a scenario, or filled by hand in tests,
+/// starting from model_init(). To users it is a handle (launchdyn/model.h). Counts say how many
+/// entries of a fixed array are used; tables are pointers to memory that the model owns (see
+/// model_clear()). Frames: `I` inertial (x forward, y up, z right), `B` rocket (origin at the rear
+/// adaptor's centre, x along the axis, forward), tube axes (origin at the undeformed tube's rear
+/// end, x along it).
+#ifndef LD_MODEL_MODEL_H
+#define LD_MODEL_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/section.h"
+#include "launchdyn/status.h"
+
+enum {
+    LD_MAX_SECTIONS = 32,
+    LD_MAX_POINT_MASSES = 16,
+    LD_MAX_SUPPORTS = 8,
+    LD_MAX_ADAPTORS = 8,
+    LD_MAX_SINES = 16,
+    LD_MAX_WHEELS = 32,
+    LD_MAX_BUMPS = 16,
+    LD_MAX_TUBES = 512,
+    LD_MAX_FIRINGS = 64,
+    LD_MAX_BENDING_MODES = 24,
+    LD_MAX_TORSION_MODES = 8,
+    LD_MAX_AXIAL_MODES = 8,
+    LD_MAX_GUSTS = 16,
+    LD_MAX_NAME = 64,
+    LD_MAX_PATH = 128,
+    LD_MAX_TOGETHER = 8,
+    LD_MAX_CHOICES = 32,
+    LD_MAX_UNTIL = 16,
+    LD_MAX_CORRELATED = 16,
+    LD_MAX_POINTS = 10000,
+};
+
+/// A numeric table, row by row, `rows` x `columns`, owned by its model. Empty: rows = 0.
+typedef struct ld_table {
+    size_t rows;
+    size_t columns;
+    double *data;
+} ld_table;
+
+/// One sinusoid `amplitude sin(2 pi frequency t + phase)`.
+typedef struct ld_sine {
+    double amplitude; ///< [m] or [rad]
+    double frequency; ///< [Hz], cycles per second
+    double phase;     ///< [rad]
+} ld_sine;
+
+typedef struct ld_sines {
+    int count;
+    ld_sine term[LD_MAX_SINES];
+} ld_sines;
+
+typedef enum ld_earth_model {
+    LD_EARTH_FLAT,  ///< I is inertial, gravity is constant
+    LD_EARTH_ROUND, ///< sphere, central gravitation, rotating
+    LD_EARTH_WGS84, ///< ellipsoid, gravitation with J2, rotating
+    LD_EARTH_GIVEN, ///< `model` with the numbers of ld_earth
+} ld_earth_model;
+
+/// Figure and gravitation of the Earth: model.md, section 8. NaN: the value of the model.
+typedef struct ld_earth {
+    ld_earth_model kind;
+    ld_earth_model model; ///< of LD_EARTH_GIVEN: LD_EARTH_ROUND or LD_EARTH_WGS84
+    double gm;            ///< [m3/s2]
+    double j2;            ///< [-]
+    double rotation;      ///< [rad/s]
+    double radius;        ///< [m] of the sphere, or of the equator
+} ld_earth;
+
+/// Where the origin of I is on the Earth, and where its x axis points.
+typedef struct ld_site {
+    bool present;               ///< false: the numbers below are 0, the azimuth a quarter turn
+    double latitude, longitude; ///< [rad] geodetic
+    double altitude;            ///< [m] above the ellipsoid
+    double azimuth;             ///< [rad] of x, clockwise from north
+} ld_site;
+
+typedef enum ld_atmosphere_kind {
+    LD_ATMOSPHERE_US1976,
+    LD_ATMOSPHERE_NONE,
+    LD_ATMOSPHERE_UNIFORM,
+} ld_atmosphere_kind;
+
+typedef struct ld_atmosphere {
+    ld_atmosphere_kind kind;
+    double density;            ///< [kg/m3] (uniform)
+    double speed_of_sound;     ///< [m/s] (uniform)
+    double density_scale;      ///< [-] factor on the density
+    double temperature_offset; ///< [K] added at unchanged pressure (us1976)
+} ld_atmosphere;
+
+/// Half-cosine up, constant, half-cosine down, uniform in space.
+typedef struct ld_gust {
+    double start;   ///< [s] on the run's clock
+    double rise;    ///< [s]
+    double hold;    ///< [s]
+    double fall;    ///< [s], NaN: as rise
+    double speed;   ///< [m/s]
+    double heading; ///< [rad] where it goes to
+} ld_gust;
+
+typedef enum ld_turbulence_model { LD_TURBULENCE_DRYDEN } ld_turbulence_model;
+
+typedef struct ld_turbulence {
+    bool present;
+    ld_turbulence_model model;
+    double wind_at_6m; ///< [m/s] scales it, adds no wind
+    int seed;
+    int harmonics; ///< cells of the spectrum
+} ld_turbulence;
+
+typedef enum ld_wind_axes { LD_WIND_LAUNCHER, LD_WIND_GEOGRAPHIC } ld_wind_axes;
+
+/// Velocity of the air, where it goes to: model.md, section 8. Headings from I's x axis, positive
+/// to the right; geographic: from north, positive to the east.
+typedef struct ld_wind {
+    bool present;
+    ld_wind_axes axes;
+    double speed;     ///< [m/s] without profile: the same at every height
+    double heading;   ///< [rad]
+    ld_table profile; ///< height above ground [m], along x, along z [m/s]; geographic: altitude
+                      ///< [m], north, east; pchip, constant outside
+    double scale;     ///< [-] factor on speed or profile
+    double add[3];    ///< [m/s] added then, along x, y, z; geographic: north, up, east
+    int gust_count;
+    ld_gust gust[LD_MAX_GUSTS];
+    ld_turbulence turbulence;
+} ld_wind;
+
+typedef enum ld_ground_kind { LD_GROUND_PLANE, LD_GROUND_NONE } ld_ground_kind;
+
+/// What free flight goes through.
+typedef struct ld_environment {
+    ld_earth earth;
+    ld_site site;
+    ld_atmosphere atmosphere;
+    ld_ground_kind ground;
+    double ground_height; ///< [m] y of the ground's plane, on a round Earth its height above sphere
+                          ///< or ellipsoid; NaN: see model_complete()
+    ld_wind wind;
+} ld_environment;
+
+typedef enum ld_base_kind {
+    LD_BASE_FIXED,
+    LD_BASE_PRESCRIBED,
+    LD_BASE_VEHICLE,
+    LD_BASE_NONE, ///< no launcher: a flight alone
+} ld_base_kind;
+
+/// One sinusoid of a road, `amplitude sin(2 pi x/wavelength + phase)`, on both tracks.
+typedef struct ld_road_sine {
+    double amplitude;  ///< [m]
+    double wavelength; ///< [m]
+    double phase;      ///< [rad]
+} ld_road_sine;
+
+typedef enum ld_track { LD_TRACK_BOTH, LD_TRACK_LEFT, LD_TRACK_RIGHT } ld_track;
+
+/// `height/2 (1 - cos(2 pi (x - at)/length))` for at < x < at + length.
+typedef struct ld_bump {
+    double at;     ///< [m] x of I
+    double length; ///< [m]
+    double height; ///< [m], negative: a hole
+    ld_track tracks;
+} ld_bump;
+
+typedef enum ld_tracks { LD_TRACKS_SAME, LD_TRACKS_INDEPENDENT, LD_TRACKS_COHERENT } ld_tracks;
+
+enum { LD_ROAD_SMOOTH = -1 };
+
+typedef enum ld_road_form { LD_ROAD_SUM, LD_ROAD_FLAT } ld_road_form;
+
+/// Height of the road over x of I, of the left track (wheels with mount z < 0) and the right one:
+/// the sum of what is given (model.md, section 7); a flat road has nothing of it.
+typedef struct ld_road {
+    ld_road_form form;
+    int iso_class; ///< ISO 8608: 0 (A) to 7 (H); LD_ROAD_SMOOTH: no random part
+    ld_tracks tracks;
+    ld_table coherence; ///< n [1/m], g [-] with coherence g^2 (coherent); linear, constant outside
+    int seed;
+    int harmonics;         ///< N
+    double wavelengths[2]; ///< [m] shortest, longest
+    int sine_count;
+    ld_road_sine sine[LD_MAX_SINES];
+    int bump_count;
+    ld_bump bump[LD_MAX_BUMPS];
+    ld_table profile; ///< x [m], h [m] of both tracks, or x, left, right; cubic spline (not a
+                      ///< knot), constant outside
+} ld_road;
+
+typedef struct ld_wheel {
+    char name[LD_MAX_NAME];
+    double mount[3]; ///< [m] wheel centre with unloaded suspension, chassis axes from its mass
+                     ///< centre
+    double mass;     ///< [kg]
+    bool driven;
+} ld_wheel;
+
+/// Spring-damper between chassis and wheel, chassis axes; bump stops add `stiffness` times what
+/// the travel along y exceeds `compression` (wheel up) or `extension` (wheel down).
+typedef struct ld_suspension {
+    double stiffness[3]; ///< [N/m]
+    double damping[3];   ///< [N s/m]
+    struct {
+        double compression, extension; ///< [m] from the unloaded position, > 0; NaN: no stop
+        double stiffness;              ///< [N/m]
+    } bump_stop;
+} ld_suspension;
+
+typedef struct ld_tyre {
+    double radius;            ///< [m] R
+    double stiffness[3];      ///< [N/m] along, vertical, across
+    double damping[3];        ///< [N s/m]
+    double relaxation_length; ///< [m] sigma
+    double friction;          ///< [-] mu
+} ld_tyre;
+
+/// Holds the marching speed: F = kp (speed - v) + ki z_d, shared among the driven wheels.
+typedef struct ld_drive {
+    double kp; ///< [N s/m]
+    double ki; ///< [N/m]
+} ld_drive;
+
+/// Wheels, suspension, tyres and road of a vehicle: model.md, section 7.
+typedef struct ld_vehicle {
+    double speed; ///< [m/s] marching speed, >= 0; 0: parked
+    ld_road road;
+    ld_drive drive;
+    int wheel_count;
+    ld_wheel wheel[LD_MAX_WHEELS];
+    ld_suspension suspension;
+    ld_tyre tyre;
+} ld_vehicle;
+
+/// Moves a platform to its commanded angle: model.md, section 6.
+typedef struct ld_stabiliser {
+    ld_table command;    ///< t [s], pitch or yaw [rad]; one row: constant; linear between rows,
+                         ///< constant outside
+    double kp;           ///< [N m/rad]
+    double ki;           ///< [N m/(rad s)]
+    double kd;           ///< [N m s/rad]
+    double torque_limit; ///< [N m]; a locked hinge needs none of these four
+} ld_stabiliser;
+
+typedef struct ld_hinge_friction {
+    double viscous; ///< [N m s/rad]
+    double coulomb; ///< [N m]
+    double rate;    ///< [rad/s] w_eps, at which Coulomb friction is at 71 %
+} ld_hinge_friction;
+
+/// Spring-damper in place of a stabiliser, at rest in the equilibrium.
+typedef struct ld_hinge_lock {
+    bool present;
+    double stiffness; ///< [N m/rad]
+    double damping;   ///< [N m s/rad]
+} ld_hinge_lock;
+
+/// A platform and the hinge that carries it: azimuth about y, elevation about z.
+typedef struct ld_turret {
+    double hinge_at[3]; ///< [m] in the axes of the body that carries it, from that one's origin
+                        ///< (the chassis' is its mass centre)
+    double mass;        ///< [kg] of the frame, without any tube
+    double center[3];   ///< [m] mass centre from its hinge, own axes
+    double inertia[3];  ///< [kg m2] about its own mass centre
+    ld_stabiliser stabiliser;
+    ld_hinge_friction friction;
+    ld_hinge_lock lock;
+} ld_turret;
+
+/// Chassis, azimuth and elevation platform: model.md, section 6.
+typedef struct ld_platform {
+    double chassis_mass;       ///< [kg]
+    double chassis_inertia[3]; ///< [kg m2]
+    ld_turret azimuth;
+    ld_turret elevation;
+} ld_platform;
+
+/// The base that carries the tube: model.md, section 2.
+typedef struct ld_base {
+    ld_base_kind kind;
+    double azimuth;              ///< [rad] of the tube against the base, about +y
+    double elevation;            ///< [rad] of the tube against the base, about +z
+    double velocity[3];          ///< [m/s] constant velocity along I (prescribed)
+    ld_sines surge, heave, sway; ///< [m] along I's x, y, z (prescribed)
+    ld_sines yaw, pitch, roll;   ///< [rad] base pose Ry(yaw) Rz(pitch) Rx(roll) (prescribed)
+    ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
+    ld_vehicle vehicle;
+} ld_base;
+
+/// Isotropic material of the tube; NaN: not given.
+typedef struct ld_material {
+    double youngs_modulus; ///< [Pa] E
+    double poisson_ratio;  ///< [-] nu; G = E/(2 (1 + nu))
+    double shear_modulus;  ///< [Pa] G, in place of nu
+    double density;        ///< [kg/m3]
+} ld_material;
+
+typedef struct ld_point_mass {
+    double at;   ///< [m] station
+    double mass; ///< [kg]
+} ld_point_mass;
+
+typedef struct ld_modes {
+    int bending; ///< modes per plane
+    int torsion;
+    int axial;
+    int elements; ///< finite elements along the tube (at least; section steps add nodes)
+    ld_mode_span span;
+    double damping; ///< [-] ratio, of the clamped modes of the bare tube
+} ld_modes;
+
+typedef struct ld_tail {
+    double mass;       ///< [kg], may be 0
+    double center;     ///< [m] x of the mass centre in the rear section's frame (negative: behind)
+    double inertia[3]; ///< [kg m2] about its own mass centre, tube axes
+} ld_tail;
+
+/// Spring-damper between the tube's section at `at` and the base: model.md, section 4.
+typedef struct ld_support {
+    double at;                      ///< [m] station
+    double stiffness[3];            ///< [N/m]
+    double damping[3];              ///< [N s/m]
+    double rotational_stiffness[3]; ///< [N m/rad]
+    double rotational_damping[3];   ///< [N m s/rad]
+} ld_support;
+
+typedef enum ld_slot_kind { LD_SLOT_NONE, LD_SLOT_HELIX } ld_slot_kind;
+
+typedef struct ld_slot {
+    ld_slot_kind kind;
+    ld_table angle;  ///< s [m], alpha [rad]; one row: constant; linear between, constant outside
+    double radius;   ///< [m] R_k, of the knob's circle
+    double friction; ///< [-] mu_s
+} ld_slot;
+
+typedef struct ld_layout {
+    int rows, columns;
+    double pitch;    ///< [m]
+    double first[3]; ///< [m] rear end of tube 1, platform axes
+} ld_layout;
+
+typedef struct ld_tubes {
+    ld_layout layout;
+    int empty_count;
+    int empty[LD_MAX_TUBES]; ///< numbers of the tubes without a rocket from the start
+    double length;           ///< [m]
+    ld_material material;
+    int section_count;
+    ld_section section[LD_MAX_SECTIONS];
+    int point_mass_count;
+    ld_point_mass point_mass[LD_MAX_POINT_MASSES];
+    ld_modes modes;
+    ld_tail tail;
+    int support_count;
+    ld_support support[LD_MAX_SUPPORTS];
+    ld_slot slot;
+} ld_tubes;
+
+/// Mass data of the rocket at one instant.
+typedef struct ld_mass_data {
+    double mass;       ///< [kg]
+    double center[3];  ///< [m] in B
+    double inertia[3]; ///< [kg m2] about the mass centre, in B
+} ld_mass_data;
+
+typedef struct ld_adaptor {
+    char name[LD_MAX_NAME];
+    double at;        ///< [m] l_i, from the rear adaptor
+    double clearance; ///< [m] radial; not used by the law `bilateral`, NaN there if not given
+} ld_adaptor;
+
+typedef enum ld_contact_law {
+    LD_CONTACT_HUNT_CROSSLEY,
+    LD_CONTACT_LANKARANI_NIKRAVESH,
+    LD_CONTACT_KELVIN_VOIGT,
+    LD_CONTACT_BILATERAL,
+} ld_contact_law;
+
+/// Contact between adaptors and tube: model.md, section 5.
+typedef struct ld_contact {
+    ld_contact_law law;
+    double stiffness;             ///< [N/m] k
+    double exponent;              ///< [-] n
+    double reference_penetration; ///< [m] d_0
+    double restitution;           ///< [-] e
+    double reference_speed;       ///< [m/s] v_0
+    double damping;               ///< [N s/m] c, of the laws kelvin-voigt and bilateral
+    double friction;              ///< [-] mu
+    double friction_speed;        ///< [m/s] v_eps, of tube contact and slot
+} ld_contact;
+
+typedef struct ld_lock {
+    bool present;         ///< false: the rocket is free from the start
+    double release_force; ///< [N]
+} ld_lock;
+
+typedef struct ld_motor {
+    bool absent;            ///< no motor (flight alone)
+    ld_table thrust;        ///< t [s], T [N]; linear between, 0 after the last; a double time jumps
+    double at[3];           ///< [m] x_T, e_y, e_z in B
+    double misalignment[2]; ///< [-] eps_y, eps_z
+    double thrust_scale;    ///< [-]
+    double time_scale;      ///< [-]
+} ld_motor;
+
+typedef enum ld_aerodynamic_model {
+    LD_AERODYNAMICS_TABLE,
+    LD_AERODYNAMICS_BODY
+} ld_aerodynamic_model;
+
+typedef enum ld_interpolation { LD_PCHIP, LD_SPLINE, LD_LINEAR } ld_interpolation;
+
+typedef enum ld_beyond_table { LD_BEYOND_ERROR, LD_BEYOND_HOLD } ld_beyond_table;
+
+/// Air forces in free flight: model.md, section 8.
+typedef struct ld_aerodynamics {
+    bool present;
+    ld_aerodynamic_model model;
+    // coefficients over the Mach number
+    double reference_diameter; ///< [m]
+    double fin_cant;           ///< [rad] positive: spins about +x
+    ld_interpolation interpolation;
+    ld_beyond_table beyond_table; ///< past the last Mach number
+    ld_table table;  ///< mach, ca_power_off, ca_power_on, cn_alpha [1/rad], x_cp [m forward of the
+                     ///< rear adaptor], cl_delta [1/rad], cl_p, cm_q
+    double ca_scale; ///< [-] factor on both ca
+    double cn_scale; ///< [-] factor on cn_alpha
+    double x_cp_shift; ///< [m] added to x_cp
+    struct {
+        bool present;
+        double drag; ///< [-] C_c
+        double at;   ///< [m] x of B
+    } crossflow;
+    // plain body: drag and damping at the mass centre
+    double area;       ///< [m2]
+    double drag;       ///< [-] C_D
+    double damping[3]; ///< [-] C_i, about x, y, z of B
+    double lengths[3]; ///< [m] l_i
+} ld_aerodynamics;
+
+typedef struct ld_rocket {
+    double start_at; ///< [m] s of the rear adaptor at the start
+    ld_mass_data full;
+    ld_mass_data empty;
+    double propellant;      ///< [kg] burnt mass; NaN: see model_complete()
+    double products[3];     ///< [kg m2] J_xy, J_xz, J_yz of the matrix, full and empty
+    double mass_error;      ///< [kg] at the mass centre, added to full and empty
+    double eccentricity[2]; ///< [m] y, z, added to full and empty
+    int adaptor_count;
+    ld_adaptor adaptor[LD_MAX_ADAPTORS]; ///< the first is the rear one
+    ld_contact contact;
+    double knob_angle; ///< [rad] gamma_b
+    ld_lock lock;
+    ld_motor motor;
+    ld_aerodynamics aerodynamics;
+} ld_rocket;
+
+typedef enum ld_flight_point { LD_POINT_REAR, LD_POINT_CENTER } ld_flight_point;
+typedef enum ld_rate_against { LD_AGAINST_INERTIAL, LD_AGAINST_EARTH } ld_rate_against;
+typedef enum ld_attitude_form {
+    LD_ATTITUDE_YAW,        ///< against I: Ry(yaw) Rz(pitch) Rx(roll)
+    LD_ATTITUDE_HEADING,    ///< against north, up, east there: Ry(-heading) Rz(pitch) Rx(roll)
+    LD_ATTITUDE_QUATERNION, ///< of B against I
+} ld_attitude_form;
+
+/// State at t = 0 of a flight alone (base.kind = LD_BASE_NONE). Velocities are relative
+/// to the Earth; what is NaN is not given.
+typedef struct ld_flight {
+    double ignition;       ///< [s] on the run's clock
+    ld_flight_point point; ///< which position and velocity belong to: O1 or the mass centre
+    double position[3];    ///< [m] in I
+    struct {
+        bool present;               ///< in place of position
+        double latitude, longitude; ///< [rad]
+        double altitude;            ///< [m] above the ellipsoid
+    } geodetic;
+    double velocity[3];     ///< [m/s] in I
+    double speed;           ///< [m/s] along x of B, in place of velocity
+    double velocity_ned[3]; ///< [m/s] north, east, down, in place of velocity
+    ld_attitude_form attitude;
+    double yaw, heading, pitch, roll; ///< [rad]
+    double quaternion[4];             ///< scalar part first; not NaN: in place of the angles
+    double rate[3];                   ///< [rad/s] of B, in B
+    ld_rate_against rate_against;
+} ld_flight;
+
+typedef struct ld_firing {
+    int tube;  ///< number from 1
+    double at; ///< [s] on the run's clock
+} ld_firing;
+
+/// The firings as an order of tubes at one interval; where it is present, model_complete() makes
+/// the list of firings from it.
+typedef struct ld_firing_order {
+    bool present;
+    int tube_count;
+    int tube[LD_MAX_FIRINGS]; ///< numbers from 1
+    double start;             ///< [s] first ignition, on the run's clock
+    double interval;          ///< [s] from one ignition to the next
+} ld_firing_order;
+
+typedef enum ld_start { LD_START_EQUILIBRIUM, LD_START_UNDEFORMED } ld_start;
+typedef enum ld_formulation { LD_FORMULATION_REDUCED, LD_FORMULATION_OVERALL } ld_formulation;
+typedef enum ld_run_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING } ld_run_end;
+
+typedef struct ld_run_settings {
+    ld_start start;
+    ld_formulation formulation;
+    double lead_in; ///< [s]
+    ld_run_end end;
+    double end_time;            ///< [s] after the last ignition (LD_END_TIME)
+    double tolerance;           ///< [-] relative tolerance of the integrator
+    double max_step;            ///< [s] longest step until the last rocket has left its tube; NaN:
+                                ///< see model_complete()
+    double max_step_completed;  ///< [s] what model_complete() has put there; 0: nothing
+    double output_step_lead_in; ///< [s]
+    double output_step_tube;    ///< [s]
+    double output_step_flight;  ///< [s]
+    double stuck_time;   ///< [s] after ignition at which a rocket still in the tube is given up;
+                         ///< NaN: see model_complete()
+    double flight_limit; ///< [s] longest free flight
+    double flight_tolerance; ///< [-] relative tolerance in free flight
+    double coupling_step; ///< [s] at which the subsystems, integrated apart, exchange; 0: together
+} ld_run_settings;
+
+/// Distribution of a factor about its nominal value, the scenario's: model.md, section 10.
+typedef enum ld_distribution {
+    LD_NORMAL,
+    LD_UNIFORM,
+    LD_LOGNORMAL, ///< the nominal value is the median
+    LD_DISCRETE,
+    LD_EACH_SAMPLE, ///< a whole number of the key's range, another one in each sample
+} ld_distribution;
+
+/// Several keys under one name, which always have the same value.
+typedef struct ld_together {
+    int count; ///< 0: not several
+    char path[LD_MAX_TOGETHER][LD_MAX_PATH];
+} ld_together;
+
+/// One scattered number of the scenario. Units are those of the key, in SI.
+typedef struct ld_factor {
+    char path[LD_MAX_PATH]; ///< keys joined by dots; list members by name, else by number from 1;
+                            ///< components of vectors by .w, .x, .y, .z; of several: their name
+    ld_together together;
+    ld_distribution distribution;
+    double deviation;  ///< normal: standard deviation; lognormal: that of the logarithm [-]
+    double within;     ///< [-] normal: kept within so many standard deviations; NaN: not
+    double between[2]; ///< normal: kept between these; uniform: the ends; NaN: not given
+    double spread;     ///< uniform: nominal +- this, where `between` is NaN
+    int value_count;
+    double value[LD_MAX_CHOICES];  ///< discrete
+    double weight[LD_MAX_CHOICES]; ///< discrete
+    bool per_rocket;               ///< drawn for every rocket (keys of the rocket only)
+} ld_factor;
+
+/// Factors whose normal scores are correlated (Gaussian copula): of normal factors the matrix is
+/// that of their own correlations.
+typedef struct ld_correlated {
+    int count;
+    int factor[LD_MAX_CORRELATED];                       ///< numbers from 0 in ld_scatter.factor
+    double matrix[LD_MAX_CORRELATED][LD_MAX_CORRELATED]; ///< symmetric, 1 on the diagonal
+} ld_correlated;
+
+typedef enum ld_statistic { LD_STATISTIC_MEAN, LD_STATISTIC_DEVIATION } ld_statistic;
+
+/// How well a statistic of a result must be known for a study to stop before its last sample.
+typedef struct ld_until {
+    char result[LD_MAX_NAME]; ///< name of the result's column, e.g. "t_rear"
+    ld_statistic statistic;
+    double half_width; ///< of the 95 % interval, in SI or, where relative, as a share of the
+                       ///< statistic's magnitude
+    bool relative;
+} ld_until;
+
+typedef enum ld_plan { LD_PLAN_RANDOM, LD_PLAN_LHS } ld_plan;
+
+/// What a study scatters, and how often it runs.
+typedef struct ld_scatter {
+    bool present;
+    int seed;
+    int samples; ///< runs, each of all rockets of the firing; with `until`, at most
+    ld_plan plan;
+    int replicates; ///< independent Latin hypercubes, of samples/replicates each
+    int factor_count;
+    ld_factor *factor; ///< owned by the model
+    int correlated_count;
+    ld_correlated *correlated;    ///< groups of factors, owned by the model
+    int until_count;              ///< 0: all samples are run
+    ld_until until[LD_MAX_UNTIL]; ///< all of which must hold
+} ld_scatter;
+
+/// One key of the scenario that a study varies: a sweep is the product of its axes, the first
+/// varying most slowly.
+typedef struct ld_sweep_axis {
+    char path[LD_MAX_PATH]; ///< list members by name, else by number from 1; of several: their name
+    ld_together together;
+    int count;
+    char **value; ///< [count] as written, in one line of YAML
+} ld_sweep_axis;
+
+/// A file that a scenario was read from: the scenario itself, one that it includes, a table.
+typedef struct ld_source_file {
+    char *name;    ///< as seen from the scenario's folder; of the scenario without its folder
+    char *text;    ///< with a zero after its end
+    size_t length; ///< of the text
+} ld_source_file;
+
+/// All that a scenario was read from, so that it can be read again without its files.
+struct ld_source {
+    char *name;   ///< of the scenario, in messages
+    char *folder; ///< where files that it names are looked for; NULL: `file` has all there are
+    size_t file_count;
+    ld_source_file **file; ///< [file_count] the scenario first
+    size_t set_count;
+    char **set; ///< [set_count] overrides (as of --set)
+    int users;  ///< models that share it
+};
+
+// Gives one share of it up; the last one frees it. May be NULL.
+void source_free(ld_source *source);
+
+struct ld_model {
+    char *title;
+    double gravity; ///< [m/s2]
+    ld_environment environment;
+    ld_base base;
+    ld_platform platform; ///< of a vehicle
+    ld_tubes tubes;
+    ld_rocket rocket;
+    ld_flight flight; ///< of a flight alone
+    int firing_count;
+    ld_firing firing[LD_MAX_FIRINGS];
+    ld_firing_order firing_order;
+    const ld_rocket *salvo; ///< [firing_count] rocket of each firing where they differ in numbers,
+                            ///< not owned; NULL: each is `rocket`
+    ld_run_settings run;
+    ld_scatter scatter; ///< for studies
+    int sweep_count;
+    ld_sweep_axis *sweep; ///< for studies, owned by the model; its points are read by
+                          ///< scenario_read_point()
+    ld_source *source;    ///< what it was read from, shared; NULL: filled by hand
+    int point;            ///< of the sweep that its values are those of; 0: nominal
+    int sample;           ///< whose drawn numbers it has, of its point; 0: nominal
+};
+
+/// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
+/// a default become NaN.
+void model_init(ld_model *model);
+
+/// Computes what follows from the rest: the stiffnesses and masses of sections that are given by
+/// radii or areas; the firings of an order of tubes; where they are NaN, the values of the empty
+/// rocket (as the full ones), rocket.propellant = full.mass - empty.mass, run.stuck_time = end of
+/// the thrust table + 1 s and run.max_step = 0.2 ms (tolerance/1e-5)^(1/5), at least 0.2 ms; of a
+/// flight alone, what its rocket lacks: a motor (absent), the mass centre (0), and the end at the
+/// tip (landing); the ground's height where it is NaN (0, on a round Earth the site's altitude).
+/// The scenario reader has done it already.
+void model_complete(ld_model *model);
+
+/// Frees the title, the tables, what `model` owns for studies and its share of `source`, and resets
+/// it to the defaults.
+void model_clear(ld_model *model);
+
+/// Checks that the values of `model` fit together and are finite and in range; for models filled by
+/// hand (the scenario reader has its own messages with line and column).
+ld_status model_check(const ld_model *model, ld_error *error);
+
+#endif

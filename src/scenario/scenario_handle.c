@@ -1,0 +1,70 @@
+// Models as handles.
+#include <stdlib.h>
+
+#include "model/field.h"
+#include "scenario/scenario.h"
+
+// Hands out what has been read; NULL after a failure.
+static ld_status hand_out(ld_status status, ld_model *read, ld_model **model)
+{
+    if (status)
+        free(read);
+    *model = status ? NULL : read;
+    return status;
+}
+
+ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count,
+                           ld_model **model, ld_messages *messages)
+{
+    ld_model *self = malloc(sizeof *self);
+    *messages = (ld_messages){0};
+    return hand_out(self ? scenario_read(path, sets, count, self, messages) : LD_ERR_MEMORY, self,
+                    model);
+}
+
+ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
+                                const char *folder, const char *const *sets, size_t count,
+                                ld_model **model, ld_messages *messages)
+{
+    ld_model *self = malloc(sizeof *self);
+    *messages = (ld_messages){0};
+    return hand_out(
+        self ? scenario_read_text(text, length, name, folder, sets, count, self, messages)
+             : LD_ERR_MEMORY,
+        self, model);
+}
+
+ld_status ld_scenario_read_source(ld_source *source, int point, ld_model **model,
+                                  ld_messages *messages)
+{
+    ld_model *self = malloc(sizeof *self);
+    *messages = (ld_messages){0};
+    return hand_out(self ? scenario_read_source(source, point, self, messages) : LD_ERR_MEMORY,
+                    self, model);
+}
+
+ld_status ld_model_number(const ld_model *model, const char *path, double *value, ld_error *error)
+{
+    field_place place;
+    char why[LD_ERROR_TEXT];
+    *value = NAN;
+    if (!field_locate(model, path, &place, why, sizeof why))
+        return ld_fail(error, LD_ERR_INPUT, "%s", why);
+    *value = field_get(model, &place);
+    return LD_OK;
+}
+
+ld_source *ld_model_source(const ld_model *model)
+{
+    return model->source;
+}
+
+bool ld_model_has_launcher(const ld_model *model)
+{
+    return model->base.kind != LD_BASE_NONE;
+}
+
+bool ld_model_has_vehicle(const ld_model *model)
+{
+    return model->base.kind == LD_BASE_VEHICLE;
+}

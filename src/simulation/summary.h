@@ -1,0 +1,188 @@
+// What came of a run: its rockets, its equilibrium, its energies. To users it is a handle, whose
+// numbers have names (launchdyn/summary.h).
+#ifndef LD_SIMULATION_SUMMARY_H
+#define LD_SIMULATION_SUMMARY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "launchdyn/simulation.h"
+#include "model/model.h"
+
+enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES };
+
+/// Free flight of one rocket, of its mass centre in I against the ground; NaN where it has not
+/// landed, or has not flown. The launch point has x and z of the rear adaptor at ignition (of a
+/// flight alone: at its start). A height is y on a flat Earth, else above sphere or ellipsoid.
+typedef struct ld_flight_summary {
+    double apogee;              ///< [m] greatest height
+    double downrange, drift;    ///< [m] x and z of the impact from the launch point
+    double range;               ///< [m] distance of the two
+    double t_impact;            ///< [s] from ignition
+    double time_of_flight;      ///< [s] from t_rear, or from the start of a flight alone
+    double impact_speed;        ///< [m/s]
+    double impact_angle;        ///< [rad] of the velocity below the horizontal there
+    double max_mach;            ///< [-]
+    double max_angle_of_attack; ///< [rad] at the ends of the steps
+} ld_flight_summary;
+
+/// State at the end of a free flight, of the rear adaptor's centre in I against the ground.
+typedef struct ld_final_state {
+    double t;                    ///< [s] on the run's clock
+    double position[3];          ///< [m]
+    double velocity[3];          ///< [m/s]
+    double quaternion[4];        ///< of B against I, scalar part first
+    double rate[3];              ///< [rad/s] of B against I, in B
+    double center[3];            ///< [m] mass centre
+    double center_velocity[3];   ///< [m/s]
+    bool earth;                  ///< a round or WGS 84 Earth: what follows is there
+    double latitude, longitude;  ///< [rad] geodetic, of the mass centre
+    double altitude;             ///< [m] above the ellipsoid, of the mass centre
+    double velocity_ned[3];      ///< [m/s] of the mass centre towards north, east, down there
+    double heading, pitch, roll; ///< [rad] against north, up and east there
+    double rate_inertial[3];     ///< [rad/s] against inertial axes, in B
+} ld_final_state;
+
+/// The rocket's x axis d and mass centre C (the point c(t) of the body, without c_dot) in the axes
+/// of the undeformed tube on its base, T, as it stands and moves at that instant. Pitch and yaw as
+/// in model.md section 1, of d in T: they keep their meaning however steep the launcher is.
+typedef struct ld_tip_off {
+    double pitch, yaw;                             ///< [rad]
+    double pitch_rate, yaw_rate;                   ///< [rad/s] of d in I: T held still
+    double pitch_rate_relative, yaw_rate_relative; ///< [rad/s] T moving
+    double vy, vz;                                 ///< [m/s] of C in I, along T's y and z
+    double vy_relative, vz_relative;               ///< [m/s] v_C - v_T - w_T x (r_C - r_T)
+} ld_tip_off;
+
+/// The same against T as it stood at this rocket's ignition, held still since then.
+typedef struct ld_aim {
+    double pitch, yaw;           ///< [rad]
+    double pitch_rate, yaw_rate; ///< [rad/s]
+    double vy, vz;               ///< [m/s] of C in I, along that T's y and z
+} ld_aim;
+
+/// Attitude, rates and forces of one rocket at its key instants. Instants in [s] from its ignition,
+/// NaN where the instant was not reached or does not exist.
+typedef struct ld_rocket_summary {
+    int tube;                       ///< number of the tube
+    double t_ignition;              ///< [s] on the run's clock
+    double t_release;               ///< lock release
+    double t_front;                 ///< front adaptor (the one farthest forward) passes the tip
+    double t_middle;                ///< middle adaptor (of exactly three) passes the tip
+    double t_rear;                  ///< rear adaptor passes the tip: the rocket has left
+    double t_exit[LD_MAX_ADAPTORS]; ///< the same for every adaptor, in the model's order
+    double muzzle_speed;            ///< [m/s] s_dot at t_rear, relative to the tube
+    double inertial_speed;          ///< [m/s] of O1 in I at t_rear
+    double spin_rate;               ///< [rad/s] x component of the rate of B against I, in B
+    double pitch, yaw;              ///< [rad] of B's x axis in I: model.md section 1
+    double pitch_rate, yaw_rate;    ///< [rad/s] their time derivatives
+    struct {
+        double position[3];   ///< [m] of O1 in I
+        double velocity[3];   ///< [m/s] of O1 in I
+        double quaternion[4]; ///< B against I
+        double rate[3];       ///< [rad/s] of B against I, in B
+    } exit;                   ///< the rocket at t_rear, where its flight begins
+    struct {
+        double y, z;              ///< [m] y_S, z_S
+        double psi, theta, gamma; ///< [rad] A_SB = Rz(psi) Ry(theta) Rx(gamma)
+        double w_x, w_y, w_z;     ///< [rad/s] rate of B against S, in S
+    } relative;                   ///< rocket against the tube's section at t_rear
+    struct {
+        double y, z;                 ///< [m]
+        double pitch, yaw;           ///< [rad]
+        double vy, vz;               ///< [m/s]
+        double pitch_rate, yaw_rate; ///< [rad/s]
+    } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
+    ld_tip_off tip_off; ///< rocket at t_rear against the undeformed tube on the base
+    ld_aim aim;         ///< the same against where that stood at the ignition
+    double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
+    double max_slot_force;                     ///< [N] |N|
+    double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
+                           ///< moved against the platform
+    bool flown;            ///< it has left the tube and flown: what follows is there
+    ld_flight_summary flight;
+    ld_final_state final;
+} ld_rocket_summary;
+
+/// Work by kind of force since the start [J]; positive: into the tube and the rocket.
+typedef struct ld_work {
+    double thrust;
+    double gravity_rocket;
+    double contact_normal; ///< of adaptors and breech
+    double contact_friction;
+    double slot; ///< of the constraint force N: zero but for the step error
+    double slot_friction;
+    double lock; ///< zero but for the step error
+    double support_damping;
+    double modal_damping;
+    double base;        ///< by the moving base through the supports
+    double mass_change; ///< kinetic energy carried off by the burnt propellant: model.md section 5
+    /// Of a vehicle alone; `base` is then the share of the platform, which the sum leaves out.
+    double stabilisers; ///< of both stabilisers or locks
+    double hinge_friction;
+    double gravity_platform; ///< on chassis and platforms
+    double gravity_wheels;
+    double suspension_damping;
+    double tyre;      ///< normal forces of the road
+    double tyre_side; ///< side forces, and those that hold a parked vehicle
+    double drive;     ///< along the way, of the road on driven wheels
+} ld_work;
+
+/// Energy of tube, tail, supports and rocket at the end [J]; `residual` is what the balance misses.
+typedef struct ld_energy {
+    double kinetic;
+    double potential; ///< of tube and tail in gravity, from the origin of I (rocket:
+                      ///< work.gravity_rocket)
+    double elastic;   ///< of the tube's modes and the support springs
+    ld_work work;
+    double residual;          ///< change of the three above less the sum of the works
+    double residual_relative; ///< the same over the largest single work
+} ld_energy;
+
+typedef struct ld_statistics {
+    int64_t steps;
+    int64_t rhs_evaluations;
+    double cpu_seconds;       ///< of the run, without set-up and without the history's rows
+    double cpu_seconds_setup; ///< modes, coefficients, tables
+} ld_statistics;
+
+/// Static equilibrium at the start.
+typedef struct ld_equilibrium_summary {
+    double lock_force;                     ///< [N] carried by the lock, along +x
+    double breech_force;                   ///< [N] of the breech on the rocket, along +x
+    double slot_force;                     ///< [N] N
+    double contact_force[LD_MAX_ADAPTORS]; ///< [N] normal
+    double tip_sag[2];                     ///< [m] y, z of the tip, undeformed tube axes
+    double residual;                       ///< [m/s2, rad/s2] largest acceleration at rest
+    int wheel_count;                       ///< 0: the base is no vehicle
+    struct {
+        double tyre_force;      ///< [N] vertical
+        double tyre_deflection; ///< [m]
+        double suspension[3];   ///< [m] travel from the unloaded position, chassis axes
+    } wheel[LD_MAX_WHEELS];     ///< in the model's order
+    struct {
+        double y;           ///< [m] mass centre in I
+        double pitch, roll; ///< [rad] of Rz(pitch) Rx(roll)
+    } chassis;
+    struct {
+        double angle;  ///< [rad]
+        double torque; ///< [N m] on the outboard body
+    } hinge[2];        ///< azimuth, elevation
+} ld_equilibrium_summary;
+
+struct ld_summary {
+    int rocket_count;
+    ld_rocket_summary rocket[LD_MAX_FIRINGS];
+    ld_equilibrium_summary equilibrium;
+    ld_energy energy;
+    int mode_count;
+    ld_mode mode[LD_MAX_MODES]; ///< tube and tail on their supports
+    ld_statistics statistics;
+    double t_end;  ///< [s] where the run ended, on the run's clock
+    bool complete; ///< false: ended early, `stopped` says why
+    char stopped[LD_ERROR_TEXT];
+    int note_count; ///< remarks the user should see
+    char note[8][256];
+};
+
+#endif

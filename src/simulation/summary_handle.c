@@ -1,0 +1,36 @@
+// Summaries as handles.
+#include <math.h>
+#include <stdlib.h>
+
+#include "launchdyn/summary.h"
+#include "simulation/study_results.h"
+#include "simulation/summary.h"
+
+ld_summary *ld_summary_new(void)
+{
+    return calloc(1, sizeof(ld_summary));
+}
+
+void ld_summary_free(ld_summary *self)
+{
+    free(self);
+}
+
+int ld_summary_rockets(const ld_summary *self)
+{
+    return self->rocket_count;
+}
+
+ld_status ld_summary_number(const ld_summary *self, int rocket, const char *name, double *value,
+                            ld_error *error)
+{
+    const study_result *result = study_result_named(name);
+    *value = NAN;
+    if (rocket < 1 || rocket > self->rocket_count)
+        return ld_fail(error, LD_ERR_INPUT, "there is no rocket %d: they go from 1 to %d", rocket,
+                       self->rocket_count);
+    if (!result)
+        return ld_fail(error, LD_ERR_INPUT, "there is no result \"%s\"", name);
+    *value = study_result_of(&self->rocket[rocket - 1], result);
+    return LD_OK;
+}
