@@ -586,3 +586,56 @@ int64_t propagator_evaluations(const propagator *self)
         sum += integrator_evaluations(self->orientating) + integrator_evaluations(self->marching);
     return sum;
 }
+
+// ---- saving and loading ----
+
+static void archive_vector(archive *bytes, v3 *v)
+{
+    double *member[] = {&v->x, &v->y, &v->z};
+    for (int i = 0; i < 3; i++)
+        archive_double(bytes, member[i]);
+}
+
+static void archive_frame(archive *bytes, held_frame *held)
+{
+    base_frame *last = &held->last;
+    archive_vector(bytes, &last->r);
+    archive_vector(bytes, &last->v);
+    archive_vector(bytes, &last->w);
+    for (int i = 0; i < 3; i++)
+        archive_doubles(bytes, last->A.a[i], 3);
+    double *member[] = {&last->q.w, &last->q.x, &last->q.y, &last->q.z};
+    for (int i = 0; i < 4; i++)
+        archive_double(bytes, member[i]);
+    archive_vector(bytes, &held->a);
+    archive_vector(bytes, &held->alpha);
+}
+
+static void archive_wrench(archive *bytes, held_wrench *held)
+{
+    archive_vector(bytes, &held->force);
+    archive_vector(bytes, &held->moment);
+    archive_vector(bytes, &held->force_rate);
+    archive_vector(bytes, &held->moment_rate);
+}
+
+void propagator_archive(propagator *self, archive *bytes)
+{
+    integrator_archive(self->integrator, bytes);
+    archive_expect(bytes, self->apart);
+    if (!self->apart)
+        return;
+    integrator_archive(self->orientating, bytes);
+    integrator_archive(self->marching, bytes);
+    double *instants[] = {&self->t, &self->t_next, &self->t_first};
+    for (int i = 0; i < 3; i++)
+        archive_double(bytes, instants[i]);
+    archive_count(bytes, &self->exchanges);
+    archive_frame(bytes, &self->chassis);
+    archive_frame(bytes, &self->tube);
+    archive_wrench(bytes, &self->on_chassis);
+    archive_wrench(bytes, &self->on_tube);
+    double *states[] = {self->state, self->from, self->rate_from, self->to, self->rate_to};
+    for (int i = 0; i < 5; i++)
+        archive_doubles(bytes, states[i], (size_t)self->launch->launcher.state_count);
+}

@@ -21,6 +21,8 @@ void propagator_interpolate(propagator *self, double t, double *y);
 int propagator_event(const propagator *self, event_kind kind, int index);
 int64_t propagator_steps(const propagator *self);
 int64_t propagator_evaluations(const propagator *self);
+// As integrator_archive, into one of an equal launch in the same state.
+void propagator_archive(propagator *self, archive *bytes);
 
 // What the equations gave at (t, y): the latest evaluation where it is that of the same state under
 // the same conditions, else a new one.
