@@ -86,22 +86,6 @@ static void note_outcome(launch_state *self, launching_outcome outcome)
     self->worst_condition = fmax(self->worst_condition, out->condition);
 }
 
-static int rhs(double t, const double *y, double *y_dot, void *user)
-{
-    launch_state *self = user;
-    launcher_input input;
-    launcher_output *out = &self->latest.out;
-    simulation_input(self, t, y, &input);
-    self->latest.known = false;
-    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
-    note_outcome(self, outcome);
-    if (outcome)
-        return -1;
-    remember(self, t, y);
-    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
-    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
-}
-
 const launcher_output *simulation_output(launch_state *self, double t, const double *y)
 {
     if (!is_latest(self, t, y)) {
@@ -113,54 +97,6 @@ const launcher_output *simulation_output(launch_state *self, double t, const dou
         remember(self, t, y);
     }
     return &self->latest.out;
-}
-
-int simulation_breech_event(const launch_state *self)
-{
-    const launcher_system *launcher = &self->launcher;
-    return EVENT_ADAPTORS + 2 * launcher->launching.adaptors.count + launcher->base.event_count;
-}
-
-static int event_count(const launch_state *self)
-{
-    return simulation_breech_event(self) + 1;
-}
-
-// Events of the launching subsystem; the others stay away from zero.
-static void launching_events(const launch_state *self, const launching_output *out, double *g)
-{
-    const launching_phase *phase = &self->phase;
-    int count = self->launcher.launching.adaptors.count;
-    double length = self->launcher.launching.tube.flexible.length;
-    bool touching = self->launcher.launching.adaptors.law.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
-    for (int i = 0; i < event_count(self); i++)
-        g[i] = 1;
-    if (!phase->rocket)
-        return;
-    if (touching && !phase->locked) // the rear adaptor is at s
-        g[simulation_breech_event(self)] = (phase->breech - out->adaptor[0].s) / 1e-3;
-    if (phase->locked)
-        g[EVENT_RELEASE] = 1 - out->lock_force / self->rocket->lock.release_force;
-    for (int i = 0; i < count; i++) {
-        if (phase->passed[i])
-            continue;
-        g[EVENT_ADAPTORS + i] = (length - out->adaptor[i].s) / length;
-        if (touching)
-            g[EVENT_ADAPTORS + count + i] = out->adaptor[i].penetration / 1e-3;
-    }
-}
-
-static int events(double t, const double *y, double *g, void *user)
-{
-    launch_state *self = user;
-    const launcher_output *out = simulation_output(self, t, y);
-    if (!out)
-        return -1;
-    launching_events(self, &out->launching, g);
-    int first = EVENT_ADAPTORS + 2 * self->launcher.launching.adaptors.count;
-    for (int j = 0; j < self->launcher.base.event_count; j++)
-        g[first + j] = out->base.event[j] / 1e-3;
-    return 0;
 }
 
 // ---- tolerances ----
@@ -199,8 +135,6 @@ static void find_tolerances(const launch_state *self, tolerances *all)
         base->tolerances(&self->launcher.base, tolerance, atol + base_at, all->absolute + base_at);
 }
 
-// ---- subsystems apart ----
-
 // A force and a moment as they were exchanged, going on as the last two tell.
 typedef struct held_wrench {
     v3 force, moment, force_rate, moment_rate;
@@ -211,6 +145,7 @@ enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 struct propagator {
     launch_state *launch;
+    event_list events;
     integrator *integrator; // of all, or of the launching subsystem
     double state[LD_MAX_STATES];
 
@@ -227,6 +162,36 @@ struct propagator {
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
 };
+
+// ---- together ----
+
+static int rhs(double t, const double *y, double *y_dot, void *user)
+{
+    launch_state *self = ((propagator *)user)->launch;
+    launcher_input input;
+    launcher_output *out = &self->latest.out;
+    simulation_input(self, t, y, &input);
+    self->latest.known = false;
+    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
+    note_outcome(self, outcome);
+    if (outcome)
+        return -1;
+    remember(self, t, y);
+    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
+    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
+}
+
+static int events(double t, const double *y, double *g, void *user)
+{
+    propagator *self = user;
+    const launcher_output *out = simulation_output(self->launch, t, y);
+    if (!out)
+        return -1;
+    events_evaluate(&self->events, self->launch, out, g);
+    return 0;
+}
+
+// ---- subsystems apart ----
 
 static void take_wrench(held_wrench *held, v3 force, v3 moment, double since)
 {
@@ -265,7 +230,7 @@ static int launching_events_apart(double t, const double *y, double *g, void *us
     double unused[LD_MAX_STATES];
     if (launching_rhs(t, y, unused, user))
         return -1;
-    launching_events(self->launch, &self->launch->latest.out.launching, g);
+    events_evaluate(&self->events, self->launch, &self->launch->latest.out, g);
     return 0;
 }
 
@@ -462,6 +427,7 @@ ld_status propagator_create(launch_state *launch, propagator **out, ld_error *er
     self->launch = launch;
     self->vehicle = base_as_vehicle(&launcher->base);
     self->apart = self->vehicle && launch->model->run.coupling_step > 0;
+    self->events = events_of(launch, !self->apart);
     integrator_settings settings = {
         .n = (size_t)launcher->state_count,
         .method = INTEGRATOR_CASH_KARP,
@@ -471,12 +437,11 @@ ld_status propagator_create(launch_state *launch, propagator **out, ld_error *er
         .max_step = launch->model->run.max_step,
         .rhs = rhs,
         .events = events,
-        .event_count = event_count(launch),
-        .self = launch,
+        .event_count = self->events.count,
+        .self = self,
     };
     if (!self->apart)
         return integrator_create(&settings, &self->integrator, error);
-    settings.self = self;
     ld_status status = create_base(self, &settings, &all, error);
     int count = launcher->launching.layout.count;
     for (int i = 0; i < POWER_COUNT; i++) {
@@ -562,9 +527,10 @@ void propagator_interpolate(propagator *self, double t, double *y)
     join(self, t, launching, y);
 }
 
-int propagator_event(const propagator *self, int i)
+int propagator_event(const propagator *self, event_kind kind, int index)
 {
-    return integrator_event(self->integrator, i);
+    int i = event_find(&self->events, kind, index);
+    return i < 0 ? 0 : integrator_event(self->integrator, i);
 }
 
 int64_t propagator_steps(const propagator *self)

@@ -1,5 +1,6 @@
 #include "systems/launcher.h"
 
+#include <assert.h>
 #include <string.h>
 
 ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
@@ -39,6 +40,7 @@ void launcher_free_share(launcher_system *self)
 
 void launcher_select(launcher_system *self, int i)
 {
+    assert(i >= 0 && i < self->model->firing_count);
     self->base.tube = i;
 }
 
