@@ -284,7 +284,11 @@ void field_expectation(const field_row *field, char *text, size_t size)
         number_expectation(field, text, size);
         return;
     case FIELD_INTEGER:
-        snprintf(text, size, "a whole number from %g to %.9g", field->range.low, field->range.high);
+        if (field->range.low < field->range.high)
+            snprintf(text, size, "a whole number from %g to %.9g", field->range.low,
+                     field->range.high);
+        else
+            snprintf(text, size, "%g", field->range.low);
         return;
     case FIELD_INTEGERS:
         if (field->least > 0)

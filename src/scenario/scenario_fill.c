@@ -118,8 +118,8 @@ static void read_whole(scenario_reader *reader, const field_row *f, const tree_n
     long number = strtol(value->text, NULL, 10);
     if (count == 0 || count > 9 || digits[count] || !field_in_range(f->range, (double)number)) {
         field_expectation(f, expected, sizeof expected);
-        reader_refuse(reader, value->at, path, "found %s; expected %s",
-                      reader_quote(value->text, quoted), expected);
+        reader_refuse(reader, value->at, path, "found %s; %s %s", reader_quote(value->text, quoted),
+                      f->range.low < f->range.high ? "expected" : "must be", expected);
     } else if (result) {
         *result = (int)number;
     }
@@ -589,8 +589,10 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
     } else if (f->kind == FIELD_SELECTION && fits) {
         read_selection(reader, f, NULL, base, key_path);
     } else if (field_is_required(f, form) && fits && (form >= 0 || !f->forms)) {
+        const tree_node *taken = tree_taken(map, f->name);
         field_expectation(f, expected, sizeof expected);
-        reader_refuse(reader, map->key_at, key_path, "missing; expected %s", expected);
+        reader_refuse(reader, taken ? taken->key_at : map->key_at, key_path, "%s; expected %s",
+                      taken ? "taken away here, but needed" : "missing", expected);
     }
 }
 
@@ -622,6 +624,29 @@ typedef struct rule_context {
     size_t messages; // about single values, which came before the rules
 } rule_context;
 
+// Whether the key stands in the text as a word.
+static bool has_word(const char *text, const char *key)
+{
+    static const char inside[] = "abcdefghijklmnopqrstuvwxyz0123456789_";
+    size_t length = strlen(key);
+    for (const char *c = text; (c = strstr(c, key)); c++) {
+        bool begins = c == text || !strchr(inside, c[-1]);
+        if (begins && (!c[length] || !strchr(inside, c[length])))
+            return true;
+    }
+    return false;
+}
+
+// The place of a broken rule about the node: a key that it names and that was taken away, else the
+// value, or the key of a block.
+static text_place place_of_rule(const tree_node *node, const char *text)
+{
+    for (const tree_node *taken = node->taken; taken; taken = taken->next)
+        if (has_word(text, taken->key))
+            return taken->key_at;
+    return node->kind == NODE_SCALAR && !tree_is_empty(node) ? node->at : node->key_at;
+}
+
 // Reports a broken rule at the key that it is about, or at the nearest block around it.
 static void refuse_rule(void *self, const char *path, const char *text)
 {
@@ -633,23 +658,24 @@ static void refuse_rule(void *self, const char *path, const char *text)
     for (char *save = NULL, *key = strtok_r(rest, ".", &save); key;
          key = strtok_r(NULL, ".", &save)) {
         char longer[PATH];
-        const struct tree_node *inner = NULL;
+        const tree_node *inner = NULL, *taken = NULL;
         if (!lost && node->kind == NODE_MAP)
             inner = tree_member(node, key);
         else if (!lost && node->kind == NODE_LIST)
             inner = tree_entry(node, key);
+        if (!lost && !inner)
+            taken = tree_taken(node, key);
         if (inner && node->kind == NODE_LIST)
             entry_path(longer, full_path, inner, atoi(key));
         else
             join(longer, full_path, key);
         memcpy(full_path, longer, sizeof full_path);
-        // a key that is missing is reported at the block that lacks it
+        // a key that is missing is reported where it was taken away, or at the block that lacks it
         lost = lost || !inner;
-        node = inner ? inner : node;
+        node = inner ? inner : taken ? taken : node;
     }
     if (!reader_has_refused(context->reader, context->messages, full_path))
-        reader_refuse(context->reader, node->kind == NODE_SCALAR ? node->at : node->key_at,
-                      full_path, "%s", text);
+        reader_refuse(context->reader, place_of_rule(node, text), full_path, "%s", text);
 }
 
 void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model)

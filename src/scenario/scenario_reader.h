@@ -54,7 +54,8 @@ typedef struct tree_node {
     struct tree_node *last;  // member
     struct tree_node *next;  // sibling
     struct tree_node
-        *beneath; // the scalar that this mapping was laid over, for x, y, z of a vector
+        *beneath;            // the scalar that this mapping was laid over, for x, y, z of a vector
+    struct tree_node *taken; // members taken away by the empty values listed here
 } tree_node;
 
 typedef struct memory_pool {
@@ -112,6 +113,8 @@ const char *reader_quote(const char *text, char buffer[64]);
 tree_node *tree_parse(scenario_reader *reader, const text_source *source, const char *text,
                       size_t length, int column);
 tree_node *tree_member(const tree_node *map, const char *key);
+// The empty value that took this member away, or NULL.
+const tree_node *tree_taken(const tree_node *map, const char *key);
 // The member of a list by name (its `name`) or by number from 1, or NULL.
 tree_node *tree_entry(const tree_node *list, const char *name);
 // Lays `over` on `under` and returns the result: mappings member by member (an empty value takes

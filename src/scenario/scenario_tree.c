@@ -99,6 +99,14 @@ tree_node *tree_member(const tree_node *map, const char *key)
     return NULL;
 }
 
+const tree_node *tree_taken(const tree_node *map, const char *key)
+{
+    const tree_node *taken = map->taken;
+    while (taken && strcmp(taken->key, key) != 0)
+        taken = taken->next;
+    return taken;
+}
+
 tree_node *tree_entry(const tree_node *list, const char *name)
 {
     int number = 0;
@@ -484,6 +492,8 @@ static void merge_maps(scenario_reader *reader, tree_node *under, tree_node *ove
         snprintf(key_path, sizeof key_path, "%s%s%s", path, path[0] ? "." : "", member->key);
         if (old && tree_is_empty(member)) {
             tree_remove(under, old);
+            member->next = under->taken;
+            under->taken = member;
         } else if (old) {
             tree_node *merged = tree_merge(reader, old, member, key_path);
             if (merged != old)
