@@ -3,23 +3,23 @@
 // settings.
 #include "bench_sample.h"
 #include "scenario/scenario.h"
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
 
 // A state in the tube with `contacts` adaptors on the wall.
-static void bench_evaluation(ld_simulation *simulation, int contacts, const char *what)
+static void bench_evaluation(launch_state *launch, int contacts, const char *what)
 {
     double y[LD_MAX_STATES], sample[REPEATS];
     ld_equilibrium_summary unused;
-    launching_phase phase = simulation_start_phase(simulation);
+    launching_phase phase = simulation_start_phase(launch);
     launcher_input input;
     launching_output out;
-    const launching_layout *at = &simulation->launcher.launching.layout;
-    if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
+    const launching_layout *at = &launch->launcher.launching.layout;
+    if (simulation_equilibrium(launch, 0, y, &unused, NULL))
         return;
-    simulation->piece = 1;
-    simulation_input(simulation, 0.1, y, &input);
+    launch->piece = 1;
+    simulation_input(launch, 0.1, y, &input);
     phase.locked = false;
     y[at->x] = 0.7;
     y[at->V] = 10;
@@ -29,28 +29,28 @@ static void bench_evaluation(ld_simulation *simulation, int contacts, const char
         double start = now();
         for (int i = 0; i < EVALUATIONS; i++) {
             y[at->x + 1] += 1e-12; // a new state each time
-            launching_evaluate(&simulation->launcher.launching, &input.launching, &phase, y, &out);
+            launching_evaluate(&launch->launcher.launching, &input.launching, &phase, y, &out);
         }
         sample[r] = (now() - start) / EVALUATIONS;
     }
     print(what, sample, REPEATS, 1e-9, "ns");
 }
 
-static void bench_form(ld_simulation *simulation, ld_formulation form, const char *what)
+static void bench_form(launch_state *launch, ld_formulation form, const char *what)
 {
     double y[LD_MAX_STATES], sample[REPEATS];
     ld_equilibrium_summary unused;
-    launching_phase phase = simulation_start_phase(simulation);
+    launching_phase phase = simulation_start_phase(launch);
     launcher_input input;
     launching_output out;
-    if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
+    if (simulation_equilibrium(launch, 0, y, &unused, NULL))
         return;
-    simulation_input(simulation, 0.1, y, &input);
+    simulation_input(launch, 0.1, y, &input);
     for (int r = 0; r < REPEATS; r++) {
         double start = now();
         for (int i = 0; i < FEW_EVALUATIONS; i++)
-            launching_evaluate_general(&simulation->launcher.launching, form, &input.launching,
-                                       &phase, y, &out);
+            launching_evaluate_general(&launch->launcher.launching, form, &input.launching, &phase,
+                                       y, &out);
         sample[r] = (now() - start) / FEW_EVALUATIONS;
     }
     print(what, sample, REPEATS, 1e-9, "ns");
@@ -83,14 +83,17 @@ int main(void)
     ld_model model;
     ld_messages messages = {0};
     ld_simulation *simulation;
+    launch_state launch;
     if (scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages) ||
-        ld_simulation_create(&model, &simulation, NULL))
+        ld_simulation_create(&model, &simulation, NULL) ||
+        launch_state_begin(&launch, simulation, NULL))
         return 1;
-    bench_evaluation(simulation, 2, NULL); // the processor warms up
-    bench_evaluation(simulation, 2, "evaluation, reduced, fast layout, 2 of 3 in contact");
-    bench_evaluation(simulation, 3, "evaluation, reduced, fast layout, 3 of 3 in contact");
-    bench_form(simulation, LD_FORMULATION_REDUCED, "evaluation, reduced, general matrix");
-    bench_form(simulation, LD_FORMULATION_OVERALL, "evaluation, overall 19 x 19");
+    bench_evaluation(&launch, 2, NULL); // the processor warms up
+    bench_evaluation(&launch, 2, "evaluation, reduced, fast layout, 2 of 3 in contact");
+    bench_evaluation(&launch, 3, "evaluation, reduced, fast layout, 3 of 3 in contact");
+    bench_form(&launch, LD_FORMULATION_REDUCED, "evaluation, reduced, general matrix");
+    bench_form(&launch, LD_FORMULATION_OVERALL, "evaluation, overall 19 x 19");
+    launch_state_end(&launch);
     ld_simulation_free(simulation);
     bench_run(&model);
     model_clear(&model);

@@ -5,7 +5,7 @@
 
 #include "bench_sample.h"
 #include "scenario/scenario.h"
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 
 enum { REPEATS = 11, PARTS = 41, EVALUATIONS = 2000 };
 
@@ -15,26 +15,26 @@ typedef struct part_of_it {
 } part_of_it;
 
 // What an evaluation of the whole, or of parts of it, costs in the state before ignition.
-static void bench_evaluation(ld_simulation *simulation, const part_of_it *part)
+static void bench_evaluation(launch_state *launch, const part_of_it *part)
 {
     double y[LD_MAX_STATES], y_dot[LD_MAX_STATES], sample[PARTS];
     ld_equilibrium_summary unused;
-    const launcher_system *launcher = &simulation->launcher;
-    launching_phase phase = simulation_start_phase(simulation);
+    const launcher_system *launcher = &launch->launcher;
+    launching_phase phase = simulation_start_phase(launch);
     launcher_input input;
     launcher_output out;
     memset(&out, 0, sizeof out);
-    if (simulation_equilibrium(simulation, 0, y, &unused, NULL))
+    if (simulation_equilibrium(launch, 0, y, &unused, NULL))
         return;
-    simulation_move_with_base(simulation, 0, y);
-    simulation_input(simulation, 0, y, &input);
+    simulation_move_with_base(launch, 0, y);
+    simulation_input(launch, 0, y, &input);
     launcher_evaluate(launcher, &input, &phase, y, &out);
     for (int r = 0; r < PARTS; r++) {
         double start = now();
         for (int i = 0; i < EVALUATIONS; i++) {
             y[launcher->orientating_at] += 1e-9; // a new place each time
             if (part->place)
-                simulation_input(simulation, 0, y, &input);
+                simulation_input(launch, 0, y, &input);
             if (part->launching)
                 launching_evaluate(&launcher->launching, &input.launching, &phase, y,
                                    &out.launching);
@@ -83,11 +83,14 @@ int main(void)
     ld_model model;
     ld_messages messages = {0};
     ld_simulation *simulation;
+    launch_state launch;
     if (scenario_read(reference, NULL, 0, &model, &messages) ||
-        ld_simulation_create(&model, &simulation, NULL))
+        ld_simulation_create(&model, &simulation, NULL) ||
+        launch_state_begin(&launch, simulation, NULL))
         return 1;
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-        bench_evaluation(simulation, &parts[i]);
+        bench_evaluation(&launch, &parts[i]);
+    launch_state_end(&launch);
     ld_simulation_free(simulation);
     model_clear(&model);
     bench_run("whole run, 3 s lead-in, to the ground", reference, NULL, 0);

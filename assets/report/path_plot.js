@@ -18,11 +18,11 @@ export function pathPlot(shown, group, marks, host) {
   const { table, panel, curves, against, zero } = shown;
   const t = table.t.map((time) => time - zero);
   const x = filled(against.value, t).map((v) => v * panel.x.factor);
-  const y = filled(curves[0].column.value, t).map((v) => v * panel.factor);
+  const y = filled(curves[0].column.value, t).map((v) => v * panel.y.factor);
   const canvas = element("canvas", { tabIndex: 0 });
   const reading = element("output", { className: "reading" });
   canvas.setAttribute("role", "figure");
-  canvas.setAttribute("aria-label", `${shown.title}: ${panel.unit} against ${panel.x.label}`);
+  canvas.setAttribute("aria-label", `${shown.title}: ${panel.y.text} against ${panel.x.text}`);
   host.append(canvas, reading);
   let first = 0, last = t.length - 1, pointed = -1, place;
 
@@ -58,11 +58,11 @@ export function pathPlot(shown, group, marks, host) {
     });
     ctx.font = "12px sans-serif";
     ctx.textAlign = "center";
-    ctx.fillText(panel.x.label, (LEFT + right) / 2, HEIGHT - 12);
+    ctx.fillText(panel.x.text, (LEFT + right) / 2, HEIGHT - 12);
     ctx.save();
     ctx.translate(12, (TOP + bottom) / 2);
     ctx.rotate(-Math.PI / 2);
-    ctx.fillText(panel.unit, 0, 0);
+    ctx.fillText(panel.y.text, 0, 0);
     ctx.restore();
   };
 

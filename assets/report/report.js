@@ -100,14 +100,15 @@ function showTable(table, index, summary, nav) {
   nav.append(element("a", { href: `#${id}` }, heading));
   const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
   if (buttons) host.append(buttons);
-  for (const figure of data.figures[table.kind]) {
+  for (const figure of data.figures) {
+    if ((figure.time === "flight") !== (table.kind === "flight")) continue;
     const panels = panelsOf(table, figure, ignition);
     if (panels.length === 0) continue;
     const grid = element("div", { className: "grid" });
     host.append(element("section", { className: "figure", id: `${id}-${figure.name}` },
       element("h3", { className: "heading" }, figure.title), grid));
     for (const shown of panels) {
-      const group = figure.vehicle ? groups.vehicle : groups.launch;
+      const group = figure.time === "vehicle" ? groups.vehicle : groups.launch;
       addPanel(grid, shown, group, marks);
       followers.push(group.plots[group.plots.length - 1]);
     }

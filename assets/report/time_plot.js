@@ -13,7 +13,7 @@ function alignedData({ table, panel, curves, zero }) {
     if (curves.some((curve) => curve.column.value[i] !== undefined)) rows.push(i);
   return [rows.map((i) => table.t[i] - zero), ...curves.map(({ column, shift }) => {
     const value = filled(column.value, table.t);
-    return rows.map((i) => (Number.isNaN(value[i]) ? null : (value[i] - shift) * panel.factor));
+    return rows.map((i) => (Number.isNaN(value[i]) ? null : (value[i] - shift) * panel.y.factor));
   })];
 }
 
@@ -73,7 +73,7 @@ function options(shown, group, marks, width) {
     width, height: HEIGHT, pxAlign: 0,
     scales: { x: { time: false }, y: { range: roomAround } },
     axes: [{ ...axis("time from ignition [s]", true), size: 30 },
-      { ...axis(`[${panel.unit}]`, true), size: 56 }],
+      { ...axis(panel.y.text, true), size: 56 }],
     series: [{ label: "t [s]", value: (u, v) => readable(v) },
       ...curves.map((curve, i) => ({
         label: curve.label || shown.title, stroke: () => curveColour(i), width: 1.25, pxAlign: 0,
@@ -122,7 +122,7 @@ export function timePlot(shown, group, marks, host) {
   const data = alignedData(shown);
   const u = new uPlot(options(shown, group, marks, host.clientWidth || 600), data, host);
   u.root.setAttribute("role", "figure");
-  u.root.setAttribute("aria-label", `${shown.title}, ${shown.panel.unit}, over time`);
+  u.root.setAttribute("aria-label", `${shown.title}, ${shown.panel.y.unit}, over time`);
   listenToKeys(u, data, group);
   new ResizeObserver(() => {
     if (host.clientWidth !== u.width) u.setSize({ width: host.clientWidth, height: HEIGHT });

@@ -1,7 +1,8 @@
 /// A launch: from a model to rows of a history and a summary.
 ///
 /// A simulation holds what is computed once from the model (modes, inertia coefficients, tables)
-/// and the workspace of one thread. Nothing is allocated between the first and the last step.
+/// and then does not change: several threads may run it at a time. What a run changes is the run's
+/// own; nothing is allocated between its first and its last step.
 #ifndef LAUNCHDYN_SIMULATION_H
 #define LAUNCHDYN_SIMULATION_H
 
@@ -15,6 +16,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 enum { LD_SHAPE_TEXT = 64 };
 
@@ -63,7 +65,7 @@ typedef struct ld_run_options {
 ///         stabiliser too weak or unstable, a base's table that ends too early), LD_ERR_LAUNCH
 ///         (never released, stuck, jammed, not landed, beyond a table), LD_ERR_NUMERIC,
 ///         LD_ERR_MEMORY, LD_ERR_INTERRUPTED, or what the sink returned.
-ld_status ld_simulation_run(ld_simulation *simulation, const ld_run_options *options,
+ld_status ld_simulation_run(const ld_simulation *simulation, const ld_run_options *options,
                             ld_summary *summary, ld_error *error);
 
 /// Natural frequencies of tube and tail on their supports (base held, without gravity), ascending;
@@ -78,13 +80,14 @@ int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, in
 /// modulus. Those that lock and slot leave at zero, and a vehicle's neutral directions, are left
 /// out.
 /// @return LD_OK, LD_ERR_INPUT (a flight alone), LD_ERR_NUMERIC or LD_ERR_MEMORY
-ld_status ld_simulation_system_modes(ld_simulation *simulation, ld_mode *modes, int capacity,
+ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
                                      int *count, ld_pole *poles, int pole_capacity, int *pole_count,
                                      ld_error *error);
 
 /// Columns of the history, in order.
 size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -18,15 +18,25 @@ typedef struct plot_curve {
     const char *column, *label;
 } plot_curve;
 
-// One diagram. Values times the factor have the unit that the label names.
+// A unit as it is written; values times the factor have it.
+typedef struct plot_unit {
+    const char *name; // "": plain numbers
+    double factor;    // from SI
+} plot_unit;
+
+// What stands at an axis; without a name the unit alone.
+typedef struct plot_axis {
+    const char *name;
+    plot_unit unit;
+} plot_axis;
+
+// One diagram.
 typedef struct plot_panel {
     const char *title;
-    const char *y_label;
-    double y_factor;
+    plot_axis y;
     plot_curve curve[PLOT_CURVES]; // up to the first without a column
-    const char *x_column;          // NULL: time from ignition
-    const char *x_label;
-    double x_factor;
+    const char *x_column;          // NULL: time from ignition, without an axis of its own
+    plot_axis x;
     bool wide;  // takes a row of its own
     bool since; // values less those at ignition
     bool each;  // a diagram for each text that the '*' stands for, which takes the title's %s
@@ -43,8 +53,15 @@ typedef struct plot_figure {
     plot_time time;
 } plot_figure;
 
-// The figure with this name, or NULL.
+// The figures in their order, NULL after the last; that with a name, or NULL.
+const plot_figure *plot_figure_at(size_t index);
 const plot_figure *plot_figure_find(const char *name);
+
+// The text of an axis, "height [m]"; what is too long is cut.
+void plot_axis_text(const plot_axis *axis, char *text, size_t size);
+
+// Writes all figures as a list of JSON, for those who draw them elsewhere.
+void plot_write_json(FILE *json);
 
 typedef enum plot_format { PLOT_SVG, PLOT_PDF, PLOT_PNG } plot_format;
 
@@ -60,6 +77,9 @@ typedef struct plot_page {
 
 // Whether `name` is the pattern, whose one '*' stands for any text; that text becomes the label.
 bool plot_column_matches(const char *name, const char *pattern, char *label, size_t size);
+
+// Whether a figure shows a column.
+bool plot_figure_shows(const plot_figure *figure, const char *column);
 
 // Whether a run has a column that the figure shows.
 bool plot_figure_has_columns(const plot_figure *figure, const history_data *run);

@@ -1,177 +1,191 @@
-// What the standard figures of a launch show.
+// What the standard figures of a launch and of flights show, for gnuplot and the report alike. A
+// new figure is a row more of the table.
 #include <string.h>
 
 #include "figures/plot.h"
 
-// Factors from SI units to those shown.
-#define MILLI 1e3
-#define KILO 1e-3
-#define DEGREES 57.29577951308232
+// clang-format off
+
+// Units as they are written at an axis, with the factor from SI.
+#define PLAIN {"", 1}
+#define M {"m", 1}
+#define KM {"km", 1e-3}
+#define MM {"mm", 1e3}
+#define M_S {"m/s", 1}
+#define MM_S {"mm/s", 1e3}
+#define DEG {"deg", 57.29577951308232}
+#define MRAD {"mrad", 1e3}
+#define RAD_S {"rad/s", 1}
+#define MRAD_S {"mrad/s", 1e3}
+#define N {"N", 1}
+#define KN {"kN", 1e-3}
+#define KN_M {"kN m", 1e-3}
+#define J {"J", 1}
+#define KJ {"kJ", 1e-3}
+#define KG {"kg", 1}
+#define KG_M3 {"kg/m³", 1}
 
 // Curves over time, in half the width of the page or in all of it; their change since ignition;
 // one diagram for each part that has the column; one column against another.
-#define HALF(heading, unit, factor, ...)                                                           \
-    {                                                                                              \
-        .title = heading, .y_label = unit, .y_factor = factor, .curve = { __VA_ARGS__ }            \
-    }
-#define WIDE(heading, unit, factor, ...)                                                           \
-    {                                                                                              \
-        .title = heading, .y_label = unit, .y_factor = factor, .curve = {__VA_ARGS__},             \
-        .wide = true                                                                               \
-    }
-#define SINCE(heading, unit, factor, ...)                                                          \
-    {                                                                                              \
-        .title = heading, .y_label = unit, .y_factor = factor, .curve = {__VA_ARGS__},             \
-        .since = true                                                                              \
-    }
-#define EACH(heading, unit, factor, column)                                                        \
-    {                                                                                              \
-        .title = heading, .y_label = unit, .y_factor = factor, .curve = {{column, ""}},            \
-        .wide = true, .each = true                                                                 \
-    }
-#define AGAINST(heading, y_name, y_unit_factor, y, x_name, x_unit_factor, x)                       \
-    {                                                                                              \
-        .title = heading, .y_label = y_name, .y_factor = y_unit_factor, .curve = {{y, ""}},        \
-        .x_column = x, .x_label = x_name, .x_factor = x_unit_factor                                \
-    }
-#define BROAD(heading, y_name, y_unit_factor, y, x_name, x_unit_factor, x)                         \
-    {                                                                                              \
-        .title = heading, .y_label = y_name, .y_factor = y_unit_factor, .curve = {{y, ""}},        \
-        .x_column = x, .x_label = x_name, .x_factor = x_unit_factor, .wide = true                  \
-    }
+#define HALF(heading, in, ...) {.title = heading, .y = {"", in}, .curve = {__VA_ARGS__}}
+#define WIDE(heading, in, ...) \
+    {.title = heading, .y = {"", in}, .curve = {__VA_ARGS__}, .wide = true}
+#define SINCE(heading, in, ...) \
+    {.title = heading, .y = {"", in}, .curve = {__VA_ARGS__}, .since = true}
+#define EACH(heading, in, column) \
+    {.title = heading, .y = {"", in}, .curve = {{column, ""}}, .wide = true, .each = true}
+#define AGAINST(heading, y_name, y_in, y_column, x_name, x_in, of) \
+    {.title = heading, .y = {y_name, y_in}, .curve = {{y_column, ""}}, .x_column = of, \
+     .x = {x_name, x_in}}
+#define BROAD(heading, y_name, y_in, y_column, x_name, x_in, of) \
+    {.title = heading, .y = {y_name, y_in}, .curve = {{y_column, ""}}, .x_column = of, \
+     .x = {x_name, x_in}, .wide = true}
 
 // A figure of what comes after ignition; one over all the time that a vehicle moves; one of the
 // flights of the rockets.
-#define LAUNCH(name, text, ...)                                                                    \
-    {                                                                                              \
-        .about = {name, text}, .panel = { __VA_ARGS__ }                                            \
-    }
-#define VEHICLE(name, text, ...)                                                                   \
-    {                                                                                              \
-        .about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_VEHICLE                        \
-    }
-#define FLIGHT(name, text, ...)                                                                    \
-    {                                                                                              \
-        .about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_FLIGHT                         \
-    }
+#define LAUNCH(name, text, ...) {.about = {name, text}, .panel = {__VA_ARGS__}}
+#define VEHICLE(name, text, ...) \
+    {.about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_VEHICLE}
+#define FLIGHT(name, text, ...) \
+    {.about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_FLIGHT}
 
-// clang-format off
 static const plot_figure figures[] = {
     LAUNCH("tip", "Tip of the tube against the undeformed tube",
-           HALF("Position", "mm", MILLI, {"tip.y", "y"}, {"tip.z", "z"}),
-           HALF("Direction", "mrad", MILLI, {"tip.pitch", "pitch"}, {"tip.yaw", "yaw"})),
+           HALF("Position", MM, {"tip.y", "y"}, {"tip.z", "z"}),
+           HALF("Direction", MRAD, {"tip.pitch", "pitch"}, {"tip.yaw", "yaw"})),
     LAUNCH("tip-rate", "Rates of the tip of the tube",
-           HALF("Velocity", "m/s", 1, {"tip.vy", "y"}, {"tip.vz", "z"}),
-           HALF("Angular rate", "mrad/s", MILLI, {"tip.pitch_rate", "pitch"}, {"tip.yaw_rate", "yaw"})),
+           HALF("Velocity", M_S, {"tip.vy", "y"}, {"tip.vz", "z"}),
+           HALF("Angular rate", MRAD_S, {"tip.pitch_rate", "pitch"}, {"tip.yaw_rate", "yaw"})),
     LAUNCH("tip-inertial", "Tip of the tube in inertial space",
-           SINCE("Height since ignition", "mm", MILLI, {"tip.inertial_y", ""}),
-           SINCE("To the right since ignition", "mm", MILLI, {"tip.inertial_z", ""}),
-           SINCE("Pitch since ignition", "mrad", MILLI, {"tip.inertial_pitch", ""}),
-           SINCE("Yaw since ignition", "mrad", MILLI, {"tip.inertial_yaw", ""}),
-           HALF("Velocity upwards", "mm/s", MILLI, {"tip.inertial_vy", ""}),
-           HALF("Velocity to the right", "mm/s", MILLI, {"tip.inertial_vz", ""}),
-           HALF("Pitch rate", "mrad/s", MILLI, {"tip.inertial_pitch_rate", ""}),
-           HALF("Yaw rate", "mrad/s", MILLI, {"tip.inertial_yaw_rate", ""})),
+           SINCE("Height since ignition", MM, {"tip.inertial_y", ""}),
+           SINCE("To the right since ignition", MM, {"tip.inertial_z", ""}),
+           SINCE("Pitch since ignition", MRAD, {"tip.inertial_pitch", ""}),
+           SINCE("Yaw since ignition", MRAD, {"tip.inertial_yaw", ""}),
+           HALF("Velocity upwards", MM_S, {"tip.inertial_vy", ""}),
+           HALF("Velocity to the right", MM_S, {"tip.inertial_vz", ""}),
+           HALF("Pitch rate", MRAD_S, {"tip.inertial_pitch_rate", ""}),
+           HALF("Yaw rate", MRAD_S, {"tip.inertial_yaw_rate", ""})),
     LAUNCH("travel", "Travel of the rocket along the tube",
-           HALF("Travel", "m", 1, {"rocket.s", "s"}),
-           HALF("Speed", "m/s", 1, {"rocket.s_dot", "relative to the tube"}),
-           HALF("Roll", "deg", DEGREES, {"rocket.gamma", "relative to the tube"}),
-           HALF("Spin", "rad/s", 1, {"rocket.spin", "in inertial space"})),
+           HALF("Travel", M, {"rocket.s", "s"}),
+           HALF("Speed", M_S, {"rocket.s_dot", "relative to the tube"}),
+           HALF("Roll", DEG, {"rocket.gamma", "relative to the tube"}),
+           HALF("Spin", RAD_S, {"rocket.spin", "in inertial space"})),
     LAUNCH("relative", "Rocket relative to the tube",
-           HALF("Rear adaptor's centre", "mm", MILLI, {"rocket.y", "y"}, {"rocket.z", "z"}),
-           HALF("Direction", "mrad", MILLI, {"rocket.psi", "pitch ψ"}, {"rocket.theta", "yaw θ"}),
-           AGAINST("Path of the rear adaptor's centre", "y [mm]", MILLI, "rocket.y",
-                   "z [mm]", MILLI, "rocket.z"),
-           AGAINST("Pitch against yaw", "pitch ψ [mrad]", MILLI, "rocket.psi",
-                   "yaw θ [mrad]", MILLI, "rocket.theta")),
+           HALF("Rear adaptor's centre", MM, {"rocket.y", "y"}, {"rocket.z", "z"}),
+           HALF("Direction", MRAD, {"rocket.psi", "pitch ψ"}, {"rocket.theta", "yaw θ"}),
+           AGAINST("Path of the rear adaptor's centre", "y", MM, "rocket.y",
+                   "z", MM, "rocket.z"),
+           AGAINST("Pitch against yaw", "pitch ψ", MRAD, "rocket.psi",
+                   "yaw θ", MRAD, "rocket.theta")),
     LAUNCH("phase", "Phase graphs of the rear adaptor's motion across the tube",
-           AGAINST("Along y", "rate of y [mm/s]", MILLI, "rocket.y_dot", "y [mm]", MILLI, "rocket.y"),
-           AGAINST("Along z", "rate of z [mm/s]", MILLI, "rocket.z_dot", "z [mm]", MILLI, "rocket.z")),
+           AGAINST("Along y", "rate of y", MM_S, "rocket.y_dot", "y", MM, "rocket.y"),
+           AGAINST("Along z", "rate of z", MM_S, "rocket.z_dot", "z", MM, "rocket.z")),
     LAUNCH("across", "Motion of the rocket across the tube",
-           HALF("Travel", "m", 1, {"rocket.s", ""}),
-           AGAINST("Path of the rear adaptor's centre", "y [mm]", MILLI, "rocket.y",
-                   "z [mm]", MILLI, "rocket.z"),
-           AGAINST("Its velocity", "rate of y [mm/s]", MILLI, "rocket.y_dot",
-                   "rate of z [mm/s]", MILLI, "rocket.z_dot"),
-           AGAINST("Pitch against yaw", "pitch ψ [mrad]", MILLI, "rocket.psi",
-                   "yaw θ [mrad]", MILLI, "rocket.theta")),
+           HALF("Travel", M, {"rocket.s", ""}),
+           AGAINST("Path of the rear adaptor's centre", "y", MM, "rocket.y",
+                   "z", MM, "rocket.z"),
+           AGAINST("Its velocity", "rate of y", MM_S, "rocket.y_dot",
+                   "rate of z", MM_S, "rocket.z_dot"),
+           AGAINST("Pitch against yaw", "pitch ψ", MRAD, "rocket.psi",
+                   "yaw θ", MRAD, "rocket.theta")),
     LAUNCH("relative-rate", "Rates of the rocket's angles relative to the tube",
-           WIDE("Pitch ψ", "mrad/s", MILLI, {"rocket.psi_dot", ""}),
-           WIDE("Yaw θ", "mrad/s", MILLI, {"rocket.theta_dot", ""}),
-           WIDE("Roll γ", "rad/s", 1, {"rocket.gamma_dot", ""})),
+           WIDE("Pitch ψ", MRAD_S, {"rocket.psi_dot", ""}),
+           WIDE("Yaw θ", MRAD_S, {"rocket.theta_dot", ""}),
+           WIDE("Roll γ", RAD_S, {"rocket.gamma_dot", ""})),
     LAUNCH("attitude", "Attitude of the rocket in inertial space",
-           HALF("Pitch", "deg", DEGREES, {"rocket.pitch", ""}),
-           HALF("Yaw", "deg", DEGREES, {"rocket.yaw", ""}),
-           WIDE("Rates", "mrad/s", MILLI,
+           HALF("Pitch", DEG, {"rocket.pitch", ""}),
+           HALF("Yaw", DEG, {"rocket.yaw", ""}),
+           WIDE("Rates", MRAD_S,
                 {"rocket.pitch_rate", "pitch"}, {"rocket.yaw_rate", "yaw"})),
     LAUNCH("tip-off", "Rocket against the launcher, in the axes of the undeformed tube",
-           HALF("Direction", "mrad", MILLI, {"tip_off.pitch", "pitch"}, {"tip_off.yaw", "yaw"}),
-           HALF("Against the launcher at ignition", "mrad", MILLI,
+           HALF("Direction", MRAD, {"tip_off.pitch", "pitch"}, {"tip_off.yaw", "yaw"}),
+           HALF("Against the launcher at ignition", MRAD,
                 {"aim.pitch", "pitch"}, {"aim.yaw", "yaw"}),
-           WIDE("Rates in inertial space", "mrad/s", MILLI,
+           WIDE("Rates in inertial space", MRAD_S,
                 {"tip_off.pitch_rate", "pitch"}, {"tip_off.yaw_rate", "yaw"}),
-           WIDE("Rates against the launcher", "mrad/s", MILLI,
+           WIDE("Rates against the launcher", MRAD_S,
                 {"tip_off.pitch_rate_relative", "pitch"}, {"tip_off.yaw_rate_relative", "yaw"}),
-           WIDE("Velocity of the mass centre against the launcher", "m/s", 1,
+           WIDE("Velocity of the mass centre against the launcher", M_S,
                 {"tip_off.vy_relative", "y"}, {"tip_off.vz_relative", "z"})),
     LAUNCH("contact", "Contact between adaptors and tube",
-           WIDE("Force, normal and friction together", "kN", KILO, {"contact.*.force", ""}),
-           WIDE("Penetration (negative: gap)", "mm", MILLI, {"contact.*.penetration", ""})),
+           WIDE("Force, normal and friction together", KN, {"contact.*.force", ""}),
+           WIDE("Penetration (negative: gap)", MM, {"contact.*.penetration", ""})),
     LAUNCH("contact-force", "Contact forces, normal and friction together",
-           EACH("Adaptor %s", "kN", KILO, "contact.*.force")),
+           EACH("Adaptor %s", KN, "contact.*.force")),
     LAUNCH("slot", "Slot and lock",
-           HALF("Slot", "kN", KILO, {"slot.force", "force N"}, {"slot.friction", "friction"}),
-           HALF("Lock", "kN", KILO, {"lock.force", "force carried"})),
+           HALF("Slot", KN, {"slot.force", "force N"}, {"slot.friction", "friction"}),
+           HALF("Lock", KN, {"lock.force", "force carried"})),
     LAUNCH("energy", "Energy",
-           HALF("Drive", "kJ", KILO,
+           HALF("Drive", KJ,
                 {"work.thrust", "work of the thrust"}, {"energy.kinetic", "kinetic energy"}),
-           HALF("Balance", "J", 1, {"energy.residual", "what it misses"}),
-           WIDE("Tube and supports", "J", 1,
+           HALF("Balance", J, {"energy.residual", "what it misses"}),
+           WIDE("Tube and supports", J,
                 {"energy.elastic", "elastic energy"}, {"work.support_damping", "support damping"},
                 {"work.modal_damping", "modal damping"}, {"work.contact_normal", "contact, normal"}),
-           WIDE("Other work", "J", 1,
+           WIDE("Other work", J,
                 {"work.gravity_rocket", "gravity"}, {"work.contact_friction", "contact friction"},
                 {"work.slot_friction", "slot friction"}, {"work.mass_change", "burnt mass"},
                 {"work.base", "base"})),
     VEHICLE("wheels", "Road and wheels",
-           WIDE("Road under the wheels", "mm", MILLI, {"wheel.*.road", ""}),
-           WIDE("Suspension travel from unloaded", "mm", MILLI, {"wheel.*.travel", ""}),
-           WIDE("Tyre deflection", "mm", MILLI, {"wheel.*.deflection", ""})),
+           WIDE("Road under the wheels", MM, {"wheel.*.road", ""}),
+           WIDE("Suspension travel from unloaded", MM, {"wheel.*.travel", ""}),
+           WIDE("Tyre deflection", MM, {"wheel.*.deflection", ""})),
     VEHICLE("tyres", "Tyre forces",
-           WIDE("Vertical", "kN", KILO, {"wheel.*.tyre_force", ""}),
-           WIDE("Across the way", "N", 1, {"wheel.*.side", ""}),
-           WIDE("Along the way", "N", 1, {"wheel.*.along", ""})),
+           WIDE("Vertical", KN, {"wheel.*.tyre_force", ""}),
+           WIDE("Across the way", N, {"wheel.*.side", ""}),
+           WIDE("Along the way", N, {"wheel.*.along", ""})),
     VEHICLE("chassis", "Chassis",
-           WIDE("Height of the mass centre", "mm", MILLI, {"chassis.y", ""}),
-           HALF("Pitch", "mrad", MILLI, {"chassis.pitch", ""}),
-           HALF("Roll", "mrad", MILLI, {"chassis.roll", ""}),
-           HALF("Speed", "m/s", 1, {"drive.speed", ""}),
-           HALF("Drive force", "kN", KILO, {"drive.force", ""})),
+           WIDE("Height of the mass centre", MM, {"chassis.y", ""}),
+           HALF("Pitch", MRAD, {"chassis.pitch", ""}),
+           HALF("Roll", MRAD, {"chassis.roll", ""}),
+           HALF("Speed", M_S, {"drive.speed", ""}),
+           HALF("Drive force", KN, {"drive.force", ""})),
     VEHICLE("platform", "Platforms",
-           HALF("Azimuth: yaw in inertial space", "deg", DEGREES,
+           HALF("Azimuth: yaw in inertial space", DEG,
                 {"azimuth.measured", "measured"}, {"azimuth.command", "command"}),
-           HALF("Elevation: pitch in inertial space", "deg", DEGREES,
+           HALF("Elevation: pitch in inertial space", DEG,
                 {"elevation.measured", "measured"}, {"elevation.command", "command"}),
-           WIDE("Error, command less measured", "mrad", MILLI,
+           WIDE("Error, command less measured", MRAD,
                 {"elevation.error", "elevation"}, {"azimuth.error", "azimuth"}),
-           HALF("Torque of the azimuth's stabiliser", "kN m", KILO, {"azimuth.torque", ""}),
-           HALF("Torque of the elevation's stabiliser", "kN m", KILO, {"elevation.torque", ""})),
+           HALF("Torque of the azimuth's stabiliser", KN_M, {"azimuth.torque", ""}),
+           HALF("Torque of the elevation's stabiliser", KN_M, {"elevation.torque", ""})),
     FLIGHT("trajectory", "Trajectories of the rockets",
-           BROAD("Height over the way along x", "altitude [km]", KILO, "altitude",
-                 "x [km]", KILO, "center.x"),
-           BROAD("Ground track", "to the right, z [km]", KILO, "center.z",
-                 "x [km]", KILO, "center.x")),
+           BROAD("Height over the way along x", "altitude", KM, "altitude",
+                 "x", KM, "center.x"),
+           BROAD("Ground track", "to the right, z", KM, "center.z",
+                 "x", KM, "center.x")),
     FLIGHT("flight", "Free flight",
-           HALF("Altitude", "m", 1, {"altitude", ""}),
-           HALF("Mach number", "", 1, {"mach", ""}),
-           HALF("Pitch", "deg", DEGREES, {"rocket.pitch", ""}),
-           HALF("Yaw", "deg", DEGREES, {"rocket.yaw", ""}),
-           HALF("Angle of attack", "deg", DEGREES, {"angle_of_attack", ""}),
-           HALF("Spin", "rad/s", 1, {"rocket.spin", ""})),
+           HALF("Altitude", M, {"altitude", ""}),
+           HALF("Mach number", PLAIN, {"mach", ""}),
+           HALF("Pitch", DEG, {"rocket.pitch", ""}),
+           HALF("Yaw", DEG, {"rocket.yaw", ""}),
+           HALF("Angle of attack", DEG, {"angle_of_attack", ""}),
+           HALF("Spin", RAD_S, {"rocket.spin", ""})),
+    FLIGHT("flight-speed", "Speed through the air, velocity against the ground",
+           HALF("Through the air", M_S, {"airspeed", ""}),
+           HALF("Along x", M_S, {"center.vx", ""}),
+           HALF("Upwards", M_S, {"center.vy", ""}),
+           HALF("To the right", M_S, {"center.vz", ""})),
+    FLIGHT("flight-rate", "Rates in flight, in inertial space",
+           HALF("Pitch rate", RAD_S, {"rocket.pitch_rate", ""}),
+           HALF("Yaw rate", RAD_S, {"rocket.yaw_rate", ""})),
+    FLIGHT("flight-wind", "Wind where the rocket flies",
+           WIDE("Along x", M_S, {"wind.x", ""}),
+           HALF("Upwards", M_S, {"wind.y", ""}),
+           HALF("To the right", M_S, {"wind.z", ""})),
+    FLIGHT("flight-motor", "Motor and air",
+           HALF("Thrust", KN, {"thrust", ""}),
+           HALF("Mass", KG, {"rocket.mass", ""}),
+           HALF("Density of the air", KG_M3, {"density", ""})),
 };
 // clang-format on
 
 enum { FIGURES = sizeof figures / sizeof *figures };
+
+const plot_figure *plot_figure_at(size_t index)
+{
+    return index < FIGURES ? &figures[index] : NULL;
+}
 
 const plot_figure *plot_figure_find(const char *name)
 {

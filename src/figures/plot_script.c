@@ -91,6 +91,20 @@ bool plot_column_matches(const char *name, const char *pattern, char *label, siz
     return true;
 }
 
+bool plot_figure_shows(const plot_figure *figure, const char *column)
+{
+    char unused[LD_MAX_NAME + 8];
+    for (const plot_panel *panel = figure->panel;
+         panel < figure->panel + PLOT_PANELS && panel->title; panel++) {
+        if (panel->x_column && strcmp(panel->x_column, column) == 0)
+            return true;
+        for (const plot_curve *curve = panel->curve; curve->column; curve++)
+            if (plot_column_matches(column, curve->column, unused, sizeof unused))
+                return true;
+    }
+    return false;
+}
+
 bool plot_figure_has_columns(const plot_figure *figure, const history_data *run)
 {
     if (figure->time == PLOT_FLIGHT && run->flights == 0)
@@ -140,6 +154,14 @@ static int find_in_source(plot_drawing *drawing, const plot_curve *wanted,
     return column;
 }
 
+// The name of a flight in the legend, after that of the curve if it has one.
+static void name_flight(const history_data *flight, const char *label, char *name, size_t size)
+{
+    int length = snprintf(name, size, "%s%srocket %d", label, *label ? ", " : "", flight->number);
+    if (flight->tube > 0)
+        snprintf(name + length, size - (size_t)length, ", tube %d", flight->tube);
+}
+
 // The same of one run: of its launcher, or of each of its flights, which are then named.
 static int find_in_run(plot_drawing *drawing, const plot_curve *wanted, int run, int column)
 {
@@ -148,12 +170,9 @@ static int find_in_run(plot_drawing *drawing, const plot_curve *wanted, int run,
     const history_data *history = drawing->source[run].history;
     for (size_t i = 0; i < history->flights; i++) {
         char name[LD_MAX_NAME];
-        const history_data *flight = &history->flight[i];
-        if (flight->tube > 0)
-            snprintf(name, sizeof name, "rocket %d, tube %d", flight->number, flight->tube);
-        else
-            snprintf(name, sizeof name, "rocket %d", flight->number);
-        plot_curve of_flight = {wanted->column, history->flights > 1 ? name : ""};
+        if (history->flights > 1)
+            name_flight(&history->flight[i], wanted->label, name, sizeof name);
+        plot_curve of_flight = {wanted->column, history->flights > 1 ? name : wanted->label};
         column = find_in_source(drawing, &of_flight, &drawing->flight[run][i], run, column);
     }
     return column;
@@ -200,8 +219,8 @@ static void set_points(plot_drawing *drawing, const found_curve *curve)
         panel->since && source->history->rows > 0 ? curve->y[row_of_ignition(source)] : 0;
     for (size_t i = 0; i < source->history->rows; i++) {
         double t = source->t[i] - source->t_ignition;
-        drawing->x[i] = curve->x ? curve->x[i] * panel->x_factor : t * in_time;
-        drawing->y[i] = shown(drawing, t) ? (curve->y[i] - reference) * panel->y_factor : NAN;
+        drawing->x[i] = curve->x ? curve->x[i] * panel->x.unit.factor : t * in_time;
+        drawing->y[i] = shown(drawing, t) ? (curve->y[i] - reference) * panel->y.unit.factor : NAN;
     }
 }
 
@@ -434,22 +453,22 @@ static void write_axes(plot_drawing *drawing)
     const plot_panel *panel = drawing->panel;
     FILE *script = drawing->script;
     double top = drawing->top + TOP, bottom = drawing->top + PANEL - BOTTOM;
-    char unit[64];
+    char y_text[64], x_text[64] = "time from ignition [s]";
     fprintf(script, "set lmargin at screen %.6f\nset rmargin at screen %.6f\n",
             (drawing->left + LEFT) / WIDTH, (drawing->left + drawing->width - RIGHT) / WIDTH);
     fprintf(script, "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
             1 - top / drawing->height, 1 - bottom / drawing->height);
     fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", drawing->x_range[0],
             drawing->x_range[1], drawing->y_range[0], drawing->y_range[1]);
-    snprintf(unit, sizeof unit, panel->x_column || !*panel->y_label ? "%s" : "[%s]",
-             panel->y_label);
+    plot_axis_text(&panel->y, y_text, sizeof y_text);
+    if (panel->x_column)
+        plot_axis_text(&panel->x, x_text, sizeof x_text);
+    else if (drawing->figure->time == PLOT_LAUNCH)
+        snprintf(x_text, sizeof x_text, "time from ignition [ms]");
     write_text(drawing, panel->title, drawing->left + LEFT, top - 26, "left font ',11'");
-    write_text(drawing, unit, drawing->left + 18, (top + bottom) / 2,
+    write_text(drawing, y_text, drawing->left + 18, (top + bottom) / 2,
                "center rotate by 90 font ',10'");
-    const char *time =
-        drawing->figure->time == PLOT_LAUNCH ? "time from ignition [ms]" : "time from ignition [s]";
-    write_text(drawing, panel->x_column ? panel->x_label : time,
-               drawing->left + (LEFT + drawing->width - RIGHT) / 2, bottom + 34,
+    write_text(drawing, x_text, drawing->left + (LEFT + drawing->width - RIGHT) / 2, bottom + 34,
                "center font ',10'");
 }
 

@@ -1,55 +1,10 @@
 // The page of a report: what it shows as JSON, and the page around that.
+#include "launchdyn/version.h"
 #include "report/report_origin.h"
 #include "report/report_parts.h"
 #include "results/json_text.h"
 
 #include <stdlib.h>
-
-static void write_curves(FILE *json, const plot_panel *panel)
-{
-    fputs(",\"curves\":[", json);
-    for (const plot_curve *curve = panel->curve; curve->column; curve++) {
-        fputs(curve == panel->curve ? "[" : ",[", json);
-        json_write_text(json, curve->column);
-        fputc(',', json);
-        json_write_text(json, curve->label);
-        fputc(']', json);
-    }
-    fputc(']', json);
-}
-
-static void write_panel(FILE *json, const plot_panel *panel)
-{
-    fputs("{\"title\":", json);
-    json_write_text(json, panel->title);
-    fputs(",\"unit\":", json);
-    json_write_text(json, panel->y_label);
-    fprintf(json, ",\"factor\":%.17g,\"wide\":%d,\"since\":%d,\"each\":%d", panel->y_factor,
-            panel->wide, panel->since, panel->each);
-    if (panel->x_column) {
-        fprintf(json, ",\"x\":{\"column\":\"%s\",\"factor\":%.17g,\"label\":", panel->x_column,
-                panel->x_factor);
-        json_write_text(json, panel->x_label);
-        fputc('}', json);
-    }
-    write_curves(json, panel);
-    fputc('}', json);
-}
-
-static void write_figures(FILE *json, bool flight)
-{
-    const plot_figure *figure;
-    for (size_t f = 0; (figure = report_figure_at(flight, f)) != NULL; f++) {
-        fprintf(json, "%s\n{\"name\":\"%s\",\"title\":", f ? "," : "", figure->about.name);
-        json_write_text(json, figure->about.description);
-        fprintf(json, ",\"vehicle\":%d,\"panels\":[", figure->time == PLOT_VEHICLE);
-        for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++) {
-            fputs(i ? "," : "", json);
-            write_panel(json, &figure->panel[i]);
-        }
-        fputs("]}", json);
-    }
-}
 
 static void write_rockets(FILE *json, const report_source *source)
 {
@@ -112,11 +67,9 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     report_write_geometry(json, &source->history);
     fputs(",\"tables\":[", json);
     ld_status status = write_tables(json, source, detail, error);
-    fputs("],\"figures\":{\"launch\":[", json);
-    write_figures(json, false);
-    fputs("],\"flight\":[", json);
-    write_figures(json, true);
-    fputs("]}}", json);
+    fputs("],\"figures\":", json);
+    plot_write_json(json);
+    fputc('}', json);
     return status;
 }
 

@@ -35,9 +35,6 @@ typedef struct report_detail {
     bool over_all;          // of that over all rows, not in the phase of the run at hand
 } report_detail;
 
-// Figures of a launch, or of a flight, by index from 0; NULL after the last.
-const plot_figure *report_figure_at(bool flight, size_t index);
-
 // Whether a history is that of a flight.
 bool report_is_flight(const history_data *history);
 
@@ -54,8 +51,8 @@ bool report_has_replay(const history_data *history);
 // frame R against the undeformed tube, in its axes.
 ld_status report_add_replay(history_data *history, ld_error *error);
 
-// Whether the replay shows a column of a launcher.
-bool report_replay_shows(const char *name);
+// Whether the replay shows a column of a launcher, or of a flight.
+bool report_replay_shows(const char *name, bool flight);
 
 // Writes the launcher's geometry as JSON: an object of arrays, empty where there is no replay.
 void report_write_geometry(FILE *json, const history_data *history);

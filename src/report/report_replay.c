@@ -20,18 +20,26 @@ bool report_has_replay(const history_data *history)
            history_column(history, "tube.q0") && history_column(history, "base.roll");
 }
 
-bool report_replay_shows(const char *name)
+static bool is_one_of(const char *name, const char *const *list, size_t count)
 {
-    static const char *const shown[] = {"base.x",      "base.y",        "base.z",    "base.yaw",
-                                        "base.pitch",  "base.roll",     "chassis.x", "chassis.z",
-                                        "chassis.yaw", "azimuth.angle", "thrust",    "phase"};
-    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
-        if (strcmp(name, shown[i]) == 0)
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(name, list[i]) == 0)
             return true;
-    for (int i = 0; i < DERIVED; i++)
-        if (strcmp(name, derived[i]) == 0)
-            return true;
-    return *name == 'q' && name[1] && strspn(name + 1, "0123456789") == strlen(name + 1);
+    return false;
+}
+
+bool report_replay_shows(const char *name, bool flight)
+{
+    static const char *const of_launcher[] = {
+        "base.x",    "base.y",    "base.z",      "base.yaw",      "base.pitch", "base.roll",
+        "chassis.x", "chassis.z", "chassis.yaw", "azimuth.angle", "thrust",     "phase"};
+    static const char *const of_flight[] = {"center.x",   "center.y",    "center.z", "rocket.pitch",
+                                            "rocket.yaw", "rocket.spin", "thrust"};
+    if (flight)
+        return is_one_of(name, of_flight, sizeof of_flight / sizeof *of_flight);
+    return is_one_of(name, of_launcher, sizeof of_launcher / sizeof *of_launcher) ||
+           is_one_of(name, derived, DERIVED) ||
+           (*name == 'q' && name[1] && strspn(name + 1, "0123456789") == strlen(name + 1));
 }
 
 // ---- columns ----

@@ -55,21 +55,19 @@ typedef struct thinned {
     FILE *bytes;     // of the segment at hand
 } thinned;
 
+bool report_is_flight(const history_data *history)
+{
+    return history_column(history, "altitude") != NULL;
+}
+
 static bool is_shown(const char *name, bool flight)
 {
-    char unused[LD_MAX_NAME + 8];
-    const plot_figure *figure;
-    if (!flight && report_replay_shows(name))
+    if (report_replay_shows(name, flight))
         return true;
-    for (size_t f = 0; (figure = report_figure_at(flight, f)) != NULL; f++)
-        for (const plot_panel *panel = figure->panel;
-             panel < figure->panel + PLOT_PANELS && panel->title; panel++) {
-            if (panel->x_column && strcmp(panel->x_column, name) == 0)
-                return true;
-            for (const plot_curve *curve = panel->curve; curve->column; curve++)
-                if (plot_column_matches(name, curve->column, unused, sizeof unused))
-                    return true;
-        }
+    const plot_figure *figure;
+    for (size_t f = 0; (figure = plot_figure_at(f)) != NULL; f++)
+        if ((figure->time == PLOT_FLIGHT) == flight && plot_figure_shows(figure, name))
+            return true;
     return false;
 }
 

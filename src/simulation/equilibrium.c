@@ -4,25 +4,25 @@
 #include <string.h>
 
 #include "math/rotation_vector.h"
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 
 enum { MAX_FREEDOMS = 11 + LD_MAX_MODAL + 3 + 2 * HINGES + 3 * LD_MAX_WHEELS };
 
 // Unknowns of the launching subsystem: R's place and attitude (6), q, then y_S, z_S, psi, theta,
 // and s where the breech carries the rocket.
-static int launching_freedoms(const ld_simulation *self)
+static int launching_freedoms(const launch_state *self)
 {
     return 10 + self->launcher.launching.layout.nq + self->on_breech;
 }
 
-int simulation_freedoms(const ld_simulation *self)
+int simulation_freedoms(const launch_state *self)
 {
     int base = 3 + 2 * HINGES + 3 * self->launcher.marching.wheel_count;
     return launching_freedoms(self) + (self->launcher.vehicle ? base : 0);
 }
 
 // Unknowns of a vehicle: chassis y, pitch, roll; hinge angles, hinge torques; wheel positions.
-static void displace_vehicle(const ld_simulation *self, int freedom, double change, double *y)
+static void displace_vehicle(const launch_state *self, int freedom, double change, double *y)
 {
     double *base = y + self->launcher.orientating_at;
     if (freedom == 0) {
@@ -43,7 +43,7 @@ static void displace_vehicle(const ld_simulation *self, int freedom, double chan
     }
 }
 
-void simulation_displace(const ld_simulation *self, int freedom, double change, double *y)
+void simulation_displace(const launch_state *self, int freedom, double change, double *y)
 {
     const launching_layout *at = &self->launcher.launching.layout;
     if (freedom < 3) {
@@ -65,10 +65,10 @@ void simulation_displace(const ld_simulation *self, int freedom, double change, 
     }
 }
 
-launching_phase simulation_start_phase(const ld_simulation *self)
+launching_phase simulation_start_phase(const launch_state *self)
 {
     launching_phase phase = {.rocket = true, .locked = true};
-    const ld_rocket *rocket = &self->model->rocket;
+    const ld_rocket *rocket = self->rocket;
     phase.breech = rocket->start_at;
     phase.breech_speed = rocket->contact.reference_speed;
     // so near the tip that rounding and the tube's bend decide, an adaptor counts as out
@@ -81,11 +81,11 @@ launching_phase simulation_start_phase(const ld_simulation *self)
 }
 
 // A vehicle upright over its place at the start, each wheel with its share of the weight.
-static void place_vehicle(const ld_simulation *self, double *y)
+static void place_vehicle(const launch_state *self, double *y)
 {
     const launcher_system *launcher = &self->launcher;
     const ld_vehicle *vehicle = &self->model->base.vehicle;
-    double weight = launcher->orientating.mass + launcher->launching.tube.m + self->motor.full.m;
+    double weight = launcher->orientating.mass + launcher->launching.tube.m + self->motor->full.m;
     weight *= self->model->gravity / vehicle->wheel_count;
     double tyre = weight / vehicle->tyre.stiffness[1];
     double spring = weight / vehicle->suspension.stiffness[1];
@@ -113,16 +113,16 @@ static void place_vehicle(const ld_simulation *self, double *y)
     }
 }
 
-void simulation_straight(const ld_simulation *self, const base_frame *base, double *y)
+void simulation_straight(const launch_state *self, const base_frame *base, double *y)
 {
     const launching_layout *at = &self->launcher.launching.layout;
     memset(y, 0, (size_t)at->count * sizeof(double));
     v3_store(y + at->r, base->r);
     memcpy(y + at->quaternion, &base->q, sizeof base->q);
-    y[at->x] = self->model->rocket.start_at;
+    y[at->x] = self->rocket->start_at;
 }
 
-void simulation_move_with_base(const ld_simulation *self, double t, double *y)
+void simulation_move_with_base(const launch_state *self, double t, double *y)
 {
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
@@ -154,7 +154,7 @@ static const double DIFFERENCE = 1e-8;
 // What Newton's method solves: the unknowns from `first` on. With `dead` the tube and its rocket
 // are a dead load on a vehicle.
 typedef struct problem {
-    const ld_simulation *self;
+    const launch_state *self;
     double t;
     const launching_phase *phase;
     int first, count;
@@ -166,11 +166,11 @@ typedef struct problem {
 // Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
 static void dead_load(const problem *the, const launcher_input *input, launching_output *out)
 {
-    const ld_simulation *self = the->self;
+    const launch_state *self = the->self;
     const launching_system *launching = &self->launcher.launching;
-    const rocket_mass *rocket = &self->motor.full;
+    const rocket_mass *rocket = &self->motor->full;
     v3 down = m3_apply_transposed(input->launching.base.A, v3_make(0, -launching->tube.gravity, 0));
-    v3 centre = v3_add(v3_make(self->model->rocket.start_at, 0, 0), rocket->c);
+    v3 centre = v3_add(v3_make(self->rocket->start_at, 0, 0), rocket->c);
     v3 moment = v3_add(v3_make(launching->tube.Sx, 0, 0), v3_scale(rocket->m, centre));
     out->base_force = v3_scale(launching->tube.m + rocket->m, down);
     out->base_moment = v3_cross(moment, down);
@@ -180,7 +180,7 @@ static void dead_load(const problem *the, const launcher_input *input, launching
 static void launching_residual(const problem *the, const double *y, const launching_output *given,
                                double *r)
 {
-    const ld_simulation *self = the->self;
+    const launch_state *self = the->self;
     const double *x = y + self->launcher.launching.layout.x;
     launching_pose pose;
     launching_output out = *given;
@@ -203,7 +203,7 @@ static void launching_residual(const problem *the, const double *y, const launch
 }
 
 // Accelerations of a vehicle but those that are neutral, and the errors of yaw and pitch.
-static void vehicle_residual(const ld_simulation *self, const launcher_output *out, double *r)
+static void vehicle_residual(const launch_state *self, const launcher_output *out, double *r)
 {
     const double *base = out->base_dot, *wheel = base + ORIENTATING_STATES;
     *r++ = base[ORIENTATING_V + 1];
@@ -221,7 +221,7 @@ static void vehicle_residual(const ld_simulation *self, const launcher_output *o
 // What must vanish in equilibrium.
 static int residual(const problem *the, const double *y, double *r)
 {
-    const ld_simulation *self = the->self;
+    const launch_state *self = the->self;
     const launcher_system *launcher = &self->launcher;
     launcher_input input;
     launcher_output out;
@@ -330,14 +330,13 @@ static double offset_under(const ld_rocket *rocket, int i, double load, double e
 
 // Guess: adaptors i and j carry the rocket, each on the side that its share of the weight presses
 // it to (one of them on the upper side where the mass centre is not between them).
-static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, double extra,
-                           double *y)
+static void guess_contacts(const launch_state *self, int i, int j, v3 pull, double extra, double *y)
 {
-    const ld_rocket *rocket = &self->model->rocket;
+    const ld_rocket *rocket = self->rocket;
     double *x = y + self->launcher.launching.layout.x;
-    double lean = hypot(pull.y, pull.z), weight = self->motor.full.m * lean;
+    double lean = hypot(pull.y, pull.z), weight = self->motor->full.m * lean;
     double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from;
-    double share = (self->motor.full.c.x - from) / span;
+    double share = (self->motor->full.c.x - from) / span;
     double e_i = offset_under(rocket, i, (1 - share) * weight, extra);
     double e_j = offset_under(rocket, j, share * weight, extra);
     double slope = (e_j - e_i) / span;
@@ -348,7 +347,7 @@ static void guess_contacts(const ld_simulation *self, int i, int j, v3 pull, dou
     x[4] = -slope * pull.z / lean;
 }
 
-static void report_vehicle(const ld_simulation *self, const launcher_output *out, const double *y,
+static void report_vehicle(const launch_state *self, const launcher_output *out, const double *y,
                            ld_equilibrium_summary *summary)
 {
     const double *base = y + self->launcher.orientating_at;
@@ -371,7 +370,7 @@ static void report_vehicle(const ld_simulation *self, const launcher_output *out
 
 static void report(const problem *the, const double *y, ld_equilibrium_summary *summary)
 {
-    const ld_simulation *self = the->self;
+    const launch_state *self = the->self;
     launcher_input input;
     launcher_output out;
     double r[MAX_FREEDOMS];
@@ -395,7 +394,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
 }
 
 // Gravity [m/s2] in the axes of the undeformed tube on the base as it stands in y.
-static v3 pull_at(const ld_simulation *self, double t, const double *y)
+static v3 pull_at(const launch_state *self, double t, const double *y)
 {
     launcher_input input;
     simulation_input(self, t, y, &input);
@@ -426,7 +425,7 @@ static double settle(const problem *the, double *y)
 static double try_pairs(const problem *the, const double *start, double extra, double accepted,
                         double *y)
 {
-    const ld_simulation *self = the->self;
+    const launch_state *self = the->self;
     double best = INFINITY, trial[LD_MAX_STATES];
     v3 pull = pull_at(self, the->t, start);
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
@@ -475,11 +474,11 @@ static lateral pressed_to(const ld_rocket *rocket, int i, lateral load)
 
 // Guess: adaptors i and j carry the rocket, which leans, so that its weight along the tube loads
 // them too, and more the more it leans; or it hangs from O1 and i alone is touched (j = i).
-static void guess_leaning(const ld_simulation *self, int i, int j, v3 pull, double *y)
+static void guess_leaning(const launch_state *self, int i, int j, v3 pull, double *y)
 {
-    const ld_rocket *rocket = &self->model->rocket;
-    v3 c = self->motor.full.c;
-    double *x = y + self->launcher.launching.layout.x, m = self->motor.full.m;
+    const ld_rocket *rocket = self->rocket;
+    v3 c = self->motor->full.c;
+    double *x = y + self->launcher.launching.layout.x, m = self->motor->full.m;
     double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from, arm = c.x - from;
     lateral slope = {(pull.y * arm / pull.x - c.y) / c.x, (pull.z * arm / pull.x - c.z) / c.x};
     lateral at_i = pressed_to(rocket, i, (lateral){m * pull.y, m * pull.z});
@@ -551,19 +550,19 @@ static double find_rest(const problem *the, const double *start, double accepted
 
 // Finds the equilibrium as find_rest() does, with the lock closed. Where there is none, and gravity
 // presses the rocket on the breech by more than nothing, it then goes there: s is an unknown, too.
-static double find_start(ld_simulation *self, problem *the, launching_phase *phase,
+static double find_start(launch_state *self, problem *the, launching_phase *phase,
                          const double *start, double accepted, double *y)
 {
     self->on_breech = false;
     double best = find_rest(the, start, accepted, y);
-    double pressed = -self->motor.full.m * pull_at(self, the->t, start).x;
-    if (self->model->rocket.lock.present ||
-        !(pressed > 1e-9 * self->motor.full.m * self->model->gravity) || !(best <= accepted))
+    double pressed = -self->motor->full.m * pull_at(self, the->t, start).x;
+    if (self->rocket->lock.present ||
+        !(pressed > 1e-9 * self->motor->full.m * self->model->gravity) || !(best <= accepted))
         return best;
     self->on_breech = true;
     phase->locked = false;
     the->count++;
-    y[self->launcher.launching.layout.x] -= depth_under(&self->model->rocket.contact, pressed);
+    y[self->launcher.launching.layout.x] -= depth_under(&self->rocket->contact, pressed);
     best = INFINITY;
     for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
         best = newton(the, y);
@@ -571,7 +570,7 @@ static double find_start(ld_simulation *self, problem *the, launching_phase *pha
 }
 
 // The vehicle in equilibrium under a tube that is a dead load; other bases need nothing.
-static ld_status settle_base(const ld_simulation *self, double t, const launching_phase *phase,
+static ld_status settle_base(const launch_state *self, double t, const launching_phase *phase,
                              double accepted, double *y, ld_error *error)
 {
     memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
@@ -592,8 +591,7 @@ static ld_status settle_base(const ld_simulation *self, double t, const launchin
 }
 
 // What the equilibrium found must fulfil for the run to begin in it.
-static ld_status check_vehicle(const ld_simulation *self, double t, const double *y,
-                               ld_error *error)
+static ld_status check_vehicle(const launch_state *self, double t, const double *y, ld_error *error)
 {
     launcher_input input;
     marching_output marching;
@@ -626,7 +624,7 @@ static ld_status check_vehicle(const ld_simulation *self, double t, const double
 }
 
 // Locked hinges keep their equilibrium; the others begin with the integral that holds it.
-static void keep_rest(ld_simulation *self, const double *y)
+static void keep_rest(launch_state *self, const double *y)
 {
     const double *base = y + self->launcher.orientating_at;
     for (int i = 0; i < HINGES && self->launcher.vehicle; i++)
@@ -634,12 +632,12 @@ static void keep_rest(ld_simulation *self, const double *y)
             (hinge_rest){.angle = base[ORIENTATING_ANGLE + i], .torque = base[ORIENTATING_Z + i]};
 }
 
-static double accepted_residual(const ld_simulation *self)
+static double accepted_residual(const launch_state *self)
 {
     return 1e-6 * (1 + self->model->gravity);
 }
 
-ld_status simulation_undeformed(ld_simulation *self, double t, double *y, ld_error *error)
+ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self);
     phase.frictionless = true;
@@ -655,7 +653,7 @@ ld_status simulation_undeformed(ld_simulation *self, double t, double *y, ld_err
     return LD_OK;
 }
 
-ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
+ld_status simulation_equilibrium(launch_state *self, double t, double *y,
                                  ld_equilibrium_summary *summary, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self);
@@ -694,7 +692,7 @@ ld_status simulation_equilibrium(ld_simulation *self, double t, double *y,
 
 // Gives the vehicle's orientating coordinates the speeds u, and tube and rocket what that changes
 // of the motion of a body that rides on the platform.
-static void add_rigid_motion(const ld_simulation *self, double t, const double *u, double *y)
+static void add_rigid_motion(const launch_state *self, double t, const double *u, double *y)
 {
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
@@ -720,7 +718,7 @@ static void add_rigid_motion(const ld_simulation *self, double t, const double *
 
 // Generalised momentum of the orientating coordinates, tube and rocket in the sum: the derivative
 // of the kinetic energy, a quadratic form, along each of their speeds.
-static void generalised_momentum(const ld_simulation *self, double t, const launching_phase *phase,
+static void generalised_momentum(const launch_state *self, double t, const launching_phase *phase,
                                  const double *y, double p[ORIENTATING_SPEEDS])
 {
     for (int j = 0; j < ORIENTATING_SPEEDS; j++) {
@@ -739,7 +737,7 @@ static void generalised_momentum(const ld_simulation *self, double t, const laun
 }
 
 // Speeds of the vehicle at which all, rigid as it now is, has the generalised momentum p.
-static ld_status speeds_from_momentum(const ld_simulation *self, double t, const double *p,
+static ld_status speeds_from_momentum(const launch_state *self, double t, const double *p,
                                       double *y, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self);
@@ -761,8 +759,7 @@ static ld_status speeds_from_momentum(const ld_simulation *self, double t, const
     return LD_OK;
 }
 
-ld_status simulation_change_tube(ld_simulation *self, int next, double t, double *y,
-                                 ld_error *error)
+ld_status simulation_change_tube(launch_state *self, int next, double t, double *y, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self), without = {.rocket = false};
     const launcher_system *launcher = &self->launcher;

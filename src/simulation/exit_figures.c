@@ -2,7 +2,7 @@
 // launcher stands and however it moves.
 #include <math.h>
 
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 
 rocket_motion rocket_motion_of(const launching_pose *pose, v3 c, const double *y,
                                const launching_layout *at)
@@ -45,7 +45,7 @@ ld_tip_off tip_off_of(const base_frame *base, const rocket_motion *rocket)
     };
 }
 
-ld_aim aim_of(const ld_simulation *self, double t, const rocket_motion *rocket)
+ld_aim aim_of(const launch_state *self, double t, const rocket_motion *rocket)
 {
     if (t < self->t_ignition)
         return no_aim;

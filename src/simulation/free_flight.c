@@ -161,7 +161,7 @@ static void watch(flight_run *run, double t, const double *y)
 
 static ld_status check_table(flight_run *run)
 {
-    const ld_aerodynamics *model = &run->job->model->rocket.aerodynamics;
+    const ld_aerodynamics *model = &run->job->system->rocket->aerodynamics;
     double t = run->t_beyond, y[DORMAND_PRINCE_STATES];
     if (isnan(t) || model->beyond_table == LD_BEYOND_HOLD)
         return LD_OK;
@@ -443,7 +443,7 @@ static void note(flight_run *run)
 {
     const double degree = acos(0) / 90;
     if (!isnan(run->t_beyond) &&
-        run->job->model->rocket.aerodynamics.beyond_table == LD_BEYOND_HOLD)
+        run->job->system->rocket->aerodynamics.beyond_table == LD_BEYOND_HOLD)
         simulation_note(run->summary,
                         "beyond the aerodynamic table (Mach %.4g) from t = %.4f s on, up to Mach "
                         "%.4g: its last values were held",
@@ -475,9 +475,6 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
                       .t_beyond = NAN,
                       .t_tumbling = NAN};
     rocket->flown = true;
-    double *flight = &rocket->flight.apogee;
-    for (size_t i = 0; i < sizeof rocket->flight / sizeof(double); i++)
-        flight[i] = NAN;
     ld_status status = begin(&run, state);
     if (!status)
         status = loop(&run);

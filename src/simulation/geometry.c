@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/salvo.h"
 #include "simulation/simulation.h"
 
 enum { MOST_ARRAYS = 24 };
@@ -113,7 +114,7 @@ static void add_layout(geometry *all, const ld_tubes *tubes)
 
 static void add_rocket(geometry *all, const ld_model *model)
 {
-    const ld_rocket *rocket = &model->rocket;
+    const ld_rocket *rocket = salvo_rocket(model, 0);
     int count = rocket->adaptor_count, firings = model->salvo ? model->firing_count : 1;
     double *at = add(all, "rocket.adaptor", "m", (size_t)count, 1,
                      "centres of the adaptors on the axis, from the rear one's");
@@ -122,8 +123,7 @@ static void add_rocket(geometry *all, const ld_model *model)
     for (int i = 0; i < count; i++)
         at[i] = rocket->adaptor[i].at;
     for (int i = 0; i < firings * count; i++)
-        clearance[i] =
-            (model->salvo ? &model->salvo[i / count] : rocket)->adaptor[i % count].clearance;
+        clearance[i] = salvo_rocket(model, i / count)->adaptor[i % count].clearance;
     double center[2] = {rocket->full.center[0], rocket->empty.center[0]};
     add_row(all, "rocket.center", "m", 2, center, "x of the mass centre in B, full and empty");
     if (rocket->aerodynamics.present)

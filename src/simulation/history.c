@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "simulation/simulation.h"
+#include "model/salvo.h"
+#include "simulation/launch_state.h"
 
 direction_angles direction_angles_of(v3 d, v3 d_dot)
 {
@@ -18,7 +19,7 @@ direction_angles direction_angles_of(v3 d, v3 d_dot)
     };
 }
 
-tip_state tip_state_of(const ld_simulation *self, const base_frame *base, const double *y)
+tip_state tip_state_of(const launch_state *self, const base_frame *base, const double *y)
 {
     const launching_system *launching = &self->launcher.launching;
     const launching_layout *at = &launching->layout;
@@ -68,7 +69,7 @@ static ld_work works(const double *work, bool vehicle)
     return all;
 }
 
-void simulation_energy(const ld_simulation *self, const launcher_input *input,
+void simulation_energy(const launch_state *self, const launcher_input *input,
                        const launcher_output *out, const double *y, double energy_start,
                        ld_energy *energy)
 {
@@ -258,7 +259,7 @@ static void add_rocket(ld_simulation *self)
     add(self, "kg", "rocket.mass", "instantaneous mass");
     add(self, "N", "thrust", "thrust");
     for (int i = 0; i < self->launcher.launching.adaptors.count; i++) {
-        const char *name = self->model->rocket.adaptor[i].name;
+        const char *name = salvo_rocket(self->model, 0)->adaptor[i].name;
         add_named(self, "N", "contact.%s.force", "adaptor %s: norm of contact force", name);
         add_named(self, "N", "contact.%s.normal", "adaptor %s: normal force", name);
         add_named(self, "m", "contact.%s.penetration",
@@ -327,7 +328,7 @@ static double *put_v3(double *to, v3 a)
     return to + 3;
 }
 
-static double phase_number(const ld_simulation *self, double t)
+static double phase_number(const launch_state *self, double t)
 {
     if (!self->phase.rocket)
         return 3;
@@ -345,7 +346,7 @@ static double *put_pose_angles(double *to, const m3 *A)
     return to;
 }
 
-static double *put_tip(const ld_simulation *self, const base_frame *base, const double *y,
+static double *put_tip(const launch_state *self, const base_frame *base, const double *y,
                        double *to)
 {
     tip_state tip = tip_state_of(self, base, y);
@@ -366,7 +367,7 @@ static double *put_tip(const ld_simulation *self, const base_frame *base, const 
     return put(to, (double[]){angles.pitch, angles.yaw, angles.pitch_rate, angles.yaw_rate}, 4);
 }
 
-static double *put_vehicle(const ld_simulation *self, const launcher_input *input, const double *y,
+static double *put_vehicle(const launch_state *self, const launcher_input *input, const double *y,
                            const launcher_output *out, double *to)
 {
     const double *base = y + self->launcher.orientating_at, *wheel = y + self->launcher.marching_at;
@@ -392,7 +393,7 @@ static double *put_vehicle(const ld_simulation *self, const launcher_input *inpu
     return to;
 }
 
-static double *put_against_launcher(const ld_simulation *self, double t,
+static double *put_against_launcher(const launch_state *self, double t,
                                     const launching_input *input, const rocket_motion *rocket,
                                     double *to)
 {
@@ -405,7 +406,7 @@ static double *put_against_launcher(const ld_simulation *self, double t,
     return put(to, (double[]){aim.pitch, aim.yaw, aim.pitch_rate, aim.yaw_rate, aim.vy, aim.vz}, 6);
 }
 
-static double *put_rocket(const ld_simulation *self, double t, const launching_input *input,
+static double *put_rocket(const launch_state *self, double t, const launching_input *input,
                           const double *y, const launching_output *out, double *to)
 {
     const launching_layout *at = &self->launcher.launching.layout;
@@ -439,7 +440,7 @@ static double *put_rocket(const ld_simulation *self, double t, const launching_i
     return put(to, (double[]){out->N, out->slot_friction, out->lock_force, out->breech_force}, 4);
 }
 
-void history_row(const ld_simulation *self, double t, const double *y, double energy_start,
+void history_row(const launch_state *self, double t, const double *y, double energy_start,
                  double *row)
 {
     const launching_layout *at = &self->launcher.launching.layout;
@@ -463,7 +464,7 @@ void history_row(const ld_simulation *self, double t, const double *y, double en
     if (self->phase.rocket)
         to = put_rocket(self, t, &input.launching, y, &out.launching, to);
     else
-        for (int i = 0; i < self->rocket_columns; i++)
+        for (int i = 0; i < self->system->rocket_columns; i++)
             *to++ = NAN;
     if (self->launcher.vehicle)
         to = put_vehicle(self, &input, y, &out, to);

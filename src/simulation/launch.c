@@ -3,34 +3,28 @@
 #include <string.h>
 
 #include "simulation/launch_run.h"
+#include "simulation/summary_quantities.h"
 
 // Rocket i of the firing comes next: its lock closed, its motor not yet lit.
 static void set_up_rocket(launch_run *run, int i)
 {
-    ld_simulation *self = run->self;
-    const ld_firing *firing = &self->model->firing[i];
-    self->current = i;
-    simulation_select_rocket(self, i);
-    self->t_ignition = firing->at;
-    self->phase = simulation_start_phase(self);
-    self->piece = -1;
-    self->jammed = false;
+    const ld_firing *firing = &run->launch.model->firing[i];
+    launch_state_select(&run->launch, i);
     run->greatest_lock_force = 0;
     ld_rocket_summary *rocket = &run->summary->rocket[i];
     run->summary->rocket_count = i + 1;
-    simulation_clear_rocket(rocket, firing->at);
+    rocket_clear(rocket, true);
+    rocket->t_ignition = firing->at;
     rocket->tube = firing->tube;
 }
 
 static ld_status find_start(launch_run *run, double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
+    const ld_simulation *system = self->system;
+    if (system->stability)
+        return ld_fail(run->error, system->stability, "%s", system->unstable.text);
     ld_status status = LD_OK;
-    if (self->launcher.vehicle && !self->stability_checked)
-        status = simulation_check_stability(self, &self->growing, run->error);
-    if (status)
-        return status;
-    self->stability_checked = true;
     if (self->model->run.start == LD_START_EQUILIBRIUM)
         status =
             simulation_equilibrium(self, run->t_start, y, &run->summary->equilibrium, run->error);
@@ -44,7 +38,7 @@ static ld_status find_start(launch_run *run, double *y)
 
 static bool finished(const launch_run *run, double t)
 {
-    const ld_simulation *self = run->self;
+    const launch_state *self = &run->launch;
     if (self->current + 1 < self->model->firing_count)
         return false;
     if (self->model->run.end == LD_END_TIME)
@@ -56,7 +50,7 @@ static bool finished(const launch_run *run, double t)
 // drops.
 static ld_status change_tube(launch_run *run, double t)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     int next = self->current + 1;
     if (next == self->model->firing_count || self->phase.rocket || t < launch_change_instant(self))
         return LD_OK;
@@ -69,7 +63,7 @@ static ld_status change_tube(launch_run *run, double t)
     ld_status status = simulation_change_tube(self, next, t, y, run->error);
     if (status)
         return status;
-    self->phase.locked = self->model->rocket.lock.present;
+    self->phase.locked = self->rocket->lock.present;
     launch_energy_at(self, t, y, run->energy_start, &after);
     run->energy_start += after.residual - before.residual;
     run->summary->rocket[next].energy_dropped = before.kinetic - after.kinetic;
@@ -83,7 +77,7 @@ static ld_status change_tube(launch_run *run, double t)
 static ld_status step_failed(launch_run *run)
 {
     double t = propagator_time(run->propagator);
-    if (launch_check_tube(run, t, propagator_state(run->propagator)) || !run->self->jammed)
+    if (launch_check_tube(run, t, propagator_state(run->propagator)) || !run->launch.jammed)
         return LD_ERR_NUMERIC;
     return ld_fail(run->error, LD_ERR_LAUNCH,
                    "the knob jams in the slot at t = %.6g s: with this angle and friction no slot "
@@ -93,7 +87,7 @@ static ld_status step_failed(launch_run *run)
 
 static ld_status after_step(launch_run *run, integrator_outcome outcome)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     double t = propagator_time(run->propagator);
     const double *y = propagator_state(run->propagator);
     bool igniting = outcome == INTEGRATOR_STOPPED && t == self->t_ignition && self->piece < 0;
@@ -141,13 +135,10 @@ static ld_status loop(launch_run *run)
 
 static ld_status begin(launch_run *run)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     double y[LD_MAX_STATES];
     const ld_model *model = self->model;
     double last = model->firing[model->firing_count - 1].at;
-    launcher_select(&self->launcher, 0);
-    self->fallbacks = 0;
-    self->worst_condition = 0;
     run->t_start = fmin(model->firing[0].at, 0 - model->run.lead_in);
     run->t_end = model->run.end == LD_END_TIME ? last + model->run.end_time : INFINITY;
     run->last_row = NAN;
@@ -159,9 +150,10 @@ static ld_status begin(launch_run *run)
     const ld_sink *sink = run->options ? run->options->sink : NULL;
     double before = simulation_cpu_now();
     if (!status && sink)
-        status = simulation_geometry(self, sink, run->error);
+        status = simulation_geometry(self->system, sink, run->error);
     if (!status && sink)
-        status = sink->begin(sink->self, self->column, (size_t)self->column_count, run->error);
+        status = sink->begin(sink->self, self->system->column, (size_t)self->system->column_count,
+                             run->error);
     run->cpu_output += simulation_cpu_now() - before;
     if (status)
         return status;
@@ -172,33 +164,34 @@ static ld_status begin(launch_run *run)
         launch_record_ignition(run, run->t_start, y);
         launch_pass_stop(run, run->t_start);
     }
-    self->phase.locked = self->model->rocket.lock.present;
+    self->phase.locked = self->rocket->lock.present;
     launch_let_go_at_once(run, run->t_start, y);
     launch_restart_output(run, run->t_start);
     run->next_progress = run->t_start;
-    status = propagator_create(self, &run->propagator, run->error);
+    status = propagator_create(&run->launch, &run->propagator, run->error);
     if (!status)
         status = propagator_start(run->propagator, run->t_start, y, true, run->error);
     return status ? status : launch_write_row(run, run->t_start, y);
 }
 
-ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, ld_summary *summary,
-                            ld_error *error)
+ld_status ld_simulation_run(const ld_simulation *system, const ld_run_options *options,
+                            ld_summary *summary, ld_error *error)
 {
     ld_error own;
     double start = simulation_cpu_now();
     memset(summary, 0, sizeof *summary);
     double row[LD_MAX_COLUMNS], between[LD_MAX_STATES];
-    launch_run run = {.self = self,
-                      .options = options,
+    launch_run run = {.options = options,
                       .summary = summary,
                       .error = error ? error : &own,
                       .row = row,
                       .between = between};
     *run.error = (ld_error){0};
-    if (self->model->base.kind == LD_BASE_NONE)
-        return flight_alone_run(self, options, summary, run.error);
-    ld_status status = begin(&run);
+    if (system->model->base.kind == LD_BASE_NONE)
+        return flight_alone_run(system, options, summary, run.error);
+    ld_status status = launch_state_begin(&run.launch, system, run.error);
+    if (!status)
+        status = begin(&run);
     if (!status) {
         status = loop(&run);
         if (status)
@@ -208,5 +201,6 @@ ld_status ld_simulation_run(ld_simulation *self, const ld_run_options *options, 
     }
     launch_summarise(&run, status, simulation_cpu_now() - start - run.cpu_output);
     propagator_free(run.propagator);
+    launch_state_end(&run.launch);
     return status;
 }

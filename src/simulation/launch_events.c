@@ -6,11 +6,11 @@
 
 static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     ld_rocket_summary *rocket = &run->summary->rocket[self->current];
     int count = self->launcher.launching.adaptors.count, ahead = 0;
     double since = t - self->t_ignition;
-    const ld_adaptor *adaptor = self->model->rocket.adaptor;
+    const ld_adaptor *adaptor = self->rocket->adaptor;
     for (int j = 0; j < count; j++)
         ahead += adaptor[j].at > adaptor[i].at;
     self->phase.passed[i] = true;
@@ -28,7 +28,7 @@ static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 // Rear adaptor out: the rocket goes; the balance goes on without its energy.
 static void let_rocket_go(launch_run *run, double t, const double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     launcher_input input;
     simulation_input(self, t, y, &input);
     double with = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
@@ -40,7 +40,7 @@ static void let_rocket_go(launch_run *run, double t, const double *y)
 }
 
 // Speed at a first touch, never so slow that damping grows beyond bounds.
-static double touch_speed(const ld_simulation *self, double speed)
+static double touch_speed(const launch_state *self, double speed)
 {
     return fmax(speed, 1e-3 * self->launcher.launching.adaptors.law.v_0);
 }
@@ -48,7 +48,7 @@ static double touch_speed(const ld_simulation *self, double speed)
 // The lock lets go; where the rocket then stands it meets the breech.
 static void let_go(launch_run *run, double t, const double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     self->phase.locked = false;
     self->phase.breech = fmin(self->phase.breech, y[self->launcher.launching.layout.x]);
     run->summary->rocket[self->current].t_release = t - self->t_ignition;
@@ -57,26 +57,26 @@ static void let_go(launch_run *run, double t, const double *y)
 // Switches what the events just located say; true where the equations changed.
 bool launch_switch_phase(launch_run *run, double t, const double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     int count = self->launcher.launching.adaptors.count;
     bool changed = false;
-    if (self->phase.locked && propagator_event(run->propagator, 0) < 0) {
+    if (self->phase.locked && propagator_event(run->propagator, EVENT_RELEASE, 0) < 0) {
         let_go(run, t, y);
         changed = true;
     }
     for (int i = count - 1; i >= 0; i--) {
-        if (!self->phase.passed[i] && propagator_event(run->propagator, 1 + i) < 0) {
+        if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_EXIT, i) < 0) {
             pass_adaptor(run, i, t, y);
             changed = true;
         }
-        if (!self->phase.passed[i] && propagator_event(run->propagator, 1 + count + i) > 0) {
+        if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_TOUCH, i) > 0) {
             // first touch: its speed is kept for the whole contact
             self->phase.touch_speed[i] =
                 touch_speed(self, launching_offset_rate(&self->launcher.launching, y, i));
             changed = true;
         }
     }
-    if (propagator_event(run->propagator, simulation_breech_event(self)) > 0) {
+    if (propagator_event(run->propagator, EVENT_BREECH, 0) > 0) {
         launching_output out;
         launching_pose unused;
         launching_rocket_pose(&self->launcher.launching, y, &unused, &out);
@@ -84,7 +84,7 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
         changed = true;
     }
     for (int j = 0; j < self->launcher.marching.wheel_count; j++)
-        changed |= propagator_event(run->propagator, 1 + 2 * count + j) > 0;
+        changed |= propagator_event(run->propagator, EVENT_WHEEL, j) > 0;
     bool last = self->current + 1 == self->model->firing_count;
     if (self->phase.passed[0] && self->phase.rocket &&
         !(last && self->model->run.end != LD_END_TIME)) {
@@ -98,12 +98,12 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
 // without a crossing that the integrator could locate.
 void launch_let_go_at_once(launch_run *run, double t, const double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     if (!self->phase.locked)
         return;
     const launcher_output *at = simulation_output(self, t, y);
     const launching_output *out = at ? &at->launching : NULL;
-    if (!out || !(out->lock_force > self->model->rocket.lock.release_force))
+    if (!out || !(out->lock_force > self->rocket->lock.release_force))
         return;
     run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
     let_go(run, t, y);
@@ -119,7 +119,7 @@ static double next_corner(const ld_table *command, double t)
 }
 
 // When the next tube takes the place of the one that is empty now.
-double launch_change_instant(const ld_simulation *self)
+double launch_change_instant(const launch_state *self)
 {
     return self->model->firing[self->current + 1].at - 0.2;
 }
@@ -127,7 +127,7 @@ double launch_change_instant(const ld_simulation *self)
 // The next instant at which the step must end: ignition, a corner of the thrust, the end.
 double launch_next_stop(const launch_run *run, double t)
 {
-    const ld_simulation *self = run->self;
+    const launch_state *self = &run->launch;
     double first, stop;
     base_motion_span(&self->launcher.motion, &first, &stop);
     stop = fmin(stop, run->t_end);
@@ -141,8 +141,8 @@ double launch_next_stop(const launch_run *run, double t)
         stop = fmin(stop, self->phase.rocket ? self->model->firing[self->current + 1].at
                                              : launch_change_instant(self));
     int next = self->piece + 1;
-    if (next < (int)self->motor.corner_count)
-        stop = fmin(stop, self->t_ignition + self->motor.t[next]);
+    if (next < (int)self->motor->corner_count)
+        stop = fmin(stop, self->t_ignition + self->motor->t[next]);
     return stop;
 }
 
@@ -150,10 +150,10 @@ double launch_next_stop(const launch_run *run, double t)
 // commanded angle.
 bool launch_pass_stop(launch_run *run, double t)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     bool changed = self->launcher.vehicle;
-    while (t >= self->t_ignition && self->piece + 1 < (int)self->motor.corner_count &&
-           t >= self->t_ignition + self->motor.t[self->piece + 1]) {
+    while (t >= self->t_ignition && self->piece + 1 < (int)self->motor->corner_count &&
+           t >= self->t_ignition + self->motor->t[self->piece + 1]) {
         self->piece++;
         changed = true;
     }

@@ -10,7 +10,7 @@ static ld_status write_flight_row(void *user, const flight_phase *phase, double 
     launch_run *run = user;
     const ld_sink *sink = run->options->sink;
     double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
-    flight_row(&run->self->flight, phase, t, state, row);
+    flight_row(&run->flight, phase, t, state, row);
     ld_status status = sink->row(sink->self, row, (size_t)run->flight_column_count, error);
     run->cpu_output += simulation_cpu_now() - start;
     return status;
@@ -21,7 +21,7 @@ static ld_status begin_flight_rows(launch_run *run, int i)
     const ld_sink *sink = run->options->sink;
     double start = simulation_cpu_now();
     ld_column columns[FLIGHT_MAX_COLUMNS];
-    run->flight_column_count = flight_columns(&run->self->flight, columns);
+    run->flight_column_count = flight_columns(&run->flight, columns);
     ld_status status =
         sink->flight(sink->self, i + 1, columns, (size_t)run->flight_column_count, run->error);
     run->cpu_output += simulation_cpu_now() - start;
@@ -31,17 +31,12 @@ static ld_status begin_flight_rows(launch_run *run, int i)
 // Flies rocket i from the state in which it left its tube; nothing jumps.
 static ld_status fly(launch_run *run, int i)
 {
-    ld_simulation *self = run->self;
+    const ld_model *model = run->launch.model;
     ld_rocket_summary *rocket = &run->summary->rocket[i];
-    flight_free(&self->flight);
-    simulation_select_rocket(self, i);
-    ld_status status = flight_build(&self->flight, self->model, i, run->error);
-    if (status)
-        return status;
     double t = rocket->t_ignition + rocket->t_rear, state[FLIGHT_STATES];
     bool rows = run->options && run->options->sink && run->options->sink->flight;
     quat q = q_from(rocket->exit.quaternion);
-    const earth *globe = &self->flight.earth;
+    const earth *globe = &run->flight.earth;
     m3 A_EB = m3_mul(globe->A_EI, q_matrix(q));
     flight_pose pose = {
         .r_O1 = v3_from(rocket->exit.position),
@@ -49,11 +44,10 @@ static ld_status fly(launch_run *run, int i)
         .q_IB = q,
         .w = v3_add(v3_from(rocket->exit.rate), m3_apply_transposed(A_EB, earth_rate(globe))),
     };
-    flight_phase phase = free_flight_phase(&self->flight, rocket->t_ignition, t);
-    flight_enter(&self->flight, &phase, t, &pose, state);
-    double height = flight_center(&self->flight, t, state).r.y;
-    if (self->model->run.end == LD_END_TIME && self->flight.has_ground &&
-        height < self->flight.ground) {
+    flight_phase phase = free_flight_phase(&run->flight, rocket->t_ignition, t);
+    flight_enter(&run->flight, &phase, t, &pose, state);
+    double height = flight_center(&run->flight, t, state).r.y;
+    if (model->run.end == LD_END_TIME && run->flight.has_ground && height < run->flight.ground) {
         simulation_note(
             run->summary,
             "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
@@ -62,8 +56,8 @@ static ld_status fly(launch_run *run, int i)
         return LD_OK;
     }
     free_flight job = {
-        .system = &self->flight,
-        .model = self->model,
+        .system = &run->flight,
+        .model = model,
         .t_ignition = rocket->t_ignition,
         .t_start = t,
         .t_end = run->t_end,
@@ -73,8 +67,7 @@ static ld_status fly(launch_run *run, int i)
         .row = rows ? write_flight_row : NULL,
         .self = run,
     };
-    if (rows)
-        status = begin_flight_rows(run, i);
+    ld_status status = rows ? begin_flight_rows(run, i) : LD_OK;
     if (!status)
         status = free_flight_run(&job, state, rocket, run->summary, run->error);
     return status;
@@ -84,10 +77,15 @@ static ld_status fly(launch_run *run, int i)
 ld_status launch_fly_all(launch_run *run)
 {
     ld_status status = LD_OK;
-    if (run->self->model->run.end == LD_END_TIP)
+    if (run->launch.model->run.end == LD_END_TIP)
         return LD_OK;
-    for (int i = 0; i < run->summary->rocket_count && !status; i++)
-        if (!isnan(run->summary->rocket[i].t_rear))
+    for (int i = 0; i < run->summary->rocket_count && !status; i++) {
+        if (isnan(run->summary->rocket[i].t_rear))
+            continue;
+        status = flight_build(&run->flight, run->launch.model, i, run->error);
+        if (!status)
             status = fly(run, i);
+        flight_free(&run->flight);
+    }
     return status;
 }

@@ -6,11 +6,11 @@
 ld_status launch_check_tube(launch_run *run, double t, const double *y)
 {
     const int parts = 4;
-    double length = run->self->launcher.launching.tube.flexible.length;
+    double length = run->launch.launcher.launching.tube.flexible.length;
     for (int k = parts; k > 0; k--) {
         launching_section at;
         double x = length * k / parts;
-        launching_section_at(&run->self->launcher.launching, y, x, &at);
+        launching_section_at(&run->launch.launcher.launching, y, x, &at);
         double sag = hypot(at.P.y, at.P.z);
         if (sag > 0.2 * length || at.A.a[0][0] < 0.8)
             return ld_fail(run->error, LD_ERR_NUMERIC,
@@ -23,8 +23,8 @@ ld_status launch_check_tube(launch_run *run, double t, const double *y)
 
 static ld_status check_progress(launch_run *run, double t, const double *y)
 {
-    ld_simulation *self = run->self;
-    const ld_rocket *rocket = &self->model->rocket;
+    launch_state *self = &run->launch;
+    const ld_rocket *rocket = self->rocket;
     double since = t - self->t_ignition, s = y[self->launcher.launching.layout.x];
     if (self->phase.passed[0] && since < 0)
         return ld_fail(run->error, LD_ERR_LAUNCH,
@@ -57,7 +57,7 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
 // Launches must not overlap.
 static ld_status check_next(launch_run *run, double t)
 {
-    const ld_simulation *self = run->self;
+    const launch_state *self = &run->launch;
     int next = self->current + 1;
     if (next == self->model->firing_count || !self->phase.rocket ||
         t < self->model->firing[next].at)
@@ -72,7 +72,7 @@ static ld_status check_next(launch_run *run, double t)
 ld_status launch_check_base(launch_run *run, double t)
 {
     double first, last;
-    base_motion_span(&run->self->launcher.motion, &first, &last);
+    base_motion_span(&run->launch.launcher.motion, &first, &last);
     if (t >= first && t < last)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_INPUT,
@@ -105,9 +105,8 @@ static ld_status report_progress(launch_run *run, double t)
     if (status || !options || !options->progress)
         return status;
     // a launch's end is not known: the travel's share is the estimate
-    const ld_simulation *self = run->self;
-    double length = self->launcher.launching.tube.flexible.length,
-           s0 = self->model->rocket.start_at;
+    const launch_state *self = &run->launch;
+    double length = self->launcher.launching.tube.flexible.length, s0 = self->rocket->start_at;
     double s = propagator_state(run->propagator)[self->launcher.launching.layout.x];
     double in_tube = fmin(1, sqrt(fmax(0, (s - s0) / (length - s0))));
     double lead_in = self->t_ignition - run->t_start;

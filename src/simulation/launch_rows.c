@@ -5,7 +5,7 @@
 // is to follow, at that of the lead-in.
 static double output_step(const launch_run *run, double t)
 {
-    const ld_simulation *self = run->self;
+    const launch_state *self = &run->launch;
     bool between = !self->phase.rocket && self->current + 1 < self->model->firing_count;
     return t < self->t_ignition || between ? self->model->run.output_step_lead_in
                                            : self->model->run.output_step_tube;
@@ -18,8 +18,9 @@ ld_status launch_write_row(launch_run *run, double t, const double *y)
         return LD_OK;
     run->last_row = t;
     double start = simulation_cpu_now();
-    history_row(run->self, t, y, run->energy_start, run->row);
-    ld_status status = sink->row(sink->self, run->row, (size_t)run->self->column_count, run->error);
+    history_row(&run->launch, t, y, run->energy_start, run->row);
+    ld_status status =
+        sink->row(sink->self, run->row, (size_t)run->launch.system->column_count, run->error);
     run->cpu_output += simulation_cpu_now() - start;
     run->sink_failed = status != LD_OK;
     return status;

@@ -1,12 +1,14 @@
-// One run of a launch: what its loop, rows, events, limits, summary and flights share.
+// One run of a launch: its state, who listens, and what its loop, rows, events, limits, summary and
+// flights keep.
 #ifndef LD_SIMULATION_LAUNCH_RUN_H
 #define LD_SIMULATION_LAUNCH_RUN_H
 
 #include "simulation/propagator.h"
+#include "systems/flight.h"
 
 typedef struct launch_run {
-    ld_simulation *self;
-    const ld_run_options *options;
+    launch_state launch;
+    const ld_run_options *options; // who listens
     ld_summary *summary;
     ld_error *error;
     propagator *propagator;
@@ -24,6 +26,7 @@ typedef struct launch_run {
     bool sink_failed;
     double greatest_lock_force;
     double point[LD_MAX_FIRINGS][2]; // [m] x and z of the rear adaptors at their ignition
+    flight_system flight;            // of the rocket that flies now
     int flight_column_count;
     double cpu_output; // [s] spent on rows and their sink
 } launch_run;
@@ -46,7 +49,7 @@ bool launch_switch_phase(launch_run *run, double t, const double *y);
 // Opens a lock that carries more than its release force without a crossing to be located.
 void launch_let_go_at_once(launch_run *run, double t, const double *y);
 // When the next tube takes the place of the one that is empty now [s].
-double launch_change_instant(const ld_simulation *self);
+double launch_change_instant(const launch_state *self);
 // The next instant at which a step must end [s]; at one: what begins there, true where the
 // equations change.
 double launch_next_stop(const launch_run *run, double t);
@@ -65,7 +68,7 @@ void launch_record_ignition(launch_run *run, double t, const double *y);
 void launch_record_exit(launch_run *run, double t, const double *landed);
 // Largest contact and slot forces so far.
 void launch_watch_forces(launch_run *run, double t, const double *y);
-void launch_energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
+void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,
                       ld_energy *energy);
 void launch_summarise(launch_run *run, ld_status status, double cpu_seconds);
 

@@ -6,31 +6,9 @@
 
 #include "simulation/launch_run.h"
 
-void simulation_clear_rocket(ld_rocket_summary *rocket, double t_ignition)
-{
-    memset(rocket, 0, sizeof *rocket);
-    rocket->t_ignition = t_ignition;
-    rocket->t_release = rocket->t_front = rocket->t_middle = rocket->t_rear = NAN;
-    for (int k = 0; k < LD_MAX_ADAPTORS; k++)
-        rocket->t_exit[k] = NAN;
-    rocket->muzzle_speed = rocket->inertial_speed = rocket->spin_rate = NAN;
-    rocket->pitch = rocket->yaw = rocket->pitch_rate = rocket->yaw_rate = NAN;
-    for (int k = 0; k < 3; k++)
-        rocket->exit.position[k] = rocket->exit.velocity[k] = rocket->exit.rate[k] = NAN;
-    for (int k = 0; k < 4; k++)
-        rocket->exit.quaternion[k] = NAN;
-    rocket->relative.y = rocket->relative.z = NAN;
-    rocket->relative.psi = rocket->relative.theta = rocket->relative.gamma = NAN;
-    rocket->relative.w_x = rocket->relative.w_y = rocket->relative.w_z = NAN;
-    rocket->tip.y = rocket->tip.z = rocket->tip.vy = rocket->tip.vz = NAN;
-    rocket->tip.pitch = rocket->tip.yaw = rocket->tip.pitch_rate = rocket->tip.yaw_rate = NAN;
-    rocket->tip_off = no_tip_off;
-    rocket->aim = no_aim;
-}
-
 void launch_record_exit(launch_run *run, double t, const double *landed)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     const launching_layout *at = &self->launcher.launching.layout;
     // the curvature jumps at the tip: its inner value counts, on whichever side the step landed
     double y[LD_MAX_STATES];
@@ -84,7 +62,7 @@ void launch_record_exit(launch_run *run, double t, const double *landed)
 // Where the rocket is when it is lit, over the ground, and how its tube is aimed.
 void launch_record_ignition(launch_run *run, double t, const double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     const launching_layout *at = &self->launcher.launching.layout;
     launching_output unused;
     launching_pose pose;
@@ -100,7 +78,7 @@ void launch_record_ignition(launch_run *run, double t, const double *y)
 // Largest contact and slot forces so far.
 void launch_watch_forces(launch_run *run, double t, const double *y)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     if (!self->phase.rocket)
         return;
     ld_rocket_summary *rocket = &run->summary->rocket[self->current];
@@ -117,7 +95,7 @@ void launch_watch_forces(launch_run *run, double t, const double *y)
         run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
 }
 
-void launch_energy_at(const ld_simulation *self, double t, const double *y, double energy_start,
+void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,
                       ld_energy *energy)
 {
     launcher_input input;
@@ -138,7 +116,7 @@ void simulation_note(ld_summary *summary, const char *format, ...)
     va_end(arguments);
 }
 
-static void note_formulation(const ld_simulation *self, ld_summary *summary)
+static void note_formulation(const launch_state *self, ld_summary *summary)
 {
     if (self->model->run.formulation != LD_FORMULATION_OVERALL)
         return;
@@ -152,7 +130,7 @@ static void note_formulation(const ld_simulation *self, ld_summary *summary)
 
 void launch_summarise(launch_run *run, ld_status status, double cpu_seconds)
 {
-    ld_simulation *self = run->self;
+    launch_state *self = &run->launch;
     ld_summary *summary = run->summary;
     summary->complete = status == LD_OK;
     if (status && !run->error->text[0])
@@ -160,9 +138,9 @@ void launch_summarise(launch_run *run, ld_status status, double cpu_seconds)
     if (status)
         memcpy(summary->stopped, run->error->text, sizeof summary->stopped);
     summary->statistics.cpu_seconds = cpu_seconds;
-    summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
-    summary->mode_count = self->mode_count;
-    memcpy(summary->mode, self->mode, sizeof summary->mode);
+    summary->statistics.cpu_seconds_setup = self->system->cpu_seconds_setup;
+    summary->mode_count = self->system->mode_count;
+    memcpy(summary->mode, self->system->mode, sizeof summary->mode);
     if (!run->propagator)
         return;
     double t = propagator_time(run->propagator);
@@ -176,7 +154,7 @@ void launch_summarise(launch_run *run, ld_status status, double cpu_seconds)
         if (summary->rocket[i].t_release < 0)
             simulation_note(summary, "the lock of tube %d let go %.4g s before its ignition",
                             summary->rocket[i].tube, -summary->rocket[i].t_release);
-    if (self->growing.real > 0)
+    if (self->system->growing.real > 0)
         simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
-                        self->growing.real, self->growing.shape);
+                        self->system->growing.real, self->system->growing.shape);
 }

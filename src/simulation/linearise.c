@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "math/dense.h"
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 // Eigenvalues of a vehicle below this modulus [1/s] belong to its neutral directions.
@@ -55,7 +55,7 @@ static int extra_at(const launcher_system *launcher, int unknown)
     return launcher->marching_at + WHEEL_STATES * wheels;
 }
 
-static void displace(const ld_simulation *self, const linear_system *system, int unknown,
+static void displace(const launch_state *self, const linear_system *system, int unknown,
                      double change, double *y)
 {
     const launcher_system *launcher = &self->launcher;
@@ -81,7 +81,7 @@ static void displace(const ld_simulation *self, const linear_system *system, int
 
 // d/dt of the state of the whole, without thrust; a base that is no vehicle is held in its attitude
 // in the origin.
-static int rates_of_whole(const ld_simulation *self, double t, const launching_phase *phase,
+static int rates_of_whole(const launch_state *self, double t, const launching_phase *phase,
                           const double *y, double *y_dot)
 {
     const launcher_system *launcher = &self->launcher;
@@ -112,7 +112,7 @@ static int rates_of_tube(const launching_system *tube, const launching_phase *ph
 }
 
 // Rates of the unknowns at state y, in the same order.
-static int rates(const ld_simulation *self, const linear_system *system,
+static int rates(const launch_state *self, const linear_system *system,
                  const launching_system *alone, double t, const launching_phase *phase,
                  const double *y, double *r)
 {
@@ -143,7 +143,7 @@ static int rates(const ld_simulation *self, const linear_system *system,
 
 // Counts the unknowns and finds the Jacobian by central differences, of the whole or of the tube
 // `alone`.
-static ld_status linearise(const ld_simulation *self, const launching_system *alone, double t,
+static ld_status linearise(const launch_state *self, const launching_system *alone, double t,
                            const launching_phase *phase, const double *y, linear_system *system,
                            ld_error *error)
 {
@@ -218,7 +218,7 @@ static const char *const group_names[GROUPS] = {
 };
 
 // Kinetic energy of tube and rocket in an eigenvector's speed number i, by group.
-static void add_launching_energy(const ld_simulation *self, int i, double amount, double *energy)
+static void add_launching_energy(const launch_state *self, int i, double amount, double *energy)
 {
     const launching_system *launching = &self->launcher.launching;
     int nb = launching->tube.flexible.nb, nt = launching->tube.flexible.nt,
@@ -227,7 +227,7 @@ static void add_launching_energy(const ld_simulation *self, int i, double amount
     const double mass[6] = {m, m, m, launching->tube.jx, j, j};
     static const int group[6] = {ALONG, VERTICAL, LATERAL, TWIST, LATERAL, VERTICAL};
     static const int rocket_group[6] = {ALONG, ROCKET_Y, ROCKET_Z, ROCKET_ROLL, ROCKET_Z, ROCKET_Y};
-    const rocket_mass *full = &self->motor.full;
+    const rocket_mass *full = &self->motor->full;
     double inertia[6] = {full->m,         full->m,         full->m,
                          full->J.a[0][0], full->J.a[1][1], full->J.a[2][2]};
     int k = i - 6;
@@ -242,7 +242,7 @@ static void add_launching_energy(const ld_simulation *self, int i, double amount
         energy[rocket_group[k - nq]] += inertia[k - nq] * amount;
 }
 
-static void add_vehicle_energy(const ld_simulation *self, int i, double amount, double *energy)
+static void add_vehicle_energy(const launch_state *self, int i, double amount, double *energy)
 {
     const ld_platform *platform = &self->model->platform;
     static const int group[8] = {SURGE, HEAVE, SWAY, ROLL, YAW, PITCH, AZIMUTH, ELEVATION};
@@ -265,7 +265,7 @@ static void add_vehicle_energy(const ld_simulation *self, int i, double amount, 
 
 // Names what moves most in an eigenvector: the group with the largest kinetic energy, and a second
 // one that has at least a third of it.
-static void name_shape(const ld_simulation *self, const linear_system *system,
+static void name_shape(const launch_state *self, const linear_system *system,
                        const double *squared_speeds, char shape[LD_SHAPE_TEXT])
 {
     double energy[GROUPS] = {0};
@@ -312,7 +312,7 @@ static int by_damping(const void *a, const void *b)
 }
 
 // Whether speed number i is one of the tube or the rocket in the vertical plane.
-static bool is_vertical(const ld_simulation *self, const linear_system *system, int i)
+static bool is_vertical(const launch_state *self, const linear_system *system, int i)
 {
     int k = i < system->tube ? i : i - system->tube;
     return k == 1 || k == 5 || (i >= 6 && i < 6 + self->launcher.launching.tube.flexible.nb);
@@ -320,7 +320,7 @@ static bool is_vertical(const ld_simulation *self, const linear_system *system, 
 
 // left^T right by rows; by columns left^T C right, C = -J's block of speeds on speeds, and left^T
 // right of the vertical speeds alone.
-static void project(const ld_simulation *self, const linear_system *system, const undamped *shape,
+static void project(const launch_state *self, const linear_system *system, const undamped *shape,
                     int count, double *products, double *damped, double *vertical)
 {
     int n = system->half;
@@ -345,8 +345,8 @@ static void project(const ld_simulation *self, const linear_system *system, cons
 // (left^T right)^-1 left^T C right, with the eigenvalues `rate`, 2 zeta omega [1/s], and
 // eigenvectors by columns in `mix`. Of shapes that are damped alike a trace more in the vertical
 // plane takes those in the planes. `work`: room for three such matrices.
-static int damp_shapes(const ld_simulation *self, const linear_system *system,
-                       const undamped *shape, int count, double *rate, double *mix, double *work)
+static int damp_shapes(const launch_state *self, const linear_system *system, const undamped *shape,
+                       int count, double *rate, double *mix, double *work)
 {
     int square = count * count, pivot[LD_MAX_STATES];
     double *products = work, *damped = products + square, *vertical = damped + square, sum = 0;
@@ -366,7 +366,7 @@ static int damp_shapes(const ld_simulation *self, const linear_system *system,
 }
 
 // The modes that `count` shapes of one frequency have, by ascending damping.
-static int modes_of_shapes(const ld_simulation *self, const linear_system *system,
+static int modes_of_shapes(const launch_state *self, const linear_system *system,
                            const undamped *shape, int count, ld_mode *modes, double *work)
 {
     double rate[LD_MAX_STATES], squares[LD_MAX_STATES], *mix = work + 3 * count * count, mean = 0;
@@ -413,7 +413,7 @@ static int undamped_shapes(const linear_system *system, undamped *shape, int *co
 }
 
 // Undamped modes by ascending frequency, with the damping of each shape.
-static ld_status undamped_modes(const ld_simulation *self, const linear_system *system,
+static ld_status undamped_modes(const launch_state *self, const linear_system *system,
                                 ld_mode *modes, int capacity, int *count, ld_error *error)
 {
     int n = system->half, shapes = 0, bad, equal;
@@ -446,7 +446,7 @@ static int by_size(const void *a, const void *b)
 
 // Eigenvalues of J with imaginary part >= 0, by ascending modulus, each with what moves in it;
 // those below `least` [1/s], which constraints and neutral directions leave at zero, are dropped.
-static ld_status eigenvalues(const ld_simulation *self, const linear_system *system, double least,
+static ld_status eigenvalues(const launch_state *self, const linear_system *system, double least,
                              ld_pole *poles, int capacity, int *count, ld_error *error)
 {
     int n = system->count, half = system->half;
@@ -490,14 +490,17 @@ static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes,
     }
 }
 
-int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity)
+int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity)
 {
     double y[LD_MAX_STATES];
     int count = 0;
+    launch_state state, *self = &state;
     linear_system system = {0};
     launching_phase phase = {.rocket = false};
-    if (self->model->base.kind == LD_BASE_NONE)
+    if (simulation->model->base.kind == LD_BASE_NONE)
         return 0; // a flight alone has no tube
+    if (launch_state_begin(self, simulation, NULL))
+        return 0;
     // straight it rests without gravity alone, and no pose of the base counts
     launching_system weightless = self->launcher.launching;
     weightless.tube.gravity = 0;
@@ -505,11 +508,12 @@ int ld_simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capa
     if (!linearise(self, &weightless, 0, &phase, y, &system, NULL))
         undamped_modes(self, &system, modes, capacity, &count, NULL);
     free(system.J);
+    launch_state_end(self);
     return count;
 }
 
 // The equilibrium, and the equations linearised about it.
-static ld_status linearise_at_rest(ld_simulation *self, linear_system *system, ld_error *error)
+static ld_status linearise_at_rest(launch_state *self, linear_system *system, ld_error *error)
 {
     double y[LD_MAX_STATES], t = -self->model->run.lead_in;
     ld_equilibrium_summary unused;
@@ -529,7 +533,7 @@ static ld_status linearise_at_rest(ld_simulation *self, linear_system *system, l
     return status ? status : linearise(self, NULL, t, &phase, y, system, error);
 }
 
-ld_status simulation_linearise(ld_simulation *self, linear_system *system, ld_error *error)
+ld_status simulation_linearise(launch_state *self, linear_system *system, ld_error *error)
 {
     *system = (linear_system){0};
     static const ld_road level = {.iso_class = LD_ROAD_SMOOTH};
@@ -544,16 +548,20 @@ ld_status simulation_linearise(ld_simulation *self, linear_system *system, ld_er
     return status;
 }
 
-ld_status ld_simulation_system_modes(ld_simulation *self, ld_mode *modes, int capacity, int *count,
-                                     ld_pole *poles, int pole_capacity, int *pole_count,
+ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
+                                     int *count, ld_pole *poles, int pole_capacity, int *pole_count,
                                      ld_error *error)
 {
     linear_system system = {0};
-    bool vehicle = self->launcher.vehicle;
+    launch_state state, *self = &state;
+    bool vehicle = simulation->launcher.vehicle;
     *count = *pole_count = 0;
-    if (self->model->base.kind == LD_BASE_NONE)
+    if (simulation->model->base.kind == LD_BASE_NONE)
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
-    ld_status status = simulation_linearise(self, &system, error);
+    ld_status status = launch_state_begin(self, simulation, error);
+    if (status)
+        return status;
+    status = simulation_linearise(self, &system, error);
     if (!status)
         status = eigenvalues(self, &system, vehicle ? LEAST_RATE : 1, poles, pole_capacity,
                              pole_count, error);
@@ -562,6 +570,7 @@ ld_status ld_simulation_system_modes(ld_simulation *self, ld_mode *modes, int ca
     else if (!status)
         status = undamped_modes(self, &system, modes, capacity, count, error);
     free(system.J);
+    launch_state_end(self);
     return status;
 }
 
@@ -575,7 +584,8 @@ static int unstable_hinge(const char *shape)
     return -1;
 }
 
-ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_error *error)
+ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *growing,
+                                     ld_error *error)
 {
     enum { MOST = 2 * LD_MAX_STATES };
     static const char *const names[HINGES] = {"azimuth", "elevation"};
@@ -585,11 +595,13 @@ ld_status simulation_check_stability(ld_simulation *self, ld_pole *growing, ld_e
     *growing = (ld_pole){0};
     if (!poles)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
+    launch_state state;
+    ld_status status = launch_state_begin(&state, simulation, error);
     // without an equilibrium on a flat road there is nothing to say
     ld_error unused;
-    ld_status status = LD_OK;
-    if (!simulation_linearise(self, &system, &unused))
-        eigenvalues(self, &system, LEAST_RATE, poles, MOST, &count, &unused);
+    if (!status && !simulation_linearise(&state, &system, &unused))
+        eigenvalues(&state, &system, LEAST_RATE, poles, MOST, &count, &unused);
+    launch_state_end(&state);
     for (int i = 0; i < count && !status; i++) {
         int hinge = unstable_hinge(poles[i].shape);
         if (poles[i].real < LEAST_RATE)

@@ -9,14 +9,14 @@
 // ---- the equations ----
 
 // Thrust and mass at time t.
-static void burn(const ld_simulation *self, double t, launching_input *input)
+static void burn(const launch_state *self, double t, launching_input *input)
 {
     double tau = t - self->t_ignition;
-    input->thrust = motor_thrust(&self->motor, self->piece, tau);
-    motor_mass(&self->motor, self->piece, tau, &input->mass);
+    input->thrust = motor_thrust(self->motor, self->piece, tau);
+    motor_mass(self->motor, self->piece, tau, &input->mass);
 }
 
-void simulation_input(const ld_simulation *self, double t, const double *y, launcher_input *input)
+void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input)
 {
     launcher_place(&self->launcher, t, y, input);
     burn(self, t, &input->launching);
@@ -38,13 +38,13 @@ static bool all_finite(int n, const double *y)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0;
 }
 
-static void find_conditions(const ld_simulation *self, double t, run_conditions *conditions)
+static void find_conditions(const launch_state *self, double t, run_conditions *conditions)
 {
     memset(conditions, 0, sizeof *conditions);
     conditions->t = t;
     conditions->t_ignition = self->t_ignition;
     conditions->piece = self->piece;
-    conditions->rocket = self->rocket;
+    conditions->rocket = self->current;
     conditions->tube = self->launcher.tube;
     conditions->road = self->launcher.marching.road;
     memcpy(&conditions->phase, &self->phase, sizeof self->phase);
@@ -52,20 +52,20 @@ static void find_conditions(const ld_simulation *self, double t, run_conditions 
 }
 
 // The works at the state's end count for nothing in the equations.
-static size_t size_that_counts(const ld_simulation *self)
+static size_t size_that_counts(const launch_state *self)
 {
     return (size_t)self->launcher.work_at * sizeof(double);
 }
 
 // latest.out is that of state y at t.
-static void remember(ld_simulation *self, double t, const double *y)
+static void remember(launch_state *self, double t, const double *y)
 {
     self->latest.known = true;
     find_conditions(self, t, &self->latest.at);
     memcpy(self->latest.y, y, size_that_counts(self));
 }
 
-static bool is_latest(const ld_simulation *self, double t, const double *y)
+static bool is_latest(const launch_state *self, double t, const double *y)
 {
     run_conditions now;
     if (!self->latest.known || self->latest.at.t != t)
@@ -76,7 +76,7 @@ static bool is_latest(const ld_simulation *self, double t, const double *y)
 }
 
 // Keeps what an evaluation tells besides the rates.
-static void note_outcome(ld_simulation *self, launching_outcome outcome)
+static void note_outcome(launch_state *self, launching_outcome outcome)
 {
     self->jammed = outcome == LAUNCHING_JAMMED;
     if (outcome || self->model->run.formulation != LD_FORMULATION_OVERALL)
@@ -86,23 +86,7 @@ static void note_outcome(ld_simulation *self, launching_outcome outcome)
     self->worst_condition = fmax(self->worst_condition, out->condition);
 }
 
-static int rhs(double t, const double *y, double *y_dot, void *user)
-{
-    ld_simulation *self = user;
-    launcher_input input;
-    launcher_output *out = &self->latest.out;
-    simulation_input(self, t, y, &input);
-    self->latest.known = false;
-    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
-    note_outcome(self, outcome);
-    if (outcome)
-        return -1;
-    remember(self, t, y);
-    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
-    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
-}
-
-const launcher_output *simulation_output(ld_simulation *self, double t, const double *y)
+const launcher_output *simulation_output(launch_state *self, double t, const double *y)
 {
     if (!is_latest(self, t, y)) {
         launcher_input input;
@@ -113,54 +97,6 @@ const launcher_output *simulation_output(ld_simulation *self, double t, const do
         remember(self, t, y);
     }
     return &self->latest.out;
-}
-
-int simulation_breech_event(const ld_simulation *self)
-{
-    const launcher_system *launcher = &self->launcher;
-    return EVENT_ADAPTORS + 2 * launcher->launching.adaptors.count + launcher->marching.wheel_count;
-}
-
-static int event_count(const ld_simulation *self)
-{
-    return simulation_breech_event(self) + 1;
-}
-
-// Events of the launching subsystem; the others stay away from zero.
-static void launching_events(const ld_simulation *self, const launching_output *out, double *g)
-{
-    const launching_phase *phase = &self->phase;
-    int count = self->launcher.launching.adaptors.count;
-    double length = self->launcher.launching.tube.flexible.length;
-    bool touching = self->launcher.launching.adaptors.law.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
-    for (int i = 0; i < event_count(self); i++)
-        g[i] = 1;
-    if (!phase->rocket)
-        return;
-    if (touching && !phase->locked) // the rear adaptor is at s
-        g[simulation_breech_event(self)] = (phase->breech - out->adaptor[0].s) / 1e-3;
-    if (phase->locked)
-        g[EVENT_RELEASE] = 1 - out->lock_force / self->model->rocket.lock.release_force;
-    for (int i = 0; i < count; i++) {
-        if (phase->passed[i])
-            continue;
-        g[EVENT_ADAPTORS + i] = (length - out->adaptor[i].s) / length;
-        if (touching)
-            g[EVENT_ADAPTORS + count + i] = out->adaptor[i].penetration / 1e-3;
-    }
-}
-
-static int events(double t, const double *y, double *g, void *user)
-{
-    ld_simulation *self = user;
-    const launcher_output *out = simulation_output(self, t, y);
-    if (!out)
-        return -1;
-    launching_events(self, &out->launching, g);
-    int wheels = EVENT_ADAPTORS + 2 * self->launcher.launching.adaptors.count;
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
-        g[wheels + j] = out->marching.wheel[j].deflection / 1e-3;
-    return 0;
 }
 
 // ---- tolerances ----
@@ -190,7 +126,7 @@ static void vehicle_tolerances(const launcher_system *launcher, double tolerance
     *wheel = tolerance;
 }
 
-static void find_tolerances(const ld_simulation *self, tolerances *all)
+static void find_tolerances(const launch_state *self, tolerances *all)
 {
     const launching_layout *at = &self->launcher.launching.layout;
     double tolerance = self->model->run.tolerance, *atol = all->atol;
@@ -215,8 +151,6 @@ static void find_tolerances(const ld_simulation *self, tolerances *all)
         vehicle_tolerances(&self->launcher, tolerance, all);
 }
 
-// ---- subsystems apart ----
-
 // A frame as it was exchanged, and as it goes on until the next exchange: with the acceleration
 // that its last two velocities tell.
 typedef struct held_frame {
@@ -233,7 +167,8 @@ enum { ORIENTATING_COUNT = ORIENTATING_STATES + ORIENTATING_POWERS };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 struct propagator {
-    ld_simulation *simulation;
+    launch_state *launch;
+    event_list events;
     integrator *integrator; // of all, or of the launching subsystem
     double state[LD_MAX_STATES];
 
@@ -249,6 +184,36 @@ struct propagator {
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
 };
+
+// ---- together ----
+
+static int rhs(double t, const double *y, double *y_dot, void *user)
+{
+    launch_state *self = ((propagator *)user)->launch;
+    launcher_input input;
+    launcher_output *out = &self->latest.out;
+    simulation_input(self, t, y, &input);
+    self->latest.known = false;
+    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
+    note_outcome(self, outcome);
+    if (outcome)
+        return -1;
+    remember(self, t, y);
+    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
+    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
+}
+
+static int events(double t, const double *y, double *g, void *user)
+{
+    propagator *self = user;
+    const launcher_output *out = simulation_output(self->launch, t, y);
+    if (!out)
+        return -1;
+    events_evaluate(&self->events, self->launch, out, g);
+    return 0;
+}
+
+// ---- subsystems apart ----
 
 static void go_on(const held_frame *held, double tau, base_frame *frame)
 {
@@ -283,20 +248,20 @@ static void take_wrench(held_wrench *held, v3 force, v3 moment, double since)
 static int launching_rhs(double t, const double *y, double *y_dot, void *user)
 {
     propagator *self = user;
-    ld_simulation *simulation = self->simulation;
-    const launcher_system *launcher = &simulation->launcher;
+    launch_state *launch = self->launch;
+    const launcher_system *launcher = &launch->launcher;
     launching_input input;
-    launching_output *out = &simulation->latest.out.launching;
+    launching_output *out = &launch->latest.out.launching;
     go_on(&self->tube, t - self->t, &input.base);
-    burn(simulation, t, &input);
-    simulation->latest.known = false; // not one of the whole
-    launching_outcome outcome = launcher_evaluate_tube(launcher, simulation->model->run.formulation,
-                                                       &input, &simulation->phase, y, out);
-    note_outcome(simulation, outcome);
+    burn(launch, t, &input);
+    launch->latest.known = false; // not one of the whole
+    launching_outcome outcome = launcher_evaluate_tube(launcher, launch->model->run.formulation,
+                                                       &input, &launch->phase, y, out);
+    note_outcome(launch, outcome);
     if (outcome)
         return -1;
     int count = launcher->launching.layout.count;
-    launching_rates(&launcher->launching, y, out, simulation->phase.rocket, y_dot);
+    launching_rates(&launcher->launching, y, out, launch->phase.rocket, y_dot);
     memcpy(y_dot + count, out->power, sizeof out->power);
     return all_finite(count + POWER_COUNT, y_dot) ? 0 : -1;
 }
@@ -307,14 +272,14 @@ static int launching_events_apart(double t, const double *y, double *g, void *us
     double unused[LD_MAX_STATES];
     if (launching_rhs(t, y, unused, user))
         return -1;
-    launching_events(self->simulation, &self->simulation->latest.out.launching, g);
+    events_evaluate(&self->events, self->launch, &self->launch->latest.out, g);
     return 0;
 }
 
 static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
 {
     propagator *self = user;
-    const ld_simulation *simulation = self->simulation;
+    const launch_state *launch = self->launch;
     const held_wrench *chassis = &self->on_chassis, *tube = &self->on_tube;
     double tau = t - self->t;
     orientating_motion motion;
@@ -324,11 +289,11 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
         .chassis_moment = v3_add(chassis->moment, v3_scale(tau, chassis->moment_rate)),
         .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
         .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
-        .rest = {simulation->rest[0], simulation->rest[1]},
-        .frictionless = simulation->phase.frictionless,
+        .rest = {launch->rest[0], launch->rest[1]},
+        .frictionless = launch->phase.frictionless,
     };
-    orientating_motion_at(&simulation->launcher.orientating, t, y, &motion);
-    if (orientating_evaluate(&simulation->launcher.orientating, &input, y, &motion, y_dot, &out))
+    orientating_motion_at(&launch->launcher.orientating, t, y, &motion);
+    if (orientating_evaluate(&launch->launcher.orientating, &input, y, &motion, y_dot, &out))
         return -1;
     memcpy(y_dot + ORIENTATING_STATES, out.power, sizeof out.power);
     return all_finite(ORIENTATING_COUNT, y_dot) ? 0 : -1;
@@ -337,7 +302,7 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
 static int marching_rhs(double t, const double *y, double *y_dot, void *user)
 {
     propagator *self = user;
-    const marching_system *marching = &self->simulation->launcher.marching;
+    const marching_system *marching = &self->launch->launcher.marching;
     marching_output out;
     base_frame chassis;
     go_on(&self->chassis, t - self->t, &chassis);
@@ -363,7 +328,7 @@ static void put_part(const double *part, int at, int count, int works_at, int wo
 static void split_base(const propagator *self, const double *y, double *orientating,
                        double *marching)
 {
-    const launcher_system *launcher = &self->simulation->launcher;
+    const launcher_system *launcher = &self->launch->launcher;
     int works = launcher->work_at + POWER_COUNT;
     part_of(y, launcher->orientating_at, ORIENTATING_STATES, works, ORIENTATING_POWERS,
             orientating);
@@ -374,7 +339,7 @@ static void split_base(const propagator *self, const double *y, double *orientat
 static void join_base(const propagator *self, const double *orientating, const double *marching,
                       double *y)
 {
-    const launcher_system *launcher = &self->simulation->launcher;
+    const launcher_system *launcher = &self->launch->launcher;
     int works = launcher->work_at + POWER_COUNT;
     put_part(orientating, launcher->orientating_at, ORIENTATING_STATES, works, ORIENTATING_POWERS,
              y);
@@ -385,7 +350,7 @@ static void join_base(const propagator *self, const double *orientating, const d
 // The base's states at an instant between the last exchange and the next: cubic Hermite.
 static void base_between(const propagator *self, double t, double *y)
 {
-    const launcher_system *launcher = &self->simulation->launcher;
+    const launcher_system *launcher = &self->launch->launcher;
     double h = self->t_next - self->t, x = h > 0 ? (t - self->t) / h : 0;
     double a = (1 + 2 * x) * (1 - x) * (1 - x), b = x * (1 - x) * (1 - x) * h;
     double c = x * x * (3 - 2 * x), d = -x * x * (1 - x) * h;
@@ -398,7 +363,7 @@ static void base_between(const propagator *self, double t, double *y)
 // The whole state at time t within the launching subsystem's last step, whose state is `y`.
 static void join(const propagator *self, double t, const double *y, double *whole)
 {
-    const launcher_system *launcher = &self->simulation->launcher;
+    const launcher_system *launcher = &self->launch->launcher;
     put_part(y, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT, whole);
     base_between(self, t, whole);
 }
@@ -408,21 +373,21 @@ static void join(const propagator *self, double t, const double *y, double *whol
 static ld_status exchange(propagator *self, double t, const double *y, double t_stop,
                           ld_error *error)
 {
-    ld_simulation *simulation = self->simulation;
-    const launcher_system *launcher = &simulation->launcher;
+    launch_state *launch = self->launch;
+    const launcher_system *launcher = &launch->launcher;
     launcher_input input;
-    launcher_output *out = &simulation->latest.out;
+    launcher_output *out = &launch->latest.out;
     double since = t - self->t, orientating[ORIENTATING_COUNT], marching[MARCHING_MOST];
-    simulation_input(simulation, t, y, &input);
-    simulation->latest.known = false;
-    if (launcher_evaluate(launcher, &input, &simulation->phase, y, out))
+    simulation_input(launch, t, y, &input);
+    launch->latest.known = false;
+    if (launcher_evaluate(launcher, &input, &launch->phase, y, out))
         return ld_fail(error, LD_ERR_NUMERIC, "the exchange at t = %.9g s has no solution", t);
     take_frame(&self->chassis, &input.motion.chassis, since);
     take_frame(&self->tube, &input.motion.tube, since);
     take_wrench(&self->on_chassis, out->marching.force, out->marching.moment, since);
     take_wrench(&self->on_tube, out->launching.base_force, out->launching.base_moment, since);
     self->t = t;
-    double step = simulation->model->run.coupling_step;
+    double step = launch->model->run.coupling_step;
     while (self->t_first + (double)self->exchanges * step <= t + 1e-9 * step)
         self->exchanges++;
     // a stop that the next exchange misses by rounding is that exchange: the accelerations that
@@ -460,7 +425,7 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
 static ld_status create_base(propagator *self, const integrator_settings *whole,
                              const tolerances *all, ld_error *error)
 {
-    const launcher_system *launcher = &self->simulation->launcher;
+    const launcher_system *launcher = &self->launch->launcher;
     double atol[2][LD_MAX_STATES];
     bool absolute[2][LD_MAX_STATES] = {{false}};
     for (int i = 0; i < LD_MAX_STATES; i++)
@@ -492,32 +457,32 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
 
 // ---- both ----
 
-ld_status propagator_create(ld_simulation *simulation, propagator **out, ld_error *error)
+ld_status propagator_create(launch_state *launch, propagator **out, ld_error *error)
 {
     propagator *self = calloc(1, sizeof *self);
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the integration");
     *out = self;
     tolerances all;
-    const launcher_system *launcher = &simulation->launcher;
-    find_tolerances(simulation, &all);
-    self->simulation = simulation;
-    self->apart = launcher->vehicle && simulation->model->run.coupling_step > 0;
+    const launcher_system *launcher = &launch->launcher;
+    find_tolerances(launch, &all);
+    self->launch = launch;
+    self->apart = launcher->vehicle && launch->model->run.coupling_step > 0;
+    self->events = events_of(launch, !self->apart);
     integrator_settings settings = {
         .n = (size_t)launcher->state_count,
         .method = INTEGRATOR_CASH_KARP,
-        .rtol = simulation->model->run.tolerance,
+        .rtol = launch->model->run.tolerance,
         .atol = all.atol,
         .absolute = all.absolute,
-        .max_step = simulation->model->run.max_step,
+        .max_step = launch->model->run.max_step,
         .rhs = rhs,
         .events = events,
-        .event_count = event_count(simulation),
-        .self = simulation,
+        .event_count = self->events.count,
+        .self = self,
     };
     if (!self->apart)
         return integrator_create(&settings, &self->integrator, error);
-    settings.self = self;
     ld_status status = create_base(self, &settings, &all, error);
     int count = launcher->launching.layout.count;
     for (int i = 0; i < POWER_COUNT; i++) {
@@ -544,7 +509,7 @@ ld_status propagator_start(propagator *self, double t, const double *y, bool ane
 {
     if (!self->apart)
         return integrator_start(self->integrator, t, y, error);
-    const launcher_system *launcher = &self->simulation->launcher;
+    const launcher_system *launcher = &self->launch->launcher;
     double launching[LD_MAX_STATES];
     if (anew) {
         memset(&self->on_chassis, 0, sizeof self->on_chassis);
@@ -566,7 +531,7 @@ integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *er
     if (!self->apart)
         return integrator_step(self->integrator, t_stop, error);
     double t = integrator_time(self->integrator), launching[LD_MAX_STATES];
-    const launcher_system *launcher = &self->simulation->launcher;
+    const launcher_system *launcher = &self->launch->launcher;
     if (t >= self->t_next) {
         if (exchange(self, t, self->state, t_stop, error))
             return INTEGRATOR_FAILED;
@@ -603,9 +568,10 @@ void propagator_interpolate(propagator *self, double t, double *y)
     join(self, t, launching, y);
 }
 
-int propagator_event(const propagator *self, int i)
+int propagator_event(const propagator *self, event_kind kind, int index)
 {
-    return integrator_event(self->integrator, i);
+    int i = event_find(&self->events, kind, index);
+    return i < 0 ? 0 : integrator_event(self->integrator, i);
 }
 
 int64_t propagator_steps(const propagator *self)
@@ -619,4 +585,57 @@ int64_t propagator_evaluations(const propagator *self)
     if (self->apart)
         sum += integrator_evaluations(self->orientating) + integrator_evaluations(self->marching);
     return sum;
+}
+
+// ---- saving and loading ----
+
+static void archive_vector(archive *bytes, v3 *v)
+{
+    double *member[] = {&v->x, &v->y, &v->z};
+    for (int i = 0; i < 3; i++)
+        archive_double(bytes, member[i]);
+}
+
+static void archive_frame(archive *bytes, held_frame *held)
+{
+    base_frame *last = &held->last;
+    archive_vector(bytes, &last->r);
+    archive_vector(bytes, &last->v);
+    archive_vector(bytes, &last->w);
+    for (int i = 0; i < 3; i++)
+        archive_doubles(bytes, last->A.a[i], 3);
+    double *member[] = {&last->q.w, &last->q.x, &last->q.y, &last->q.z};
+    for (int i = 0; i < 4; i++)
+        archive_double(bytes, member[i]);
+    archive_vector(bytes, &held->a);
+    archive_vector(bytes, &held->alpha);
+}
+
+static void archive_wrench(archive *bytes, held_wrench *held)
+{
+    archive_vector(bytes, &held->force);
+    archive_vector(bytes, &held->moment);
+    archive_vector(bytes, &held->force_rate);
+    archive_vector(bytes, &held->moment_rate);
+}
+
+void propagator_archive(propagator *self, archive *bytes)
+{
+    integrator_archive(self->integrator, bytes);
+    archive_expect(bytes, self->apart);
+    if (!self->apart)
+        return;
+    integrator_archive(self->orientating, bytes);
+    integrator_archive(self->marching, bytes);
+    double *instants[] = {&self->t, &self->t_next, &self->t_first};
+    for (int i = 0; i < 3; i++)
+        archive_double(bytes, instants[i]);
+    archive_count(bytes, &self->exchanges);
+    archive_frame(bytes, &self->chassis);
+    archive_frame(bytes, &self->tube);
+    archive_wrench(bytes, &self->on_chassis);
+    archive_wrench(bytes, &self->on_tube);
+    double *states[] = {self->state, self->from, self->rate_from, self->to, self->rate_to};
+    for (int i = 0; i < 5; i++)
+        archive_doubles(bytes, states[i], (size_t)self->launch->launcher.state_count);
 }

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "model/salvo.h"
+
 double simulation_cpu_now(void)
 {
     return (double)clock() / CLOCKS_PER_SEC;
@@ -34,15 +36,14 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
     ld_status status = launcher_build(&self->launcher, model, kept, stretch[0], stretch[1], error);
     int count = model->salvo ? model->firing_count : 1;
     for (int i = 0; i < count && !status; i++) {
-        status = motor_build(&self->motor_of[i], model->salvo ? &model->salvo[i] : &model->rocket,
-                             error);
+        status = motor_build(&self->motor_of[i], salvo_rocket(model, i), error);
         self->motor_count += !status;
     }
     if (status)
         return status;
-    simulation_select_rocket(self, 0);
-    self->t_ignition = model->firing[0].at;
     history_build(self);
+    if (self->launcher.vehicle)
+        self->stability = simulation_check_stability(self, &self->growing, &self->unstable);
     return LD_OK;
 }
 
@@ -78,10 +79,6 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
         *simulation = self;
     }
     self->model = model;
-    if (model->salvo) {
-        self->own = *model;
-        self->model = &self->own;
-    }
     ld_status status = model->base.kind == LD_BASE_NONE ? flight_alone_create(self, error)
                                                         : create_launch(self, &kept, error);
     launching_tube_free(&kept);
@@ -112,13 +109,7 @@ void ld_simulation_free(ld_simulation *self)
     free(self);
 }
 
-void simulation_select_rocket(ld_simulation *self, int i)
+const motor *simulation_motor(const ld_simulation *self, int i)
 {
-    bool differ = self->model->salvo != NULL;
-    self->rocket = i;
-    self->motor = self->motor_of[differ ? i : 0];
-    if (!differ)
-        return;
-    self->own.rocket = self->model->salvo[i];
-    launching_set_rocket(&self->launcher.launching);
+    return &self->motor_of[self->model->salvo ? i : 0];
 }

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "model/salvo.h"
+
 // ---- what is computed once
 
 static bool is_symmetric_mass(const rocket_mass *mass)
@@ -13,8 +15,10 @@ static bool is_symmetric_mass(const rocket_mass *mass)
 
 ld_status flight_build(flight_system *self, const ld_model *model, int rocket, ld_error *error)
 {
-    const ld_motor *thrust = &model->rocket.motor;
-    *self = (flight_system){.thrust_point = v3_from(thrust->at),
+    const ld_rocket *flying = salvo_rocket(model, rocket);
+    const ld_motor *thrust = &flying->motor;
+    *self = (flight_system){.rocket = flying,
+                            .thrust_point = v3_from(thrust->at),
                             .ground = model->environment.ground_height,
                             .has_ground = model->environment.ground == LD_GROUND_PLANE};
     earth_build(&self->earth, model);
@@ -23,13 +27,13 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
     self->thrust_direction = v3_scale(1 / v3_norm(direction), direction);
     ld_status status = wind_build(&self->wind, &model->environment.wind, error);
     if (!status)
-        status = aerodynamics_build(&self->aerodynamics, &model->rocket.aerodynamics, error);
+        status = aerodynamics_build(&self->aerodynamics, &flying->aerodynamics, error);
     if (!status && self->wind.present && self->aerodynamics.present)
         status =
             turbulence_build(&self->turbulence, &model->environment.wind.turbulence, rocket, error);
     self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;
     if (!status)
-        status = motor_build(&self->motor, &model->rocket, error);
+        status = motor_build(&self->motor, flying, error);
     if (status) {
         flight_free(self);
         return status;

@@ -35,6 +35,7 @@ enum {
 };
 
 typedef struct flight_system {
+    const ld_rocket *rocket;
     earth earth;
     atmosphere atmosphere;
     wind wind;

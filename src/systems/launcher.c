@@ -1,9 +1,11 @@
 #include "systems/launcher.h"
 
+#include <assert.h>
 #include <string.h>
 
 void launcher_select(launcher_system *self, int i)
 {
+    assert(i >= 0 && i < self->model->firing_count);
     self->tube = i;
     if (self->vehicle)
         self->orientating = self->of_tube[i];
@@ -48,13 +50,34 @@ ld_status launcher_build(launcher_system *self, const ld_model *model, launching
     return LD_OK;
 }
 
+static void free_orientating(launcher_system *self)
+{
+    for (int i = 0; i < self->tube_count; i++)
+        orientating_free(&self->of_tube[i]);
+    self->tube_count = 0;
+}
+
 void launcher_free(launcher_system *self)
 {
     launching_free(&self->launching);
     base_motion_free(&self->motion);
-    for (int i = 0; i < self->tube_count; i++)
-        orientating_free(&self->of_tube[i]);
+    free_orientating(self);
     marching_free(&self->marching);
+}
+
+ld_status launcher_share(launcher_system *self, const launcher_system *of, ld_error *error)
+{
+    *self = *of;
+    self->tube_count = 0;
+    ld_status status = self->vehicle ? build_orientating(self, error) : LD_OK;
+    if (status)
+        free_orientating(self);
+    return status;
+}
+
+void launcher_free_share(launcher_system *self)
+{
+    free_orientating(self);
 }
 
 void launcher_place(const launcher_system *self, double t, const double *state,

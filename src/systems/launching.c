@@ -6,6 +6,7 @@
 
 #include "elements/tail.h"
 #include "elements/tube_dynamics.h"
+#include "model/salvo.h"
 
 // ---- set-up ----
 
@@ -24,10 +25,11 @@ static void lay_out(launching_layout *at, int nq)
     at->count = n;
 }
 
-void launching_set_rocket(launching_system *self)
+void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 {
-    adaptors_build(&self->model->rocket, &self->adaptors);
-    slot_build(&self->model->tubes.slot, &self->model->rocket, &self->slot);
+    self->rocket = rocket;
+    adaptors_build(rocket, &self->adaptors);
+    slot_build(&self->model->tubes.slot, rocket, &self->slot);
 }
 
 // Modes and coefficients follow from what ld_tubes holds from its length to its supports.
@@ -94,7 +96,7 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
     tube_build_rows(model->tubes.support_count, &self->tube);
     supports_build(&model->tubes, &self->tube, &self->supports);
     tail_fold(&model->tubes.tail, &self->tube);
-    launching_set_rocket(self);
+    launching_set_rocket(self, salvo_rocket(model, 0));
 #if defined(__x86_64__)
     // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
     self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");

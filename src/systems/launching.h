@@ -11,7 +11,8 @@
 
 typedef struct launching_system {
     const ld_model *model;
-    ld_tubes tubes; // what the tube was built of
+    const ld_rocket *rocket; // in the tube
+    ld_tubes tubes;          // what the tube was built of
     launching_layout layout;
     // the elements
     tube_system tube; // with its tail
@@ -42,8 +43,8 @@ void launching_tube_free(launching_tube *self);
 // then owns.
 ld_status launching_build(launching_system *self, const ld_model *model, launching_tube *kept,
                           ld_error *error);
-// Takes the numbers of the rocket from the model again.
-void launching_set_rocket(launching_system *self);
+// Takes the numbers of the rocket that comes into the tube; the first is that of the first firing.
+void launching_set_rocket(launching_system *self, const ld_rocket *rocket);
 void launching_free(launching_system *self);
 
 // Accelerations by the reduced form in its fast layout (formulation.md, section 5).

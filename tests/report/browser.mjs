@@ -36,6 +36,14 @@ async function checkOrigin(page, run) {
   check("all of it is folded", open === 0, open);
 }
 
+// Every figure that the command lists stands on the page.
+async function checkAllFigures(page) {
+  const listed = launchdyn("plot", "--help").split("Figures for --what")[1].matchAll(/^  ([a-z][a-z-]*) /gm);
+  const names = [...listed].map(([, name]) => name).filter((name) => name !== "all");
+  const there = await page.$$eval("section.figure", (list) => list.map(({ id }) => id.replace(/^table\d+-/, "")));
+  check("the figures of plot, in its order", names.length >= 24 && there.join() === names.join(), there.join(" "));
+}
+
 // The table of the rocket has every figure of the exit against the launcher, in mrad, mrad/s, m/s.
 async function checkFigures(page, run) {
   const shown = await page.$$eval("#tables td", (cells) => cells.map((cell) => Number(cell.textContent)));
@@ -303,7 +311,7 @@ async function checkLooks(browser) {
   await picture(page, "narrow.png");
   await page.click("#theme");
   check("the switch makes it light", (await paper(page)) === "rgb(255, 255, 255)");
-  check("flight and vehicle are there", (await page.$("#table1-trajectory")) && (await page.$("#table0-wheels")));
+  await checkAllFigures(page);
   const entered = await page.evaluate(() => {
     const replay = window.launchdyn.current, { from } = replay.clock.parts.find(({ name }) => name === "tube");
     replay.show(from - 0.004);

@@ -6,7 +6,7 @@
 // leads each row through this test, so that the state is at hand. A new column fails it until what
 // the column ought to hold is said here (support/column_book.h).
 #include "math/mat3.h"
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 #include "support/column_book.h"
 #include "support/dense_simulation.h"
 #include "support/recorded_run.h"
@@ -33,7 +33,7 @@ static observer *watching;
 // One row's state.
 typedef struct instant {
     observer *run;
-    const ld_simulation *self;
+    const launch_state *self;
     double t;
     const double *y;           // the state
     dense_launch_input input;  // the same for the independent equations
@@ -664,7 +664,7 @@ static void check_rest(const column_book *book)
     CHECK_BELOW("against the base at the start [m/s, rad/s]", largest, 1e-14);
 }
 
-static void look_at_row(observer *run, const ld_simulation *self, double t, const double *y,
+static void look_at_row(observer *run, const launch_state *self, double t, const double *y,
                         const double *row)
 {
     instant at = {.run = run, .self = self, .t = t, .y = y};
@@ -701,12 +701,12 @@ static void look_at_row(observer *run, const ld_simulation *self, double t, cons
     run->rows++;
 }
 
-void __real_history_row(const ld_simulation *self, double t, const double *y, double energy_start,
+void __real_history_row(const launch_state *self, double t, const double *y, double energy_start,
                         double *row);
-void __wrap_history_row(const ld_simulation *self, double t, const double *y, double energy_start,
+void __wrap_history_row(const launch_state *self, double t, const double *y, double energy_start,
                         double *row);
 
-void __wrap_history_row(const ld_simulation *self, double t, const double *y, double energy_start,
+void __wrap_history_row(const launch_state *self, double t, const double *y, double energy_start,
                         double *row)
 {
     __real_history_row(self, t, y, energy_start, row);

@@ -7,7 +7,7 @@
 
 #include "math/mat3.h"
 #include "scenario/scenario.h"
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 #include "simulation/study_results.h"
 #include "support/draw.h"
 #include "support/recorded_run.h"

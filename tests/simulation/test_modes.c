@@ -2,8 +2,8 @@
 // own motion in time.
 #include <stdlib.h>
 
-#include "simulation/simulation.h"
 #include "support/check.h"
+#include "support/fresh_launch.h"
 #include "support/reference_model.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
@@ -79,15 +79,17 @@ static void the_lowest_mode_is_seen_in_time(void **state)
     ld_error error;
     ld_equilibrium_summary equilibrium;
     double y[LD_MAX_STATES], y_dot[LD_MAX_STATES], sum[LD_MAX_STATES], k[LD_MAX_STATES];
-    ld_simulation *simulation = make(&model);
-    ld_simulation_system_modes(simulation, modes, 2 * LD_MAX_MODES, &count, poles, 4 * LD_MAX_MODES,
-                               &pole_count, &error);
-    assert_int_equal(simulation_equilibrium(simulation, 0, y, &equilibrium, &error), LD_OK);
-    const launching_layout *at = &simulation->launcher.launching.layout;
-    launching_phase phase = simulation_start_phase(simulation);
+    fresh_launch launch;
+    reference_model(&model);
+    fresh_launch_make(&launch, &model);
+    ld_simulation_system_modes(launch.simulation, modes, 2 * LD_MAX_MODES, &count, poles,
+                               4 * LD_MAX_MODES, &pole_count, &error);
+    assert_int_equal(simulation_equilibrium(&launch.state, 0, y, &equilibrium, &error), LD_OK);
+    const launching_layout *at = &launch.state.launcher.launching.layout;
+    launching_phase phase = simulation_start_phase(&launch.state);
     phase.frictionless = true;
     launcher_input input;
-    simulation_input(simulation, 0, y, &input);
+    simulation_input(&launch.state, 0, y, &input);
     double rest = y[at->x + 2];
     y[at->x + 2] += 1e-9;
     // plain fourth-order Runge-Kutta; upward crossings of the rest position are counted
@@ -101,10 +103,10 @@ static void the_lowest_mode_is_seen_in_time(void **state)
             launching_output out;
             for (int i = 0; i < at->count; i++)
                 k[i] = y[i] + h * share[stage] * y_dot[i];
-            assert_int_equal(launching_evaluate(&simulation->launcher.launching, &input.launching,
+            assert_int_equal(launching_evaluate(&launch.state.launcher.launching, &input.launching,
                                                 &phase, k, &out),
                              LAUNCHING_OK);
-            launching_rates(&simulation->launcher.launching, k, &out, true, y_dot);
+            launching_rates(&launch.state.launcher.launching, k, &out, true, y_dot);
             for (int i = 0; i < at->count; i++)
                 sum[i] += weight[stage] * y_dot[i];
         }
@@ -122,7 +124,7 @@ static void the_lowest_mode_is_seen_in_time(void **state)
            measured, crossings - 1);
     CHECK_BELOW("lowest frequency, swings against eigenvalue, relative",
                 measured / (poles[0].imaginary / TWO_PI) - 1, 2e-3);
-    ld_simulation_free(simulation);
+    fresh_launch_free(&launch);
     reference_model_free(&model);
 }
 

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "scenario/scenario.h"
-#include "simulation/simulation.h"
 #include "support/check.h"
+#include "support/fresh_launch.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
 
@@ -166,7 +166,7 @@ static void into_the_ground(void **state)
 // Momentum and angular momentum about I's origin of vehicle (without wheels), tube and, if it is in
 // the tube, rocket: the vehicle's as of its bodies, the tube's by slices of its axis, each with its
 // polar inertia.
-static void momentum(const ld_simulation *self, const double *y, bool with_rocket, double p[6])
+static void momentum(const launch_state *self, const double *y, bool with_rocket, double p[6])
 {
     const launcher_system *launcher = &self->launcher;
     const launching_system *tube = &launcher->launching;
@@ -198,7 +198,7 @@ static void momentum(const ld_simulation *self, const double *y, bool with_rocke
     H = v3_axpy(H, tail->mass, v3_cross(r_tail, v_tail));
     H = v3_add(H, m3_apply(A_IR, v3_mul(v3_from(tail->inertia), w)));
     if (with_rocket) {
-        const rocket_mass *mass = &self->motor.full;
+        const rocket_mass *mass = &self->motor->full;
         launching_output unused;
         launching_pose pose;
         launching_rocket_pose(tube, y, &pose, &unused);
@@ -219,15 +219,16 @@ static void momentum_is_kept(void **state)
 {
     (void)state;
     ld_model model = read_example("sequence.yaml", NULL, 0);
-    ld_simulation *simulation = simulation_of(&model);
-    const launcher_system *launcher = &simulation->launcher;
+    fresh_launch launch;
+    fresh_launch_make(&launch, &model);
+    const launcher_system *launcher = &launch.state.launcher;
     const launching_layout *at = &launcher->launching.layout;
     ld_equilibrium_summary unused;
     ld_error error;
     double y[LD_MAX_STATES], before[6], after[6];
-    if (simulation_equilibrium(simulation, 0, y, &unused, &error))
+    if (simulation_equilibrium(&launch.state, 0, y, &unused, &error))
         fail_msg("%s", error.text);
-    simulation_move_with_base(simulation, 0, y);
+    simulation_move_with_base(&launch.state, 0, y);
     static const double speed[ORIENTATING_SPEEDS] = {4, 0.3, -0.2, 0.05, 0.1, -0.08, 0.3, 0.2};
     memcpy(y + launcher->orientating_at + ORIENTATING_V, speed, sizeof speed);
     for (int i = 0; i < 3; i++) {
@@ -238,16 +239,16 @@ static void momentum_is_kept(void **state)
         y[at->q + i] += 1e-3 * (i + 1) / (at->nq + i);
         y[at->q_dot + i] += 0.5 / (i + 1);
     }
-    momentum(simulation, y, false, before);
+    momentum(&launch.state, y, false, before);
     launching_phase without = {.rocket = false};
     launcher_input input;
-    simulation_input(simulation, 0, y, &input);
+    simulation_input(&launch.state, 0, y, &input);
     double energy = launcher_kinetic_energy(launcher, &input, &without, y);
-    if (simulation_change_tube(simulation, 1, 0, y, &error))
+    if (simulation_change_tube(&launch.state, 1, 0, y, &error))
         fail_msg("%s", error.text);
-    momentum(simulation, y, true, after);
-    launching_phase with = simulation_start_phase(simulation);
-    simulation_input(simulation, 0, y, &input);
+    momentum(&launch.state, y, true, after);
+    launching_phase with = simulation_start_phase(&launch.state);
+    simulation_input(&launch.state, 0, y, &input);
     energy -= launcher_kinetic_energy(launcher, &input, &with, y);
     double scale_P = v3_norm(v3_from(before)), scale_H = v3_norm(v3_from(before + 3));
     v3 dP = v3_sub(v3_from(after), v3_from(before));
@@ -256,7 +257,7 @@ static void momentum_is_kept(void **state)
     // the slices' twist is their section's rate, the tube's kinetic energy has its first order
     CHECK_BELOW("angular momentum about the origin, of itself", v3_norm(dH) / scale_H, 2e-10);
     CHECK_WITHIN("kinetic energy dropped [J]", energy, 0, 1e3);
-    ld_simulation_free(simulation);
+    fresh_launch_free(&launch);
     model_clear(&model);
 }
 

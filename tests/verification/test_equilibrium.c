@@ -3,48 +3,39 @@
 // closed.
 #include <stdlib.h>
 
-#include "simulation/simulation.h"
 #include "support/check.h"
+#include "support/fresh_launch.h"
 #include "support/launching_run.h"
 #include "support/launching_state.h"
 #include "support/tube_shape.h"
 
-static ld_simulation *simulation_of(const ld_model *model)
-{
-    ld_simulation *simulation;
-    ld_error error;
-    if (ld_simulation_create(model, &simulation, &error))
-        fail_msg("%s", error.text);
-    return simulation;
-}
-
-static ld_equilibrium_summary find_equilibrium(ld_simulation *simulation, double *y)
+static ld_equilibrium_summary find_equilibrium(launch_state *launch, double *y)
 {
     ld_equilibrium_summary found;
     ld_error error;
-    if (simulation_equilibrium(simulation, 0, y, &found, &error))
+    if (simulation_equilibrium(launch, 0, y, &found, &error))
         fail_msg("%s", error.text);
     return found;
 }
 
 // Largest acceleration [m/s2] of points of the tube's axis and of the rocket by the dense check,
 // friction on.
-static double dense_acceleration(const ld_simulation *simulation, const double *y)
+static double dense_acceleration(const launch_state *launch, const double *y)
 {
-    const launching_system *system = &simulation->launcher.launching;
+    const launching_system *system = &launch->launcher.launching;
     dense_launch dense;
     dense_launch_output out;
     launching_case c;
     memset(&c, 0, sizeof c);
     memcpy(c.state, y, (size_t)system->layout.count * sizeof(double));
     launcher_input input;
-    simulation_input(simulation, 0, y, &input);
+    simulation_input(launch, 0, y, &input);
     c.input = input.launching;
     c.input.base.v = c.input.base.w = v3_zero();
-    c.phase = simulation_start_phase(simulation);
-    c.phase.locked = !simulation->on_breech;
+    c.phase = simulation_start_phase(launch);
+    c.phase.locked = !launch->on_breech;
     copy_to_dense(system, &c);
-    dense_launch_create(&dense, simulation->model, &system->tube.flexible);
+    dense_launch_create(&dense, launch->model, &system->tube.flexible);
     assert_true(dense_launch_evaluate(&dense, &c.dense, &out));
     dense_launch_free(&dense);
     const flexible_tube *tube = &system->tube.flexible;
@@ -68,12 +59,13 @@ static double dense_acceleration(const ld_simulation *simulation, const double *
 static void check_rest(const ld_model *model, const char *name, double bound)
 {
     double y[LD_MAX_STATES];
-    ld_simulation *simulation = simulation_of(model);
-    ld_equilibrium_summary found = find_equilibrium(simulation, y);
+    fresh_launch launch;
+    fresh_launch_make(&launch, model);
+    ld_equilibrium_summary found = find_equilibrium(&launch.state, y);
     printf("  %s\n", name);
     CHECK_BELOW("largest residual [m/s2, rad/s2, of modes 1/s2]", found.residual, 2 * bound);
-    CHECK_BELOW("by the dense check [m/s2]", dense_acceleration(simulation, y), bound);
-    ld_simulation_free(simulation);
+    CHECK_BELOW("by the dense check [m/s2]", dense_acceleration(&launch.state, y), bound);
+    fresh_launch_free(&launch);
 }
 
 // 1e-9 g = 9.8e-9 m/s2.
@@ -121,9 +113,10 @@ static void upright(void **state)
         model.base.kind = k < 18 ? LD_BASE_FIXED : LD_BASE_PRESCRIBED;
         model.base.azimuth = k < 18 ? 0 : 0.4;
         model.rocket.lock.present = k / 9 % 2 == 0;
-        ld_simulation *simulation = simulation_of(&model);
-        ld_equilibrium_summary found = find_equilibrium(simulation, y);
-        const double *x = y + simulation->launcher.launching.layout.x;
+        fresh_launch launch;
+        fresh_launch_make(&launch, &model);
+        ld_equilibrium_summary found = find_equilibrium(&launch.state, y);
+        const double *x = y + launch.state.launcher.launching.layout.x;
         double weight = 60 * model.gravity, carried = found.breech_force - found.lock_force;
         double across = weight * cos(model.base.elevation), rear = found.contact_force[0];
         if (k % 9 == 8) {
@@ -138,8 +131,8 @@ static void upright(void **state)
         }
         CHECK_BELOW("carried along, less the weight's part [N]",
                     carried - weight * sin(model.base.elevation), 4e-3);
-        worst = fmax(worst, dense_acceleration(simulation, y));
-        ld_simulation_free(simulation);
+        worst = fmax(worst, dense_acceleration(&launch.state, y));
+        fresh_launch_free(&launch);
         reference_model_free(&model);
     }
     CHECK_BELOW("largest acceleration by the dense check [m/s2]", worst, bound);
@@ -156,16 +149,17 @@ static void upright_and_eccentric(void **state)
     model.base.elevation = acos(0);
     model.rocket.eccentricity[0] = 0.3e-3;
     model.rocket.eccentricity[1] = -0.4e-3;
-    ld_simulation *simulation = simulation_of(&model);
-    ld_equilibrium_summary found = find_equilibrium(simulation, y);
-    const double *x = y + simulation->launcher.launching.layout.x;
+    fresh_launch launch;
+    fresh_launch_make(&launch, &model);
+    ld_equilibrium_summary found = find_equilibrium(&launch.state, y);
+    const double *x = y + launch.state.launcher.launching.layout.x;
     // the lean of 0.7 mm on 1.9 m takes the mass centre further off
     double lean = 0.7e-3 / 1.9, force = 60 * model.gravity * (0.5e-3 + 1.1 * lean) / 1.9;
     CHECK_NEAR("front adaptor [N]", found.contact_force[2], force, 1e-4);
     CHECK_NEAR("rear adaptor [N]", found.contact_force[0], force, 1e-4);
     CHECK_NEAR("direction of the lean [rad]", atan2(-x[4], x[3]), atan2(-0.4, 0.3), 1e-6);
-    CHECK_BELOW("by the dense check [m/s2]", dense_acceleration(simulation, y), 9.8e-9);
-    ld_simulation_free(simulation);
+    CHECK_BELOW("by the dense check [m/s2]", dense_acceleration(&launch.state, y), 9.8e-9);
+    fresh_launch_free(&launch);
     reference_model_free(&model);
 }
 
@@ -271,9 +265,10 @@ static void check_sag(ld_model *model, double mass, double bound)
                       .at = {0.1, 2.0},
                       .load = {front - weight, -front}};
     model->rocket.full.mass = mass;
-    ld_simulation *simulation = simulation_of(model);
-    ld_equilibrium_summary found = find_equilibrium(simulation, y);
-    ld_simulation_free(simulation);
+    fresh_launch launch;
+    fresh_launch_make(&launch, model);
+    ld_equilibrium_summary found = find_equilibrium(&launch.state, y);
+    fresh_launch_free(&launch);
     CHECK_BELOW("front adaptor, of the weight", (found.contact_force[2] - front) / weight, 2e-8);
     CHECK_BELOW("rear adaptor, of the weight", (found.contact_force[0] - (weight - front)) / weight,
                 2e-8);
@@ -310,20 +305,21 @@ static void reactions(void **state)
     double y[LD_MAX_STATES];
     reference_model(&model);
     model.base.elevation = 0;
-    ld_simulation *simulation = simulation_of(&model);
-    const launching_system *system = &simulation->launcher.launching;
-    find_equilibrium(simulation, y);
-    launching_phase phase = simulation_start_phase(simulation);
+    fresh_launch launch;
+    fresh_launch_make(&launch, &model);
+    const launching_system *system = &launch.state.launcher.launching;
+    find_equilibrium(&launch.state, y);
+    launching_phase phase = simulation_start_phase(&launch.state);
     launcher_input input;
     launching_output out;
-    simulation_input(simulation, 0, y, &input);
+    simulation_input(&launch.state, 0, y, &input);
     assert_int_equal(launching_evaluate(system, &input.launching, &phase, y, &out), LAUNCHING_OK);
     double tube = system->tube.flexible.m, mass = tube + 8 + 60, g = model.gravity;
     double arm = tube * 1.5 + 8 * -0.1 + 60 * 1.2;
     CHECK_BELOW("along the tube [N]", out.base_force.x, 5e-9);
     CHECK_NEAR("across it [N]", out.base_force.y, -mass * g, 1e-8);
     CHECK_NEAR("moment about z [N m]", out.base_moment.z, -arm * g, 4e-5);
-    ld_simulation_free(simulation);
+    fresh_launch_free(&launch);
     reference_model_free(&model);
 }
 
@@ -335,14 +331,15 @@ static void nothing_moves_while_locked(void **state)
     launching_run run;
     double y[LD_MAX_STATES];
     reference_model(&model);
-    ld_simulation *simulation = simulation_of(&model);
-    const launching_system *system = &simulation->launcher.launching;
+    fresh_launch launch;
+    fresh_launch_make(&launch, &model);
+    const launching_system *system = &launch.state.launcher.launching;
     const launching_layout *at = &system->layout;
-    find_equilibrium(simulation, y);
+    find_equilibrium(&launch.state, y);
     launching_run_begin(&run, system, 0.1);
-    run.phase = simulation_start_phase(simulation);
+    run.phase = simulation_start_phase(&launch.state);
     launcher_input input;
-    simulation_input(simulation, 0, y, &input);
+    simulation_input(&launch.state, 0, y, &input);
     run.input = input.launching;
     memcpy(run.state, y, (size_t)at->count * sizeof(double));
     launching_run_follow(&run, 1e-8, 0.2);
@@ -357,7 +354,7 @@ static void nothing_moves_while_locked(void **state)
     printf("  %d steps\n", (int)run.steps);
     CHECK_BELOW("places and angles moved by [m, rad]", moved, 5e-11);
     CHECK_BELOW("speeds at the end [m/s, rad/s]", speed, 6e-7);
-    ld_simulation_free(simulation);
+    fresh_launch_free(&launch);
     reference_model_free(&model);
 }
 

@@ -5,7 +5,7 @@
 #include <lapacke.h>
 #include <stdlib.h>
 
-#include "simulation/simulation.h"
+#include "simulation/launch_state.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
@@ -52,7 +52,10 @@ static response linear_response(const recorded_run *run, const ld_model *model, 
 {
     linear_system system;
     ld_error error;
-    assert_int_equal(simulation_linearise(run->simulation, &system, &error), LD_OK);
+    launch_state launch;
+    assert_int_equal(launch_state_begin(&launch, run->simulation, &error), LD_OK);
+    assert_int_equal(simulation_linearise(&launch, &system, &error), LD_OK);
+    launch_state_end(&launch);
     int n = system.count, chassis = system.tube + system.rocket;
     double complex *A = malloc((size_t)n * (size_t)n * sizeof *A),
                    *x = malloc((size_t)n * sizeof *x);

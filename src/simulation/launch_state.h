@@ -1,0 +1,128 @@
+// The state of one launch besides its integrator's: which rocket in which tube, and what events
+// have switched; with the workspace that its evaluations want.
+#ifndef LD_SIMULATION_LAUNCH_STATE_H
+#define LD_SIMULATION_LAUNCH_STATE_H
+
+#include "simulation/simulation.h"
+
+// What the equations depend on beside the state and the system as it was built.
+typedef struct run_conditions {
+    double t, t_ignition;    // [s]
+    int piece, rocket, tube; // of the thrust curve; selected
+    const road *road;
+    launching_phase phase;
+    hinge_rest rest[HINGES];
+} run_conditions;
+
+typedef struct launch_state {
+    const ld_simulation *system;
+    const ld_model *model;    // the system's
+    launcher_system launcher; // the system's, with the current rocket in its tube
+    const motor *motor;       // of the current rocket
+    const ld_rocket *rocket;
+    int current; // rocket in the order of firing
+    double t_ignition;
+    launching_phase phase;
+    hinge_rest rest[HINGES]; // of the equilibrium
+    bool on_breech;          // the equilibrium is one without a lock, the breech carries the rocket
+    m3 aim;                  // A_IT, the undeformed tube on its base, as it stood at that ignition
+    int piece;               // of the thrust curve
+    bool jammed;
+    struct { // the latest evaluation, which at a step's end is that of the step's end
+        bool known;
+        run_conditions at;
+        double y[LD_MAX_STATES];
+        launcher_output out;
+    } latest;
+    int64_t fallbacks; // evaluations in which the overall form did not hold
+    double worst_condition;
+} launch_state;
+
+// The first rocket in its tube, its motor not lit; the system must outlive the state.
+ld_status launch_state_begin(launch_state *self, const ld_simulation *system, ld_error *error);
+void launch_state_end(launch_state *self);
+// The rocket of firing i takes the place of the one before; its tube comes by launcher_select.
+void launch_state_select(launch_state *self, int i);
+
+// Thrust and mass at time t, and the base there at state y.
+void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input);
+
+// Puts tube and rocket on the base as it stands, straight and at rest.
+void simulation_straight(const launch_state *self, const base_frame *base, double *y);
+
+// Puts tube and rocket straight and at rest on the base at time t (model.md, section 5), a vehicle
+// in its equilibrium under them as a dead load.
+ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_error *error);
+
+// Static equilibrium at t of the whole on its wheels, or on a base held still in its pose; fills
+// the summary, and what locked hinges rest at.
+ld_status simulation_equilibrium(launch_state *self, double t, double *y,
+                                 ld_equilibrium_summary *summary, ld_error *error);
+
+// Gives tube and rocket the base's velocity at t, as one rigid body with it; a vehicle its speed.
+void simulation_move_with_base(const launch_state *self, double t, double *y);
+
+// Puts the tube of firing `next` and its rocket in place of the one before, which becomes rigid
+// with the platform: static equilibrium on the base held still in its pose, at rest relative to it;
+// the vehicle's speeds by conservation of the generalised momentum of the orientating coordinates,
+// both tubes in the sum (model.md section 9).
+ld_status simulation_change_tube(launch_state *self, int next, double t, double *y,
+                                 ld_error *error);
+
+// Degrees of freedom besides the rocket's roll and, while it is locked, its travel, and their small
+// changes: R's place and attitude (6), q, then y_S, z_S, psi, theta, on the breech s too; of a
+// vehicle also chassis y, pitch, roll, the two hinge angles, the two hinge torques [MN m], then the
+// wheels' positions.
+int simulation_freedoms(const launch_state *self);
+void simulation_displace(const launch_state *self, int freedom, double change, double *y);
+
+// Phase before ignition: rocket in the tube, lock closed, no adaptor beyond the tip; the breech
+// stands where the rocket starts.
+launching_phase simulation_start_phase(const launch_state *self);
+
+// The equations linearised. Displacements: place and attitude of R (6), q, then of the rocket s,
+// y_S, z_S, psi, theta, gamma (without the rocket they are left out); with a vehicle place and
+// attitude of the chassis (6, the rotation in its own axes), the hinge angles, the wheels' places.
+// Speeds in the same order: v, w, q_dot, V, ... Then what has a rate alone: the stabilisers'
+// integrals, eta and xi of each wheel, the drive's integral. d/dt of all: the Jacobian J.
+typedef struct linear_system {
+    int tube, rocket, vehicle; // displacements of each
+    int half, count;           // displacements in all; unknowns in all
+    double *J;                 // count x count, by columns; to be freed
+} linear_system;
+
+// Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching
+// speed; lock closed, no Coulomb friction.
+ld_status simulation_linearise(launch_state *self, linear_system *system, ld_error *error);
+
+// A row of the history.
+void history_row(const launch_state *self, double t, const double *y, double energy_start,
+                 double *row);
+// Energies and balance at state y, with what the equations gave there.
+void simulation_energy(const launch_state *self, const launcher_input *input,
+                       const launcher_output *out, const double *y, double energy_start,
+                       ld_energy *energy);
+
+// The rocket's x axis, its rate, place and velocity of its mass centre, all in I.
+typedef struct rocket_motion {
+    v3 axis, w, r_C, v_C;
+} rocket_motion;
+// Of the rocket with this pose in state y, its mass centre at c in B.
+rocket_motion rocket_motion_of(const launching_pose *pose, v3 c, const double *y,
+                               const launching_layout *at);
+
+// The rocket against the launcher, as it stands and moves; at time t against where it stood at the
+// ignition, before which there is no aim. Those of no rocket: not a number.
+ld_tip_off tip_off_of(const base_frame *base, const rocket_motion *rocket);
+ld_aim aim_of(const launch_state *self, double t, const rocket_motion *rocket);
+extern const ld_tip_off no_tip_off;
+extern const ld_aim no_aim;
+
+// The tip's section against the undeformed tube, in the base's tube axes.
+typedef struct tip_state {
+    v3 offset, offset_dot;
+    direction_angles angles;
+} tip_state;
+tip_state tip_state_of(const launch_state *self, const base_frame *base, const double *y);
+
+#endif
