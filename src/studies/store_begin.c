@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "launchdyn/origin.h"
 #include "scenario/scenario.h"
+#include "simulation/study_results.h"
 #include "studies/store.h"
 
 #define FORMAT "3"
