@@ -10,6 +10,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// A stretch of places, from `from` to `to`, `step` apart; NaN: the usual value.
 typedef struct ld_stretch {
@@ -71,6 +72,7 @@ ld_status ld_wind_view_write(const ld_wind_view *view, const char *folder, ld_er
 /// @return LD_OK, LD_ERR_INPUT (ending), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)
 ld_status ld_wind_view_draw(const ld_wind_view *view, const char *file, ld_error *error);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -8,6 +8,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct ld_model ld_model;
 
@@ -17,6 +18,7 @@ typedef struct ld_source ld_source;
 /// May be NULL.
 void ld_model_free(ld_model *model);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -35,6 +35,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct ld_mstmm ld_mstmm;
 
@@ -196,6 +197,7 @@ ld_status ld_mstmm_integrate(ld_mstmm *system, const ld_mstmm_settings *settings
                              double t_1, double *q, double *u, ld_mstmm_statistics *statistics,
                              ld_error *error);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

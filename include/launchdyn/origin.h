@@ -13,6 +13,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// Something known of a program: "version", "commit", "compiler", "processor", "HDF5", ...
 typedef struct ld_fact {
@@ -47,6 +48,7 @@ bool ld_origin_differs(const ld_origin *origin, char *text, size_t size);
 
 void ld_origin_free(ld_origin *origin);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

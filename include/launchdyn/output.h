@@ -15,6 +15,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// The results of one run on their way to a folder. Files are written under temporary names
 /// ("history.h5.part") and get their own ones at the end.
@@ -74,6 +75,7 @@ typedef struct ld_picture {
 ///         LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)
 ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

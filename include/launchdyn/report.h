@@ -9,6 +9,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 enum { LD_REPORT_NOTES = 8 };
 
@@ -37,6 +38,7 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
 ld_status ld_report_write_studies(const char *const *folder, size_t count, const char *file,
                                   ld_report *report, ld_error *error);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -9,6 +9,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// One column of a history.
 typedef struct ld_column {
@@ -42,6 +43,7 @@ typedef struct ld_sink {
     ld_status (*geometry)(void *self, const ld_array *arrays, size_t count, ld_error *error);
 } ld_sink;
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -12,6 +12,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// One thing wrong with a scenario: where, which key, what was found and what is allowed.
 typedef struct ld_message {
@@ -89,6 +90,7 @@ bool ld_model_has_vehicle(const ld_model *model);
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again.
 void ld_model_print(const ld_model *model, FILE *stream);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// What a section is given by; the model computes the rest from it and the material.
 typedef enum ld_section_form {
@@ -32,6 +33,7 @@ typedef struct ld_section {
 /// How the shapes of a tube or beam are held.
 typedef enum ld_mode_span { LD_SPAN_SUPPORTED, LD_SPAN_CLAMPED, LD_SPAN_FREE_FREE } ld_mode_span;
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

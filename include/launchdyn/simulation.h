@@ -16,6 +16,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 enum { LD_SHAPE_TEXT = 64 };
 
@@ -86,6 +87,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
 /// Columns of the history, in order.
 size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

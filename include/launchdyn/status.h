@@ -7,6 +7,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 #if defined(__GNUC__)
 #define LD_PRINTF(format_index, first_argument)                                                    \
@@ -46,6 +47,7 @@ ld_status ld_fail(ld_error *error, ld_status status, const char *format, ...) LD
 /// none is near.
 const char *ld_nearest_name(const char *word, const char *const *names, size_t count);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

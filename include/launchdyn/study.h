@@ -14,6 +14,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// A scenario with all points of its sweep. The samples are numbered from 1 round the points:
 /// sample s is the sample (s - 1) / points + 1 of point (s - 1) % points + 1.
@@ -107,6 +108,7 @@ ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **sa
 const ld_model *ld_sample_model(const ld_sample *sample);
 void ld_sample_free(ld_sample *sample);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -10,6 +10,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /// An empty one, for ld_simulation_run(). NULL: no memory.
 ld_summary *ld_summary_new(void);
@@ -26,6 +27,7 @@ int ld_summary_rockets(const ld_summary *summary);
 ld_status ld_summary_number(const ld_summary *summary, int rocket, const char *name, double *value,
                             ld_error *error);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "launchdyn/version.h"
 
 static int command_help(const command *self, int argc, const char **argv);
 static int command_version(const command *self, int argc, const char **argv);
@@ -104,7 +105,7 @@ static int command_version(const command *self, int argc, const char **argv)
     if (argc > 1 && asks_for_help(argv[1]))
         print_commands(stdout);
     else
-        puts("launchdyn " LD_VERSION);
+        printf("launchdyn %s\n", ld_version());
     return 0;
 }
 

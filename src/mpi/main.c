@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/study.h"
 #include "launchdyn/scenario.h"
+#include "launchdyn/version.h"
 #include "mpi/hand_out.h"
 #include "studies/study.h"
 

@@ -1,4 +1,5 @@
 // The page of a report: what it shows as JSON, and the page around that.
+#include "launchdyn/version.h"
 #include "report/report_origin.h"
 #include "report/report_parts.h"
 #include "results/json_text.h"

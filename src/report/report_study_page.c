@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <math.h>
 
+#include "launchdyn/version.h"
 #include "report/report_study.h"
 #include "results/json_text.h"
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "launchdyn/version.h"
 #include "results/hdf5_support.h"
 #include "results/history.h"
 #include "results/origin.h"

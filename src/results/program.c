@@ -1,5 +1,6 @@
 // What is known of this program: how it was built, what it runs on, its libraries.
 #include "results/program.h"
+#include "launchdyn/version.h"
 
 #include <gnu/libc-version.h>
 #include <hdf5.h>

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/random.h"
+#include "launchdyn/version.h"
 #include "results/folder.h"
 
 ld_status store_fail(const study_store *self, const char *what, ld_error *error)

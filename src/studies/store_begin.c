@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "launchdyn/origin.h"
+#include "launchdyn/version.h"
 #include "scenario/scenario.h"
 #include "simulation/study_results.h"
 #include "studies/store.h"
