@@ -27,8 +27,8 @@ static void archive_launch(archive *bytes, launch_state *self)
     archive_int(bytes, &self->piece, -1, (int)self->motor->corner_count - 1);
     archive_phase(bytes, &self->phase);
     for (int i = 0; i < HINGES; i++) {
-        archive_double(bytes, &self->rest[i].angle);
-        archive_double(bytes, &self->rest[i].torque);
+        archive_double(bytes, &self->rest.hinge[i].angle);
+        archive_double(bytes, &self->rest.hinge[i].torque);
     }
     archive_bool(bytes, &self->on_breech);
     for (int i = 0; i < 3; i++)
