@@ -660,6 +660,17 @@ struct ld_model {
     int sample;           ///< whose drawn numbers it has, of its point; 0: nominal
 };
 
+/// False: a flight alone.
+static inline bool model_has_launcher(const ld_model *model)
+{
+    return model->base.kind != LD_BASE_NONE;
+}
+/// Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
+static inline bool model_has_vehicle(const ld_model *model)
+{
+    return model->base.kind == LD_BASE_VEHICLE;
+}
+
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
 /// a default become NaN.
 void model_init(ld_model *model);
