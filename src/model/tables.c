@@ -365,10 +365,9 @@ static const field_word base_words[] = {{"fixed", LD_BASE_FIXED},
                                         {"vehicle", LD_BASE_VEHICLE},
                                         {"external", LD_BASE_EXTERNAL},
                                         {NULL, 0}};
-static const field_word extrapolation_words[] = {
-    {"acceleration", LD_EXTRAPOLATION_ACCELERATION},
-    {"velocity", LD_EXTRAPOLATION_VELOCITY},
-    {NULL, 0}};
+static const field_word extrapolation_words[] = {{"acceleration", LD_EXTRAPOLATION_ACCELERATION},
+                                                 {"velocity", LD_EXTRAPOLATION_VELOCITY},
+                                                 {NULL, 0}};
 #define FIXED_OR_PRESCRIBED (FORM(LD_BASE_FIXED) | FORM(LD_BASE_PRESCRIBED))
 #define VEHICLE FORM(LD_BASE_VEHICLE)
 #define EXTERNAL FORM(LD_BASE_EXTERNAL)
