@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/suggestion.h"
+
 const field_row *field_find(const field_block *block, const char *name)
 {
     for (const field_row *f = block->fields; f->name; f++)
@@ -25,6 +27,23 @@ const field_word *field_word_of(const field_word *words, int value)
         if (w->value == value)
             return w;
     return NULL;
+}
+
+const char *field_nearest_key(const field_block *block, const char *key)
+{
+    name_suggestion best = suggestion_begin(key);
+    for (const field_row *f = block->fields; f->name; f++)
+        suggestion_offer(&best, f->name);
+    return best.name;
+}
+
+const char *field_nearest_word(const field_word *words, const char *name)
+{
+    name_suggestion best = suggestion_begin(name);
+    for (const field_word *w = words; w->name; w++)
+        if (w->name[0])
+            suggestion_offer(&best, w->name);
+    return best.name;
 }
 
 void *field_at(void *base, const field_row *field)
@@ -265,7 +284,11 @@ void field_expectation(const field_row *field, char *text, size_t size)
         number_expectation(field, text, size);
         return;
     case FIELD_INTEGER:
-        snprintf(text, size, "a whole number from %g to %.9g", field->range.low, field->range.high);
+        if (field->range.low < field->range.high)
+            snprintf(text, size, "a whole number from %g to %.9g", field->range.low,
+                     field->range.high);
+        else
+            snprintf(text, size, "%g", field->range.low);
         return;
     case FIELD_INTEGERS:
         if (field->least > 0)

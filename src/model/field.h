@@ -111,6 +111,10 @@ const field_word *field_word_find(const field_word *words, const char *name);
 // The word that stands for `value`, or NULL.
 const field_word *field_word_of(const field_word *words, int value);
 
+// The key or the word that an unknown one probably means, or NULL.
+const char *field_nearest_key(const field_block *block, const char *key);
+const char *field_nearest_word(const field_word *words, const char *name);
+
 // Pointers into the struct `base` that a block describes.
 void *field_at(void *base, const field_row *field);
 const void *field_at_const(const void *base, const field_row *field);

@@ -150,15 +150,6 @@ static bool enter_list(walk *w, const field_row *f)
     return extend(w, name ? name : number);
 }
 
-// The key that an unknown one probably means, or NULL.
-static const char *nearest_key(const walk *w)
-{
-    name_suggestion best = suggestion_begin(w->key);
-    for (const field_row *f = w->block->fields; f->name; f++)
-        suggestion_offer(&best, f->name);
-    return best.name;
-}
-
 bool field_locate(const ld_model *model, const char *path, field_place *place, char *why,
                   size_t size)
 {
@@ -172,7 +163,7 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
     while (next_key(&w)) {
         const field_row *f = field_find(w.block, w.key);
         if (!f)
-            return refuse_key(&w, "key", nearest_key(&w));
+            return refuse_key(&w, "key", field_nearest_key(w.block, w.key));
         if (!extend(&w, w.key))
             return false;
         if (!field_has_form(f, field_form(w.block, w.base)))

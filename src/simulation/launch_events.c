@@ -95,8 +95,8 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
         launch_tell(run, LD_EVENT_BREECH, t, -1);
         changed = true;
     }
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++) {
-        int direction = propagator_event(run->propagator, EVENT_WHEEL, j);
+    for (int j = 0; j < self->launcher.base.event_count; j++) {
+        int direction = propagator_event(run->propagator, EVENT_BASE, j);
         if (direction)
             launch_tell(run, direction > 0 ? LD_EVENT_LAND : LD_EVENT_LIFT, t, j);
         changed |= direction > 0;
@@ -125,20 +125,6 @@ void launch_let_go_at_once(ld_run *run, double t, const double *y)
     let_go(run, t, y);
 }
 
-// The first instant after t at which a commanded angle has a corner.
-static double next_corner(const ld_table *command, double t)
-{
-    for (size_t i = 0; i < command->rows && command->rows > 1; i++)
-        if (command->data[i * command->columns] > t)
-            return command->data[i * command->columns];
-    return INFINITY;
-}
-
-static bool is_corner(const ld_table *command, double t)
-{
-    return next_corner(command, nextafter(t, -INFINITY)) == t;
-}
-
 // When the next tube takes the place of the one that is empty now.
 double launch_change_instant(const launch_state *self)
 {
@@ -149,13 +135,12 @@ double launch_change_instant(const launch_state *self)
 double launch_next_stop(const ld_run *run, double t)
 {
     const launch_state *self = &run->launch;
+    const base_system *base = &self->launcher.base;
     double first, stop;
-    base_motion_span(&self->launcher.motion, &first, &stop);
+    base_span(base, &first, &stop);
     stop = fmin(stop, run->t_end);
-    if (self->launcher.vehicle)
-        stop =
-            fmin(stop, fmin(next_corner(&self->model->platform.azimuth.stabiliser.command, t),
-                            next_corner(&self->model->platform.elevation.stabiliser.command, t)));
+    if (base->kind->next_corner)
+        stop = fmin(stop, base->kind->next_corner(base, t));
     if (t < self->t_ignition)
         return fmin(stop, self->t_ignition);
     if (self->current + 1 < self->model->firing_count)
@@ -167,20 +152,19 @@ double launch_next_stop(const ld_run *run, double t)
     return stop;
 }
 
-// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve, or of a
-// commanded angle.
+// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve, or of
+// what drives the base.
 bool launch_pass_stop(ld_run *run, double t)
 {
     launch_state *self = &run->launch;
-    const ld_platform *platform = &self->model->platform;
+    const base_system *base = &self->launcher.base;
     int before = self->piece;
     while (t >= self->t_ignition && self->piece + 1 < (int)self->motor->corner_count &&
            t >= self->t_ignition + self->motor->t[self->piece + 1])
         self->piece++;
-    bool burning = self->piece != before;
-    if ((burning && t > self->t_ignition) ||
-        (self->launcher.vehicle && (is_corner(&platform->azimuth.stabiliser.command, t) ||
-                                    is_corner(&platform->elevation.stabiliser.command, t))))
+    bool burning = self->piece != before, driven = base->kind->next_corner != NULL;
+    bool base_corner = driven && base->kind->next_corner(base, nextafter(t, -INFINITY)) == t;
+    if (base_corner || (burning && t > self->t_ignition))
         launch_tell(run, LD_EVENT_CORNER, t, -1);
-    return burning || self->launcher.vehicle;
+    return burning || driven;
 }

@@ -101,8 +101,9 @@ void launch_summarise(ld_run *run);
 
 // ---- saving and loading (launch_archive.c)
 
-// Saves what the run to come depends on, and the summary so far; or loads it into a run that has
-// begun at its start.
+// All that the run's steps, rows and summary to come depend on, or that the summary holds by now;
+// loads into a run of the same model, whose propagator is there. One walk, as in archive.h. After a
+// failed load the run can only be ended.
 void launch_archive(ld_run *run, archive *bytes);
 
 // ---- flights (launch_flights.c)
