@@ -204,14 +204,8 @@ ld_status launch_begin(ld_run *run)
     ld_status status = launch_check_base(run, run->t_start);
     if (!status)
         status = find_start(run, y);
-    const ld_sink *sink = run->options.sink;
-    double before = simulation_cpu_now();
-    if (!status && sink)
-        status = simulation_geometry(self->system, sink, &run->error);
-    if (!status && sink)
-        status = sink->begin(sink->self, self->system->column, (size_t)self->system->column_count,
-                             &run->error);
-    run->cpu_output += simulation_cpu_now() - before;
+    if (!status)
+        status = launch_open_output(run);
     if (status)
         return status;
     ld_energy energy;

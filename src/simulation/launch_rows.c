@@ -11,6 +11,20 @@ static double output_step(const ld_run *run, double t)
                                            : self->model->run.output_step_tube;
 }
 
+ld_status launch_open_output(ld_run *run)
+{
+    const ld_sink *sink = run->options.sink;
+    const ld_simulation *system = run->launch.system;
+    if (!sink)
+        return LD_OK;
+    double before = simulation_cpu_now();
+    ld_status status = simulation_geometry(system, sink, &run->error);
+    if (!status)
+        status = sink->begin(sink->self, system->column, (size_t)system->column_count, &run->error);
+    run->cpu_output += simulation_cpu_now() - before;
+    return status;
+}
+
 ld_status launch_write_row(ld_run *run, double t, const double *y)
 {
     const ld_sink *sink = run->options.sink;
@@ -30,9 +44,10 @@ ld_status launch_write_row(ld_run *run, double t, const double *y)
 ld_status launch_write_rows(ld_run *run)
 {
     double now = propagator_time(run->propagator);
-    while (run->options.sink && run->next_output <= now) {
+    while (run->next_output <= now) {
         double t = run->next_output;
-        propagator_interpolate(run->propagator, t, run->between);
+        if (run->options.sink)
+            propagator_interpolate(run->propagator, t, run->between);
         ld_status status = launch_write_row(run, t, run->between);
         if (status)
             return status;

@@ -58,6 +58,8 @@ ld_status launch_ignite(ld_run *run);
 
 // ---- rows (launch_rows.c)
 
+// Hands geometry and columns to the sink.
+ld_status launch_open_output(ld_run *run);
 // A row at t and state y; one instant gives one row.
 ld_status launch_write_row(ld_run *run, double t, const double *y);
 // Rows that fell into the last step.

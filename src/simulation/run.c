@@ -1,31 +1,16 @@
-// Runs: begun, taken forward, looked at, ended. What a launch does on its way is the business of
-// launch.h's functions.
+// A run that is stepped: what is asked of it and told to it; launch.c takes its steps.
 #include "launchdyn/run.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/digest.h"
 #include "simulation/launch_run.h"
 
 static bool has_launch(const ld_run *run)
 {
     return run->launch.model->base.kind != LD_BASE_NONE;
-}
-
-// What ended the run, to the caller.
-static ld_status told(const ld_run *run, ld_error *error)
-{
-    if (run->status && error)
-        *error = run->error;
-    return run->status;
-}
-
-static void run_free(ld_run *run)
-{
-    propagator_free(run->propagator);
-    launch_state_end(&run->launch);
-    free(run);
 }
 
 // A run whose rocket stands in its tube; NULL: no memory.
@@ -44,6 +29,23 @@ static ld_run *run_create(const ld_simulation *simulation, const ld_run_options 
         run->status = launch_state_begin(&run->launch, simulation, &run->error);
     return run;
 }
+
+static void run_free(ld_run *run)
+{
+    propagator_free(run->propagator);
+    launch_state_end(&run->launch);
+    free(run);
+}
+
+// What ended the run, to the caller.
+static ld_status told(const ld_run *run, ld_error *error)
+{
+    if (run->status && error)
+        *error = run->error;
+    return run->status;
+}
+
+// ---- forward
 
 ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *options, ld_run **out,
                        ld_error *error)
@@ -99,6 +101,8 @@ bool ld_run_is_finished(const ld_run *run)
     return run->status || !has_launch(run) || launch_is_finished(run);
 }
 
+// ---- what it tells
+
 // The state at the present, in which no step need end.
 static const double *present_state(ld_run *run)
 {
@@ -136,6 +140,8 @@ const ld_summary *ld_run_summary(const ld_run *run)
     return &run->summary;
 }
 
+// ---- what it is told
+
 ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
 {
     launch_state *launch = &run->launch;
@@ -164,6 +170,105 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
         launch_ignite(run);
     return told(run, error);
 }
+
+// ---- as bytes: five numbers, the state, a checksum
+
+static const int64_t MAGIC = 0x6e7572206e796c6e; // "nlyn run"
+enum { FORM = 1 };                               // of the bytes: goes up when they change
+
+// What tells a run of this model in this form; `length` is that of all, in bytes.
+static void archive_head(const ld_run *run, archive *bytes, int64_t length)
+{
+    archive_expect(bytes, MAGIC);
+    archive_expect(bytes, FORM);
+    archive_expect(bytes, (int64_t)model_digest(run->launch.model));
+    archive_expect(bytes, length);
+}
+
+static void archive_sum(archive *bytes)
+{
+    uint64_t sum = bytes->failed ? 0 : digest_bytes(DIGEST_BEGIN, bytes->bytes, bytes->at);
+    archive_expect(bytes, (int64_t)sum);
+}
+
+ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, ld_error *error)
+{
+    *size = 0;
+    if (run->status)
+        return told(run, error);
+    if (!has_launch(run))
+        return ld_fail(error, LD_ERR_INPUT, "a flight alone cannot be saved");
+    archive count = archive_save(NULL, 0), saved = archive_save(bytes, capacity);
+    archive_head(run, &count, 0);
+    launch_archive(run, &count);
+    archive_sum(&count);
+    *size = count.at;
+    if (capacity < *size)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the run's state takes %zu bytes, there is room for %zu", *size, capacity);
+    archive_head(run, &saved, (int64_t)*size);
+    launch_archive(run, &saved);
+    archive_sum(&saved);
+    return LD_OK;
+}
+
+// Whether the bytes are those of a run of this model, whole.
+static ld_status check_bytes(const ld_run *run, const void *bytes, size_t size, ld_error *error)
+{
+    archive loaded = archive_load(bytes, size);
+    archive_expect(&loaded, MAGIC);
+    if (loaded.failed)
+        return ld_fail(error, LD_ERR_INPUT, "this is no saved run");
+    archive_expect(&loaded, FORM);
+    if (loaded.failed)
+        return ld_fail(error, LD_ERR_INPUT, "the run was saved by another version of launchdyn");
+    archive_expect(&loaded, (int64_t)model_digest(run->launch.model));
+    if (loaded.failed)
+        return ld_fail(error, LD_ERR_INPUT, "the run that was saved is one of another model");
+    archive_expect(&loaded, (int64_t)size);
+    if (!loaded.failed) {
+        loaded.at = size - 8;
+        archive_sum(&loaded);
+    }
+    return loaded.failed ? ld_fail(error, LD_ERR_INPUT, "the saved run is cut off or damaged")
+                         : LD_OK;
+}
+
+static ld_status load(ld_run *run, const void *bytes, size_t size)
+{
+    if (!has_launch(run))
+        return ld_fail(&run->error, LD_ERR_INPUT, "a flight alone cannot be saved");
+    ld_status status = check_bytes(run, bytes, size, &run->error);
+    if (!status)
+        status = propagator_create(&run->launch, &run->propagator, &run->error);
+    if (status)
+        return status;
+    archive loaded = archive_load(bytes, size);
+    archive_head(run, &loaded, (int64_t)size);
+    launch_archive(run, &loaded);
+    run->t_input = INFINITY;
+    if (loaded.failed || loaded.at + 8 != size)
+        return ld_fail(&run->error, LD_ERR_INPUT, "the saved run is damaged");
+    return launch_open_output(run);
+}
+
+ld_status ld_run_load(const ld_simulation *simulation, const ld_run_options *options,
+                      const void *bytes, size_t size, ld_run **out, ld_error *error)
+{
+    ld_run *run = *out = run_create(simulation, options);
+    if (!run)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
+    if (!run->status)
+        run->status = load(run, bytes, size);
+    ld_status status = told(run, error);
+    if (status) {
+        run_free(run);
+        *out = NULL;
+    }
+    return status;
+}
+
+// ---- the end
 
 static ld_status end_early(ld_run *run)
 {
