@@ -3,8 +3,7 @@
 #include <stdlib.h>
 
 #include "launchdyn/summary.h"
-#include "simulation/study_results.h"
-#include "simulation/summary.h"
+#include "simulation/summary_quantities.h"
 
 ld_summary *ld_summary_new(void)
 {
@@ -24,13 +23,18 @@ int ld_summary_rockets(const ld_summary *self)
 ld_status ld_summary_number(const ld_summary *self, int rocket, const char *name, double *value,
                             ld_error *error)
 {
-    const study_result *result = study_result_named(name);
+    const quantity_things things = {
+        .count = {[EACH_RUN] = 1, [EACH_ADAPTOR] = self->adaptor_count},
+        .name = {[EACH_ADAPTOR] = self->adaptor[0]},
+        .stride = {[EACH_ADAPTOR] = sizeof self->adaptor[0]},
+    };
+    quantity_walk found = quantity_find(&rocket_quantities, &things, name);
     *value = NAN;
     if (rocket < 1 || rocket > self->rocket_count)
         return ld_fail(error, LD_ERR_INPUT, "there is no rocket %d: they go from 1 to %d", rocket,
                        self->rocket_count);
-    if (!result)
+    if (!found.row)
         return ld_fail(error, LD_ERR_INPUT, "there is no result \"%s\"", name);
-    *value = study_result_of(&self->rocket[rocket - 1], result);
+    *value = quantity_value(&found, &self->rocket[rocket - 1]);
     return LD_OK;
 }
