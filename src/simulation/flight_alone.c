@@ -4,6 +4,7 @@
 
 #include "simulation/free_flight.h"
 #include "simulation/simulation.h"
+#include "simulation/summary_quantities.h"
 
 typedef struct alone_run {
     const ld_simulation *self;
@@ -52,8 +53,8 @@ static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *
         .self = run,
     };
     summary->rocket_count = 1;
-    simulation_clear_rocket(&summary->rocket[0], ignition);
-    summary->rocket[0].max_slot_force = NAN;
+    rocket_clear(&summary->rocket[0], false);
+    summary->rocket[0].t_ignition = ignition;
     double start = simulation_cpu_now();
     ld_status status = LD_OK;
     if (run->sink)

@@ -475,9 +475,6 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
                       .t_beyond = NAN,
                       .t_tumbling = NAN};
     rocket->flown = true;
-    double *flight = &rocket->flight.apogee;
-    for (size_t i = 0; i < sizeof rocket->flight / sizeof(double); i++)
-        flight[i] = NAN;
     ld_status status = begin(&run, state);
     if (!status)
         status = loop(&run);

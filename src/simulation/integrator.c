@@ -1,13 +1,14 @@
 #include "simulation/integrator.h"
 
 #include <arkode/arkode_erkstep.h>
+#include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_version.h>
 
-#include "math/vec3.h"
+#include "simulation/serial_vector.h"
 
 #if SUNDIALS_VERSION_MAJOR < 7
 #define LD_NO_COMMUNICATOR NULL
@@ -15,186 +16,54 @@
 #define LD_NO_COMMUNICATOR SUN_COMM_NULL
 #endif
 
+// What the library asks for in its first step after a load.
+typedef enum asked {
+    ASKED_ALL,  // everything: no step after a load
+    ASKED_RATE, // first the rate where the step begins, which is known
+    ASKED_STAGE // then the first stage, from which on the library goes on by itself
+} asked;
+
 struct integrator {
     integrator_settings settings;
     SUNContext context;
     void *erk;
     N_Vector y, atol, rtol, work;
-    double *previous; // state where the last step began
     double t, t_previous;
-    int *found;       // event flags of the last landing
     double next_step; // size to begin with after a restart; 0: the library chooses
+    int *found;       // event flags of the last landing
     int failed_rhs;
-};
+    bool anew; // the next step starts anew
 
-// ---- vector operations. Debian's package is built without optimisation, so those that count in
-// every step are replaced by our own: plain loops over the elements.
+    // What the library knows but does not tell, for those who save it.
+    N_Vector y_previous, rate_previous; // where the last step began
+    bool wants_rate_previous;           // the next evaluation is that one
+    const double *rate;                 // the latest evaluation, at t_rate
+    double t_rate;
+    N_Vector y_end; // where the last step ended, if `within`
+    double t_end;
+    bool within;                  // t and y lie within the last step, not at its end
+    bool wants_end;               // the events' next call is at the end
+    double *g, t_g;               // the events' latest values
+    double error, error_previous; // biased local errors of the latest attempt, of the last step
+    double h, t_stop;             // of the last step
+
+    // What was loaded, until the next step.
+    bool loaded;
+    asked asked;
+    N_Vector rate_end;
+    double h_next;                            // size of the next step if no stop is in its way
+    bool shortened;                           // it is so small because of a stop
+    int64_t steps_before, evaluations_before; // counts of those who saved
+};
 
 static double *data(N_Vector v)
 {
     return NV_DATA_S(v);
 }
 
-#define FOR_EACH(i, v) for (sunindextype i = 0, end_##i = NV_LENGTH_S(v); i < end_##i; i++)
-
-static void vector_linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z)
+static void copy(N_Vector from, N_Vector to)
 {
-    const double *px = data(x), *py = data(y);
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = a * px[i] + b * py[i];
-}
-
-static void vector_const(double c, N_Vector z)
-{
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = c;
-}
-
-static void vector_prod(N_Vector x, N_Vector y, N_Vector z)
-{
-    const double *px = data(x), *py = data(y);
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = px[i] * py[i];
-}
-
-static void vector_div(N_Vector x, N_Vector y, N_Vector z)
-{
-    const double *px = data(x), *py = data(y);
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = px[i] / py[i];
-}
-
-static void vector_scale(double c, N_Vector x, N_Vector z)
-{
-    const double *px = data(x);
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = c * px[i];
-}
-
-static void vector_abs(N_Vector x, N_Vector z)
-{
-    const double *px = data(x);
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = fabs(px[i]);
-}
-
-static void vector_inv(N_Vector x, N_Vector z)
-{
-    const double *px = data(x);
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = 1.0 / px[i];
-}
-
-static void vector_add_const(N_Vector x, double b, N_Vector z)
-{
-    const double *px = data(x);
-    double *pz = data(z);
-    FOR_EACH(i, z)
-    pz[i] = px[i] + b;
-}
-
-static double vector_min(N_Vector x)
-{
-    const double *px = data(x);
-    double m = px[0];
-    FOR_EACH(i, x)
-    m = px[i] < m ? px[i] : m;
-    return m;
-}
-
-static double vector_max_norm(N_Vector x)
-{
-    const double *px = data(x);
-    double m = 0;
-    FOR_EACH(i, x)
-    m = fabs(px[i]) > m ? fabs(px[i]) : m;
-    return m;
-}
-
-static double vector_wrms_norm(N_Vector x, N_Vector w)
-{
-    const double *px = data(x), *pw = data(w);
-    double sum = 0;
-    FOR_EACH(i, x)
-    sum += (px[i] * pw[i]) * (px[i] * pw[i]);
-    return sqrt(sum / (double)NV_LENGTH_S(x));
-}
-
-enum { MOST_VECTORS = 16 };
-
-// Four elements wherever they lie.
-typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
-
-// pz may be px[0] (the library's contract), so the sum of an element is complete before it is
-// stored.
-LD_INLINE void combine(const int count, const double *weight, N_Vector *x, size_t n, double *pz)
-{
-    const double *px[MOST_VECTORS];
-    double c[MOST_VECTORS];
-    for (int k = 0; k < count; k++) {
-        px[k] = data(x[k]);
-        c[k] = weight[k];
-    }
-    size_t i = 0;
-    for (; i + 4 <= n; i += 4) {
-        four sum = c[0] * *(const four *)(px[0] + i);
-        for (int k = 1; k < count; k++)
-            sum += c[k] * *(const four *)(px[k] + i);
-        *(four *)(pz + i) = sum;
-    }
-    for (; i < n; i++) {
-        double sum = c[0] * px[0][i];
-        for (int k = 1; k < count; k++)
-            sum += c[k] * px[k][i];
-        pz[i] = sum;
-    }
-}
-
-// One instance for each count that a method of six stages has, one for any.
-static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector z)
-{
-    size_t n = (size_t)NV_LENGTH_S(z);
-    if (count < 1 || count > MOST_VECTORS)
-        return -1;
-    switch (count) {
-#define CASE(k)                                                                                    \
-    case k:                                                                                        \
-        combine(k, c, x, n, data(z));                                                              \
-        break
-        CASE(2);
-        CASE(3);
-        CASE(4);
-        CASE(5);
-        CASE(6);
-        CASE(7);
-#undef CASE
-    default:
-        combine(count, c, x, n, data(z));
-    }
-    return 0;
-}
-
-static void replace_operations(N_Vector v)
-{
-    v->ops->nvlinearsum = vector_linear_sum;
-    v->ops->nvconst = vector_const;
-    v->ops->nvprod = vector_prod;
-    v->ops->nvdiv = vector_div;
-    v->ops->nvscale = vector_scale;
-    v->ops->nvabs = vector_abs;
-    v->ops->nvinv = vector_inv;
-    v->ops->nvaddconst = vector_add_const;
-    v->ops->nvmin = vector_min;
-    v->ops->nvmaxnorm = vector_max_norm;
-    v->ops->nvwrmsnorm = vector_wrms_norm;
-    v->ops->nvlinearcombination = vector_linear_combination;
+    memcpy(data(to), data(from), (size_t)NV_LENGTH_S(to) * sizeof(double));
 }
 
 // ---- callbacks
@@ -202,15 +71,44 @@ static void replace_operations(N_Vector v)
 static int call_rhs(double t, N_Vector y, N_Vector y_dot, void *user)
 {
     integrator *self = user;
+    if (self->asked == ASKED_RATE) {
+        copy(self->rate_end, y_dot);
+        self->evaluations_before--; // the library counts it a second time
+        self->asked = ASKED_STAGE;
+        return 0;
+    }
+    if (self->asked == ASKED_STAGE)
+        ERKStepSetMaxStep(self->erk, self->settings.max_step);
+    self->asked = ASKED_ALL;
     int failed = self->settings.rhs(t, data(y), data(y_dot), self->settings.self);
     self->failed_rhs |= failed;
+    if (self->wants_rate_previous)
+        copy(y_dot, self->rate_previous);
+    self->wants_rate_previous = false;
+    self->rate = data(y_dot);
+    self->t_rate = t;
+    self->wants_end = true;
     return failed ? -1 : 0;
 }
 
 static int call_events(double t, N_Vector y, double *g, void *user)
 {
     integrator *self = user;
-    return self->settings.events(t, data(y), g, self->settings.self);
+    size_t size = (size_t)self->settings.event_count * sizeof *g;
+    // once it has found an event, the library asks at each step's beginning for what it was told
+    if (self->asked != ASKED_ALL || t == self->t_g) {
+        memcpy(g, self->g, size);
+        return 0;
+    }
+    if (self->wants_end) {
+        copy(y, self->y_end);
+        self->t_end = t;
+    }
+    self->wants_end = false;
+    int failed = self->settings.events(t, data(y), g, self->settings.self);
+    memcpy(self->g, g, size);
+    self->t_g = t;
+    return failed;
 }
 
 static int error_weights(N_Vector y, N_Vector weights, void *user)
@@ -218,8 +116,25 @@ static int error_weights(N_Vector y, N_Vector weights, void *user)
     integrator *self = user;
     const double *py = data(y), *rtol = data(self->rtol), *atol = data(self->atol);
     double *pw = data(weights);
-    FOR_EACH(i, y)
-    pw[i] = 1 / (rtol[i] * fabs(py[i]) + atol[i]);
+    for (size_t i = 0; i < self->settings.n; i++)
+        pw[i] = 1 / (rtol[i] * fabs(py[i]) + atol[i]);
+    return 0;
+}
+
+// Step control: the PI controller that is the library's own by default, with its numbers. Written
+// here because the history of errors that it goes by must be saved.
+static const double growth = 25; // most from one step to the next
+static const double gain_now = 0.8, gain_previous = 0.31, least_error = 1e-10;
+
+static int control_step(N_Vector y, double t, double h, double h_1, double h_2, double error,
+                        double error_1, double error_2, int order, int embedded_order,
+                        double *h_next, void *user)
+{
+    (void)y, (void)t, (void)h_1, (void)h_2, (void)error_1, (void)error_2, (void)order;
+    integrator *self = user;
+    self->error = error;
+    *h_next = h * pow(fmax(error, least_error), -gain_now / embedded_order) *
+              pow(fmax(self->error_previous, least_error), gain_previous / embedded_order);
     return 0;
 }
 
@@ -257,6 +172,8 @@ static int configure(integrator *self)
     bad |= ERKStepSetTableNum(self->erk, table_of(settings->method));
     bad |= ERKStepSetInterpolantDegree(self->erk, 3);
     bad |= ERKStepSetMaxNumSteps(self->erk, -1);
+    bad |= ERKStepSetAdaptivityFn(self->erk, control_step, self);
+    bad |= ERKStepSetMaxGrowth(self->erk, growth);
     if (settings->max_step > 0)
         bad |= ERKStepSetMaxStep(self->erk, settings->max_step);
     if (settings->events)
@@ -267,19 +184,25 @@ static int configure(integrator *self)
 static int allocate(integrator *self)
 {
     sunindextype n = (sunindextype)self->settings.n;
-    self->previous = calloc((size_t)n, sizeof(double));
-    self->found = calloc((size_t)self->settings.event_count + 1, sizeof(int));
-    if (!self->previous || !self->found || SUNContext_Create(LD_NO_COMMUNICATOR, &self->context))
+    size_t events = (size_t)self->settings.event_count + 1;
+    self->found = calloc(events, sizeof *self->found);
+    self->g = calloc(events, sizeof *self->g);
+    if (!self->found || !self->g || SUNContext_Create(LD_NO_COMMUNICATOR, &self->context))
         return -1;
     self->y = N_VNew_Serial(n, self->context);
     if (!self->y)
         return -1;
-    replace_operations(self->y);
-    vector_const(0, self->y);
-    self->atol = N_VClone(self->y);
-    self->rtol = N_VClone(self->y);
-    self->work = N_VClone(self->y);
-    return self->atol && self->rtol && self->work ? 0 : -1;
+    serial_vector_operations(self->y);
+    N_VConst(0, self->y);
+    N_Vector *others[] = {&self->atol,          &self->rtol,  &self->work,    &self->y_previous,
+                          &self->rate_previous, &self->y_end, &self->rate_end};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        *others[i] = N_VClone(self->y);
+        if (!*others[i])
+            return -1;
+        N_VConst(0, *others[i]);
+    }
+    return 0;
 }
 
 ld_status integrator_create(const integrator_settings *settings, integrator **out, ld_error *error)
@@ -309,29 +232,25 @@ void integrator_free(integrator *self)
         return;
     if (self->erk)
         ERKStepFree(&self->erk);
-    if (self->y)
-        N_VDestroy(self->y);
-    if (self->atol)
-        N_VDestroy(self->atol);
-    if (self->rtol)
-        N_VDestroy(self->rtol);
-    if (self->work)
-        N_VDestroy(self->work);
+    N_Vector vectors[] = {self->y,          self->atol,          self->rtol,  self->work,
+                          self->y_previous, self->rate_previous, self->y_end, self->rate_end};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        if (vectors[i])
+            N_VDestroy(vectors[i]);
     if (self->context)
         SUNContext_Free(&self->context);
-    free(self->previous);
     free(self->found);
+    free(self->g);
     free(self);
 }
 
 ld_status integrator_start(integrator *self, double t, const double *y, ld_error *error)
 {
+    (void)error;
     if (y != data(self->y))
         memcpy(data(self->y), y, self->settings.n * sizeof(double));
     self->t = self->t_previous = t;
-    self->failed_rhs = 0;
-    if (ERKStepReset(self->erk, t, self->y) || ERKStepSetInitStep(self->erk, self->next_step))
-        return ld_fail(error, LD_ERR_NUMERIC, "the integrator cannot restart at t = %.9g s", t);
+    self->anew = true;
     return LD_OK;
 }
 
@@ -350,41 +269,160 @@ static integrator_outcome fail(integrator *self, int flag, ld_error *error)
     return INTEGRATOR_FAILED;
 }
 
+// The library begins here with a step of size h; 0: it chooses.
+static int reset(integrator *self, double h)
+{
+    self->t_g = NAN;
+    int flag = ERKStepReset(self->erk, self->t, self->y);
+    if (flag >= 0)
+        flag = ERKStepSetInitStep(self->erk, h);
+    // a size of its choice may grow more, by its default, which is 0 here
+    return flag < 0 ? flag : ERKStepSetMaxFirstGrowth(self->erk, h > 0 ? growth : 0);
+}
+
+// As reset, with nothing of what was before.
+static int start(integrator *self, double h)
+{
+    self->failed_rhs = 0;
+    self->error = 1;
+    self->wants_rate_previous = true;
+    return reset(self, h);
+}
+
+// One step of the library's.
+static int evolve(integrator *self, double t_stop)
+{
+    self->error_previous = self->error;
+    self->t_stop = t_stop;
+    int flag = ERKStepSetStopTime(self->erk, t_stop);
+    if (flag >= 0)
+        flag = ERKStepEvolve(self->erk, t_stop, self->y, &self->t, ARK_ONE_STEP);
+    self->within = flag == ARK_ROOT_RETURN;
+    if (!self->within)
+        self->t_end = self->t;
+    ERKStepGetLastStep(self->erk, &self->h);
+    return flag;
+}
+
 // Takes the last step anew so that it ends at the event, now at self->t.
 static integrator_outcome land_on_event(integrator *self, ld_error *error)
 {
     double t_event = self->t;
-    memcpy(data(self->y), self->previous, self->settings.n * sizeof(double));
-    int flag = ERKStepReset(self->erk, self->t_previous, self->y);
-    if (t_event <= self->t_previous)
-        return flag < 0 ? fail(self, flag, error) : INTEGRATOR_EVENT;
+    self->t = self->t_previous;
+    self->anew = true;
+    copy(self->y_previous, self->y);
+    if (t_event <= self->t)
+        return INTEGRATOR_EVENT;
+    int flag = start(self, t_event - self->t);
     if (flag >= 0)
-        flag = ERKStepSetInitStep(self->erk, t_event - self->t_previous);
-    if (flag >= 0)
-        flag = ERKStepSetStopTime(self->erk, t_event);
-    if (flag >= 0)
-        flag = ERKStepEvolve(self->erk, t_event, self->y, &self->t, ARK_ONE_STEP);
+        flag = evolve(self, t_event);
     if (flag < 0)
         return fail(self, flag, error);
     // a step that error control made shorter ends before the event, which the next ones will find
-    int landed = flag == ARK_TSTOP_RETURN || flag == ARK_ROOT_RETURN || self->t >= t_event;
-    return landed ? INTEGRATOR_EVENT : INTEGRATOR_STEPPED;
+    self->anew = flag == ARK_TSTOP_RETURN || flag == ARK_ROOT_RETURN || self->t >= t_event;
+    return self->anew ? INTEGRATOR_EVENT : INTEGRATOR_STEPPED;
+}
+
+// The rate where the last step ended: the latest one asked for, of which the library has made the
+// time a stop's where only rounding parts them.
+static void rate_at_end(integrator *self, N_Vector rate)
+{
+    if (self->rate && fabs(self->t_rate - self->t_end) <= 1e-3 * self->h)
+        memcpy(data(rate), self->rate, self->settings.n * sizeof(double));
+    else if (self->rate)
+        ERKStepGetDky(self->erk, self->t_end, 1, rate);
+}
+
+static int go_on(integrator *self)
+{
+    rate_at_end(self, self->rate_previous);
+    return 0;
+}
+
+// What is left to a stop, as the library takes it.
+static double left_to(double t_stop, double t)
+{
+    return (t_stop - t) * (1 - 4 * DBL_EPSILON);
+}
+
+// The size of the step after a load, as the library would have computed it.
+static double resumed_size(const integrator *self, double t_stop)
+{
+    double h = self->h, h_next = self->h_next;
+    bool shortened = self->shortened;
+    if ((self->t + h_next - t_stop) * h > 0) {
+        h_next = left_to(t_stop, self->t);
+        shortened = true;
+    }
+    return shortened && h_next != h ? h * (h_next / h) : h_next;
+}
+
+// After a load the library starts anew, but as if it went on. The bound on the size, which would
+// round it, comes back at the first stage.
+static int resume(integrator *self, double t_stop)
+{
+    self->asked = ASKED_RATE;
+    copy(self->rate_end, self->rate_previous);
+    int flag = reset(self, resumed_size(self, t_stop));
+    return flag < 0 ? flag : ERKStepSetMaxStep(self->erk, 0);
+}
+
+// State at t in the step that was loaded, by the library's formulas.
+static void interpolate_loaded(const integrator *self, double t, N_Vector y)
+{
+    double h = self->h, s = (t - self->t_end) / h, s2 = s * s, s3 = s * s2;
+    if (self->settings.method == INTEGRATOR_BOGACKI_SHAMPINE) {
+        N_Vector x[] = {self->y_previous, self->y_end, self->rate_end};
+        N_VLinearCombination(3, (double[]){s2, 1 - s2, h * (s2 + s)}, x, y);
+    } else {
+        N_Vector x[] = {self->y_previous, self->y_end, self->rate_previous, self->rate_end};
+        double a[] = {3 * s2 + 2 * s3, 1 - 3 * s2 - 2 * s3, h * (s2 + s3), h * (s + 2 * s2 + s3)};
+        N_VLinearCombination(4, a, x, y);
+    }
+}
+
+// As the library has it: but for rounding, the last step has ended on this stop.
+static bool is_at(const integrator *self, double t_stop)
+{
+    double rounding = 100 * DBL_EPSILON * (fabs(self->t) + fabs(self->h));
+    return !self->anew && fabs(self->t - t_stop) <= rounding;
+}
+
+static integrator_outcome stop_at_once(integrator *self, double t_stop)
+{
+    if (!self->within)
+        copy(self->y, self->y_end);
+    if (self->loaded)
+        interpolate_loaded(self, t_stop, self->y);
+    else
+        ERKStepGetDky(self->erk, t_stop, 0, self->y);
+    self->within = true;
+    self->t = t_stop;
+    self->anew = true;
+    return INTEGRATOR_STOPPED;
 }
 
 integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error)
 {
-    memcpy(self->previous, data(self->y), self->settings.n * sizeof(double));
+    if (is_at(self, t_stop))
+        return stop_at_once(self, t_stop);
+    int flag = self->anew     ? start(self, self->next_step)
+               : self->loaded ? resume(self, t_stop)
+                              : go_on(self);
+    copy(self->y, self->y_previous);
     self->t_previous = self->t;
-    int flag = ERKStepSetStopTime(self->erk, t_stop);
+    self->loaded = false;
+    self->anew = false;
     if (flag >= 0)
-        flag = ERKStepEvolve(self->erk, t_stop, self->y, &self->t, ARK_ONE_STEP);
+        flag = evolve(self, t_stop);
     if (flag < 0)
         return fail(self, flag, error);
     if (flag == ARK_ROOT_RETURN) {
         ERKStepGetRootInfo(self->erk, self->found);
         return land_on_event(self, error);
     }
-    if (flag == ARK_TSTOP_RETURN || self->t >= t_stop)
+    self->anew = flag == ARK_TSTOP_RETURN || self->t >= t_stop;
+    if (self->anew)
         return INTEGRATOR_STOPPED;
     ERKStepGetCurrentStep(self->erk, &self->next_step);
     return INTEGRATOR_STEPPED;
@@ -408,8 +446,12 @@ double integrator_previous_time(const integrator *self)
 void integrator_interpolate(integrator *self, double t, double *y)
 {
     N_Vector from = self->y;
-    if (t < self->t && ERKStepGetDky(self->erk, t, 0, self->work) == ARK_SUCCESS)
+    if (t < self->t && self->loaded) {
+        interpolate_loaded(self, t, self->work);
         from = self->work;
+    } else if (t < self->t && ERKStepGetDky(self->erk, t, 0, self->work) == ARK_SUCCESS) {
+        from = self->work;
+    }
     memcpy(y, data(from), self->settings.n * sizeof(double));
 }
 
@@ -422,12 +464,68 @@ int64_t integrator_steps(const integrator *self)
 {
     long steps = 0;
     ERKStepGetNumSteps(self->erk, &steps);
-    return steps;
+    return self->steps_before + steps;
 }
 
 int64_t integrator_evaluations(const integrator *self)
 {
     long evaluations = 0;
     ERKStepGetNumRhsEvals(self->erk, &evaluations);
-    return evaluations;
+    return self->evaluations_before + evaluations;
+}
+
+// ---- saving and loading
+
+// What the library knows of the last step and of the next, as it would be loaded.
+static void gather(integrator *self)
+{
+    if (!self->loaded) {
+        rate_at_end(self, self->rate_end);
+        if (!self->within)
+            copy(self->y, self->y_end);
+        ERKStepGetCurrentStep(self->erk, &self->h_next);
+        self->shortened = self->h_next == left_to(self->t_stop, self->t);
+    }
+    if (self->anew) {
+        self->h_next = 0;
+        self->shortened = false;
+    }
+}
+
+static void archive_step(integrator *self, archive *bytes)
+{
+    N_Vector vectors[] = {self->y, self->y_previous, self->rate_previous, self->y_end,
+                          self->rate_end};
+    double *numbers[] = {&self->t,     &self->t_previous, &self->t_end, &self->next_step,
+                         &self->error, &self->h,          &self->h_next};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        archive_double(bytes, numbers[i]);
+    archive_bool(bytes, &self->anew);
+    archive_bool(bytes, &self->within);
+    archive_bool(bytes, &self->shortened);
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        archive_doubles(bytes, data(vectors[i]), self->settings.n);
+}
+
+void integrator_archive(integrator *self, archive *bytes)
+{
+    archive_expect(bytes, (int64_t)self->settings.n);
+    archive_expect(bytes, self->settings.event_count);
+    archive_expect(bytes, self->settings.method);
+    if (bytes->loading && bytes->failed)
+        return;
+    if (!bytes->loading)
+        gather(self);
+    archive_step(self, bytes);
+    archive_doubles(bytes, self->g, (size_t)self->settings.event_count);
+    for (int i = 0; i < self->settings.event_count; i++)
+        archive_int(bytes, &self->found[i]);
+    int64_t steps = integrator_steps(self), evaluations = integrator_evaluations(self);
+    int64_t steps_now = steps, evaluations_now = evaluations;
+    archive_count(bytes, &steps);
+    archive_count(bytes, &evaluations);
+    self->steps_before += steps - steps_now;
+    self->evaluations_before += evaluations - evaluations_now;
+    if (bytes->loading)
+        self->loaded = true;
 }

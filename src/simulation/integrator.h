@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/archive.h"
 #include "launchdyn/status.h"
 
 typedef struct integrator integrator;
@@ -49,7 +50,8 @@ void integrator_free(integrator *self);
 ld_status integrator_start(integrator *self, double t, const double *y, ld_error *error);
 
 // One step of error-controlled size, not beyond t_stop. At an event the step is taken anew to end
-// on it, so that the state there is a step's end and not an interpolated one.
+// on it, so that the state there is a step's end and not an interpolated one. After a stop or an
+// event the next step starts anew, whether integrator_start was called or not.
 integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error);
 
 double integrator_time(const integrator *self);
@@ -63,5 +65,10 @@ int integrator_event(const integrator *self, int i);
 
 int64_t integrator_steps(const integrator *self);
 int64_t integrator_evaluations(const integrator *self);
+
+// Saves all that the steps to come depend on, the last one's interpolation and the counts, or loads
+// it into an integrator of the same settings, which then goes on with the same bits. After a
+// failed load it wants integrator_start.
+void integrator_archive(integrator *self, archive *bytes);
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "simulation/launch_run.h"
+#include "simulation/summary_quantities.h"
 
 // Rocket i of the firing comes next: its lock closed, its motor not yet lit.
 static void set_up_rocket(launch_run *run, int i)
@@ -12,7 +13,8 @@ static void set_up_rocket(launch_run *run, int i)
     run->greatest_lock_force = 0;
     ld_rocket_summary *rocket = &run->summary->rocket[i];
     run->summary->rocket_count = i + 1;
-    simulation_clear_rocket(rocket, firing->at);
+    rocket_clear(rocket, true);
+    rocket->t_ignition = firing->at;
     rocket->tube = firing->tube;
 }
 

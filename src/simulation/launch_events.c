@@ -60,23 +60,23 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
     launch_state *self = &run->launch;
     int count = self->launcher.launching.adaptors.count;
     bool changed = false;
-    if (self->phase.locked && propagator_event(run->propagator, 0) < 0) {
+    if (self->phase.locked && propagator_event(run->propagator, EVENT_RELEASE, 0) < 0) {
         let_go(run, t, y);
         changed = true;
     }
     for (int i = count - 1; i >= 0; i--) {
-        if (!self->phase.passed[i] && propagator_event(run->propagator, 1 + i) < 0) {
+        if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_EXIT, i) < 0) {
             pass_adaptor(run, i, t, y);
             changed = true;
         }
-        if (!self->phase.passed[i] && propagator_event(run->propagator, 1 + count + i) > 0) {
+        if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_TOUCH, i) > 0) {
             // first touch: its speed is kept for the whole contact
             self->phase.touch_speed[i] =
                 touch_speed(self, launching_offset_rate(&self->launcher.launching, y, i));
             changed = true;
         }
     }
-    if (propagator_event(run->propagator, simulation_breech_event(self)) > 0) {
+    if (propagator_event(run->propagator, EVENT_BREECH, 0) > 0) {
         launching_output out;
         launching_pose unused;
         launching_rocket_pose(&self->launcher.launching, y, &unused, &out);
@@ -84,7 +84,7 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
         changed = true;
     }
     for (int j = 0; j < self->launcher.marching.wheel_count; j++)
-        changed |= propagator_event(run->propagator, 1 + 2 * count + j) > 0;
+        changed |= propagator_event(run->propagator, EVENT_WHEEL, j) > 0;
     bool last = self->current + 1 == self->model->firing_count;
     if (self->phase.passed[0] && self->phase.rocket &&
         !(last && self->model->run.end != LD_END_TIME)) {

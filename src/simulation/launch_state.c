@@ -1,5 +1,6 @@
 #include "simulation/launch_state.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "model/salvo.h"
@@ -22,6 +23,7 @@ void launch_state_end(launch_state *self)
 
 void launch_state_select(launch_state *self, int i)
 {
+    assert(i >= 0 && i < self->model->firing_count);
     self->current = i;
     self->motor = simulation_motor(self->system, i);
     self->rocket = salvo_rocket(self->model, i);

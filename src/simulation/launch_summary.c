@@ -6,28 +6,6 @@
 
 #include "simulation/launch_run.h"
 
-void simulation_clear_rocket(ld_rocket_summary *rocket, double t_ignition)
-{
-    memset(rocket, 0, sizeof *rocket);
-    rocket->t_ignition = t_ignition;
-    rocket->t_release = rocket->t_front = rocket->t_middle = rocket->t_rear = NAN;
-    for (int k = 0; k < LD_MAX_ADAPTORS; k++)
-        rocket->t_exit[k] = NAN;
-    rocket->muzzle_speed = rocket->inertial_speed = rocket->spin_rate = NAN;
-    rocket->pitch = rocket->yaw = rocket->pitch_rate = rocket->yaw_rate = NAN;
-    for (int k = 0; k < 3; k++)
-        rocket->exit.position[k] = rocket->exit.velocity[k] = rocket->exit.rate[k] = NAN;
-    for (int k = 0; k < 4; k++)
-        rocket->exit.quaternion[k] = NAN;
-    rocket->relative.y = rocket->relative.z = NAN;
-    rocket->relative.psi = rocket->relative.theta = rocket->relative.gamma = NAN;
-    rocket->relative.w_x = rocket->relative.w_y = rocket->relative.w_z = NAN;
-    rocket->tip.y = rocket->tip.z = rocket->tip.vy = rocket->tip.vz = NAN;
-    rocket->tip.pitch = rocket->tip.yaw = rocket->tip.pitch_rate = rocket->tip.yaw_rate = NAN;
-    rocket->tip_off = no_tip_off;
-    rocket->aim = no_aim;
-}
-
 void launch_record_exit(launch_run *run, double t, const double *landed)
 {
     launch_state *self = &run->launch;

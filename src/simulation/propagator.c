@@ -86,22 +86,6 @@ static void note_outcome(launch_state *self, launching_outcome outcome)
     self->worst_condition = fmax(self->worst_condition, out->condition);
 }
 
-static int rhs(double t, const double *y, double *y_dot, void *user)
-{
-    launch_state *self = user;
-    launcher_input input;
-    launcher_output *out = &self->latest.out;
-    simulation_input(self, t, y, &input);
-    self->latest.known = false;
-    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
-    note_outcome(self, outcome);
-    if (outcome)
-        return -1;
-    remember(self, t, y);
-    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
-    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
-}
-
 const launcher_output *simulation_output(launch_state *self, double t, const double *y)
 {
     if (!is_latest(self, t, y)) {
@@ -113,54 +97,6 @@ const launcher_output *simulation_output(launch_state *self, double t, const dou
         remember(self, t, y);
     }
     return &self->latest.out;
-}
-
-int simulation_breech_event(const launch_state *self)
-{
-    const launcher_system *launcher = &self->launcher;
-    return EVENT_ADAPTORS + 2 * launcher->launching.adaptors.count + launcher->marching.wheel_count;
-}
-
-static int event_count(const launch_state *self)
-{
-    return simulation_breech_event(self) + 1;
-}
-
-// Events of the launching subsystem; the others stay away from zero.
-static void launching_events(const launch_state *self, const launching_output *out, double *g)
-{
-    const launching_phase *phase = &self->phase;
-    int count = self->launcher.launching.adaptors.count;
-    double length = self->launcher.launching.tube.flexible.length;
-    bool touching = self->launcher.launching.adaptors.law.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
-    for (int i = 0; i < event_count(self); i++)
-        g[i] = 1;
-    if (!phase->rocket)
-        return;
-    if (touching && !phase->locked) // the rear adaptor is at s
-        g[simulation_breech_event(self)] = (phase->breech - out->adaptor[0].s) / 1e-3;
-    if (phase->locked)
-        g[EVENT_RELEASE] = 1 - out->lock_force / self->rocket->lock.release_force;
-    for (int i = 0; i < count; i++) {
-        if (phase->passed[i])
-            continue;
-        g[EVENT_ADAPTORS + i] = (length - out->adaptor[i].s) / length;
-        if (touching)
-            g[EVENT_ADAPTORS + count + i] = out->adaptor[i].penetration / 1e-3;
-    }
-}
-
-static int events(double t, const double *y, double *g, void *user)
-{
-    launch_state *self = user;
-    const launcher_output *out = simulation_output(self, t, y);
-    if (!out)
-        return -1;
-    launching_events(self, &out->launching, g);
-    int wheels = EVENT_ADAPTORS + 2 * self->launcher.launching.adaptors.count;
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
-        g[wheels + j] = out->marching.wheel[j].deflection / 1e-3;
-    return 0;
 }
 
 // ---- tolerances ----
@@ -215,8 +151,6 @@ static void find_tolerances(const launch_state *self, tolerances *all)
         vehicle_tolerances(&self->launcher, tolerance, all);
 }
 
-// ---- subsystems apart ----
-
 // A frame as it was exchanged, and as it goes on until the next exchange: with the acceleration
 // that its last two velocities tell.
 typedef struct held_frame {
@@ -234,6 +168,7 @@ enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 struct propagator {
     launch_state *launch;
+    event_list events;
     integrator *integrator; // of all, or of the launching subsystem
     double state[LD_MAX_STATES];
 
@@ -249,6 +184,36 @@ struct propagator {
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
 };
+
+// ---- together ----
+
+static int rhs(double t, const double *y, double *y_dot, void *user)
+{
+    launch_state *self = ((propagator *)user)->launch;
+    launcher_input input;
+    launcher_output *out = &self->latest.out;
+    simulation_input(self, t, y, &input);
+    self->latest.known = false;
+    launching_outcome outcome = launcher_evaluate(&self->launcher, &input, &self->phase, y, out);
+    note_outcome(self, outcome);
+    if (outcome)
+        return -1;
+    remember(self, t, y);
+    launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
+    return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
+}
+
+static int events(double t, const double *y, double *g, void *user)
+{
+    propagator *self = user;
+    const launcher_output *out = simulation_output(self->launch, t, y);
+    if (!out)
+        return -1;
+    events_evaluate(&self->events, self->launch, out, g);
+    return 0;
+}
+
+// ---- subsystems apart ----
 
 static void go_on(const held_frame *held, double tau, base_frame *frame)
 {
@@ -307,7 +272,7 @@ static int launching_events_apart(double t, const double *y, double *g, void *us
     double unused[LD_MAX_STATES];
     if (launching_rhs(t, y, unused, user))
         return -1;
-    launching_events(self->launch, &self->launch->latest.out.launching, g);
+    events_evaluate(&self->events, self->launch, &self->launch->latest.out, g);
     return 0;
 }
 
@@ -503,6 +468,7 @@ ld_status propagator_create(launch_state *launch, propagator **out, ld_error *er
     find_tolerances(launch, &all);
     self->launch = launch;
     self->apart = launcher->vehicle && launch->model->run.coupling_step > 0;
+    self->events = events_of(launch, !self->apart);
     integrator_settings settings = {
         .n = (size_t)launcher->state_count,
         .method = INTEGRATOR_CASH_KARP,
@@ -512,12 +478,11 @@ ld_status propagator_create(launch_state *launch, propagator **out, ld_error *er
         .max_step = launch->model->run.max_step,
         .rhs = rhs,
         .events = events,
-        .event_count = event_count(launch),
-        .self = launch,
+        .event_count = self->events.count,
+        .self = self,
     };
     if (!self->apart)
         return integrator_create(&settings, &self->integrator, error);
-    settings.self = self;
     ld_status status = create_base(self, &settings, &all, error);
     int count = launcher->launching.layout.count;
     for (int i = 0; i < POWER_COUNT; i++) {
@@ -603,9 +568,10 @@ void propagator_interpolate(propagator *self, double t, double *y)
     join(self, t, launching, y);
 }
 
-int propagator_event(const propagator *self, int i)
+int propagator_event(const propagator *self, event_kind kind, int index)
 {
-    return integrator_event(self->integrator, i);
+    int i = event_find(&self->events, kind, index);
+    return i < 0 ? 0 : integrator_event(self->integrator, i);
 }
 
 int64_t propagator_steps(const propagator *self)
@@ -619,4 +585,57 @@ int64_t propagator_evaluations(const propagator *self)
     if (self->apart)
         sum += integrator_evaluations(self->orientating) + integrator_evaluations(self->marching);
     return sum;
+}
+
+// ---- saving and loading ----
+
+static void archive_vector(archive *bytes, v3 *v)
+{
+    double *member[] = {&v->x, &v->y, &v->z};
+    for (int i = 0; i < 3; i++)
+        archive_double(bytes, member[i]);
+}
+
+static void archive_frame(archive *bytes, held_frame *held)
+{
+    base_frame *last = &held->last;
+    archive_vector(bytes, &last->r);
+    archive_vector(bytes, &last->v);
+    archive_vector(bytes, &last->w);
+    for (int i = 0; i < 3; i++)
+        archive_doubles(bytes, last->A.a[i], 3);
+    double *member[] = {&last->q.w, &last->q.x, &last->q.y, &last->q.z};
+    for (int i = 0; i < 4; i++)
+        archive_double(bytes, member[i]);
+    archive_vector(bytes, &held->a);
+    archive_vector(bytes, &held->alpha);
+}
+
+static void archive_wrench(archive *bytes, held_wrench *held)
+{
+    archive_vector(bytes, &held->force);
+    archive_vector(bytes, &held->moment);
+    archive_vector(bytes, &held->force_rate);
+    archive_vector(bytes, &held->moment_rate);
+}
+
+void propagator_archive(propagator *self, archive *bytes)
+{
+    integrator_archive(self->integrator, bytes);
+    archive_expect(bytes, self->apart);
+    if (!self->apart)
+        return;
+    integrator_archive(self->orientating, bytes);
+    integrator_archive(self->marching, bytes);
+    double *instants[] = {&self->t, &self->t_next, &self->t_first};
+    for (int i = 0; i < 3; i++)
+        archive_double(bytes, instants[i]);
+    archive_count(bytes, &self->exchanges);
+    archive_frame(bytes, &self->chassis);
+    archive_frame(bytes, &self->tube);
+    archive_wrench(bytes, &self->on_chassis);
+    archive_wrench(bytes, &self->on_tube);
+    double *states[] = {self->state, self->from, self->rate_from, self->to, self->rate_to};
+    for (int i = 0; i < 5; i++)
+        archive_doubles(bytes, states[i], (size_t)self->launch->launcher.state_count);
 }

@@ -3,31 +3,26 @@
 #ifndef LD_SIMULATION_PROPAGATOR_H
 #define LD_SIMULATION_PROPAGATOR_H
 
+#include "simulation/event.h"
 #include "simulation/integrator.h"
-#include "simulation/launch_state.h"
 
 typedef struct propagator propagator;
 
 ld_status propagator_create(launch_state *launch, propagator **out, ld_error *error);
 void propagator_free(propagator *self);
 
-// As those of integrator.h, for the whole state. Events are numbered by simulation_event.
+// As those of integrator.h, for the whole state; an event is asked for by its name.
 // `anew`: the state is another one, nothing of before goes on.
 ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error);
 integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error);
 double propagator_time(const propagator *self);
 const double *propagator_state(const propagator *self);
 void propagator_interpolate(propagator *self, double t, double *y);
-int propagator_event(const propagator *self, int i);
+int propagator_event(const propagator *self, event_kind kind, int index);
 int64_t propagator_steps(const propagator *self);
 int64_t propagator_evaluations(const propagator *self);
-
-// Numbers of the events: lock release, then for each adaptor its passing the tip, then (law
-// lankarani-nikravesh alone) its touching, then each wheel's touching the road (integrated together
-// alone), last the rocket's touching the breech (that law alone).
-enum { EVENT_RELEASE = 0, EVENT_ADAPTORS = 1 };
-
-int simulation_breech_event(const launch_state *self);
+// As integrator_archive, into one of an equal launch in the same state.
+void propagator_archive(propagator *self, archive *bytes);
 
 // What the equations gave at (t, y): the latest evaluation where it is that of the same state under
 // the same conditions, else a new one.

@@ -42,10 +42,6 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
 // Motor of firing i.
 const motor *simulation_motor(const ld_simulation *self, int i);
 
-// Of a rocket that is lit at t_ignition nothing has happened yet: what belongs to the tube is NaN,
-// its greatest forces are zero.
-void simulation_clear_rocket(ld_rocket_summary *rocket, double t_ignition);
-
 // Adds a remark that the user should see.
 void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
 

@@ -1,9 +1,11 @@
 #include "systems/launcher.h"
 
+#include <assert.h>
 #include <string.h>
 
 void launcher_select(launcher_system *self, int i)
 {
+    assert(i >= 0 && i < self->model->firing_count);
     self->tube = i;
     if (self->vehicle)
         self->orientating = self->of_tube[i];

@@ -108,6 +108,257 @@ static void failing_equations_are_reported(void **state)
     integrator_free(self);
 }
 
+// ---- saved at every step's end, loaded into another one, gone on with: the same bits
+
+enum { STATES = 7, EVENTS = 3, MOST_STEPS = 500, MOST_BYTES = 4096 };
+
+typedef struct problem {
+    const char *name;
+    integrator_method method;
+    double rtol, max_step, end;
+    bool stops; // at each tenth of a second, and others that only rounding parts from a step's end
+    bool returns; // after an event the state jumps and the integration starts anew
+    bool events;
+    int calls, event_calls; // of the equations and the events
+} problem;
+
+// A rough and a smooth oscillation, what they drive, and a state that stays at minus zero.
+static int rough(double t, const double *y, double *y_dot, void *self)
+{
+    ((problem *)self)->calls++;
+    y_dot[0] = y[1];
+    y_dot[1] = 8 * (1 - y[0] * y[0]) * y[1] - y[0];
+    y_dot[2] = 5 * y[3];
+    y_dot[3] = -5 * y[2] + (t > 0.5 ? 1 : 0);
+    y_dot[4] = y[0] * y[2];
+    y_dot[5] = cos(20 * t) * y[3];
+    y_dot[6] = -0.0;
+    return 0;
+}
+
+// The last one is zero for as long as the time is below 0.3, which makes it inactive.
+static int crossings(double t, const double *y, double *g, void *self)
+{
+    ((problem *)self)->event_calls++;
+    g[0] = y[2] - 0.25;
+    g[1] = y[0] + 1.5;
+    g[2] = t < 0.3 ? 0 : 1;
+    return 0;
+}
+
+static integrator *of_problem(problem *self)
+{
+    static const double atol[STATES] = {1e-6, 1e-6, 1e-6, 1e-6, 1e300, 1e-8, 1e-6};
+    integrator_settings settings = {.n = STATES,
+                                    .method = self->method,
+                                    .rtol = self->rtol,
+                                    .atol = atol,
+                                    .max_step = self->max_step,
+                                    .rhs = rough,
+                                    .events = self->events ? crossings : NULL,
+                                    .event_count = self->events ? EVENTS : 0,
+                                    .self = self};
+    integrator *stepper = NULL;
+    assert_int_equal(integrator_create(&settings, &stepper, NULL), LD_OK);
+    return stepper;
+}
+
+// What is seen of a step.
+typedef struct seen {
+    double t, t_previous, y[STATES], between[3][STATES];
+    integrator_outcome outcome;
+    int found[EVENTS], calls, event_calls;
+    int64_t steps, evaluations;
+} seen;
+
+static void look(const problem *self, integrator *stepper, integrator_outcome outcome, seen *out)
+{
+    memset(out, 0, sizeof *out);
+    out->t = integrator_time(stepper);
+    out->t_previous = integrator_previous_time(stepper);
+    memcpy(out->y, integrator_state(stepper), sizeof out->y);
+    for (int k = 0; k < 3; k++)
+        integrator_interpolate(stepper,
+                               out->t_previous + (0.1 + 0.4 * k) * (out->t - out->t_previous),
+                               out->between[k]);
+    out->outcome = outcome;
+    for (int i = 0; i < EVENTS && self->events; i++)
+        out->found[i] = integrator_event(stepper, i);
+    out->calls = self->calls;
+    out->event_calls = self->event_calls;
+    out->steps = integrator_steps(stepper);
+    out->evaluations = integrator_evaluations(stepper);
+}
+
+// The stop depends on the time alone, so that all go the same way.
+static integrator_outcome step_of(const problem *self, integrator *stepper)
+{
+    double t = integrator_time(stepper), stop = self->end;
+    if (self->stops) {
+        int64_t steps = integrator_steps(stepper);
+        stop = fmin(stop, 0.1 * (floor(10 * t + 1e-9) + 1));
+        if (steps % 16 == 11 && t > 0)
+            stop = t * (1 + 8 * 2.3e-16);
+    }
+    ld_error error;
+    integrator_outcome outcome = integrator_step(stepper, stop, &error);
+    assert_int_not_equal(outcome, INTEGRATOR_FAILED);
+    return outcome;
+}
+
+// What follows on an event.
+static void go_back(const problem *self, integrator *stepper, integrator_outcome outcome)
+{
+    if (outcome != INTEGRATOR_EVENT || !self->returns)
+        return;
+    double y[STATES];
+    memcpy(y, integrator_state(stepper), sizeof y);
+    y[3] *= -0.9;
+    assert_int_equal(integrator_start(stepper, integrator_time(stepper), y, NULL), LD_OK);
+}
+
+static size_t save(integrator *stepper, unsigned char *bytes)
+{
+    archive saved = archive_save(bytes, MOST_BYTES);
+    integrator_archive(stepper, &saved);
+    assert_false(saved.failed);
+    return saved.at;
+}
+
+static void load(integrator *stepper, const unsigned char *bytes, size_t size)
+{
+    archive loaded = archive_load(bytes, size);
+    integrator_archive(stepper, &loaded);
+    assert_false(loaded.failed);
+    assert_int_equal(loaded.at, size);
+}
+
+static integrator_outcome started(integrator *stepper)
+{
+    double y[STATES] = {2, 0, 0.2, 0, 0, 0, -0.0};
+    assert_int_equal(integrator_start(stepper, 0, y, NULL), LD_OK);
+    return INTEGRATOR_STEPPED;
+}
+
+// All that is seen of a run, and its states after each step.
+typedef struct course {
+    seen seen[MOST_STEPS];
+    unsigned char bytes[MOST_STEPS][MOST_BYTES];
+    size_t size;
+    int count;
+} course;
+
+static void same_at(const problem *self, integrator *stepper, integrator_outcome outcome,
+                    const course *way, int k)
+{
+    seen now;
+    unsigned char bytes[MOST_BYTES];
+    look(self, stepper, outcome, &now);
+    assert_memory_equal(&now, &way->seen[k], sizeof now);
+    assert_int_equal(save(stepper, bytes), way->size);
+    assert_memory_equal(bytes, way->bytes[k], way->size);
+}
+
+// From the state saved after step k to the end.
+static void go_on_from(problem *self, integrator *other, const course *way, int k)
+{
+    integrator_outcome outcome = way->seen[k].outcome;
+    load(other, way->bytes[k], way->size);
+    self->calls = way->seen[k].calls;
+    self->event_calls = way->seen[k].event_calls;
+    for (;;) {
+        same_at(self, other, outcome, way, k);
+        if (++k == way->count)
+            return;
+        go_back(self, other, outcome);
+        outcome = step_of(self, other);
+    }
+}
+
+static void same_bits(problem self)
+{
+    static course way;
+    int events = 0, stops = 0, k = 0;
+    integrator *stepper = of_problem(&self), *used = of_problem(&self);
+    integrator_outcome outcome = started(stepper);
+    for (;; k++) {
+        assert_true(k < MOST_STEPS);
+        look(&self, stepper, outcome, &way.seen[k]);
+        way.size = save(stepper, way.bytes[k]);
+        events += outcome == INTEGRATOR_EVENT;
+        stops += outcome == INTEGRATOR_STOPPED;
+        if (integrator_time(stepper) >= self.end)
+            break;
+        go_back(&self, stepper, outcome);
+        outcome = step_of(&self, stepper);
+    }
+    way.count = k + 1;
+    printf("    %-28s %d steps, %d events, %d stops, %zu bytes\n", self.name, k, events, stops,
+           way.size);
+    assert_int_equal(events > 2, self.events);
+    assert_int_equal(stops > 20, self.stops);
+    for (k = 0; k < way.count; k++) { // into a new one, and into one that went elsewhere
+        integrator *fresh = of_problem(&self);
+        go_on_from(&self, fresh, &way, k);
+        integrator_free(fresh);
+        go_on_from(&self, used, &way, k);
+    }
+    integrator_free(stepper);
+    integrator_free(used);
+}
+
+static void saved_at_every_step(void **state)
+{
+    (void)state;
+    for (integrator_method method = 0; method <= INTEGRATOR_CASH_KARP; method++) {
+        printf("  method %d\n", (int)method);
+        double rtol = method == INTEGRATOR_BOGACKI_SHAMPINE ? 1e-3 : 1e-5;
+        problem plain = {.name = "free", .method = method, .rtol = rtol, .end = 2.5};
+        problem bounded = plain, stopped = plain, event = plain, all = plain;
+        bounded.name = "longest step";
+        bounded.max_step = 0.013;
+        stopped.name = "stops";
+        stopped.stops = true;
+        event.name = "events";
+        event.events = true;
+        all.name = "all, jumps at events";
+        all.max_step = 0.021;
+        all.events = all.stops = all.returns = true;
+        same_bits(plain);
+        same_bits(bounded);
+        same_bits(stopped);
+        same_bits(event);
+        same_bits(all);
+    }
+}
+
+static void foreign_bytes_are_refused(void **state)
+{
+    (void)state;
+    problem with = {.method = INTEGRATOR_CASH_KARP, .rtol = 1e-5, .end = 1, .events = true};
+    problem without = with, other = with;
+    without.events = false;
+    other.method = INTEGRATOR_DORMAND_PRINCE;
+    unsigned char bytes[MOST_BYTES];
+    integrator *stepper = of_problem(&with);
+    started(stepper);
+    step_of(&with, stepper);
+    size_t size = save(stepper, bytes);
+    integrator *others[] = {of_problem(&without), of_problem(&other)};
+    for (int i = 0; i < 2; i++) {
+        archive loaded = archive_load(bytes, size);
+        integrator_archive(others[i], &loaded);
+        assert_true(loaded.failed);
+        integrator_free(others[i]);
+    }
+    for (size_t cut = 0; cut < size; cut++) {
+        archive loaded = archive_load(bytes, cut);
+        integrator_archive(stepper, &loaded);
+        assert_true(loaded.failed);
+    }
+    integrator_free(stepper);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -115,6 +366,8 @@ int main(void)
         cmocka_unit_test(event_is_a_step_end),
         cmocka_unit_test(interpolation_lies_on_the_solution),
         cmocka_unit_test(failing_equations_are_reported),
+        cmocka_unit_test(saved_at_every_step),
+        cmocka_unit_test(foreign_bytes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,62 @@
+#include "simulation/event.h"
+
+static void add(event_list *self, event_kind kind, int count)
+{
+    for (int i = 0; i < count; i++)
+        self->event[self->count++] = (event){kind, i};
+}
+
+event_list events_of(const launch_state *self, bool wheels)
+{
+    event_list list = {0};
+    int adaptors = self->launcher.launching.adaptors.count;
+    add(&list, EVENT_RELEASE, 1);
+    add(&list, EVENT_EXIT, adaptors);
+    add(&list, EVENT_TOUCH, adaptors);
+    add(&list, EVENT_WHEEL, wheels ? self->launcher.marching.wheel_count : 0);
+    add(&list, EVENT_BREECH, 1);
+    return list;
+}
+
+int event_find(const event_list *self, event_kind kind, int index)
+{
+    for (int i = 0; i < self->count; i++)
+        if (self->event[i].kind == kind && self->event[i].index == index)
+            return i;
+    return -1;
+}
+
+static double value_of(event one, const launch_state *self, const launcher_output *out)
+{
+    const launching_phase *phase = &self->phase;
+    const launching_system *launching = &self->launcher.launching;
+    const adaptor_report *adaptor = out->launching.adaptor;
+    const double away = 1;
+    bool touching = launching->adaptors.law.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
+    if (one.kind == EVENT_WHEEL)
+        return out->marching.wheel[one.index].deflection / 1e-3;
+    if (!phase->rocket)
+        return away;
+    switch (one.kind) {
+    case EVENT_RELEASE:
+        return phase->locked ? 1 - out->launching.lock_force / self->rocket->lock.release_force
+                             : away;
+    case EVENT_EXIT: {
+        double length = launching->tube.flexible.length;
+        return phase->passed[one.index] ? away : (length - adaptor[one.index].s) / length;
+    }
+    case EVENT_TOUCH:
+        return touching && !phase->passed[one.index] ? adaptor[one.index].penetration / 1e-3 : away;
+    case EVENT_BREECH: // the rear adaptor is at s
+        return touching && !phase->locked ? (phase->breech - adaptor[0].s) / 1e-3 : away;
+    default:
+        return away;
+    }
+}
+
+void events_evaluate(const event_list *self, const launch_state *launch, const launcher_output *out,
+                     double *g)
+{
+    for (int i = 0; i < self->count; i++)
+        g[i] = value_of(self->event[i], launch, out);
+}

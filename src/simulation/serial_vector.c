@@ -1,0 +1,173 @@
+#include "simulation/serial_vector.h"
+
+#include <math.h>
+#include <nvector/nvector_serial.h>
+
+#include "math/vec3.h"
+
+static double *data(N_Vector v)
+{
+    return NV_DATA_S(v);
+}
+
+#define FOR_EACH(i, v) for (sunindextype i = 0, end_##i = NV_LENGTH_S(v); i < end_##i; i++)
+
+static void vector_linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z)
+{
+    const double *px = data(x), *py = data(y);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = a * px[i] + b * py[i];
+}
+
+static void vector_const(double c, N_Vector z)
+{
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = c;
+}
+
+static void vector_prod(N_Vector x, N_Vector y, N_Vector z)
+{
+    const double *px = data(x), *py = data(y);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = px[i] * py[i];
+}
+
+static void vector_div(N_Vector x, N_Vector y, N_Vector z)
+{
+    const double *px = data(x), *py = data(y);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = px[i] / py[i];
+}
+
+static void vector_scale(double c, N_Vector x, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = c * px[i];
+}
+
+static void vector_abs(N_Vector x, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = fabs(px[i]);
+}
+
+static void vector_inv(N_Vector x, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = 1.0 / px[i];
+}
+
+static void vector_add_const(N_Vector x, double b, N_Vector z)
+{
+    const double *px = data(x);
+    double *pz = data(z);
+    FOR_EACH(i, z)
+    pz[i] = px[i] + b;
+}
+
+static double vector_min(N_Vector x)
+{
+    const double *px = data(x);
+    double m = px[0];
+    FOR_EACH(i, x)
+    m = px[i] < m ? px[i] : m;
+    return m;
+}
+
+static double vector_max_norm(N_Vector x)
+{
+    const double *px = data(x);
+    double m = 0;
+    FOR_EACH(i, x)
+    m = fabs(px[i]) > m ? fabs(px[i]) : m;
+    return m;
+}
+
+static double vector_wrms_norm(N_Vector x, N_Vector w)
+{
+    const double *px = data(x), *pw = data(w);
+    double sum = 0;
+    FOR_EACH(i, x)
+    sum += (px[i] * pw[i]) * (px[i] * pw[i]);
+    return sqrt(sum / (double)NV_LENGTH_S(x));
+}
+
+enum { MOST_VECTORS = 16 };
+
+// Four elements wherever they lie.
+typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+
+// pz may be px[0] (the library's contract), so the sum of an element is complete before it is
+// stored.
+LD_INLINE void combine(const int count, const double *weight, N_Vector *x, size_t n, double *pz)
+{
+    const double *px[MOST_VECTORS];
+    double c[MOST_VECTORS];
+    for (int k = 0; k < count; k++) {
+        px[k] = data(x[k]);
+        c[k] = weight[k];
+    }
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4) {
+        four sum = c[0] * *(const four *)(px[0] + i);
+        for (int k = 1; k < count; k++)
+            sum += c[k] * *(const four *)(px[k] + i);
+        *(four *)(pz + i) = sum;
+    }
+    for (; i < n; i++) {
+        double sum = c[0] * px[0][i];
+        for (int k = 1; k < count; k++)
+            sum += c[k] * px[k][i];
+        pz[i] = sum;
+    }
+}
+
+// One instance for each count that a method of six stages has, one for any.
+static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector z)
+{
+    size_t n = (size_t)NV_LENGTH_S(z);
+    if (count < 1 || count > MOST_VECTORS)
+        return -1;
+    switch (count) {
+#define CASE(k)                                                                                    \
+    case k:                                                                                        \
+        combine(k, c, x, n, data(z));                                                              \
+        break
+        CASE(2);
+        CASE(3);
+        CASE(4);
+        CASE(5);
+        CASE(6);
+        CASE(7);
+#undef CASE
+    default:
+        combine(count, c, x, n, data(z));
+    }
+    return 0;
+}
+
+void serial_vector_operations(N_Vector v)
+{
+    v->ops->nvlinearsum = vector_linear_sum;
+    v->ops->nvconst = vector_const;
+    v->ops->nvprod = vector_prod;
+    v->ops->nvdiv = vector_div;
+    v->ops->nvscale = vector_scale;
+    v->ops->nvabs = vector_abs;
+    v->ops->nvinv = vector_inv;
+    v->ops->nvaddconst = vector_add_const;
+    v->ops->nvmin = vector_min;
+    v->ops->nvmaxnorm = vector_max_norm;
+    v->ops->nvwrmsnorm = vector_wrms_norm;
+    v->ops->nvlinearcombination = vector_linear_combination;
+}

@@ -1,0 +1,300 @@
+#include "simulation/summary_quantities.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ROCKET(member) .at = QUANTITY_AT(ld_rocket_summary, member)
+#define RUN(member) .at = QUANTITY_AT(ld_summary, member)
+#define ADAPTOR(array) .at = QUANTITY_EACH_OF(ld_rocket_summary, array)
+#define KEPT .studied = true
+
+#define LINE(label, unit, factor, digits) .line = {label, unit, factor, digits, false, false}
+#define NONZERO(label, unit, factor, digits) .line = {label, unit, factor, digits, false, true}
+#define BESIDE(from_si) .line = {.factor = from_si, .beside = true}
+#define MILLI 1e3
+#define DEGREES 57.29577951308232
+
+// A row is a line, however long; what is said of it stands in docs/quantities.md.
+// clang-format off
+
+// ---- a rocket
+
+static const quantity tube[] = {
+    {"tube", "", "number of the tube", ROCKET(tube)},
+};
+static const quantity ignition[] = {
+    {"t_ignition", "s", "ignition, on the run's clock", ROCKET(t_ignition), KEPT},
+};
+static const quantity instants[] = {
+    {"t_release", "s", "the lock lets go", ROCKET(t_release), KEPT, LINE("lock release", "ms", MILLI, 4)},
+    {"t_front", "s", "the front adaptor (the one farthest forward) passes the tip", ROCKET(t_front), KEPT},
+    {"t_middle", "s", "the middle adaptor (of exactly three) passes the tip", ROCKET(t_middle), KEPT},
+    {"t_rear", "s", "the rear adaptor passes the tip: the rocket has left", ROCKET(t_rear), KEPT},
+};
+static const quantity exits[] = {
+    {"t_exit.%s", "s", "adaptor %s passes the tip", ADAPTOR(t_exit), LINE("%s adaptor leaves", "ms", MILLI, 4)},
+};
+static const quantity at_exit[] = {
+    {"muzzle_speed", "m/s", "s_dot at t_rear, relative to the tube", ROCKET(muzzle_speed), KEPT, LINE("muzzle speed", "m/s", 1, 4)},
+    {"inertial_speed", "m/s", "speed of the rear adaptor's centre in I at t_rear", ROCKET(inertial_speed), KEPT, LINE("inertial speed", "m/s", 1, 4)},
+    {"spin_rate", "rad/s", "x component of the rate of B against I at t_rear, in B", ROCKET(spin_rate), KEPT, LINE("spin rate", "rad/s", 1, 4)},
+    {"pitch", "rad", "pitch of the rocket's axis in I at t_rear", ROCKET(pitch), KEPT, LINE("pitch, yaw", "deg", DEGREES, 5)},
+    {"yaw", "rad", "yaw of the rocket's axis in I at t_rear, positive to the left", ROCKET(yaw), KEPT, BESIDE(DEGREES)},
+    {"pitch_rate", "rad/s", "rate of pitch", ROCKET(pitch_rate), KEPT, LINE("pitch rate, yaw rate", "mrad/s", MILLI, 3)},
+    {"yaw_rate", "rad/s", "rate of yaw", ROCKET(yaw_rate), KEPT, BESIDE(MILLI)},
+};
+static const quantity state_at_exit[] = {
+    {"exit.x", "m", "rear adaptor's centre in I at t_rear", ROCKET(exit.position[0]), "exit.position[]", KEPT},
+    {"exit.y", "m", "rear adaptor's centre in I at t_rear", ROCKET(exit.position[1]), "exit.position[]", KEPT},
+    {"exit.z", "m", "rear adaptor's centre in I at t_rear", ROCKET(exit.position[2]), "exit.position[]", KEPT},
+    {"exit.vx", "m/s", "velocity of the rear adaptor's centre in I at t_rear", ROCKET(exit.velocity[0]), "exit.velocity[]", KEPT},
+    {"exit.vy", "m/s", "velocity of the rear adaptor's centre in I at t_rear", ROCKET(exit.velocity[1]), "exit.velocity[]", KEPT},
+    {"exit.vz", "m/s", "velocity of the rear adaptor's centre in I at t_rear", ROCKET(exit.velocity[2]), "exit.velocity[]", KEPT},
+    {"exit.q0", "1", "quaternion of B against I at t_rear, scalar part", ROCKET(exit.quaternion[0]), "exit.quaternion[]"},
+    {"exit.q1", "1", "quaternion of B against I at t_rear, x", ROCKET(exit.quaternion[1]), "exit.quaternion[]"},
+    {"exit.q2", "1", "quaternion of B against I at t_rear, y", ROCKET(exit.quaternion[2]), "exit.quaternion[]"},
+    {"exit.q3", "1", "quaternion of B against I at t_rear, z", ROCKET(exit.quaternion[3]), "exit.quaternion[]"},
+    {"exit.wx", "rad/s", "rate of B against I at t_rear, in B", ROCKET(exit.rate[0]), "exit.rate[]"},
+    {"exit.wy", "rad/s", "rate of B against I at t_rear, in B", ROCKET(exit.rate[1]), "exit.rate[]"},
+    {"exit.wz", "rad/s", "rate of B against I at t_rear, in B", ROCKET(exit.rate[2]), "exit.rate[]"},
+};
+static const quantity relative[] = {
+    {"relative.y", "m", "rear adaptor's offset from the tube's axis, in S", ROCKET(relative.y)},
+    {"relative.z", "m", "rear adaptor's offset from the tube's axis, in S", ROCKET(relative.z)},
+    {"relative.psi", "rad", "relative pitch: A_SB = Rz(psi) Ry(theta) Rx(gamma)", ROCKET(relative.psi)},
+    {"relative.theta", "rad", "relative yaw", ROCKET(relative.theta)},
+    {"relative.gamma", "rad", "relative roll", ROCKET(relative.gamma)},
+    {"relative.w_x", "rad/s", "rate of the rocket against S, in S", ROCKET(relative.w_x)},
+    {"relative.w_y", "rad/s", "rate of the rocket against S, in S", ROCKET(relative.w_y)},
+    {"relative.w_z", "rad/s", "rate of the rocket against S, in S", ROCKET(relative.w_z)},
+};
+static const quantity tip[] = {
+    {"tip.y", "m", "tip against the undeformed tube, in its axes", ROCKET(tip.y), KEPT, LINE("tip y, z", "mm", MILLI, 4)},
+    {"tip.z", "m", "tip against the undeformed tube, in its axes", ROCKET(tip.z), KEPT, BESIDE(MILLI)},
+    {"tip.pitch", "rad", "tip's axis against the undeformed tube: pitch", ROCKET(tip.pitch), KEPT},
+    {"tip.yaw", "rad", "tip's axis against the undeformed tube: yaw", ROCKET(tip.yaw), KEPT},
+    {"tip.vy", "m/s", "rate of tip.y", ROCKET(tip.vy), KEPT},
+    {"tip.vz", "m/s", "rate of tip.z", ROCKET(tip.vz), KEPT},
+    {"tip.pitch_rate", "rad/s", "rate of tip.pitch", ROCKET(tip.pitch_rate), KEPT, LINE("tip pitch, yaw rate", "mrad/s", MILLI, 3)},
+    {"tip.yaw_rate", "rad/s", "rate of tip.yaw", ROCKET(tip.yaw_rate), KEPT, BESIDE(MILLI)},
+};
+static const quantity tip_off[] = {
+    {"tip_off.pitch", "rad", "rocket's axis in T: pitch", ROCKET(tip_off.pitch), KEPT, LINE("tip-off pitch, yaw", "mrad", MILLI, 4)},
+    {"tip_off.yaw", "rad", "rocket's axis in T: yaw, positive to the left", ROCKET(tip_off.yaw), KEPT, BESIDE(MILLI)},
+    {"tip_off.pitch_rate", "rad/s", "rate of tip_off.pitch, T held still", ROCKET(tip_off.pitch_rate), KEPT, LINE("tip-off rates", "mrad/s", MILLI, 3)},
+    {"tip_off.yaw_rate", "rad/s", "rate of tip_off.yaw, T held still", ROCKET(tip_off.yaw_rate), KEPT, BESIDE(MILLI)},
+    {"tip_off.pitch_rate_relative", "rad/s", "rate of tip_off.pitch, T moving", ROCKET(tip_off.pitch_rate_relative), KEPT, LINE("relative rates", "mrad/s", MILLI, 3)},
+    {"tip_off.yaw_rate_relative", "rad/s", "rate of tip_off.yaw, T moving", ROCKET(tip_off.yaw_rate_relative), KEPT, BESIDE(MILLI)},
+    {"tip_off.vy", "m/s", "inertial velocity of the mass centre along T's y", ROCKET(tip_off.vy), KEPT, LINE("tip-off vy, vz", "m/s", 1, 5)},
+    {"tip_off.vz", "m/s", "inertial velocity of the mass centre along T's z", ROCKET(tip_off.vz), KEPT, BESIDE(1)},
+    {"tip_off.vy_relative", "m/s", "velocity of the mass centre against T, its y", ROCKET(tip_off.vy_relative), KEPT, LINE("relative vy, vz", "m/s", 1, 5)},
+    {"tip_off.vz_relative", "m/s", "velocity of the mass centre against T, its z", ROCKET(tip_off.vz_relative), KEPT, BESIDE(1)},
+};
+static const quantity aim[] = {
+    {"aim.pitch", "rad", "rocket's axis in T of the ignition: pitch", ROCKET(aim.pitch), KEPT, LINE("aim pitch, yaw", "mrad", MILLI, 4)},
+    {"aim.yaw", "rad", "rocket's axis in T of the ignition: yaw", ROCKET(aim.yaw), KEPT, BESIDE(MILLI)},
+    {"aim.pitch_rate", "rad/s", "rate of aim.pitch", ROCKET(aim.pitch_rate), KEPT, LINE("aim rates", "mrad/s", MILLI, 3)},
+    {"aim.yaw_rate", "rad/s", "rate of aim.yaw", ROCKET(aim.yaw_rate), KEPT, BESIDE(MILLI)},
+    {"aim.vy", "m/s", "inertial velocity of the mass centre along y of that T", ROCKET(aim.vy), KEPT, LINE("aim vy, vz", "m/s", 1, 5)},
+    {"aim.vz", "m/s", "inertial velocity of the mass centre along z of that T", ROCKET(aim.vz), KEPT, BESIDE(1)},
+};
+static const quantity contact_peaks[] = {
+    {"max_contact_force.%s", "N", "adaptor %s: largest norm of normal force and friction", ADAPTOR(max_contact_force), KEPT, .from_zero = true, LINE("largest force, %s", "N", 1, 1)},
+};
+static const quantity slot_peak[] = {
+    {"max_slot_force", "N", "largest magnitude of the slot force N", ROCKET(max_slot_force), KEPT, .from_zero = true, LINE("largest slot force", "N", 1, 1)},
+};
+static const quantity change[] = {
+    {"energy_dropped", "J", "kinetic energy that went when its tube took the place of the one before; 0 of the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
+};
+static const quantity flight[] = {
+    {"apogee", "m", "greatest height of the mass centre: y, on a round or WGS 84 Earth above sphere or ellipsoid", ROCKET(flight.apogee), "flight.apogee", KEPT, LINE("apogee", "m", 1, 3)},
+    {"downrange", "m", "x of the impact in I from the launch point", ROCKET(flight.downrange), "flight.downrange", KEPT, LINE("downrange, drift", "m", 1, 3)},
+    {"drift", "m", "z of the impact in I from the launch point", ROCKET(flight.drift), "flight.drift", KEPT, BESIDE(1)},
+    {"range", "m", "distance of the impact from the launch point", ROCKET(flight.range), "flight.range", KEPT, LINE("range", "m", 1, 3)},
+    {"t_impact", "s", "impact", ROCKET(flight.t_impact), "flight.t_impact", KEPT, LINE("impact from ignition", "s", 1, 4)},
+    {"time_of_flight", "s", "from t_rear, or from the start of a flight alone", ROCKET(flight.time_of_flight), "flight.time_of_flight", KEPT, LINE("time of flight", "s", 1, 4)},
+    {"impact_speed", "m/s", "speed at the impact, against the ground", ROCKET(flight.impact_speed), "flight.impact_speed", KEPT, LINE("impact speed", "m/s", 1, 3)},
+    {"impact_angle", "rad", "of that velocity below the horizontal there", ROCKET(flight.impact_angle), "flight.impact_angle", KEPT, LINE("impact angle", "deg", DEGREES, 3)},
+    {"max_mach", "", "largest Mach number", ROCKET(flight.max_mach), "flight.max_mach", KEPT, LINE("largest Mach number", "", 1, 4)},
+    {"max_angle_of_attack", "rad", "largest angle of attack at the ends of the steps", ROCKET(flight.max_angle_of_attack), "flight.max_angle_of_attack", KEPT, LINE("largest angle of attack", "deg", DEGREES, 3)},
+};
+static const quantity final[] = {
+    {"final.t", "s", "end of the flight, on the run's clock", ROCKET(final.t)},
+    {"final.x", "m", "rear adaptor's centre in I", ROCKET(final.position[0]), "final.position[]"},
+    {"final.y", "m", "rear adaptor's centre in I", ROCKET(final.position[1]), "final.position[]"},
+    {"final.z", "m", "rear adaptor's centre in I", ROCKET(final.position[2]), "final.position[]"},
+    {"final.vx", "m/s", "velocity of the rear adaptor's centre against the ground, in I", ROCKET(final.velocity[0]), "final.velocity[]"},
+    {"final.vy", "m/s", "velocity of the rear adaptor's centre against the ground, in I", ROCKET(final.velocity[1]), "final.velocity[]"},
+    {"final.vz", "m/s", "velocity of the rear adaptor's centre against the ground, in I", ROCKET(final.velocity[2]), "final.velocity[]"},
+    {"final.q0", "1", "quaternion of B against I, scalar part", ROCKET(final.quaternion[0]), "final.quaternion[]"},
+    {"final.q1", "1", "quaternion of B against I, x", ROCKET(final.quaternion[1]), "final.quaternion[]"},
+    {"final.q2", "1", "quaternion of B against I, y", ROCKET(final.quaternion[2]), "final.quaternion[]"},
+    {"final.q3", "1", "quaternion of B against I, z", ROCKET(final.quaternion[3]), "final.quaternion[]"},
+    {"final.wx", "rad/s", "rate of B against I, in B", ROCKET(final.rate[0]), "final.rate[]"},
+    {"final.wy", "rad/s", "rate of B against I, in B", ROCKET(final.rate[1]), "final.rate[]"},
+    {"final.wz", "rad/s", "rate of B against I, in B", ROCKET(final.rate[2]), "final.rate[]"},
+    {"final.center.x", "m", "mass centre in I", ROCKET(final.center[0]), "final.center[]"},
+    {"final.center.y", "m", "mass centre in I", ROCKET(final.center[1]), "final.center[]"},
+    {"final.center.z", "m", "mass centre in I", ROCKET(final.center[2]), "final.center[]"},
+    {"final.center.vx", "m/s", "velocity of the mass centre against the ground, in I", ROCKET(final.center_velocity[0]), "final.center_velocity[]"},
+    {"final.center.vy", "m/s", "velocity of the mass centre against the ground, in I", ROCKET(final.center_velocity[1]), "final.center_velocity[]"},
+    {"final.center.vz", "m/s", "velocity of the mass centre against the ground, in I", ROCKET(final.center_velocity[2]), "final.center_velocity[]"},
+};
+static const quantity final_on_earth[] = {
+    {"final.latitude", "rad", "geodetic latitude of the mass centre", ROCKET(final.latitude)},
+    {"final.longitude", "rad", "longitude of the mass centre", ROCKET(final.longitude)},
+    {"final.altitude", "m", "altitude of the mass centre above the ellipsoid", ROCKET(final.altitude)},
+    {"final.v_north", "m/s", "velocity of the mass centre against the ground, to the north", ROCKET(final.velocity_ned[0]), "final.velocity_ned[]"},
+    {"final.v_east", "m/s", "velocity of the mass centre against the ground, to the east", ROCKET(final.velocity_ned[1]), "final.velocity_ned[]"},
+    {"final.v_down", "m/s", "velocity of the mass centre against the ground, down", ROCKET(final.velocity_ned[2]), "final.velocity_ned[]"},
+    {"final.heading", "rad", "of the rocket's axis, clockwise from north", ROCKET(final.heading)},
+    {"final.pitch", "rad", "of the rocket's axis above the local horizon", ROCKET(final.pitch)},
+    {"final.roll", "rad", "of the rocket, Ry(-heading) Rz(pitch) Rx(roll) against north, up, east", ROCKET(final.roll)},
+    {"final.inertial_wx", "rad/s", "rate of B against inertial axes, in B", ROCKET(final.rate_inertial[0]), "final.rate_inertial[]"},
+    {"final.inertial_wy", "rad/s", "rate of B against inertial axes, in B", ROCKET(final.rate_inertial[1]), "final.rate_inertial[]"},
+    {"final.inertial_wz", "rad/s", "rate of B against inertial axes, in B", ROCKET(final.rate_inertial[2]), "final.rate_inertial[]"},
+};
+
+static const quantity_group rocket_groups[] = {
+    {.title = "tube", .launch = true, QUANTITY_ROWS(tube)},
+    {.title = "ignition", QUANTITY_ROWS(ignition)},
+    {.title = "instants from its ignition", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(instants)},
+    {.title = "of each adaptor", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_LAUNCH, .backwards = true, QUANTITY_ROWS(exits)},
+    {.title = "at the exit", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(at_exit)},
+    {.title = "state at the exit, in which the flight begins", .launch = true, QUANTITY_ROWS(state_at_exit)},
+    {.title = "rocket against the tube's section at t_rear", .launch = true, QUANTITY_ROWS(relative)},
+    {.title = "tip against the undeformed tube at t_rear", .launch = true, .block = SHOWN_TIP, QUANTITY_ROWS(tip)},
+    {.title = "rocket against the undeformed tube at t_rear", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(tip_off)},
+    {.title = "the same against where that stood at the ignition", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(aim)},
+    {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
+    {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
+    {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
+    {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
+    {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},
+    {.title = "the same on a round or WGS 84 Earth", .where = QUANTITY_AT(ld_rocket_summary, final.earth), QUANTITY_ROWS(final_on_earth)},
+};
+
+// ---- the run
+
+static const quantity resting_forces[] = {
+    {"equilibrium.lock_force", "N", "carried by the lock, along +x", RUN(equilibrium.lock_force), LINE("lock force", "N", 1, 2)},
+    {"equilibrium.breech_force", "N", "of the breech on the rocket, along +x", RUN(equilibrium.breech_force), NONZERO("breech force", "N", 1, 2)},
+    {"equilibrium.slot_force", "N", "slot force N on the knob", RUN(equilibrium.slot_force), LINE("slot force", "N", 1, 2)},
+};
+static const quantity resting_contacts[] = {
+    {"equilibrium.contact_force.%s", "N", "adaptor %s: normal force", .at = QUANTITY_EACH_OF(ld_summary, equilibrium.contact_force), LINE("contact %s", "N", 1, 2)},
+};
+static const quantity resting_tube[] = {
+    {"equilibrium.tip_sag.y", "m", "tip against the undeformed tube, in its axes", RUN(equilibrium.tip_sag[0]), LINE("tip sag y, z", "mm", MILLI, 4)},
+    {"equilibrium.tip_sag.z", "m", "tip against the undeformed tube, in its axes", RUN(equilibrium.tip_sag[1]), BESIDE(MILLI)},
+    {"equilibrium.residual", "m/s2", "largest acceleration at rest (of angles: rad/s2)", RUN(equilibrium.residual)},
+};
+#define WHEEL(member) .at = QUANTITY_OF_EACH(ld_summary, equilibrium.wheel, member)
+static const quantity resting_wheels[] = {
+    {"equilibrium.wheels.%s.tyre_force", "N", "wheel %s: vertical tyre force", WHEEL(tyre_force), "equilibrium.wheels[].%s.tyre_force"},
+    {"equilibrium.wheels.%s.suspension.x", "m", "wheel %s: from its place with unloaded suspension, chassis axes", WHEEL(suspension[0]), "equilibrium.wheels[].%s.suspension[]"},
+    {"equilibrium.wheels.%s.suspension.y", "m", "wheel %s: from its place with unloaded suspension, chassis axes", WHEEL(suspension[1]), "equilibrium.wheels[].%s.suspension[]"},
+    {"equilibrium.wheels.%s.suspension.z", "m", "wheel %s: from its place with unloaded suspension, chassis axes", WHEEL(suspension[2]), "equilibrium.wheels[].%s.suspension[]"},
+    {"equilibrium.wheels.%s.tyre_deflection", "m", "wheel %s: tyre deflection", WHEEL(tyre_deflection), "equilibrium.wheels[].%s.tyre_deflection"},
+};
+static const quantity resting_chassis[] = {
+    {"equilibrium.chassis.y", "m", "chassis: mass centre in I", RUN(equilibrium.chassis.y)},
+    {"equilibrium.chassis.pitch", "rad", "chassis: pitch of Rz(pitch) Rx(roll)", RUN(equilibrium.chassis.pitch)},
+    {"equilibrium.chassis.roll", "rad", "chassis: roll", RUN(equilibrium.chassis.roll)},
+};
+#define HINGE(member) .at = QUANTITY_OF_EACH(ld_summary, equilibrium.hinge, member)
+static const quantity resting_hinges[] = {
+    {"equilibrium.%s.angle", "rad", "%s hinge: angle", HINGE(angle)},
+    {"equilibrium.%s.torque", "N.m", "%s hinge: torque on the outboard body", HINGE(torque)},
+};
+static const quantity energies[] = {
+    {"energy.kinetic", "J", "kinetic energy of tube, tail and rocket, and of the vehicle", RUN(energy.kinetic)},
+    {"energy.potential", "J", "potential energy of tube and tail in gravity", RUN(energy.potential)},
+    {"energy.elastic", "J", "elastic energy of modes, supports and suspensions", RUN(energy.elastic)},
+};
+static const quantity works[] = {
+    {"energy.work.thrust", "J", "work of the thrust", RUN(energy.work.thrust)},
+    {"energy.work.gravity_rocket", "J", "work of gravity on the rocket", RUN(energy.work.gravity_rocket)},
+    {"energy.work.contact_normal", "J", "work of the normal forces of adaptors and breech", RUN(energy.work.contact_normal)},
+    {"energy.work.contact_friction", "J", "work of the contact friction", RUN(energy.work.contact_friction)},
+    {"energy.work.slot", "J", "work of the slot force (zero but for step errors)", RUN(energy.work.slot)},
+    {"energy.work.slot_friction", "J", "work of the slot friction", RUN(energy.work.slot_friction)},
+    {"energy.work.lock", "J", "work of the lock (zero but for step errors)", RUN(energy.work.lock)},
+    {"energy.work.support_damping", "J", "work of the support dampers", RUN(energy.work.support_damping)},
+    {"energy.work.modal_damping", "J", "work of the modal damping", RUN(energy.work.modal_damping)},
+    {"energy.work.base", "J", "work of the moving base through the supports", RUN(energy.work.base)},
+    {"energy.work.mass_change", "J", "kinetic energy carried off by burnt propellant", RUN(energy.work.mass_change)},
+};
+static const quantity vehicle_works[] = {
+    {"energy.work.stabilisers", "J", "work of the stabilisers or locks", RUN(energy.work.stabilisers)},
+    {"energy.work.hinge_friction", "J", "work of the friction in the hinges", RUN(energy.work.hinge_friction)},
+    {"energy.work.gravity_platform", "J", "work of gravity on chassis and platforms", RUN(energy.work.gravity_platform)},
+    {"energy.work.gravity_wheels", "J", "work of gravity on the wheels", RUN(energy.work.gravity_wheels)},
+    {"energy.work.suspension_damping", "J", "work of the suspension dampers", RUN(energy.work.suspension_damping)},
+    {"energy.work.tyre", "J", "work of the road's normal forces on the wheels", RUN(energy.work.tyre)},
+    {"energy.work.tyre_side", "J", "work of side forces, and of those that hold it parked", RUN(energy.work.tyre_side)},
+    {"energy.work.drive", "J", "work of the road on driven wheels", RUN(energy.work.drive)},
+};
+static const quantity balance[] = {
+    {"energy.residual", "J", "what the energy balance misses", RUN(energy.residual)},
+    {"energy.residual_relative", "1", "the same over the largest single work", RUN(energy.residual_relative)},
+};
+static const quantity cost[] = {
+    {"statistics.steps", "1", "steps of the integration", RUN(statistics.steps)},
+    {"statistics.rhs_evaluations", "1", "evaluations of the equations", RUN(statistics.rhs_evaluations)},
+    {"statistics.cpu_seconds", "s", "CPU time of the run, without set-up and the history's rows", RUN(statistics.cpu_seconds)},
+    {"statistics.cpu_seconds_setup", "s", "CPU time of the set-up: modes, coefficients, tables", RUN(statistics.cpu_seconds_setup)},
+};
+
+#define WHEELS .where = QUANTITY_AT(ld_summary, equilibrium.wheel_count)
+static const quantity_group run_groups[] = {
+    {.title = "equilibrium at the start", .launch = true, .block = SHOWN_EQUILIBRIUM, QUANTITY_ROWS(resting_forces)},
+    {.title = "of each adaptor", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_EQUILIBRIUM, QUANTITY_ROWS(resting_contacts)},
+    {.title = "of the tube", .launch = true, .block = SHOWN_EQUILIBRIUM, QUANTITY_ROWS(resting_tube)},
+    {.title = "of each wheel of a vehicle", .each = EACH_WHEEL, .launch = true, WHEELS, QUANTITY_ROWS(resting_wheels)},
+    {.title = "of its chassis", .each = EACH_VEHICLE, .launch = true, WHEELS, QUANTITY_ROWS(resting_chassis)},
+    {.title = "of its hinges", .each = EACH_HINGE, .launch = true, WHEELS, QUANTITY_ROWS(resting_hinges)},
+    {.title = "energy at the end", .launch = true, QUANTITY_ROWS(energies)},
+    {.title = "works since the start", .launch = true, QUANTITY_ROWS(works)},
+    {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
+    {.title = "balance", .launch = true, QUANTITY_ROWS(balance)},
+};
+static const quantity_group cost_groups[] = {
+    {.title = "cost", QUANTITY_ROWS(cost)},
+};
+
+// ---- natural modes of tube and tail
+
+static const quantity modes[] = {
+    {"frequency", "Hz", "natural frequency", .at = QUANTITY_AT(ld_mode, frequency)},
+    {"damping", "1", "damping ratio", .at = QUANTITY_AT(ld_mode, damping)},
+    {"real", "1/s", "-damping 2 pi frequency", .at = QUANTITY_AT(ld_mode, real)},
+};
+static const quantity_group mode_groups[] = {
+    {.title = "modes", .launch = true, QUANTITY_ROWS(modes)},
+};
+// clang-format on
+
+#define TABLE(list)                                                                                \
+    {                                                                                              \
+        list, sizeof(list) / sizeof *(list)                                                        \
+    }
+const quantity_table rocket_quantities = TABLE(rocket_groups);
+const quantity_table run_quantities = TABLE(run_groups);
+const quantity_table mode_quantities = TABLE(mode_groups);
+const quantity_table cost_quantities = TABLE(cost_groups);
+
+void rocket_clear(ld_rocket_summary *rocket, bool launched)
+{
+    memset(rocket, 0, sizeof *rocket);
+    for (int i = 0; i < rocket_quantities.groups; i++) {
+        const quantity_group *group = &rocket_groups[i];
+        for (int k = 0; k < group->rows; k++) {
+            const quantity *row = &group->row[k];
+            int items = group->each == EACH_ADAPTOR ? LD_MAX_ADAPTORS : 1;
+            for (int item = 0; item < items && row->at.type == QUANTITY_NUMBER; item++)
+                quantity_put(&row->at, item, row->from_zero && launched ? 0 : NAN, rocket);
+        }
+    }
+}
