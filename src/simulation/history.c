@@ -308,7 +308,7 @@ void history_build(ld_simulation *self)
     add(self, "J", "energy.residual", "what the energy balance misses");
 }
 
-size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns)
+size_t ld_simulation_columns(const ld_simulation *simulation, const ld_column **columns)
 {
     *columns = simulation->column;
     return (size_t)simulation->column_count;

@@ -180,6 +180,7 @@ ld_status ld_simulation_run(const ld_simulation *system, const ld_run_options *o
     ld_error own;
     double start = simulation_cpu_now();
     memset(summary, 0, sizeof *summary);
+    summary->model = system->model;
     double row[LD_MAX_COLUMNS], between[LD_MAX_STATES];
     launch_run run = {.options = options,
                       .summary = summary,

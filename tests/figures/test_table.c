@@ -30,7 +30,7 @@ static int set_up(void **state)
     reference_vehicle(&model, 5);
     if (ld_simulation_create(&model, &simulation, NULL))
         return -1;
-    launch.count = ld_history_columns(simulation, &launch.column);
+    launch.count = ld_simulation_columns(simulation, &launch.column);
     in_flight = (shown_columns){of_flight, (size_t)flight_columns(&flight, of_flight)};
     return 0;
 }
