@@ -154,10 +154,10 @@ static void bench_setup(const ld_model *model)
 static void bench_kind(const char *what, const char *text)
 {
     ld_study *study = read_study(text);
-    int64_t rockets = study->samples * study->rockets;
+    int64_t rockets = study->samples * study->shape.rockets;
     double cpu = samples_cpu(study), wall[2] = {INFINITY, INFINITY};
     printf("%-24s %8.1f %s a second and core, %.3f ms each\n", what, (double)rockets / cpu,
-           study->rockets > 1 ? "rockets" : "samples", 1e3 * cpu / (double)rockets);
+           study->shape.rockets > 1 ? "rockets" : "samples", 1e3 * cpu / (double)rockets);
     bench_setup(study->nominal);
     if (study->samples > 1) {
         for (int pass = 0; pass < PASSES; pass++)

@@ -32,14 +32,14 @@ static void bench_evaluation(launch_state *launch, const part_of_it *part)
     for (int r = 0; r < PARTS; r++) {
         double start = now();
         for (int i = 0; i < EVALUATIONS; i++) {
-            y[launcher->orientating_at] += 1e-9; // a new place each time
+            y[launcher->base_at] += 1e-9; // a new place each time
             if (part->place)
                 simulation_input(launch, 0, y, &input);
             if (part->launching)
                 launching_evaluate(&launcher->launching, &input.launching, &phase, y,
                                    &out.launching);
             if (part->vehicle)
-                launcher_evaluate_vehicle(launcher, &input, &phase, y, &out);
+                launcher_evaluate_base(launcher, &input, &phase, y, &out);
             if (part->launching && part->vehicle)
                 launcher_rates(launcher, y, &out, true, y_dot);
         }

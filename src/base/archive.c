@@ -1,6 +1,5 @@
 #include "base/archive.h"
 
-#include <limits.h>
 #include <string.h>
 
 enum { WORD = 8 };
@@ -64,13 +63,18 @@ void archive_doubles(archive *self, double *values, size_t count)
         archive_double(self, &values[i]);
 }
 
-// A number from least to most, 0 where another was loaded.
+// Loads `least` where the number is beyond the range.
 static int64_t ranged(archive *self, int64_t value, int64_t least, int64_t most)
 {
     archive_int64(self, &value);
     bool fits = value >= least && value <= most;
     self->failed |= !fits;
-    return fits ? value : 0;
+    return fits ? value : least;
+}
+
+void archive_int(archive *self, int *value, int least, int most)
+{
+    *value = (int)ranged(self, *value, least, most);
 }
 
 void archive_count(archive *self, int64_t *value)
@@ -78,14 +82,24 @@ void archive_count(archive *self, int64_t *value)
     *value = ranged(self, *value, 0, INT64_C(1) << 53);
 }
 
-void archive_int(archive *self, int *value)
-{
-    *value = (int)ranged(self, *value, INT_MIN, INT_MAX);
-}
-
 void archive_bool(archive *self, bool *value)
 {
     *value = ranged(self, *value, 0, 1) == 1;
+}
+
+void archive_text(archive *self, char *text, size_t size)
+{
+    for (size_t at = 0; at + WORD <= size; at += WORD) {
+        uint64_t word = 0;
+        for (int i = 0; i < WORD; i++)
+            word |= (uint64_t)(unsigned char)text[at + (size_t)i] << 8 * i;
+        int64_t both = (int64_t)word;
+        archive_int64(self, &both);
+        for (int i = 0; i < WORD; i++)
+            text[at + (size_t)i] = (char)(unsigned char)((uint64_t)both >> 8 * i);
+    }
+    self->failed |= text[size - 1] != 0;
+    text[size - 1] = 0;
 }
 
 void archive_expect(archive *self, int64_t value)

@@ -23,9 +23,12 @@ archive archive_load(const unsigned char *bytes, size_t size);
 void archive_double(archive *self, double *value);
 void archive_doubles(archive *self, double *values, size_t count);
 void archive_int64(archive *self, int64_t *value);
-void archive_int(archive *self, int *value);       // loading fails beyond its range
-void archive_count(archive *self, int64_t *value); // loading fails below 0 and above 2^53
-void archive_bool(archive *self, bool *value);     // loading fails at anything but 0 and 1
+// Loading these fails beyond their range: least to most, 0 to 2^53, 0 and 1.
+void archive_int(archive *self, int *value, int least, int most);
+void archive_count(archive *self, int64_t *value);
+void archive_bool(archive *self, bool *value);
+// text[size], ended by a zero byte; size is a multiple of 8.
+void archive_text(archive *self, char *text, size_t size);
 // A number that both sides know: loading fails at another one.
 void archive_expect(archive *self, int64_t value);
 

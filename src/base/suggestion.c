@@ -1,6 +1,7 @@
 #include "base/suggestion.h"
 
 #include <ctype.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,19 +36,34 @@ static int edit_distance(const char *a, const char *b)
     return cost[n][m];
 }
 
+// The most edits that leave a name of so many letters recognisable.
+static int most_edits(size_t length)
+{
+    return length < 7 ? 1 : length < 12 ? 2 : 3;
+}
+
+// Whether the word may be a slip of the name: something must be left of a short one, and after
+// several edits the first letter, which is seldom wrong.
+static bool may_mean(const char *wanted, const char *name, size_t longer, int distance)
+{
+    bool alike = tolower((unsigned char)*wanted) == tolower((unsigned char)*name);
+    return distance <= most_edits(longer) && distance < (int)longer && (distance < 2 || alike);
+}
+
 name_suggestion suggestion_begin(const char *wanted)
 {
-    size_t length = strlen(wanted);
-    int too_far = length > LONGEST ? 0 : length < 3 ? 1 : 2 + (int)length / 5;
-    return (name_suggestion){wanted, NULL, too_far};
+    return (name_suggestion){.wanted = wanted};
 }
 
 void suggestion_offer(name_suggestion *suggestion, const char *name)
 {
-    if (suggestion->distance == 0 || strlen(name) > LONGEST)
+    size_t own = strlen(name), given = strlen(suggestion->wanted),
+           longer = own > given ? own : given;
+    if (longer > LONGEST)
         return;
     int distance = edit_distance(suggestion->wanted, name);
-    if (distance < suggestion->distance) {
+    if (may_mean(suggestion->wanted, name, longer, distance) &&
+        (!suggestion->name || distance < suggestion->distance)) {
         suggestion->distance = distance;
         suggestion->name = name;
     }

@@ -5,7 +5,7 @@
 typedef struct name_suggestion {
     const char *wanted;
     const char *name; // the best so far, or NULL: none is near enough
-    int distance;     // its distance; at first the least that is too far
+    int distance;     // its distance
 } name_suggestion;
 
 name_suggestion suggestion_begin(const char *wanted);

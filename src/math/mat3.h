@@ -106,6 +106,13 @@ LD_INLINE m3 m3_rotation_z(double angle)
     double c = cos(angle), s = sin(angle);
     return (m3){{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
 }
+/// Yaw, pitch, roll of m = Ry(yaw) Rz(pitch) Rx(roll).
+LD_INLINE void m3_yaw_pitch_roll(const m3 *m, double angles[3])
+{
+    angles[0] = atan2(-m->a[2][0], m->a[0][0]);
+    angles[1] = asin(fmax(-1, fmin(1, m->a[1][0])));
+    angles[2] = atan2(-m->a[1][2], m->a[1][1]);
+}
 /// Inverse of a symmetric matrix, by its cofactors.
 LD_INLINE m3 m3_symmetric_inverse(m3 m)
 {

@@ -17,10 +17,7 @@ static void write_kind(FILE *stream, const field_row *f)
         fprintf(stream, "not simulated yet");
         return;
     }
-    if (f->kind == FIELD_INTEGER && f->range.low == f->range.high)
-        snprintf(text, sizeof text, "%g", f->range.low);
-    else
-        field_expectation(f, text, sizeof text);
+    field_expectation(f, text, sizeof text);
     cell(stream, text);
     for (int i = 0; f->kind == FIELD_TABLE && i < f->table->columns; i++) {
         field_range_text(&f->table->column[i], text, sizeof text);

@@ -150,15 +150,6 @@ static bool enter_list(walk *w, const field_row *f)
     return extend(w, name ? name : number);
 }
 
-// The key that an unknown one probably means, or NULL.
-static const char *nearest_key(const walk *w)
-{
-    name_suggestion best = suggestion_begin(w->key);
-    for (const field_row *f = w->block->fields; f->name; f++)
-        suggestion_offer(&best, f->name);
-    return best.name;
-}
-
 // The row of the next key of the path; NULL after a refusal, or at the path's end.
 static const field_row *next_row(walk *w)
 {
@@ -166,7 +157,7 @@ static const field_row *next_row(walk *w)
         return NULL;
     const field_row *f = field_find(w->block, w->key);
     if (!f) {
-        refuse_key(w, "key", nearest_key(w));
+        refuse_key(w, "key", field_nearest_key(w->block, w->key));
         return NULL;
     }
     if (!extend(w, w->key))

@@ -628,7 +628,7 @@ static const field_row tubes_fields[] = {
      SWITCH(ld_tubes, slot.kind, slot_words),
      .doc = "slot that the rocket's knob follows; `none`: smooth bore"},
     {0}};
-static const field_block tubes_block = {.fields = tubes_fields};
+const field_block tubes_block = {.fields = tubes_fields};
 
 // ---- rocket
 

@@ -103,7 +103,7 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
                          ld_study_counts *counts, ld_error *error)
 {
     study_ledger ledger;
-    leader all = {.ledger = &ledger, .record_size = record_size(study->rockets)};
+    leader all = {.ledger = &ledger, .record_size = record_size(&study->shape)};
     MPI_Comm_size(MPI_COMM_WORLD, &all.processes);
     all.state = calloc((size_t)all.processes, sizeof *all.state);
     all.record = calloc(1, all.record_size);
@@ -161,7 +161,7 @@ static bool is_wanted(void *argument)
 static int64_t send(const study_record *record)
 {
     int64_t number;
-    MPI_Send(record, (int)record_size(record->rockets), MPI_BYTE, 0, TAG_RECORD, MPI_COMM_WORLD);
+    MPI_Send(record, (int)record_size(&record->shape), MPI_BYTE, 0, TAG_RECORD, MPI_COMM_WORLD);
     patience waiting = {MPI_Wtime()};
     while (!is_answered())
         pause_a_little(&waiting);

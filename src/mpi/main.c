@@ -43,7 +43,7 @@ static uint64_t identity(const ld_study *study)
     if (!stream)
         return 0;
     ld_model_print(ld_study_model(study), stream);
-    fprintf(stream, "%zu %s", sizeof(study_wishes), LD_VERSION);
+    fprintf(stream, "%zu %zu %s", sizeof(study_wishes), record_size(&study->shape), LD_VERSION);
     uint64_t hash = fclose(stream) == 0 ? random_stream(text) : 0;
     free(text);
     return hash;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text_file.h"
+#include "model/field.h"
 #include "model/source.h"
 #include "scenario/scenario.h"
 #include "scenario/scenario_reader.h"
@@ -116,13 +117,30 @@ static tree_node *load_included(scenario_reader *reader, const tree_node *value,
     return root;
 }
 
+// Refuses a key that probably means `include`: what the file then lacks is not known.
+static bool misspells_include(scenario_reader *reader, const tree_node *root)
+{
+    for (const tree_node *member = root->first; member; member = member->next) {
+        const char *meant = field_find(&scenario_block, member->key)
+                                ? NULL
+                                : scenario_key_meant(&scenario_block, member->key);
+        if (meant && strcmp(meant, "include") == 0) {
+            reader_refuse_key(reader, member->key_at, member->key, meant, "");
+            return true;
+        }
+    }
+    return false;
+}
+
 // Parses a source and lays it over what it includes; NULL after a message.
 static tree_node *load(scenario_reader *reader, const text_source *source, const open_file *file)
 {
     tree_node *root = tree_parse(reader, source, source->text, source->length, 1);
-    tree_node *include = root && root->kind == NODE_MAP ? tree_member(root, "include") : NULL;
-    if (!include)
+    if (!root || root->kind != NODE_MAP)
         return root;
+    tree_node *include = tree_member(root, "include");
+    if (!include)
+        return misspells_include(reader, root) ? NULL : root;
     tree_remove(root, include);
     tree_node *under = load_included(reader, include, file);
     if (!under)

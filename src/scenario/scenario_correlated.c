@@ -45,9 +45,8 @@ static bool read_factor(const group_reader *self, const tree_node *name)
     if (name->kind != NODE_SCALAR)
         return refuse(self, name, key, "expected the path of a factor%s", "");
     int factor = find_factor(scatter, name->text);
-    if (factor < 0 && !field_locate(self->model, name->text, &place, why, sizeof why))
-        return refuse(self, name, key, "%s", why);
-    if (factor < 0)
+    bool number = factor < 0 && field_locate(self->model, name->text, &place, why, sizeof why);
+    if (number)
         factor = find_factor(scatter, place.path);
     if (factor >= 0) {
         self->group->factor[self->group->count++] = factor;
@@ -58,6 +57,8 @@ static bool read_factor(const group_reader *self, const tree_node *name)
         suggestion_offer(&best, scatter->factor[i].path);
     if (best.name)
         return refuse(self, name, key, "is not scattered, did you mean \"%s\"?", best.name);
+    if (!number)
+        return refuse(self, name, key, "%s", why);
     return refuse(self, name, key, "is none of scatter.factors%s", "");
 }
 
@@ -104,14 +105,12 @@ static bool read_matrix(const group_reader *self)
 
 static bool read_group(const group_reader *self)
 {
+    static const char *const keys[] = {"factors", "matrix"};
     char why[384];
     if (self->map->kind != NODE_MAP)
         return refuse(self, self->map, "", "expected {factors: [...], matrix: [[...], ...]}%s", "");
-    for (const tree_node *member = self->map->first; member; member = member->next)
-        if (strcmp(member->key, "factors") != 0 && strcmp(member->key, "matrix") != 0)
-            return refuse(self, member, member->key, "unknown key; allowed here: factors, matrix%s",
-                          "");
-    if (!read_factors(self) || !read_matrix(self))
+    if (!reader_check_keys(self->reader, self->map, self->path, keys, 2) || !read_factors(self) ||
+        !read_matrix(self))
         return false;
     if (!correlated_is_possible(&self->model->scatter, self->group, why, sizeof why))
         return refuse(self, tree_member(self->map, "matrix"), "", "%s", why);

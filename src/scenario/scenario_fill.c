@@ -118,35 +118,34 @@ static void read_whole(scenario_reader *reader, const field_row *f, const tree_n
     long number = strtol(value->text, NULL, 10);
     if (count == 0 || count > 9 || digits[count] || !field_in_range(f->range, (double)number)) {
         field_expectation(f, expected, sizeof expected);
-        reader_refuse(reader, value->at, path, "found %s; expected %s",
-                      reader_quote(value->text, quoted), expected);
+        reader_refuse(reader, value->at, path, "found %s; %s %s", reader_quote(value->text, quoted),
+                      f->range.low < f->range.high ? "expected" : "must be", expected);
     } else if (result) {
         *result = (int)number;
     }
 }
 
-// Refuses a word that is none of the choice's, with a suggestion.
-static void refuse_word(scenario_reader *reader, const field_row *f, const tree_node *value,
-                        const char *path)
+// Refuses a value that is none of the words that may stand there, with the one meant.
+static void refuse_word(scenario_reader *reader, const field_row *f, const field_word *words,
+                        const tree_node *value, const char *path)
 {
-    char quoted[64], expected[256];
-    name_suggestion best = suggestion_begin(value->text);
-    for (const field_word *w = f->words; w->name; w++)
-        if (w->name[0])
-            suggestion_offer(&best, w->name);
+    char expected[256];
+    const char *meant = NULL;
+    if (words && value->kind == NODE_SCALAR && !tree_is_empty(value))
+        meant = field_nearest_word(words, value->text);
     field_expectation(f, expected, sizeof expected);
-    if (best.name)
-        reader_refuse(reader, value->at, path, "found %s, did you mean \"%s\"? expected %s",
-                      reader_quote(value->text, quoted), best.name, expected);
+    if (meant)
+        reader_refuse_word(reader, value->at, path, value->text, meant, expected);
     else
         refuse_value(reader, f, value, path);
 }
 
-// The word that stands for a number, where the choice has one and the text looks like a number.
+// The word that stands for a number, where the choice has one and the text looks like a number, not
+// like another of its words.
 static const field_word *word_for_number(const field_row *f, const char *text)
 {
     for (const field_word *w = f->words; w->name; w++)
-        if (!w->name[0] && strchr("0123456789+-.", text[0]))
+        if (!w->name[0] && strchr("0123456789+-.", text[0]) && !field_nearest_word(f->words, text))
             return w;
     return NULL;
 }
@@ -163,7 +162,7 @@ static int choose(scenario_reader *reader, const field_row *f, const tree_node *
     }
     word = word_for_number(f, value->text);
     if (!word)
-        refuse_word(reader, f, value, path);
+        refuse_word(reader, f, f->words, value, path);
     else if (quantity_read(reader, f, value->at, path, value->text,
                            (double *)((char *)base + f->other), 1))
         return word->value;
@@ -355,7 +354,7 @@ static void read_block_field(scenario_reader *reader, const field_row *f, const 
                 field_set_switch(base, f, w->value);
         read_block(reader, f->block, value, inner, path);
     } else {
-        refuse_value(reader, f, value, path);
+        refuse_word(reader, f, f->words, value, path);
     }
 }
 
@@ -446,14 +445,15 @@ static void select_entry(scenario_reader *reader, const field_row *f, const tree
 static void read_selection(scenario_reader *reader, const field_row *f, const tree_node *value,
                            void *base, const char *path)
 {
-    bool all = !value || (value->kind == NODE_SCALAR && strcmp(value->text, "all") == 0);
+    static const field_word words[] = {{"all", 1}, {NULL, 0}};
+    bool all = !value || (value->kind == NODE_SCALAR && strcmp(value->text, words->name) == 0);
     int number = 0;
     for (int i = 0; i < field_switch(base, f); i++)
         field_set_mark(base, f, i, all);
     if (all)
         return;
     if (value->kind != NODE_LIST) {
-        refuse_value(reader, f, value, path);
+        refuse_word(reader, f, words, value, path);
         return;
     }
     for (const tree_node *entry = value->first; entry; entry = entry->next) {
@@ -511,47 +511,32 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
     }
 }
 
-// The key of `block` that an unknown key probably means, or NULL.
-static const char *key_meant(const field_block *block, const char *key)
+const char *scenario_key_meant(const field_block *block, const char *key)
 {
-    name_suggestion best = suggestion_begin(key);
-    for (const field_row *f = block->fields; f->name; f++)
-        suggestion_offer(&best, f->name);
-    return best.name;
+    const char *meant = field_nearest_key(block, key);
+    const char *names[] = {"include", meant};
+    return block == &scenario_block ? ld_nearest_name(key, names, meant ? 2 : 1) : meant;
 }
 
+// Refuses what is no key of the block, and goes on with the key meant, lest it be missed as well.
 static void refuse_unknown_keys(scenario_reader *reader, const field_block *block,
                                 const tree_node *map, const char *path)
 {
-    for (const tree_node *member = map->first; member; member = member->next) {
+    for (tree_node *member = map->first; member; member = member->next) {
         char key_path[PATH], allowed[PATH] = "";
         if (field_find(block, member->key))
             continue;
-        const char *meant = key_meant(block, member->key);
+        const char *meant = scenario_key_meant(block, member->key);
         for (const field_row *f = block->fields; f->name; f++)
             if (f->kind != FIELD_LATER) {
                 extend(allowed, allowed[0] ? ", " : "");
                 extend(allowed, f->name);
             }
         join(key_path, path, member->key);
-        if (meant)
-            reader_refuse(reader, member->key_at, key_path, "unknown key, did you mean \"%s\"?",
-                          meant);
-        else
-            reader_refuse(reader, member->key_at, key_path, "unknown key; allowed here: %s",
-                          allowed);
+        reader_refuse_key(reader, member->key_at, key_path, meant, allowed);
+        if (meant && !tree_member(map, meant))
+            member->key = meant;
     }
-}
-
-// Whether the missing key `name` is there, but misspelt.
-static bool is_misspelt(const field_block *block, const tree_node *map, const char *name)
-{
-    for (const tree_node *member = map->first; member; member = member->next) {
-        const char *meant = field_find(block, member->key) ? NULL : key_meant(block, member->key);
-        if (meant && strcmp(meant, name) == 0)
-            return true;
-    }
-    return false;
 }
 
 // The form with most of the keys given, the first of those alike; -1 where there is none.
@@ -603,10 +588,11 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
                       field_word_of(block->form, form)->name);
     } else if (f->kind == FIELD_SELECTION && fits) {
         read_selection(reader, f, NULL, base, key_path);
-    } else if (field_is_required(f, form) && fits && (form >= 0 || !f->forms) &&
-               !is_misspelt(block, map, f->name)) {
+    } else if (field_is_required(f, form) && fits && (form >= 0 || !f->forms)) {
+        const tree_node *taken = tree_taken(map, f->name);
         field_expectation(f, expected, sizeof expected);
-        reader_refuse(reader, map->key_at, key_path, "missing; expected %s", expected);
+        reader_refuse(reader, taken ? taken->key_at : map->key_at, key_path, "%s; expected %s",
+                      taken ? "taken away here, but needed" : "missing", expected);
     }
 }
 
@@ -638,6 +624,29 @@ typedef struct rule_context {
     size_t messages; // about single values, which came before the rules
 } rule_context;
 
+// Whether the key stands in the text as a word.
+static bool has_word(const char *text, const char *key)
+{
+    static const char inside[] = "abcdefghijklmnopqrstuvwxyz0123456789_";
+    size_t length = strlen(key);
+    for (const char *c = text; (c = strstr(c, key)); c++) {
+        bool begins = c == text || !strchr(inside, c[-1]);
+        if (begins && (!c[length] || !strchr(inside, c[length])))
+            return true;
+    }
+    return false;
+}
+
+// The place of a broken rule about the node: a key that it names and that was taken away, else the
+// value, or the key of a block.
+static text_place place_of_rule(const tree_node *node, const char *text)
+{
+    for (const tree_node *taken = node->taken; taken; taken = taken->next)
+        if (has_word(text, taken->key))
+            return taken->key_at;
+    return node->kind == NODE_SCALAR && !tree_is_empty(node) ? node->at : node->key_at;
+}
+
 // Reports a broken rule at the key that it is about, or at the nearest block around it.
 static void refuse_rule(void *self, const char *path, const char *text)
 {
@@ -649,23 +658,24 @@ static void refuse_rule(void *self, const char *path, const char *text)
     for (char *save = NULL, *key = strtok_r(rest, ".", &save); key;
          key = strtok_r(NULL, ".", &save)) {
         char longer[PATH];
-        const struct tree_node *inner = NULL;
+        const tree_node *inner = NULL, *taken = NULL;
         if (!lost && node->kind == NODE_MAP)
             inner = tree_member(node, key);
         else if (!lost && node->kind == NODE_LIST)
             inner = tree_entry(node, key);
+        if (!lost && !inner)
+            taken = tree_taken(node, key);
         if (inner && node->kind == NODE_LIST)
             entry_path(longer, full_path, inner, atoi(key));
         else
             join(longer, full_path, key);
         memcpy(full_path, longer, sizeof full_path);
-        // a key that is missing is reported at the block that lacks it
+        // a key that is missing is reported where it was taken away, or at the block that lacks it
         lost = lost || !inner;
-        node = inner ? inner : node;
+        node = inner ? inner : taken ? taken : node;
     }
     if (!reader_has_refused(context->reader, context->messages, full_path))
-        reader_refuse(context->reader, node->kind == NODE_SCALAR ? node->at : node->key_at,
-                      full_path, "%s", text);
+        reader_refuse(context->reader, place_of_rule(node, text), full_path, "%s", text);
 }
 
 void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model)

@@ -104,6 +104,49 @@ void reader_refuse(scenario_reader *reader, text_place place, const char *path, 
         reader->no_memory = true;
 }
 
+void reader_refuse_key(scenario_reader *reader, text_place place, const char *path,
+                       const char *meant, const char *allowed)
+{
+    if (meant)
+        reader_refuse(reader, place, path, "unknown key, did you mean \"%s\"?", meant);
+    else
+        reader_refuse(reader, place, path, "unknown key; allowed here: %s", allowed);
+}
+
+bool reader_check_keys(scenario_reader *reader, const tree_node *map, const char *path,
+                       const char *const *names, size_t count)
+{
+    char allowed[256] = "", key_path[READER_MAX_PATH];
+    bool good = true;
+    for (size_t i = 0, used = 0; i < count && used < sizeof allowed; i++)
+        used += (size_t)snprintf(allowed + used, sizeof allowed - used, "%s%s", i ? ", " : "",
+                                 names[i]);
+    for (const tree_node *member = map->first; member; member = member->next) {
+        size_t i = 0;
+        while (i < count && strcmp(names[i], member->key) != 0)
+            i++;
+        if (i < count)
+            continue;
+        snprintf(key_path, sizeof key_path, "%s.%s", path, member->key);
+        reader_refuse_key(reader, member->key_at, key_path,
+                          ld_nearest_name(member->key, names, count), allowed);
+        good = false;
+    }
+    return good;
+}
+
+void reader_refuse_word(scenario_reader *reader, text_place place, const char *path,
+                        const char *word, const char *meant, const char *expected)
+{
+    char quoted[64];
+    reader_quote(word, quoted);
+    if (meant)
+        reader_refuse(reader, place, path, "found %s, did you mean \"%s\"? expected %s", quoted,
+                      meant, expected);
+    else
+        reader_refuse(reader, place, path, "found %s; expected %s", quoted, expected);
+}
+
 static int in_order_of_text(const void *left, const void *right)
 {
     const ld_message *a = left, *b = right;

@@ -21,6 +21,9 @@ enum {
     READER_MAX_BYTES = 4 * 1024 * 1024 // of one file
 };
 
+struct field_row;
+struct field_block;
+
 // A piece of text that keys or numbers come from.
 typedef struct text_source {
     const char *name; // of the file; "--set"
@@ -51,7 +54,8 @@ typedef struct tree_node {
     struct tree_node *last;  // member
     struct tree_node *next;  // sibling
     struct tree_node
-        *beneath; // the scalar that this mapping was laid over, for x, y, z of a vector
+        *beneath;            // the scalar that this mapping was laid over, for x, y, z of a vector
+    struct tree_node *taken; // members taken away by the empty values listed here
 } tree_node;
 
 typedef struct memory_pool {
@@ -80,6 +84,16 @@ void pool_free(scenario_reader *reader);
 // Adds a message about the key `path` at `place`.
 void reader_refuse(scenario_reader *reader, text_place place, const char *path, const char *format,
                    ...) LD_PRINTF(4, 5);
+// Refuses an unknown key, with the one meant or, where that is not known (NULL), those allowed.
+void reader_refuse_key(scenario_reader *reader, text_place place, const char *path,
+                       const char *meant, const char *allowed);
+// Refuses the keys of a block, whose path is given, that are none of `count` names; whether there
+// are none.
+bool reader_check_keys(scenario_reader *reader, const tree_node *map, const char *path,
+                       const char *const *names, size_t count);
+// Refuses a word, with the one meant (NULL: not known) and what is expected.
+void reader_refuse_word(scenario_reader *reader, text_place place, const char *path,
+                        const char *word, const char *meant, const char *expected);
 // Whether one of the first `count` messages is about `path`, a key below it or a
 // block around it.
 bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path);
@@ -99,6 +113,8 @@ const char *reader_quote(const char *text, char buffer[64]);
 tree_node *tree_parse(scenario_reader *reader, const text_source *source, const char *text,
                       size_t length, int column);
 tree_node *tree_member(const tree_node *map, const char *key);
+// The empty value that took this member away, or NULL.
+const tree_node *tree_taken(const tree_node *map, const char *key);
 // The member of a list by name (its `name`) or by number from 1, or NULL.
 tree_node *tree_entry(const tree_node *list, const char *name);
 // Lays `over` on `under` and returns the result: mappings member by member (an empty value takes
@@ -117,10 +133,12 @@ void tree_path(const tree_node *root, const char *path, char full_path[READER_MA
 tree_node *tree_at_path(scenario_reader *reader, const char *path, text_place at, tree_node *value);
 void tree_remove(tree_node *parent, tree_node *member);
 // Whether the node is the block that may stand in place of the list `f` (NULL: no key).
-struct field_row;
 bool tree_is_alternative(const struct field_row *f, const tree_node *node);
 // Whether there is no value: nothing, ~ or null.
 bool tree_is_empty(const tree_node *node);
+
+// The key that an unknown one of a block probably means, or NULL; of the root also `include`.
+const char *scenario_key_meant(const struct field_block *block, const char *key);
 
 // Reads the tree into `model` (initialised), each value against its table; then checks the rules.
 void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model);

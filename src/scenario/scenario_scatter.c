@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/suggestion.h"
 #include "model/field.h"
 #include "scenario/scenario_reader.h"
 
@@ -17,11 +16,10 @@ typedef struct factor_reader {
     ld_factor *factor;
 } factor_reader;
 
-static const char *const distribution_names[] = {"normal", "uniform", "lognormal", "discrete",
-                                                 "each"};
-enum { DISTRIBUTIONS = sizeof distribution_names / sizeof *distribution_names };
-static const char *const other_names[] = {"within", "between", "weights", "per", "paths"};
-enum { OTHERS = sizeof other_names / sizeof *other_names };
+// Keys of a factor: its distribution, and what goes with it.
+static const char *const key_names[] = {"normal", "uniform", "lognormal", "discrete", "each",
+                                        "within", "between", "weights",   "per",      "paths"};
+enum { DISTRIBUTIONS = 5, KEYS = sizeof key_names / sizeof *key_names };
 
 static const field_range any = {-INFINITY, INFINITY, 1, 1}, positive = {0, INFINITY, 1, 1},
                          not_negative = {0, INFINITY, 0, 1};
@@ -124,14 +122,19 @@ static bool read_discrete(const factor_reader *self, const tree_node *node, bool
 static bool read_word(const factor_reader *self, const tree_node *node, const char *first,
                       const char *second)
 {
-    char path[256], quoted[64];
+    char path[256], expected[64];
+    const char *const words[] = {first, second};
     bool scalar = node->kind == NODE_SCALAR && !tree_is_empty(node);
     if (scalar && (strcmp(node->text, first) == 0 || (second && strcmp(node->text, second) == 0)))
         return true;
-    reader_refuse(self->reader, node->at, path_of(self, node->key, path, sizeof path),
-                  "found %s; expected %s%s%s",
-                  scalar ? reader_quote(node->text, quoted) : "no word", first,
-                  second ? " or " : "", second ? second : "");
+    path_of(self, node->key, path, sizeof path);
+    snprintf(expected, sizeof expected, "%s%s%s", first, second ? " or " : "",
+             second ? second : "");
+    if (scalar)
+        reader_refuse_word(self->reader, node->at, path, node->text,
+                           ld_nearest_name(node->text, words, second ? 2 : 1), expected);
+    else
+        reader_refuse(self->reader, node->at, path, "found no word; expected %s", expected);
     return false;
 }
 
@@ -176,7 +179,7 @@ static const tree_node *find_distribution(factor_reader *self)
     const tree_node *found = NULL;
     char path[256];
     for (int i = 0; i < DISTRIBUTIONS; i++) {
-        const tree_node *node = tree_member(self->map, distribution_names[i]);
+        const tree_node *node = tree_member(self->map, key_names[i]);
         if (node && found) {
             reader_refuse(self->reader, node->key_at, path_of(self, node->key, path, sizeof path),
                           "stands beside %s; a factor has one distribution", found->key);
@@ -193,34 +196,22 @@ static const tree_node *find_distribution(factor_reader *self)
     return found;
 }
 
-// Whether each key of the block is one of a distribution, and goes with the one it has.
-static bool check_keys(const factor_reader *self)
+// Whether each key of the block goes with its distribution.
+static bool keys_go_together(const factor_reader *self)
 {
     ld_distribution given = self->factor->distribution;
     bool good = true;
     for (const tree_node *member = self->map->first; member; member = member->next) {
         char path[256];
         const char *key = member->key, *other = NULL;
-        bool known = false;
-        name_suggestion best = suggestion_begin(key);
-        for (int i = 0; i < DISTRIBUTIONS + OTHERS; i++) {
-            const char *name =
-                i < DISTRIBUTIONS ? distribution_names[i] : other_names[i - DISTRIBUTIONS];
-            known = known || strcmp(name, key) == 0;
-            suggestion_offer(&best, name);
-        }
         if ((strcmp(key, "within") == 0 || strcmp(key, "between") == 0) && given != LD_NORMAL)
             other = "normal";
         if (strcmp(key, "weights") == 0 && given != LD_DISCRETE)
             other = "discrete";
         path_of(self, key, path, sizeof path);
-        if (!known)
-            reader_refuse(self->reader, member->key_at, path, "unknown key%s%s%s",
-                          best.name ? ", did you mean \"" : "", best.name ? best.name : "",
-                          best.name ? "\"?" : "");
-        else if (other)
+        if (other)
             reader_refuse(self->reader, member->key_at, path, "goes with %s only", other);
-        good = good && known && !other;
+        good = good && !other;
     }
     return good;
 }
@@ -278,7 +269,9 @@ static void read_factor(scenario_reader *reader, const tree_node *node, const ld
     memset(factor, 0, sizeof *factor);
     factor->within = factor->between[0] = factor->between[1] = factor->spread = NAN;
     factor->deviation = NAN;
-    if (!find_numbers(&self, model, &place))
+    bool known =
+        node->kind != NODE_MAP || reader_check_keys(reader, node, self.path, key_names, KEYS);
+    if (!known || !find_numbers(&self, model, &place))
         return;
     if (node->kind != NODE_MAP) {
         reader_refuse(reader, node->at, self.path,
@@ -290,7 +283,7 @@ static void read_factor(scenario_reader *reader, const tree_node *node, const ld
         (field_row){.unit = place.row->unit ? place.row->unit : "", .range = place.row->range};
     const tree_node *given = find_distribution(&self), *per = tree_member(node, "per");
     factor->per_rocket = factor_may_be_per_rocket(factor);
-    if (!given || !check_keys(&self) || !read_distribution(&self, given, place.whole) ||
+    if (!given || !keys_go_together(&self) || !read_distribution(&self, given, place.whole) ||
         !read_bounds(&self) || (per && !read_word(&self, per, "sample", "rocket")))
         return;
     if (per)

@@ -118,35 +118,27 @@ static bool add_key(scenario_reader *reader, const tree_node *root, const scenar
     return true;
 }
 
-// Refuses keys of a block of several beside `paths` and `values`.
-static bool has_known_keys(scenario_reader *reader, const tree_node *node)
-{
-    for (const tree_node *member = node->first; member; member = member->next)
-        if (strcmp(member->key, "paths") != 0 && strcmp(member->key, "values") != 0)
-            return refuse(reader, member->key_at, node->key,
-                          "unknown key %s; expected paths and values", member->key);
-    return true;
-}
-
 // What the member `node` of the sweep varies; false after a message, or where an override has it.
 static bool read_axis(scenario_reader *reader, const tree_node *root, const scenario_sweep *before,
                       const char *const *sets, size_t count, const tree_node *node,
                       scenario_axis *axis)
 {
+    static const char *const keys[] = {"paths", "values"};
     bool several = node->kind == NODE_MAP && tree_member(node, "paths");
     char path[READER_MAX_PATH];
+    snprintf(path, sizeof path, "sweep.%s", node->key);
+    if (node->kind == NODE_MAP && !reader_check_keys(reader, node, path, keys, 2))
+        return false;
     *axis = (scenario_axis){.node = node, .list = several ? tree_member(node, "values") : node};
     if (!several)
         return add_key(reader, root, before, sets, count, axis, node->key) &&
                has_values(reader, axis) && can_be_laid(reader, axis);
-    snprintf(path, sizeof path, "sweep.%s", node->key);
     axis->paths = together_paths(reader, node, path);
     const tree_node *entry = axis->paths ? axis->paths->first : NULL;
     for (; entry; entry = entry->next)
         if (!add_key(reader, root, before, sets, count, axis, entry->text))
             return false;
-    return axis->paths && has_known_keys(reader, node) && has_values(reader, axis) &&
-           can_be_laid(reader, axis);
+    return axis->paths && has_values(reader, axis) && can_be_laid(reader, axis);
 }
 
 scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const char *const *sets,

@@ -2,6 +2,7 @@
 // value.
 #include "scenario/scenario_reader.h"
 
+#include "base/suggestion.h"
 #include "model/field.h"
 
 #include <stdio.h>
@@ -96,6 +97,14 @@ tree_node *tree_member(const tree_node *map, const char *key)
         if (member->key && strcmp(member->key, key) == 0)
             return member;
     return NULL;
+}
+
+const tree_node *tree_taken(const tree_node *map, const char *key)
+{
+    const tree_node *taken = map->taken;
+    while (taken && strcmp(taken->key, key) != 0)
+        taken = taken->next;
+    return taken;
 }
 
 tree_node *tree_entry(const tree_node *list, const char *name)
@@ -483,6 +492,8 @@ static void merge_maps(scenario_reader *reader, tree_node *under, tree_node *ove
         snprintf(key_path, sizeof key_path, "%s%s%s", path, path[0] ? "." : "", member->key);
         if (old && tree_is_empty(member)) {
             tree_remove(under, old);
+            member->next = under->taken;
+            under->taken = member;
         } else if (old) {
             tree_node *merged = tree_merge(reader, old, member, key_path);
             if (merged != old)
@@ -493,6 +504,34 @@ static void merge_maps(scenario_reader *reader, tree_node *under, tree_node *ove
     }
 }
 
+// The name of the list's entry that an unknown one probably means, or NULL.
+static const char *entry_meant(const tree_node *list, const char *name)
+{
+    name_suggestion best = suggestion_begin(name);
+    for (const tree_node *entry = list->first; entry; entry = entry->next) {
+        const tree_node *own = entry->kind == NODE_MAP ? tree_member(entry, "name") : NULL;
+        if (own && own->kind == NODE_SCALAR)
+            suggestion_offer(&best, own->text);
+    }
+    return best.name;
+}
+
+static void refuse_entry(scenario_reader *reader, const tree_node *list, const tree_node *member,
+                         const char *path)
+{
+    char quoted[64], likely[64];
+    const char *meant = entry_meant(list, member->key);
+    reader_quote(member->key, quoted);
+    if (meant)
+        reader_refuse(reader, member->key_at, path,
+                      "no entry %s in the list of %d, did you mean %s?", quoted, list->count,
+                      reader_quote(meant, likely));
+    else
+        reader_refuse(reader, member->key_at, path,
+                      "no entry %s in the list of %d; give its name or a number from 1", quoted,
+                      list->count);
+}
+
 // Lays the members of a mapping on the entries of a list that they name.
 static void merge_entries(scenario_reader *reader, tree_node *list, tree_node *over,
                           const char *path)
@@ -501,12 +540,10 @@ static void merge_entries(scenario_reader *reader, tree_node *list, tree_node *o
     for (tree_node *member = over->first; member; member = next) {
         next = member->next;
         tree_node *old = tree_entry(list, member->key);
-        char entry_path[512], quoted[64];
+        char entry_path[512];
         snprintf(entry_path, sizeof entry_path, "%s.%s", path, member->key);
         if (!old) {
-            reader_refuse(reader, member->key_at, entry_path,
-                          "no entry %s in the list of %d; give its name or a number from 1",
-                          reader_quote(member->key, quoted), list->count);
+            refuse_entry(reader, list, member, entry_path);
             continue;
         }
         tree_node *merged = tree_merge(reader, old, member, entry_path);

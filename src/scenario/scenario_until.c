@@ -15,6 +15,8 @@ enum { STATISTICS = sizeof statistic_names / sizeof *statistic_names };
 static void refuse_name(scenario_reader *reader, const tree_node *node, const char *path,
                         const char *result)
 {
+    const char *point = strrchr(node->key, '.');
+    const char *statistic = point ? ld_nearest_name(point + 1, statistic_names, STATISTICS) : NULL;
     name_suggestion best = suggestion_begin(result), whole = suggestion_begin(node->key);
     for (const study_result *r = study_results; r->name; r++) {
         suggestion_offer(&best, r->name);
@@ -22,7 +24,10 @@ static void refuse_name(scenario_reader *reader, const tree_node *node, const ch
     }
     // without a statistic, what stands before the last point is no result's name
     const char *near = study_result_named(result) ? result : whole.name ? whole.name : best.name;
-    if (near)
+    if (near && near != whole.name && statistic)
+        reader_refuse(reader, node->key_at, path,
+                      "no statistic of a result, did you mean \"%s.%s\"?", near, statistic);
+    else if (near)
         reader_refuse(reader, node->key_at, path,
                       "no statistic of a result, did you mean \"%s.mean\" or \"%s.deviation\"?",
                       near, near);

@@ -6,7 +6,7 @@
 #include "math/rotation_vector.h"
 #include "simulation/launch_state.h"
 
-enum { MAX_FREEDOMS = 11 + LD_MAX_MODAL + 3 + 2 * HINGES + 3 * LD_MAX_WHEELS };
+enum { MAX_FREEDOMS = 11 + LD_MAX_MODAL + BASE_MOST_FREEDOMS };
 
 // Unknowns of the launching subsystem: R's place and attitude (6), q, then y_S, z_S, psi, theta,
 // and s where the breech carries the rocket.
@@ -17,30 +17,7 @@ static int launching_freedoms(const launch_state *self)
 
 int simulation_freedoms(const launch_state *self)
 {
-    int base = 3 + 2 * HINGES + 3 * self->launcher.marching.wheel_count;
-    return launching_freedoms(self) + (self->launcher.vehicle ? base : 0);
-}
-
-// Unknowns of a vehicle: chassis y, pitch, roll; hinge angles, hinge torques; wheel positions.
-static void displace_vehicle(const launch_state *self, int freedom, double change, double *y)
-{
-    double *base = y + self->launcher.orientating_at;
-    if (freedom == 0) {
-        base[ORIENTATING_R + 1] += change;
-    } else if (freedom < 3) {
-        double c = cos(0.5 * change), s = sin(0.5 * change);
-        quat q = q_from(base + ORIENTATING_QUATERNION);
-        // Rz(pitch) Rx(roll): pitch turns from the left, roll from the right
-        q = freedom == 1 ? q_multiply((quat){c, 0, 0, s}, q) : q_multiply(q, (quat){c, s, 0, 0});
-        memcpy(base + ORIENTATING_QUATERNION, &q, sizeof q);
-    } else if (freedom < 3 + HINGES) {
-        base[ORIENTATING_ANGLE + freedom - 3] += change;
-    } else if (freedom < 3 + 2 * HINGES) {
-        base[ORIENTATING_Z + freedom - 3 - HINGES] += 1e6 * change; // held torque
-    } else {
-        int k = freedom - 3 - 2 * HINGES;
-        y[self->launcher.marching_at + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
-    }
+    return launching_freedoms(self) + self->launcher.base.freedom_count;
 }
 
 void simulation_displace(const launch_state *self, int freedom, double change, double *y)
@@ -61,7 +38,9 @@ void simulation_displace(const launch_state *self, int freedom, double change, d
     } else if (freedom < launching_freedoms(self)) {
         y[at->x] += change;
     } else {
-        displace_vehicle(self, freedom - launching_freedoms(self), change, y);
+        const base_system *base = &self->launcher.base;
+        base->kind->dynamics->displace(base, freedom - launching_freedoms(self), change,
+                                       y + self->launcher.base_at);
     }
 }
 
@@ -80,39 +59,6 @@ launching_phase simulation_start_phase(const launch_state *self)
     return phase;
 }
 
-// A vehicle upright over its place at the start, each wheel with its share of the weight.
-static void place_vehicle(const launch_state *self, double *y)
-{
-    const launcher_system *launcher = &self->launcher;
-    const ld_vehicle *vehicle = &self->model->base.vehicle;
-    double weight = launcher->orientating.mass + launcher->launching.tube.m + self->motor->full.m;
-    weight *= self->model->gravity / vehicle->wheel_count;
-    double tyre = weight / vehicle->tyre.stiffness[1];
-    double spring = weight / vehicle->suspension.stiffness[1];
-    double *base = y + launcher->orientating_at, *wheel = y + launcher->marching_at;
-    double mount = 0, ground = 0, slope;
-    base[ORIENTATING_R] = -vehicle->speed * self->model->run.lead_in;
-    for (int j = 0; j < vehicle->wheel_count; j++) {
-        double x = base[ORIENTATING_R] + vehicle->wheel[j].mount[0];
-        ground += road_height(launcher->marching.road, launcher->marching.track[j], x, &slope);
-        mount += vehicle->wheel[j].mount[1];
-    }
-    base[ORIENTATING_R + 1] =
-        (ground - mount) / vehicle->wheel_count + vehicle->tyre.radius - tyre - spring;
-    base[ORIENTATING_QUATERNION] = 1;
-    launcher_input input;
-    launcher_place(launcher, -self->model->run.lead_in, y, &input);
-    base[ORIENTATING_ANGLE + HINGE_AZIMUTH] = input.motion.hinge[HINGE_AZIMUTH].command;
-    base[ORIENTATING_ANGLE + HINGE_ELEVATION] = input.motion.hinge[HINGE_ELEVATION].command;
-    launcher_place(launcher, -self->model->run.lead_in, y, &input);
-    marching_place(&launcher->marching, &input.motion.chassis, wheel);
-    for (int j = 0; j < vehicle->wheel_count; j++) {
-        double *r = wheel + WHEEL_STATES * j;
-        r[1] = road_height(launcher->marching.road, launcher->marching.track[j], r[0], &slope) +
-               vehicle->tyre.radius - tyre;
-    }
-}
-
 void simulation_straight(const launch_state *self, const base_frame *base, double *y)
 {
     const launching_layout *at = &self->launcher.launching.layout;
@@ -126,12 +72,8 @@ void simulation_move_with_base(const launch_state *self, double t, double *y)
 {
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
-    if (launcher->vehicle) {
-        double speed = self->model->base.vehicle.speed;
-        y[launcher->orientating_at + ORIENTATING_V] = speed;
-        for (int j = 0; j < launcher->marching.wheel_count; j++)
-            y[launcher->marching_at + WHEEL_STATES * j + WHEEL_V] = speed;
-    }
+    if (launcher->base.kind->dynamics)
+        launcher->base.kind->dynamics->set_off(&launcher->base, y + launcher->base_at);
     launcher_input input;
     launching_output unused;
     launching_pose pose;
@@ -152,7 +94,7 @@ void simulation_move_with_base(const launch_state *self, double t, double *y)
 static const double DIFFERENCE = 1e-8;
 
 // What Newton's method solves: the unknowns from `first` on. With `dead` the tube and its rocket
-// are a dead load on a vehicle.
+// are a dead load on the base.
 typedef struct problem {
     const launch_state *self;
     double t;
@@ -202,22 +144,6 @@ static void launching_residual(const problem *the, const double *y, const launch
         rocket[4] = a.x;
 }
 
-// Accelerations of a vehicle but those that are neutral, and the errors of yaw and pitch.
-static void vehicle_residual(const launch_state *self, const launcher_output *out, double *r)
-{
-    const double *base = out->base_dot, *wheel = base + ORIENTATING_STATES;
-    *r++ = base[ORIENTATING_V + 1];
-    *r++ = base[ORIENTATING_W + 2];
-    *r++ = base[ORIENTATING_W];
-    for (int i = 0; i < HINGES; i++)
-        *r++ = base[ORIENTATING_RATE + i];
-    for (int i = 0; i < HINGES; i++)
-        *r++ = out->hinge[i].error;
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++, wheel += WHEEL_STATES)
-        for (int i = 0; i < 3; i++)
-            *r++ = wheel[WHEEL_V + i];
-}
-
 // What must vanish in equilibrium.
 static int residual(const problem *the, const double *y, double *r)
 {
@@ -229,21 +155,22 @@ static int residual(const problem *the, const double *y, double *r)
     simulation_input(self, the->t, y, &input);
     input.held = true;
     input.formulation = LD_FORMULATION_REDUCED;
-    for (int i = 0; i < HINGES && launcher->vehicle; i++)
-        input.rest[i].torque = y[launcher->orientating_at + ORIENTATING_Z + i];
+    const base_system *base = &launcher->base;
+    if (base->kind->dynamics)
+        base->kind->dynamics->rest_of(y + launcher->base_at, &input.rest);
     input.launching.base.v = input.launching.base.w = v3_zero();
     input.launching.thrust = 0;
     if (the->dead) {
         dead_load(the, &input, &out.launching);
-        if (launcher_evaluate_vehicle(launcher, &input, the->phase, y, &out))
+        if (launcher_evaluate_base(launcher, &input, the->phase, y, &out))
             return -1;
     } else {
         if (launcher_evaluate(launcher, &input, the->phase, y, &out))
             return -1;
         launching_residual(the, y, &out.launching, all);
     }
-    if (launcher->vehicle)
-        vehicle_residual(self, &out, all + launching_freedoms(self));
+    if (base->kind->dynamics)
+        base->kind->dynamics->residual(base, &out.base, all + launching_freedoms(self));
     memcpy(r, all + the->first, (size_t)the->count * sizeof *r);
     return 0;
 }
@@ -347,14 +274,18 @@ static void guess_contacts(const launch_state *self, int i, int j, v3 pull, doub
     x[4] = -slope * pull.z / lean;
 }
 
-static void report_vehicle(const launch_state *self, const launcher_output *out, const double *y,
-                           ld_equilibrium_summary *summary)
+// Of a base that is a vehicle.
+static void report_vehicle(const launcher_system *launcher, const launcher_output *out,
+                           const double *y, ld_equilibrium_summary *summary)
 {
-    const double *base = y + self->launcher.orientating_at;
+    const vehicle_system *vehicle = base_as_vehicle(&launcher->base);
+    if (!vehicle)
+        return;
+    const double *base = y + launcher->base_at;
     m3 A = q_matrix(q_from(base + ORIENTATING_QUATERNION));
-    summary->wheel_count = self->launcher.marching.wheel_count;
+    summary->wheel_count = vehicle->marching.wheel_count;
     for (int j = 0; j < summary->wheel_count; j++) {
-        const wheel_report *wheel = &out->marching.wheel[j];
+        const wheel_report *wheel = &out->base.report.vehicle.marching.wheel[j];
         summary->wheel[j].tyre_force = wheel->normal;
         summary->wheel[j].tyre_deflection = wheel->deflection;
         v3_store(summary->wheel[j].suspension, wheel->travel);
@@ -389,8 +320,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
     residual(the, y, r);
     for (int i = 0; i < the->count; i++)
         summary->residual = fmax(summary->residual, fabs(r[i]));
-    if (self->launcher.vehicle)
-        report_vehicle(self, &out, y, summary);
+    report_vehicle(&self->launcher, &out, y, summary);
 }
 
 // Gravity [m/s2] in the axes of the undeformed tube on the base as it stands in y.
@@ -410,7 +340,7 @@ static void guess_straight(const problem *the, const double *start, double *y)
     simulation_straight(the->self, &input.launching.base, y);
 }
 
-// Newton's method from the guess in y; on a vehicle the tube alone first: it has the kinks.
+// Newton's method from the guess in y; the tube alone before its base: it has the kinks.
 static double settle(const problem *the, double *y)
 {
     problem tube = *the;
@@ -569,14 +499,18 @@ static double find_start(launch_state *self, problem *the, launching_phase *phas
     return best;
 }
 
-// The vehicle in equilibrium under a tube that is a dead load; other bases need nothing.
+// A base with a motion of its own in equilibrium under a tube that is a dead load; others need
+// nothing.
 static ld_status settle_base(const launch_state *self, double t, const launching_phase *phase,
                              double accepted, double *y, ld_error *error)
 {
     memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
-    if (!self->launcher.vehicle)
+    const base_system *base = &self->launcher.base;
+    const base_dynamics *dynamics = base->kind->dynamics;
+    if (!dynamics)
         return LD_OK;
-    place_vehicle(self, y);
+    dynamics->guess(base, self->launcher.launching.tube.m, self->motor->full.m,
+                    y + self->launcher.base_at);
     int first = launching_freedoms(self);
     problem dead = {
         .self = self, .t = t, .phase = phase, .first = first, .dead = true, .h = DIFFERENCE};
@@ -584,52 +518,21 @@ static ld_status settle_base(const launch_state *self, double t, const launching
     double reached = newton(&dead, y);
     if (reached <= accepted)
         return LD_OK;
-    return ld_fail(error, LD_ERR_NUMERIC,
-                   "the vehicle finds no static equilibrium on its wheels (smallest residual %.3g "
-                   "m/s2): do all wheels reach the road, and is the mass centre between them?",
-                   reached);
+    return dynamics->no_rest(reached, error);
 }
 
-// What the equilibrium found must fulfil for the run to begin in it.
-static ld_status check_vehicle(const launch_state *self, double t, const double *y, ld_error *error)
+// Whether the run can begin in the equilibrium found, which its base keeps.
+static ld_status keep_rest(launch_state *self, double t, const double *y, ld_error *error)
 {
-    launcher_input input;
-    marching_output marching;
-    double unused[WHEEL_STATES * LD_MAX_WHEELS + 1];
-    const ld_platform *platform = &self->model->platform;
-    const ld_turret *turret[HINGES] = {&platform->azimuth, &platform->elevation};
-    static const char *const names[HINGES] = {"azimuth", "elevation"};
-    if (!self->launcher.vehicle)
+    const launcher_system *launcher = &self->launcher;
+    const base_dynamics *dynamics = launcher->base.kind->dynamics;
+    if (!dynamics)
         return LD_OK;
+    const double *base = y + launcher->base_at;
+    launcher_input input;
     simulation_input(self, t, y, &input);
-    marching_evaluate(&self->launcher.marching, &input.motion.chassis, true,
-                      y + self->launcher.marching_at, unused, &marching);
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
-        if (!(marching.wheel[j].normal > 0))
-            return ld_fail(error, LD_ERR_INPUT,
-                           "wheel \"%s\" does not reach the ground at the start: in equilibrium it "
-                           "hangs %.3g m above the road",
-                           self->model->base.vehicle.wheel[j].name,
-                           fmax(0, -marching.wheel[j].deflection));
-    for (int i = 0; i < HINGES; i++) {
-        double torque = y[self->launcher.orientating_at + ORIENTATING_Z + i];
-        double limit = turret[i]->stabiliser.torque_limit;
-        if (!turret[i]->lock.present && fabs(torque) > limit)
-            return ld_fail(error, LD_ERR_INPUT,
-                           "platform.%s.stabiliser.torque_limit: holding the platform at the start "
-                           "takes %.6g N m, more than the limit of %.6g N m",
-                           names[i], torque, limit);
-    }
-    return LD_OK;
-}
-
-// Locked hinges keep their equilibrium; the others begin with the integral that holds it.
-static void keep_rest(launch_state *self, const double *y)
-{
-    const double *base = y + self->launcher.orientating_at;
-    for (int i = 0; i < HINGES && self->launcher.vehicle; i++)
-        self->rest[i] =
-            (hinge_rest){.angle = base[ORIENTATING_ANGLE + i], .torque = base[ORIENTATING_Z + i]};
+    dynamics->rest_of(base, &self->rest);
+    return dynamics->check_rest(&launcher->base, &input.found, base, error);
 }
 
 static double accepted_residual(const launch_state *self)
@@ -643,10 +546,9 @@ ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_erro
     phase.frictionless = true;
     ld_status status = settle_base(self, t, &phase, accepted_residual(self), y, error);
     if (!status)
-        status = check_vehicle(self, t, y, error);
+        status = keep_rest(self, t, y, error);
     if (status)
         return status;
-    keep_rest(self, y);
     launcher_input input;
     simulation_input(self, t, y, &input);
     simulation_straight(self, &input.launching.base, y);
@@ -680,18 +582,17 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
             "is the rocket held by gravity on two adaptors? \"run.start: undeformed\" "
             "starts without it",
             best);
-    status = check_vehicle(self, t, y, error);
+    status = keep_rest(self, t, y, error);
     if (status)
         return status;
-    keep_rest(self, y);
     report(&whole, y, summary);
     return LD_OK;
 }
 
 // ---- another tube ----
 
-// Gives the vehicle's orientating coordinates the speeds u, and tube and rocket what that changes
-// of the motion of a body that rides on the platform.
+// Adds u to the speeds of the base, and to tube and rocket what that changes of the motion of a
+// body that rides on it.
 static void add_rigid_motion(const launch_state *self, double t, const double *u, double *y)
 {
     const launcher_system *launcher = &self->launcher;
@@ -700,8 +601,9 @@ static void add_rigid_motion(const launch_state *self, double t, const double *u
     launching_output unused;
     launching_pose pose;
     launcher_place(launcher, t, y, &before);
-    for (int i = 0; i < ORIENTATING_SPEEDS; i++)
-        y[launcher->orientating_at + ORIENTATING_V + i] += u[i];
+    double *speed = y + launcher->base_at + launcher->base.speed_at;
+    for (int i = 0; i < launcher->base.speed_count; i++)
+        speed[i] += u[i];
     launcher_place(launcher, t, y, &after);
     const base_frame *base = &before.launching.base;
     m3 A = q_matrix(q_from(y + at->quaternion));
@@ -716,15 +618,15 @@ static void add_rigid_motion(const launch_state *self, double t, const double *u
     v3_store(y + at->V + 3, v3_add(v3_from(y + at->V + 3), dw));
 }
 
-// Generalised momentum of the orientating coordinates, tube and rocket in the sum: the derivative
-// of the kinetic energy, a quadratic form, along each of their speeds.
+// Generalised momentum of the base, tube and rocket in the sum: the derivative of the kinetic
+// energy, a quadratic form, along each of its speeds.
 static void generalised_momentum(const launch_state *self, double t, const launching_phase *phase,
-                                 const double *y, double p[ORIENTATING_SPEEDS])
+                                 const double *y, double p[BASE_MOST_SPEEDS])
 {
-    for (int j = 0; j < ORIENTATING_SPEEDS; j++) {
+    for (int j = 0; j < self->launcher.base.speed_count; j++) {
         double energy[2];
         for (int side = 0; side < 2; side++) {
-            double moved[LD_MAX_STATES], u[ORIENTATING_SPEEDS] = {0};
+            double moved[LD_MAX_STATES], u[BASE_MOST_SPEEDS] = {0};
             launcher_input input;
             u[j] = side ? 1 : -1;
             memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
@@ -736,25 +638,25 @@ static void generalised_momentum(const launch_state *self, double t, const launc
     }
 }
 
-// Speeds of the vehicle at which all, rigid as it now is, has the generalised momentum p.
+// Speeds of the base at which all, rigid as it now is, has the generalised momentum p.
 static ld_status speeds_from_momentum(const launch_state *self, double t, const double *p,
                                       double *y, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self);
-    double M[ORIENTATING_SPEEDS * ORIENTATING_SPEEDS], u[ORIENTATING_SPEEDS];
-    lapack_int pivot[ORIENTATING_SPEEDS];
+    double M[BASE_MOST_SPEEDS * BASE_MOST_SPEEDS], u[BASE_MOST_SPEEDS];
+    lapack_int pivot[BASE_MOST_SPEEDS];
+    int n = self->launcher.base.speed_count;
     // columns of the mass matrix: momentum at unit speeds
-    for (int j = 0; j < ORIENTATING_SPEEDS; j++) {
-        double moved[LD_MAX_STATES], unit[ORIENTATING_SPEEDS] = {0};
+    for (int j = 0; j < n; j++) {
+        double moved[LD_MAX_STATES], unit[BASE_MOST_SPEEDS] = {0};
         unit[j] = 1;
         memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
         add_rigid_motion(self, t, unit, moved);
-        generalised_momentum(self, t, &phase, moved, M + ORIENTATING_SPEEDS * j);
+        generalised_momentum(self, t, &phase, moved, M + n * j);
     }
     memcpy(u, p, sizeof u);
-    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, ORIENTATING_SPEEDS, 1, M, ORIENTATING_SPEEDS, pivot, u,
-                      ORIENTATING_SPEEDS))
-        return ld_fail(error, LD_ERR_NUMERIC, "the vehicle's mass matrix is singular");
+    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, M, n, pivot, u, n))
+        return ld_fail(error, LD_ERR_NUMERIC, "the base's mass matrix is singular");
     add_rigid_motion(self, t, u, y);
     return LD_OK;
 }
@@ -763,18 +665,18 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
 {
     launching_phase phase = simulation_start_phase(self), without = {.rocket = false};
     const launcher_system *launcher = &self->launcher;
-    double p[ORIENTATING_SPEEDS], still[LD_MAX_STATES], accepted = accepted_residual(self);
+    double p[BASE_MOST_SPEEDS], still[LD_MAX_STATES], accepted = accepted_residual(self);
     size_t launching = (size_t)launcher->launching.layout.count * sizeof(double);
-    if (launcher->vehicle)
+    size_t speeds = (size_t)launcher->base.speed_count * sizeof(double);
+    int speeds_at = launcher->base_at + launcher->base.speed_at;
+    if (speeds)
         generalised_momentum(self, t, &without, y, p);
     launcher_select(&self->launcher, next);
 
-    // the new tube in equilibrium on the platform held still
+    // the new tube in equilibrium on the base held still
     phase.frictionless = true;
     memcpy(still, y, (size_t)launcher->state_count * sizeof(double));
-    if (launcher->vehicle)
-        memset(still + launcher->orientating_at + ORIENTATING_V, 0,
-               ORIENTATING_SPEEDS * sizeof(double));
+    memset(still + speeds_at, 0, speeds);
     self->on_breech = false;
     problem tube = {
         .self = self, .t = t, .phase = &phase, .count = launching_freedoms(self), .h = DIFFERENCE};
@@ -787,10 +689,10 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
                        self->model->firing[next].tube, t, best);
     memcpy(y, found, launching);
 
-    if (!launcher->vehicle) {
+    if (!speeds) {
         simulation_move_with_base(self, t, y);
         return LD_OK;
     }
-    memset(y + launcher->orientating_at + ORIENTATING_V, 0, ORIENTATING_SPEEDS * sizeof(double));
+    memset(y + speeds_at, 0, speeds);
     return speeds_from_momentum(self, t, p, y, error);
 }

@@ -6,14 +6,14 @@ static void add(event_list *self, event_kind kind, int count)
         self->event[self->count++] = (event){kind, i};
 }
 
-event_list events_of(const launch_state *self, bool wheels)
+event_list events_of(const launch_state *self, bool base)
 {
     event_list list = {0};
     int adaptors = self->launcher.launching.adaptors.count;
     add(&list, EVENT_RELEASE, 1);
     add(&list, EVENT_EXIT, adaptors);
     add(&list, EVENT_TOUCH, adaptors);
-    add(&list, EVENT_WHEEL, wheels ? self->launcher.marching.wheel_count : 0);
+    add(&list, EVENT_BASE, base ? self->launcher.base.event_count : 0);
     add(&list, EVENT_BREECH, 1);
     return list;
 }
@@ -33,8 +33,8 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
     const adaptor_report *adaptor = out->launching.adaptor;
     const double away = 1;
     bool touching = launching->adaptors.law.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
-    if (one.kind == EVENT_WHEEL)
-        return out->marching.wheel[one.index].deflection / 1e-3;
+    if (one.kind == EVENT_BASE)
+        return out->base.event[one.index] / 1e-3;
     if (!phase->rocket)
         return away;
     switch (one.kind) {

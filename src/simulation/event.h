@@ -8,7 +8,7 @@ typedef enum event_kind {
     EVENT_RELEASE, // the lock carries its release force
     EVENT_EXIT,    // adaptor `index` passes the tip
     EVENT_TOUCH,   // adaptor `index` touches the tube (law lankarani-nikravesh alone)
-    EVENT_WHEEL,   // wheel `index` touches the road (integrated together alone)
+    EVENT_BASE,    // number `index` of the base (integrated together alone)
     EVENT_BREECH,  // the rocket touches the breech (law lankarani-nikravesh alone)
 } event_kind;
 
@@ -20,15 +20,15 @@ typedef struct event {
 // In the order in which the integrator has them.
 typedef struct event_list {
     int count;
-    event event[2 + 2 * LD_MAX_ADAPTORS + LD_MAX_WHEELS];
+    event event[2 + 2 * LD_MAX_ADAPTORS + BASE_MOST_EVENTS];
 } event_list;
 
-// All events that a launch can have; those of the wheels if asked for.
-event_list events_of(const launch_state *self, bool wheels);
+// All events that a launch can have; those of the base if asked for.
+event_list events_of(const launch_state *self, bool base);
 // Where an event stands in the list; -1: it is none of them.
 int event_find(const event_list *self, event_kind kind, int index);
 // What goes through zero at each event of the list; one that is not awaited stays away from it.
-// Of `out` the wheels are read where the list has them, else the launching subsystem alone.
+// Of `out` the base is read where the list has its events, else the launching subsystem alone.
 void events_evaluate(const event_list *self, const launch_state *launch, const launcher_output *out,
                      double *g);
 

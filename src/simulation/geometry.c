@@ -131,10 +131,11 @@ static void add_rocket(geometry *all, const ld_model *model)
                 "reference diameter of the aerodynamics");
 }
 
-static void add_base(geometry *all, const ld_model *model)
+static void add_base(geometry *all, const base_system *base)
 {
+    const ld_model *model = base->model;
     const ld_vehicle *vehicle = &model->base.vehicle;
-    if (model->base.kind != LD_BASE_VEHICLE) {
+    if (!base_as_vehicle(base)) {
         double mount[2] = {model->base.azimuth, model->base.elevation};
         add_row(all, "base.mount", "rad", 2, mount, "tube against the base: azimuth, elevation");
         return;
@@ -172,7 +173,7 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
     add_tube(&all, &self->model->tubes);
     add_layout(&all, &self->model->tubes);
     add_rocket(&all, self->model);
-    add_base(&all, self->model);
+    add_base(&all, &self->launcher.base);
     ld_status status = sink->geometry(sink->self, all.array, all.count, error);
     free(all.value);
     return status;

@@ -77,16 +77,16 @@ void simulation_energy(const launch_state *self, const launcher_input *input,
     const double *work = y + launcher->work_at;
     double sum = 0, largest = 0;
     for (int i = 0; i < launcher->work_count; i++) {
-        // between platform and tube nothing is lost
-        if (launcher->vehicle && i == POWER_BASE)
+        // between a base that moves with it and the tube nothing is lost
+        if (launcher->base.kind->dynamics && i == POWER_BASE)
             continue;
         sum += work[i];
         largest = fmax(largest, fabs(work[i]));
     }
     energy->kinetic = launcher_kinetic_energy(launcher, input, &self->phase, y);
     energy->potential = launching_potential_energy(&launcher->launching, y);
-    energy->elastic = out->launching.elastic + (launcher->vehicle ? out->marching.elastic : 0);
-    energy->work = works(work, launcher->vehicle);
+    energy->elastic = launcher_elastic_energy(launcher, out);
+    energy->work = works(work, base_as_vehicle(&launcher->base) != NULL);
     energy->residual = energy->kinetic + energy->potential + energy->elastic - energy_start - sum;
     energy->residual_relative = largest > 0 ? energy->residual / largest : 0;
 }
@@ -205,7 +205,7 @@ static void add_vehicle(ld_simulation *self)
     add_hinge(self, "elevation");
     add(self, "m/s", "drive.speed", "speed of the chassis along its heading");
     add(self, "N", "drive.force", "drive force of all driven wheels");
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
+    for (int j = 0; j < self->model->base.vehicle.wheel_count; j++)
         add_wheel(self, self->model->base.vehicle.wheel[j].name);
 }
 
@@ -279,7 +279,7 @@ void history_build(ld_simulation *self)
     self->rocket_columns = -self->column_count;
     add_rocket(self);
     self->rocket_columns += self->column_count;
-    if (self->launcher.vehicle)
+    if (base_as_vehicle(&self->launcher.base))
         add_vehicle(self);
     add(self, "J", "energy.kinetic", "kinetic energy of tube, tail and rocket, and of the vehicle");
     add(self, "J", "energy.potential", "potential energy of tube and tail in gravity");
@@ -295,7 +295,7 @@ void history_build(ld_simulation *self)
     add(self, "J", "work.modal_damping", "work of the modal damping");
     add(self, "J", "work.base", "work of the moving base through the supports");
     add(self, "J", "work.mass_change", "kinetic energy carried off by burnt propellant");
-    if (self->launcher.vehicle) {
+    if (base_as_vehicle(&self->launcher.base)) {
         add(self, "J", "work.stabilisers", "work of the stabilisers or locks");
         add(self, "J", "work.hinge_friction", "work of the friction in the hinges");
         add(self, "J", "work.gravity_platform", "work of gravity on chassis and platforms");
@@ -337,15 +337,6 @@ static double phase_number(const launch_state *self, double t)
     return t < self->t_ignition ? 0 : 1;
 }
 
-// Yaw, pitch, roll of A = Ry(yaw) Rz(pitch) Rx(roll).
-static double *put_pose_angles(double *to, const m3 *A)
-{
-    *to++ = atan2(-A->a[2][0], A->a[0][0]);
-    *to++ = asin(fmax(-1, fmin(1, A->a[1][0])));
-    *to++ = atan2(-A->a[1][2], A->a[1][1]);
-    return to;
-}
-
 static double *put_tip(const launch_state *self, const base_frame *base, const double *y,
                        double *to)
 {
@@ -370,20 +361,22 @@ static double *put_tip(const launch_state *self, const base_frame *base, const d
 static double *put_vehicle(const launch_state *self, const launcher_input *input, const double *y,
                            const launcher_output *out, double *to)
 {
-    const double *base = y + self->launcher.orientating_at, *wheel = y + self->launcher.marching_at;
+    const double *base = y + self->launcher.base_at, *wheel = base + VEHICLE_MARCHING;
+    const marching_output *marching = &out->base.report.vehicle.marching;
     to = put(to, base + ORIENTATING_R, 3);
-    to = put_pose_angles(to, &input->motion.chassis.A);
+    m3_yaw_pitch_roll(&input->found.vehicle.chassis.A, to);
+    to += 3;
     to = put(to, base + ORIENTATING_V, 6);
     for (int i = 0; i < HINGES; i++) {
-        const hinge_report *hinge = &out->hinge[i];
+        const hinge_report *hinge = &out->base.report.vehicle.hinge[i];
         to = put(to,
                  (double[]){hinge->angle, hinge->rate, hinge->measured, hinge->command,
                             hinge->error, hinge->torque, hinge->friction},
                  7);
     }
-    to = put(to, (double[]){out->marching.speed, out->marching.drive_force}, 2);
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++, wheel += WHEEL_STATES) {
-        const wheel_report *report = &out->marching.wheel[j];
+    to = put(to, (double[]){marching->speed, marching->drive_force}, 2);
+    for (int j = 0; j < self->model->base.vehicle.wheel_count; j++, wheel += WHEEL_STATES) {
+        const wheel_report *report = &marching->wheel[j];
         to = put(to, wheel + WHEEL_R, 3);
         to = put(to,
                  (double[]){report->height, report->travel.y, report->deflection, report->normal,
@@ -452,12 +445,8 @@ void history_row(const launch_state *self, double t, const double *y, double ene
     double *to = row;
     to = put(to, (double[]){t, phase_number(self, t)}, 2);
     to = put_v3(to, base->r);
-    if (self->launcher.vehicle) {
-        to = put_pose_angles(to, &base->A);
-    } else {
-        base_motion_angles(&self->launcher.motion, t, to);
-        to += 3;
-    }
+    base_angles(&self->launcher.base, t, base, to);
+    to += 3;
     to = put(to, y + at->r, 13);
     to = put(to, y + at->q, 2 * at->nq);
     to = put_tip(self, base, y, to);
@@ -466,7 +455,7 @@ void history_row(const launch_state *self, double t, const double *y, double ene
     else
         for (int i = 0; i < self->system->rocket_columns; i++)
             *to++ = NAN;
-    if (self->launcher.vehicle)
+    if (base_as_vehicle(&self->launcher.base))
         to = put_vehicle(self, &input, y, &out, to);
     ld_energy energy;
     simulation_energy(self, &input, &out, y, energy_start, &energy);

@@ -519,7 +519,7 @@ void integrator_archive(integrator *self, archive *bytes)
     archive_step(self, bytes);
     archive_doubles(bytes, self->g, (size_t)self->settings.event_count);
     for (int i = 0; i < self->settings.event_count; i++)
-        archive_int(bytes, &self->found[i]);
+        archive_int(bytes, &self->found[i], -1, 1);
     int64_t steps = integrator_steps(self), evaluations = integrator_evaluations(self);
     int64_t steps_now = steps, evaluations_now = evaluations;
     archive_count(bytes, &steps);

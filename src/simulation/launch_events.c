@@ -83,8 +83,8 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
         self->phase.breech_speed = touch_speed(self, -out.y[0]);
         changed = true;
     }
-    for (int j = 0; j < self->launcher.marching.wheel_count; j++)
-        changed |= propagator_event(run->propagator, EVENT_WHEEL, j) > 0;
+    for (int j = 0; j < self->launcher.base.event_count; j++)
+        changed |= propagator_event(run->propagator, EVENT_BASE, j) > 0;
     bool last = self->current + 1 == self->model->firing_count;
     if (self->phase.passed[0] && self->phase.rocket &&
         !(last && self->model->run.end != LD_END_TIME)) {
@@ -109,15 +109,6 @@ void launch_let_go_at_once(launch_run *run, double t, const double *y)
     let_go(run, t, y);
 }
 
-// The first instant after t at which a commanded angle has a corner.
-static double next_corner(const ld_table *command, double t)
-{
-    for (size_t i = 0; i < command->rows && command->rows > 1; i++)
-        if (command->data[i * command->columns] > t)
-            return command->data[i * command->columns];
-    return INFINITY;
-}
-
 // When the next tube takes the place of the one that is empty now.
 double launch_change_instant(const launch_state *self)
 {
@@ -128,13 +119,12 @@ double launch_change_instant(const launch_state *self)
 double launch_next_stop(const launch_run *run, double t)
 {
     const launch_state *self = &run->launch;
+    const base_system *base = &self->launcher.base;
     double first, stop;
-    base_motion_span(&self->launcher.motion, &first, &stop);
+    base_span(base, &first, &stop);
     stop = fmin(stop, run->t_end);
-    if (self->launcher.vehicle)
-        stop =
-            fmin(stop, fmin(next_corner(&self->model->platform.azimuth.stabiliser.command, t),
-                            next_corner(&self->model->platform.elevation.stabiliser.command, t)));
+    if (base->kind->next_corner)
+        stop = fmin(stop, base->kind->next_corner(base, t));
     if (t < self->t_ignition)
         return fmin(stop, self->t_ignition);
     if (self->current + 1 < self->model->firing_count)
@@ -146,12 +136,12 @@ double launch_next_stop(const launch_run *run, double t)
     return stop;
 }
 
-// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve, or of a
-// commanded angle.
+// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve, or of
+// what drives the base.
 bool launch_pass_stop(launch_run *run, double t)
 {
     launch_state *self = &run->launch;
-    bool changed = self->launcher.vehicle;
+    bool changed = self->launcher.base.kind->next_corner != NULL;
     while (t >= self->t_ignition && self->piece + 1 < (int)self->motor->corner_count &&
            t >= self->t_ignition + self->motor->t[self->piece + 1]) {
         self->piece++;

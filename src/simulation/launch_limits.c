@@ -72,7 +72,7 @@ static ld_status check_next(launch_run *run, double t)
 ld_status launch_check_base(launch_run *run, double t)
 {
     double first, last;
-    base_motion_span(&run->launch.launcher.motion, &first, &last);
+    base_span(&run->launch.launcher.base, &first, &last);
     if (t >= first && t < last)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_INPUT,

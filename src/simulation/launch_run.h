@@ -72,6 +72,13 @@ void launch_energy_at(const launch_state *self, double t, const double *y, doubl
                       ld_energy *energy);
 void launch_summarise(launch_run *run, ld_status status, double cpu_seconds);
 
+// ---- saving and loading (launch_archive.c)
+
+// All that the run's steps, rows and summary to come depend on, or that the summary holds by now;
+// loads into a run of the same model, whose propagator is there. One walk, as in archive.h. After a
+// failed load the run can only be ended.
+void launch_archive(launch_run *run, archive *bytes);
+
 // ---- flights (launch_flights.c)
 
 // Every rocket that has left its tube flies to the ground, or until the run's end.

@@ -9,9 +9,9 @@
 typedef struct run_conditions {
     double t, t_ignition;    // [s]
     int piece, rocket, tube; // of the thrust curve; selected
-    const road *road;
+    bool level;
     launching_phase phase;
-    hinge_rest rest[HINGES];
+    base_rest rest;
 } run_conditions;
 
 typedef struct launch_state {
@@ -23,10 +23,10 @@ typedef struct launch_state {
     int current; // rocket in the order of firing
     double t_ignition;
     launching_phase phase;
-    hinge_rest rest[HINGES]; // of the equilibrium
-    bool on_breech;          // the equilibrium is one without a lock, the breech carries the rocket
-    m3 aim;                  // A_IT, the undeformed tube on its base, as it stood at that ignition
-    int piece;               // of the thrust curve
+    base_rest rest; // of the equilibrium
+    bool on_breech; // the equilibrium is one without a lock, the breech carries the rocket
+    m3 aim;         // A_IT, the undeformed tube on its base, as it stood at that ignition
+    int piece;      // of the thrust curve
     bool jammed;
     struct { // the latest evaluation, which at a step's end is that of the step's end
         bool known;
@@ -86,9 +86,9 @@ launching_phase simulation_start_phase(const launch_state *self);
 // Speeds in the same order: v, w, q_dot, V, ... Then what has a rate alone: the stabilisers'
 // integrals, eta and xi of each wheel, the drive's integral. d/dt of all: the Jacobian J.
 typedef struct linear_system {
-    int tube, rocket, vehicle; // displacements of each
-    int half, count;           // displacements in all; unknowns in all
-    double *J;                 // count x count, by columns; to be freed
+    int tube, rocket, base; // displacements of each
+    int half, count;        // displacements in all; unknowns in all
+    double *J;              // count x count, by columns; to be freed
 } linear_system;
 
 // Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching

@@ -9,7 +9,7 @@
 #include "simulation/launch_state.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
-// Eigenvalues of a vehicle below this modulus [1/s] belong to its neutral directions.
+// Eigenvalues below this modulus [1/s] belong to the neutral directions of a base that moves.
 static const double LEAST_RATE = 1e-2;
 // Squares of frequencies nearer to each other than this, relative, are equal but for the
 // differences' error.
@@ -17,42 +17,17 @@ static const double EQUAL = 1e-6;
 
 static const base_frame ORIGIN = {.A = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .q = {1, 0, 0, 0}};
 
-static void displace_vehicle(const launcher_system *launcher, int unknown, double change, double *y)
+// Where in the state the base's speed of a displacement stands, and what has a rate alone.
+static int base_speed_at(const launcher_system *launcher, int displacement)
 {
-    double *base = y + launcher->orientating_at;
-    if (unknown < 3) {
-        base[ORIENTATING_R + unknown] += change;
-    } else if (unknown < 6) {
-        double axis[3] = {0};
-        axis[unknown - 3] = sin(0.5 * change);
-        quat turn = {cos(0.5 * change), axis[0], axis[1], axis[2]};
-        quat q = q_multiply(q_from(base + ORIENTATING_QUATERNION), turn);
-        memcpy(base + ORIENTATING_QUATERNION, &q, sizeof q);
-    } else if (unknown < 8) {
-        base[ORIENTATING_ANGLE + unknown - 6] += change;
-    } else {
-        int k = unknown - 8;
-        y[launcher->marching_at + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
-    }
+    const base_system *base = &launcher->base;
+    return launcher->base_at + base->kind->dynamics->speed_of(base, displacement);
 }
 
-// Where a vehicle's speed, and what has a rate alone, stand in the state.
-static int vehicle_speed_at(const launcher_system *launcher, int unknown)
+static int base_extra_at(const launcher_system *launcher, int extra)
 {
-    if (unknown < 8)
-        return launcher->orientating_at + ORIENTATING_V + unknown;
-    int k = unknown - 8;
-    return launcher->marching_at + WHEEL_STATES * (k / 3) + WHEEL_V + k % 3;
-}
-
-static int extra_at(const launcher_system *launcher, int unknown)
-{
-    if (unknown < HINGES)
-        return launcher->orientating_at + ORIENTATING_Z + unknown;
-    int k = unknown - HINGES, wheels = launcher->marching.wheel_count;
-    if (k < 2 * wheels)
-        return launcher->marching_at + WHEEL_STATES * (k / 2) + WHEEL_ETA + k % 2;
-    return launcher->marching_at + WHEEL_STATES * wheels;
+    const base_system *base = &launcher->base;
+    return launcher->base_at + base->kind->dynamics->extra_of(base, extra);
 }
 
 static void displace(const launch_state *self, const linear_system *system, int unknown,
@@ -60,13 +35,14 @@ static void displace(const launch_state *self, const linear_system *system, int 
 {
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
+    const base_dynamics *base = launcher->base.kind->dynamics;
     int tube = system->tube, both = tube + system->rocket, half = system->half;
     if (unknown < tube)
         simulation_displace(self, unknown, change, y);
     else if (unknown < both)
         y[at->x + unknown - tube] += change;
     else if (unknown < half)
-        displace_vehicle(launcher, unknown - both, change, y);
+        base->displace_slightly(&launcher->base, unknown - both, change, y + launcher->base_at);
     else if (unknown < half + 6)
         y[at->v + unknown - half] += change; // v, then w
     else if (unknown < half + tube)
@@ -74,13 +50,13 @@ static void displace(const launch_state *self, const linear_system *system, int 
     else if (unknown < half + both)
         y[at->V + unknown - half - tube] += change;
     else if (unknown < 2 * half)
-        y[vehicle_speed_at(launcher, unknown - half - both)] += change;
+        y[base_speed_at(launcher, unknown - half - both)] += change;
     else
-        y[extra_at(launcher, unknown - 2 * half)] += change;
+        y[base_extra_at(launcher, unknown - 2 * half)] += change;
 }
 
-// d/dt of the state of the whole, without thrust; a base that is no vehicle is held in its attitude
-// in the origin.
+// d/dt of the state of the whole, without thrust; a base without a motion of its own is held in its
+// attitude in the origin.
 static int rates_of_whole(const launch_state *self, double t, const launching_phase *phase,
                           const double *y, double *y_dot)
 {
@@ -91,7 +67,7 @@ static int rates_of_whole(const launch_state *self, double t, const launching_ph
     input.formulation = LD_FORMULATION_REDUCED;
     input.launching.thrust = 0;
     base_frame *base = &input.launching.base;
-    if (!launcher->vehicle)
+    if (!launcher->base.kind->dynamics)
         base->r = base->v = base->w = v3_zero();
     if (launcher_evaluate(launcher, &input, phase, y, &out))
         return -1;
@@ -131,13 +107,13 @@ static int rates(const launch_state *self, const linear_system *system,
         memcpy(r + tube, y_dot + at->x, 6 * sizeof(double));
         memcpy(r + half + tube, y_dot + at->V, 6 * sizeof(double));
     }
-    for (int i = 0; i < system->vehicle; i++) {
-        int place = vehicle_speed_at(launcher, i);
-        r[both + i] = y[place]; // angular velocity and small rotations in chassis axes
+    for (int i = 0; i < system->base; i++) {
+        int place = base_speed_at(launcher, i);
+        r[both + i] = y[place]; // angular velocity and small rotations in the base's axes
         r[half + both + i] = y_dot[place];
     }
     for (int i = 2 * half; i < system->count; i++)
-        r[i] = y_dot[extra_at(launcher, i - 2 * half)];
+        r[i] = y_dot[base_extra_at(launcher, i - 2 * half)];
     return 0;
 }
 
@@ -147,13 +123,12 @@ static ld_status linearise(const launch_state *self, const launching_system *alo
                            const launching_phase *phase, const double *y, linear_system *system,
                            ld_error *error)
 {
-    int wheels = self->launcher.marching.wheel_count;
-    bool vehicle = self->launcher.vehicle && !alone;
+    const base_system *base = &self->launcher.base;
     system->tube = 6 + self->launcher.launching.layout.nq;
     system->rocket = phase->rocket ? 6 : 0;
-    system->vehicle = vehicle ? 8 + 3 * wheels : 0;
-    system->half = system->tube + system->rocket + system->vehicle;
-    system->count = 2 * system->half + (vehicle ? HINGES + 2 * wheels + 1 : 0);
+    system->base = alone ? 0 : base->displacement_count;
+    system->half = system->tube + system->rocket + system->base;
+    system->count = 2 * system->half + (alone ? 0 : base->extra_count);
     int n = system->count, half = system->half;
     double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], trial[LD_MAX_STATES];
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
@@ -183,39 +158,19 @@ enum {
     ROCKET_Y,
     ROCKET_Z,
     ROCKET_ROLL,
-    SURGE,
-    HEAVE,
-    SWAY,
-    ROLL,
-    YAW,
-    PITCH,
-    AZIMUTH,
-    ELEVATION,
-    WHEEL_ALONG,
-    WHEEL_HOP,
-    WHEEL_ACROSS,
-    GROUPS
+    GROUPS, // and those of the base
 };
 static const char *const group_names[GROUPS] = {
-    [VERTICAL] = "tube, vertical plane",
-    [LATERAL] = "tube, lateral plane",
-    [ALONG] = "tube, along its axis",
-    [TWIST] = "tube, twist",
-    [ROCKET_Y] = "rocket, pitch and heave",
-    [ROCKET_Z] = "rocket, yaw and sway",
+    [VERTICAL] = "tube, vertical plane",    [LATERAL] = "tube, lateral plane",
+    [ALONG] = "tube, along its axis",       [TWIST] = "tube, twist",
+    [ROCKET_Y] = "rocket, pitch and heave", [ROCKET_Z] = "rocket, yaw and sway",
     [ROCKET_ROLL] = "rocket, roll",
-    [SURGE] = "chassis, surge",
-    [HEAVE] = "chassis, heave",
-    [SWAY] = "chassis, sway",
-    [ROLL] = "chassis, roll",
-    [YAW] = "chassis, yaw",
-    [PITCH] = "chassis, pitch",
-    [AZIMUTH] = "azimuth platform",
-    [ELEVATION] = "elevation platform",
-    [WHEEL_ALONG] = "wheels, along",
-    [WHEEL_HOP] = "wheels, hop",
-    [WHEEL_ACROSS] = "wheels, across",
 };
+
+static const char *group_name(const base_system *base, int group)
+{
+    return group < GROUPS ? group_names[group] : base->kind->dynamics->groups[group - GROUPS];
+}
 
 // Kinetic energy of tube and rocket in an eigenvector's speed number i, by group.
 static void add_launching_energy(const launch_state *self, int i, double amount, double *energy)
@@ -242,50 +197,32 @@ static void add_launching_energy(const launch_state *self, int i, double amount,
         energy[rocket_group[k - nq]] += inertia[k - nq] * amount;
 }
 
-static void add_vehicle_energy(const launch_state *self, int i, double amount, double *energy)
-{
-    const ld_platform *platform = &self->model->platform;
-    static const int group[8] = {SURGE, HEAVE, SWAY, ROLL, YAW, PITCH, AZIMUTH, ELEVATION};
-    double m = self->launcher.orientating.mass;
-    const double *chassis = platform->chassis_inertia;
-    double inertia[8] = {m,
-                         m,
-                         m,
-                         chassis[0],
-                         chassis[1],
-                         chassis[2],
-                         platform->azimuth.inertia[1] + platform->elevation.inertia[1],
-                         platform->elevation.inertia[2]};
-    if (i < 8)
-        energy[group[i]] += inertia[i] * amount;
-    else
-        energy[WHEEL_ALONG + (i - 8) % 3] +=
-            self->model->base.vehicle.wheel[(i - 8) / 3].mass * amount;
-}
-
 // Names what moves most in an eigenvector: the group with the largest kinetic energy, and a second
 // one that has at least a third of it.
 static void name_shape(const launch_state *self, const linear_system *system,
                        const double *squared_speeds, char shape[LD_SHAPE_TEXT])
 {
-    double energy[GROUPS] = {0};
+    const base_system *base = &self->launcher.base;
+    double energy[GROUPS + BASE_GROUPS] = {0};
     int both = system->tube + system->rocket, best = 0, second = -1;
-    for (int i = 0; i < system->half; i++)
-        if (i < both)
-            add_launching_energy(self, i, squared_speeds[i], energy);
-        else
-            add_vehicle_energy(self, i - both, squared_speeds[i], energy);
-    for (int g = 1; g < GROUPS; g++)
+    for (int i = 0; i < both; i++)
+        add_launching_energy(self, i, squared_speeds[i], energy);
+    for (int i = both; i < system->half; i++) {
+        int group;
+        double inertia = base->kind->dynamics->inertia_of(base, i - both, &group);
+        energy[GROUPS + group] += inertia * squared_speeds[i];
+    }
+    for (int g = 1; g < GROUPS + BASE_GROUPS; g++)
         if (energy[g] > energy[best])
             best = g;
-    for (int g = 0; g < GROUPS; g++)
+    for (int g = 0; g < GROUPS + BASE_GROUPS; g++)
         if (g != best && energy[g] >= energy[best] / 3 &&
             (second < 0 || energy[g] > energy[second]))
             second = g;
     if (second < 0)
-        snprintf(shape, LD_SHAPE_TEXT, "%s", group_names[best]);
+        snprintf(shape, LD_SHAPE_TEXT, "%s", group_name(base, best));
     else
-        snprintf(shape, LD_SHAPE_TEXT, "%s; %s", group_names[best], group_names[second]);
+        snprintf(shape, LD_SHAPE_TEXT, "%s; %s", group_name(base, best), group_name(base, second));
 }
 
 static ld_status eigenvalues_failed(ld_error *error)
@@ -473,7 +410,7 @@ static ld_status eigenvalues(const launch_state *self, const linear_system *syst
     return bad ? eigenvalues_failed(error) : LD_OK;
 }
 
-// Modes of a vehicle: its pairs of complex eigenvalues.
+// Modes of a launcher whose base moves with it: its pairs of complex eigenvalues.
 static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes, int capacity,
                            int *count)
 {
@@ -521,7 +458,7 @@ static ld_status linearise_at_rest(launch_state *self, linear_system *system, ld
     phase.frictionless = true;
     self->piece = -1;
     ld_status status = simulation_equilibrium(self, t, y, &unused, error);
-    if (!status && self->launcher.vehicle) {
+    if (!status && self->launcher.base.kind->dynamics) {
         simulation_move_with_base(self, t, y);
     } else if (!status) {
         // in the origin, where differences are finest
@@ -536,15 +473,9 @@ static ld_status linearise_at_rest(launch_state *self, linear_system *system, ld
 ld_status simulation_linearise(launch_state *self, linear_system *system, ld_error *error)
 {
     *system = (linear_system){0};
-    static const ld_road level = {.iso_class = LD_ROAD_SMOOTH};
-    road *of_model = self->launcher.marching.road, *flat = NULL;
-    ld_status status = self->launcher.vehicle ? road_build(&level, 0, 0, &flat, error) : LD_OK;
-    if (status)
-        return status;
-    self->launcher.marching.road = flat;
-    status = linearise_at_rest(self, system, error);
-    self->launcher.marching.road = of_model;
-    road_free(flat);
+    self->launcher.base.level = true;
+    ld_status status = linearise_at_rest(self, system, error);
+    self->launcher.base.level = false;
     return status;
 }
 
@@ -554,7 +485,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
 {
     linear_system system = {0};
     launch_state state, *self = &state;
-    bool vehicle = simulation->launcher.vehicle;
+    bool moving = simulation->launcher.base.kind->dynamics != NULL;
     *count = *pole_count = 0;
     if (simulation->model->base.kind == LD_BASE_NONE)
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
@@ -563,9 +494,9 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
         return status;
     status = simulation_linearise(self, &system, error);
     if (!status)
-        status = eigenvalues(self, &system, vehicle ? LEAST_RATE : 1, poles, pole_capacity,
+        status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, poles, pole_capacity,
                              pole_count, error);
-    if (!status && vehicle)
+    if (!status && moving)
         modes_of_poles(poles, *pole_count, modes, capacity, count);
     else if (!status)
         status = undamped_modes(self, &system, modes, capacity, count, error);
@@ -574,21 +505,21 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     return status;
 }
 
-// What moves in the shape of a platform that its stabiliser does not hold; -1: another part.
-static int unstable_hinge(const char *shape)
+// The key of what ought to hold still what moves most in the shape, and does not; NULL: nothing
+// ought to.
+static const char *holder_of(const base_system *base, const char *shape)
 {
-    static const int group[HINGES] = {AZIMUTH, ELEVATION};
-    for (int i = 0; i < HINGES; i++)
-        if (strncmp(shape, group_names[group[i]], strlen(group_names[group[i]])) == 0)
-            return i;
-    return -1;
+    const base_dynamics *dynamics = base->kind->dynamics;
+    for (int g = 0; dynamics->groups[g]; g++)
+        if (strncmp(shape, dynamics->groups[g], strlen(dynamics->groups[g])) == 0)
+            return dynamics->holder_of(g);
+    return NULL;
 }
 
 ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *growing,
                                      ld_error *error)
 {
     enum { MOST = 2 * LD_MAX_STATES };
-    static const char *const names[HINGES] = {"azimuth", "elevation"};
     linear_system system = {0};
     int count = 0;
     ld_pole *poles = malloc(MOST * sizeof *poles);
@@ -603,17 +534,17 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
         eigenvalues(&state, &system, LEAST_RATE, poles, MOST, &count, &unused);
     launch_state_end(&state);
     for (int i = 0; i < count && !status; i++) {
-        int hinge = unstable_hinge(poles[i].shape);
+        const char *holder = holder_of(&simulation->launcher.base, poles[i].shape);
         if (poles[i].real < LEAST_RATE)
             continue;
         // what grows by less than a thousandth of its rate is within the differences' error
         if (poles[i].real > fmax(growing->real, 1e-3 * poles[i].imaginary))
             *growing = poles[i];
-        if (hinge >= 0)
+        if (holder)
             status = ld_fail(error, LD_ERR_INPUT,
-                             "platform.%s.stabiliser is unstable: about its equilibrium a motion "
-                             "of %.3g Hz grows by %.3g 1/s (launchdyn modes lists all)",
-                             names[hinge], poles[i].imaginary / TWO_PI, poles[i].real);
+                             "%s is unstable: about its equilibrium a motion of %.3g Hz grows by "
+                             "%.3g 1/s (launchdyn modes lists all)",
+                             holder, poles[i].imaginary / TWO_PI, poles[i].real);
     }
     free(poles);
     free(system.J);

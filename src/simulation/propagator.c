@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "math/rotation_vector.h"
+#include "elements/held_frame.h"
 
 // ---- the equations ----
 
@@ -20,7 +20,7 @@ void simulation_input(const launch_state *self, double t, const double *y, launc
 {
     launcher_place(&self->launcher, t, y, input);
     burn(self, t, &input->launching);
-    memcpy(input->rest, self->rest, sizeof input->rest);
+    input->rest = self->rest;
     input->held = false;
     input->formulation = self->model->run.formulation;
 }
@@ -45,10 +45,10 @@ static void find_conditions(const launch_state *self, double t, run_conditions *
     conditions->t_ignition = self->t_ignition;
     conditions->piece = self->piece;
     conditions->rocket = self->current;
-    conditions->tube = self->launcher.tube;
-    conditions->road = self->launcher.marching.road;
+    conditions->tube = self->launcher.base.tube;
+    conditions->level = self->launcher.base.level;
     memcpy(&conditions->phase, &self->phase, sizeof self->phase);
-    memcpy(conditions->rest, self->rest, sizeof self->rest);
+    memcpy(&conditions->rest, &self->rest, sizeof self->rest);
 }
 
 // The works at the state's end count for nothing in the equations.
@@ -108,24 +108,6 @@ typedef struct tolerances {
     bool absolute[LD_MAX_STATES];
 } tolerances;
 
-static void vehicle_tolerances(const launcher_system *launcher, double tolerance, tolerances *all)
-{
-    double *base = all->atol + launcher->orientating_at, *wheel = all->atol + launcher->marching_at;
-    for (int i = 0; i < ORIENTATING_STATES; i++)
-        base[i] = i < ORIENTATING_V ? 1e-2 * tolerance : tolerance;
-    for (int i = 0; i < HINGES; i++)
-        base[ORIENTATING_Z + i] = 1e2 * tolerance;
-    for (int i = 0; i < 3; i++)
-        all->absolute[launcher->orientating_at + ORIENTATING_R + i] = true;
-    for (int j = 0; j < launcher->marching.wheel_count; j++, wheel += WHEEL_STATES)
-        for (int i = 0; i < WHEEL_STATES; i++) {
-            bool speed = i >= WHEEL_V && i < WHEEL_V + 3;
-            wheel[i] = speed ? tolerance : 1e-2 * tolerance;
-            all->absolute[wheel + i - all->atol] = i < WHEEL_V;
-        }
-    *wheel = tolerance;
-}
-
 static void find_tolerances(const launch_state *self, tolerances *all)
 {
     const launching_layout *at = &self->launcher.launching.layout;
@@ -147,16 +129,11 @@ static void find_tolerances(const launch_state *self, tolerances *all)
         atol[at->q + i] = 1e-2 * tolerance;
         atol[at->q_dot + i] = tolerance;
     }
-    if (self->launcher.vehicle)
-        vehicle_tolerances(&self->launcher, tolerance, all);
+    const base_dynamics *base = self->launcher.base.kind->dynamics;
+    int base_at = self->launcher.base_at;
+    if (base)
+        base->tolerances(&self->launcher.base, tolerance, atol + base_at, all->absolute + base_at);
 }
-
-// A frame as it was exchanged, and as it goes on until the next exchange: with the acceleration
-// that its last two velocities tell.
-typedef struct held_frame {
-    base_frame last;
-    v3 a, alpha; // [m/s2], [rad/s2] in I
-} held_frame;
 
 // A force and a moment as they were exchanged, going on as the last two tell.
 typedef struct held_wrench {
@@ -174,6 +151,7 @@ struct propagator {
 
     // apart alone
     bool apart;
+    const vehicle_system *vehicle;
     double t, t_next; // [s] the last exchange and the next
     int64_t exchanges;
     double t_first; // [s] the instants count from here
@@ -215,26 +193,6 @@ static int events(double t, const double *y, double *g, void *user)
 
 // ---- subsystems apart ----
 
-static void go_on(const held_frame *held, double tau, base_frame *frame)
-{
-    v3 turn = v3_add(v3_scale(tau, held->last.w), v3_scale(0.5 * tau * tau, held->alpha));
-    v3 path = v3_add(v3_scale(tau, held->last.v), v3_scale(0.5 * tau * tau, held->a));
-    frame->r = v3_add(held->last.r, path);
-    frame->v = v3_add(held->last.v, v3_scale(tau, held->a));
-    frame->w = v3_add(held->last.w, v3_scale(tau, held->alpha));
-    frame->A = m3_mul(rv_exp(turn), held->last.A);
-    frame->q = q_from_matrix(frame->A);
-}
-
-static void take_frame(held_frame *held, const base_frame *now, double since)
-{
-    if (since > 0) {
-        held->a = v3_scale(1 / since, v3_sub(now->v, held->last.v));
-        held->alpha = v3_scale(1 / since, v3_sub(now->w, held->last.w));
-    }
-    held->last = *now;
-}
-
 static void take_wrench(held_wrench *held, v3 force, v3 moment, double since)
 {
     if (since > 0) {
@@ -252,7 +210,7 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     const launcher_system *launcher = &launch->launcher;
     launching_input input;
     launching_output *out = &launch->latest.out.launching;
-    go_on(&self->tube, t - self->t, &input.base);
+    held_frame_at(&self->tube, t - self->t, &input.base);
     burn(launch, t, &input);
     launch->latest.known = false; // not one of the whole
     launching_outcome outcome = launcher_evaluate_tube(launcher, launch->model->run.formulation,
@@ -289,11 +247,12 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
         .chassis_moment = v3_add(chassis->moment, v3_scale(tau, chassis->moment_rate)),
         .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
         .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
-        .rest = {launch->rest[0], launch->rest[1]},
+        .rest = {launch->rest.hinge[0], launch->rest.hinge[1]},
         .frictionless = launch->phase.frictionless,
     };
-    orientating_motion_at(&launch->launcher.orientating, t, y, &motion);
-    if (orientating_evaluate(&launch->launcher.orientating, &input, y, &motion, y_dot, &out))
+    const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
+    orientating_motion_at(orientating, t, y, &motion);
+    if (orientating_evaluate(orientating, &input, y, &motion, y_dot, &out))
         return -1;
     memcpy(y_dot + ORIENTATING_STATES, out.power, sizeof out.power);
     return all_finite(ORIENTATING_COUNT, y_dot) ? 0 : -1;
@@ -302,10 +261,10 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
 static int marching_rhs(double t, const double *y, double *y_dot, void *user)
 {
     propagator *self = user;
-    const marching_system *marching = &self->launch->launcher.marching;
+    const marching_system *marching = &self->vehicle->marching;
     marching_output out;
     base_frame chassis;
-    go_on(&self->chassis, t - self->t, &chassis);
+    held_frame_at(&self->chassis, t - self->t, &chassis);
     marching_evaluate(marching, &chassis, false, y, y_dot, &out);
     memcpy(y_dot + marching->state_count, out.power, sizeof out.power);
     return all_finite(self->marching_count, y_dot) ? 0 : -1;
@@ -330,10 +289,9 @@ static void split_base(const propagator *self, const double *y, double *orientat
 {
     const launcher_system *launcher = &self->launch->launcher;
     int works = launcher->work_at + POWER_COUNT;
-    part_of(y, launcher->orientating_at, ORIENTATING_STATES, works, ORIENTATING_POWERS,
-            orientating);
-    part_of(y, launcher->marching_at, launcher->marching.state_count, works + ORIENTATING_POWERS,
-            MARCHING_POWERS, marching);
+    part_of(y, launcher->base_at, ORIENTATING_STATES, works, ORIENTATING_POWERS, orientating);
+    part_of(y, launcher->base_at + VEHICLE_MARCHING, self->vehicle->marching.state_count,
+            works + ORIENTATING_POWERS, MARCHING_POWERS, marching);
 }
 
 static void join_base(const propagator *self, const double *orientating, const double *marching,
@@ -341,9 +299,8 @@ static void join_base(const propagator *self, const double *orientating, const d
 {
     const launcher_system *launcher = &self->launch->launcher;
     int works = launcher->work_at + POWER_COUNT;
-    put_part(orientating, launcher->orientating_at, ORIENTATING_STATES, works, ORIENTATING_POWERS,
-             y);
-    put_part(marching, launcher->marching_at, launcher->marching.state_count,
+    put_part(orientating, launcher->base_at, ORIENTATING_STATES, works, ORIENTATING_POWERS, y);
+    put_part(marching, launcher->base_at + VEHICLE_MARCHING, self->vehicle->marching.state_count,
              works + ORIENTATING_POWERS, MARCHING_POWERS, y);
 }
 
@@ -354,7 +311,7 @@ static void base_between(const propagator *self, double t, double *y)
     double h = self->t_next - self->t, x = h > 0 ? (t - self->t) / h : 0;
     double a = (1 + 2 * x) * (1 - x) * (1 - x), b = x * (1 - x) * (1 - x) * h;
     double c = x * x * (3 - 2 * x), d = -x * x * (1 - x) * h;
-    for (int i = launcher->orientating_at; i < launcher->state_count; i++)
+    for (int i = launcher->base_at; i < launcher->state_count; i++)
         if (i < launcher->work_at || i >= launcher->work_at + POWER_COUNT)
             y[i] =
                 a * self->from[i] + b * self->rate_from[i] + c * self->to[i] + d * self->rate_to[i];
@@ -382,9 +339,10 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     launch->latest.known = false;
     if (launcher_evaluate(launcher, &input, &launch->phase, y, out))
         return ld_fail(error, LD_ERR_NUMERIC, "the exchange at t = %.9g s has no solution", t);
-    take_frame(&self->chassis, &input.motion.chassis, since);
-    take_frame(&self->tube, &input.motion.tube, since);
-    take_wrench(&self->on_chassis, out->marching.force, out->marching.moment, since);
+    held_frame_take(&self->chassis, &input.found.vehicle.chassis, since);
+    held_frame_take(&self->tube, &input.found.vehicle.tube, since);
+    const marching_output *wheels = &out->base.report.vehicle.marching;
+    take_wrench(&self->on_chassis, wheels->force, wheels->moment, since);
     take_wrench(&self->on_tube, out->launching.base_force, out->launching.base_moment, since);
     self->t = t;
     double step = launch->model->run.coupling_step;
@@ -414,11 +372,11 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     marching_rhs(t, marching, rate[1], self);
     join_base(self, rate[0], rate[1], self->rate_from);
     const double *chassis = integrator_state(self->orientating);
-    const double *wheels = integrator_state(self->marching);
+    const double *marched = integrator_state(self->marching);
     orientating_rhs(self->t_next, chassis, rate[0], self);
-    marching_rhs(self->t_next, wheels, rate[1], self);
+    marching_rhs(self->t_next, marched, rate[1], self);
     join_base(self, rate[0], rate[1], self->rate_to);
-    join_base(self, chassis, wheels, self->to);
+    join_base(self, chassis, marched, self->to);
     return LD_OK;
 }
 
@@ -431,14 +389,14 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
     for (int i = 0; i < LD_MAX_STATES; i++)
         atol[0][i] = atol[1][i] = 1e300;
     for (int i = 0; i < ORIENTATING_STATES; i++) {
-        atol[0][i] = all->atol[launcher->orientating_at + i];
-        absolute[0][i] = all->absolute[launcher->orientating_at + i];
+        atol[0][i] = all->atol[launcher->base_at + i];
+        absolute[0][i] = all->absolute[launcher->base_at + i];
     }
-    for (int i = 0; i < launcher->marching.state_count; i++) {
-        atol[1][i] = all->atol[launcher->marching_at + i];
-        absolute[1][i] = all->absolute[launcher->marching_at + i];
+    for (int i = 0; i < self->vehicle->marching.state_count; i++) {
+        atol[1][i] = all->atol[launcher->base_at + VEHICLE_MARCHING + i];
+        absolute[1][i] = all->absolute[launcher->base_at + VEHICLE_MARCHING + i];
     }
-    self->marching_count = launcher->marching.state_count + MARCHING_POWERS;
+    self->marching_count = self->vehicle->marching.state_count + MARCHING_POWERS;
     integrator_settings settings = *whole;
     settings.events = NULL;
     settings.event_count = 0;
@@ -467,7 +425,8 @@ ld_status propagator_create(launch_state *launch, propagator **out, ld_error *er
     const launcher_system *launcher = &launch->launcher;
     find_tolerances(launch, &all);
     self->launch = launch;
-    self->apart = launcher->vehicle && launch->model->run.coupling_step > 0;
+    self->vehicle = base_as_vehicle(&launcher->base);
+    self->apart = self->vehicle && launch->model->run.coupling_step > 0;
     self->events = events_of(launch, !self->apart);
     integrator_settings settings = {
         .n = (size_t)launcher->state_count,

@@ -142,3 +142,16 @@ double quantity_value(const quantity_walk *at, const void *from)
 {
     return quantity_is_there(at->group, from) ? quantity_number(&at->row->at, at->item, from) : NAN;
 }
+
+void quantity_archive(const quantity_table *table, const quantity_things *things, void *in,
+                      archive *bytes)
+{
+    for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at)) {
+        if (at.row->at.type != QUANTITY_NUMBER || !quantity_is_there(at.group, in))
+            continue;
+        double value = quantity_number(&at.row->at, at.item, in);
+        archive_double(bytes, &value);
+        if (bytes->loading)
+            quantity_put(&at.row->at, at.item, value, in);
+    }
+}

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/archive.h"
 #include "model/model.h"
 
 // What there is one of each: a run; a vehicle, where the base is one; a round or WGS 84 Earth; then
@@ -129,5 +130,8 @@ double quantity_value(const quantity_walk *at, const void *from);
 bool quantity_is_there(const quantity_group *group, const void *from);
 double quantity_number(const quantity_place *place, int item, const void *from);
 void quantity_put(const quantity_place *place, int item, double value, void *in);
+// Saves or loads the numbers of a struct that the table has and that are there; not the whole ones.
+void quantity_archive(const quantity_table *table, const quantity_things *things, void *in,
+                      archive *bytes);
 
 #endif

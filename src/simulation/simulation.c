@@ -14,26 +14,10 @@ double simulation_cpu_now(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-// The stretch of road [m] that the wheels will see in a launch.
-static void road_under(const ld_model *model, double x[2])
-{
-    const ld_vehicle *vehicle = &model->base.vehicle;
-    double speed = vehicle->speed, rear = 0, front = 0;
-    for (int j = 0; j < vehicle->wheel_count; j++) {
-        rear = fmin(rear, vehicle->wheel[j].mount[0]);
-        front = fmax(front, vehicle->wheel[j].mount[0]);
-    }
-    double end = model->run.end == LD_END_TIME ? model->run.end_time : 1;
-    x[0] = rear - speed * model->run.lead_in - 1;
-    x[1] = front + speed * (model->firing[model->firing_count - 1].at + end) + 1;
-}
-
 static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_error *error)
 {
     const ld_model *model = self->model;
-    double stretch[2];
-    road_under(model, stretch);
-    ld_status status = launcher_build(&self->launcher, model, kept, stretch[0], stretch[1], error);
+    ld_status status = launcher_build(&self->launcher, model, kept, error);
     int count = model->salvo ? model->firing_count : 1;
     for (int i = 0; i < count && !status; i++) {
         status = motor_build(&self->motor_of[i], salvo_rocket(model, i), error);
@@ -42,7 +26,7 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
     if (status)
         return status;
     history_build(self);
-    if (self->launcher.vehicle)
+    if (self->launcher.base.kind->dynamics)
         self->stability = simulation_check_stability(self, &self->growing, &self->unstable);
     return LD_OK;
 }

@@ -24,7 +24,7 @@ static uint64_t digest(const study_pending *self, const study_record *record)
 {
     const unsigned char *bytes = (const unsigned char *)record;
     uint64_t hash = 0xcbf29ce484222325u ^ self->key;
-    for (size_t i = 0; i < record_size(record->rockets); i += sizeof hash) {
+    for (size_t i = 0; i < record_size(&record->shape); i += sizeof hash) {
         uint64_t word;
         memcpy(&word, bytes + i, sizeof word);
         hash = (hash ^ word) * 0x100000001b3u;
@@ -35,15 +35,17 @@ static uint64_t digest(const study_pending *self, const study_record *record)
 static bool is_whole(const study_pending *self, int index)
 {
     const study_record *record = record_in(self, index);
-    return record->number > 0 && record->rockets >= 0 && record->rockets <= self->rockets &&
-           *digest_in(self, index) == digest(self, record);
+    study_shape shape = record->shape;
+    return record->number > 0 && shape.rockets >= 0 && shape.rockets <= self->shape.rockets &&
+           shape.of_sample == self->shape.of_sample && shape.of_rocket == self->shape.of_rocket &&
+           shape.results == self->shape.results && *digest_in(self, index) == digest(self, record);
 }
 
-ld_status pending_open(study_pending *self, const char *path, uint64_t key, int64_t rockets,
-                       ld_error *error)
+ld_status pending_open(study_pending *self, const char *path, uint64_t key,
+                       const study_shape *shape, ld_error *error)
 {
     *self = (study_pending){
-        .slot_size = sizeof(uint64_t) + record_size(rockets), .rockets = rockets, .key = key};
+        .slot_size = sizeof(uint64_t) + record_size(shape), .shape = *shape, .key = key};
     snprintf(self->path, sizeof self->path, "%s", path);
     size_t size = PENDING_MOST * self->slot_size;
     int file = open(path, O_CREAT | O_RDWR | O_CLOEXEC, 0666);
@@ -75,7 +77,7 @@ void pending_close(study_pending *self)
 
 void pending_add(study_pending *self, const study_record *record)
 {
-    memcpy(record_in(self, self->count), record, record_size(record->rockets));
+    memcpy(record_in(self, self->count), record, record_size(&record->shape));
     *digest_in(self, self->count) = digest(self, record);
     self->count++;
 }

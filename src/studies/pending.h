@@ -13,17 +13,17 @@ enum { PENDING_MOST = 256 }; // records
 typedef struct study_pending {
     unsigned char *slot; // [PENDING_MOST] of slot_size bytes; NULL: closed
     size_t slot_size;
-    int64_t rockets;
-    uint64_t key; // of the study
+    study_shape shape; // the most that a record holds
+    uint64_t key;      // of the study
     int count;
     char path[4096];
 } study_pending;
 
-// Opens the file at `path`, making it where it is not there, for records of up to `rockets`
-// rockets. It holds those that an earlier run of the study with the same key has left and that were
+// Opens the file at `path`, making it where it is not there, for records of up to this shape. It
+// holds those that an earlier run of the study with the same key has left and that were
 // written whole.
-ld_status pending_open(study_pending *self, const char *path, uint64_t key, int64_t rockets,
-                       ld_error *error);
+ld_status pending_open(study_pending *self, const char *path, uint64_t key,
+                       const study_shape *shape, ld_error *error);
 // Removes the file if nothing is in it.
 void pending_close(study_pending *self);
 

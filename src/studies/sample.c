@@ -28,6 +28,7 @@ ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error 
     for (int i = 0; self->first && i < scatter->factor_count; i++) {
         self->first[i] = places;
         places += factor_numbers(&scatter->factor[i]);
+        *(scatter->factor[i].per_rocket ? &self->of_rocket : &self->of_sample) += 1;
     }
     self->place = calloc((size_t)places + 1, sizeof *self->place);
     if (!self->place || !self->first || !self->nominal_value) {
@@ -52,26 +53,14 @@ void sampler_free(study_sampler *self)
     *self = (study_sampler){0};
 }
 
-void sampler_values(const study_sampler *self, int64_t number, int rocket, double *row)
-{
-    const ld_scatter *scatter = &self->nominal->scatter;
-    for (int i = 0; i < self->factor_count; i++) {
-        const ld_factor *factor = &scatter->factor[i];
-        row[i] = NAN;
-        if (factor->per_rocket != (rocket > 0))
-            continue;
-        double u = draw_uniform(scatter, factor, number, rocket);
-        row[i] = draw_value(factor, &self->place[self->first[i]], self->nominal_value[i], u);
-    }
-}
-
-study_sample *sample_create(int factor_count)
+study_sample *sample_create(const study_sampler *sampler)
 {
     study_sample *self = calloc(1, sizeof *self);
     if (!self)
         return NULL;
-    self->value = calloc((size_t)factor_count + 1, sizeof(double));
-    if (!self->value) {
+    int most = sampler->of_sample + LD_MAX_FIRINGS * sampler->of_rocket;
+    self->drawn = calloc((size_t)most + 1, sizeof(double));
+    if (!self->drawn) {
         free(self);
         return NULL;
     }
@@ -81,19 +70,28 @@ study_sample *sample_create(int factor_count)
 void sample_free(study_sample *self)
 {
     if (self)
-        free(self->value);
+        free(self->drawn);
     free(self);
 }
 
-// Draws the values of rocket `rocket` (from 1; 0: those of the sample) into the model.
-static void draw_row(study_sample *self, const study_sampler *sampler, int64_t number, int rocket)
+// Draws the values of rocket `rocket` (from 1; 0: those of the sample) into the model and to
+// `drawn`; returns where the next ones go.
+static double *draw_row(study_sample *self, const study_sampler *sampler, int64_t number,
+                        int rocket, double *drawn)
 {
-    sampler_values(sampler, number, rocket, self->value);
+    const ld_scatter *scatter = &sampler->nominal->scatter;
     for (int i = 0; i < sampler->factor_count; i++) {
-        const ld_factor *factor = &sampler->nominal->scatter.factor[i];
-        for (int k = 0; k < factor_numbers(factor) && factor->per_rocket == (rocket > 0); k++)
-            field_set(&self->model, &sampler->place[sampler->first[i] + k], self->value[i]);
+        const ld_factor *factor = &scatter->factor[i];
+        const field_place *place = &sampler->place[sampler->first[i]];
+        if (factor->per_rocket != (rocket > 0))
+            continue;
+        double u = draw_uniform(scatter, factor, number, rocket);
+        *drawn = draw_value(factor, place, sampler->nominal_value[i], u);
+        for (int k = 0; k < factor_numbers(factor); k++)
+            field_set(&self->model, &place[k], *drawn);
+        drawn++;
     }
+    return drawn;
 }
 
 ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t number,
@@ -104,12 +102,12 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
     self->model.sample = (int)number;
     if (self->model.run.max_step == self->model.run.max_step_completed)
         self->model.run.max_step = NAN; // it follows the tolerance drawn
-    draw_row(self, sampler, number, 0);
+    double *drawn = draw_row(self, sampler, number, 0, self->drawn);
     ld_rocket shared = self->model.rocket;
     ld_status status = LD_OK;
     for (int i = 1; i <= rockets; i++) {
         self->model.rocket = shared;
-        draw_row(self, sampler, number, i);
+        drawn = draw_row(self, sampler, number, i, drawn);
         model_complete(&self->model);
         if (!status)
             status = model_check(&self->model, error);

@@ -10,6 +10,7 @@
 typedef struct study_sampler {
     const ld_model *nominal;
     int factor_count;
+    int of_sample, of_rocket; // factors drawn once a sample, and for every rocket
     field_place *place;    // of each factor as many as it has numbers, one factor after the other
     int *first;            // [factors] its first place
     double *nominal_value; // [factors]
@@ -18,17 +19,13 @@ typedef struct study_sampler {
 ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error *error);
 void sampler_free(study_sampler *self);
 
-// The values of sample `number` that are drawn once (rocket 0) or for rocket `rocket`, from 1;
-// those of other factors are NaN. row [factors]
-void sampler_values(const study_sampler *self, int64_t number, int rocket, double *row);
-
 typedef struct study_sample {
     ld_model model; // its tables are the nominal model's
     ld_rocket salvo[LD_MAX_FIRINGS];
-    double *value; // [factors] drawn last
+    double *drawn; // [of_sample] values of the sample, then [of_rocket] of each rocket fired
 } study_sample;
 
-study_sample *sample_create(int factor_count);
+study_sample *sample_create(const study_sampler *sampler);
 void sample_free(study_sample *self);
 
 // Fills the sample with the values that belong to its number, from 1.

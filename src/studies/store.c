@@ -107,15 +107,9 @@ static void name_file(char *path, size_t size, const char *folder, int shard, in
 
 static ld_status prepare_all(study_store *self, ld_error *error)
 {
-    int of_rocket = 0, factors = self->study->nominal->scatter.factor_count;
-    for (int i = 0; i < factors; i++)
-        of_rocket += store_is_of_rocket(self, i);
-    self->row = calloc((size_t)factors + 1, sizeof *self->row);
-    if (!self->row)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's factors");
-    self->insert_sample = store_prepare_insert(self, "sample", 4 + factors - of_rocket, error);
-    self->insert_rocket =
-        store_prepare_insert(self, "rocket", 3 + of_rocket + STUDY_RESULTS, error);
+    const study_shape *shape = &self->study->shape;
+    self->insert_sample = store_prepare_insert(self, "sample", 4 + (int)shape->of_sample, error);
+    self->insert_rocket = store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
     self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
     bool all = self->insert_sample && self->insert_rocket && self->find;
     return all ? LD_OK : LD_ERR_FILE;
@@ -183,16 +177,10 @@ static void bind_number(sqlite3_stmt *statement, int column, double value)
         sqlite3_bind_double(statement, column, value);
 }
 
-// Binds the factors of the sample (rocket 0) or of a rocket; returns the next free column.
-static int bind_factors(study_store *self, sqlite3_stmt *statement, int column, int64_t number,
-                        int rocket)
+static void bind_numbers(sqlite3_stmt *statement, int column, const double *value, int64_t count)
 {
-    const study_sampler *sampler = &self->study->sampler[study_point_of(self->study, number)];
-    sampler_values(sampler, study_draw_of(self->study, number), rocket, self->row);
-    for (int i = 0; i < sampler->factor_count; i++)
-        if (store_is_of_rocket(self, i) == (rocket > 0))
-            bind_number(statement, column++, self->row[i]);
-    return column;
+    for (int64_t i = 0; i < count; i++)
+        bind_number(statement, column++, value[i]);
 }
 
 static bool put_sample(study_store *self, const study_record *record)
@@ -205,20 +193,18 @@ static bool put_sample(study_store *self, const study_record *record)
         sqlite3_bind_text(insert, 4, record->reason, -1, SQLITE_TRANSIENT);
     else
         sqlite3_bind_null(insert, 4);
-    bind_factors(self, insert, 5, record->number, 0);
+    bind_numbers(insert, 5, record->value, record->shape.of_sample);
     return store_step(insert);
 }
 
 static bool put_rocket(study_store *self, const study_record *record, int rocket)
 {
     sqlite3_stmt *insert = self->insert_rocket;
-    const study_rocket *of = &record->rocket[rocket - 1];
+    const double *value = record->value + record_rocket(&record->shape, rocket - 1);
     sqlite3_bind_int64(insert, 1, record->number);
     sqlite3_bind_int(insert, 2, rocket);
-    sqlite3_bind_int64(insert, 3, of->tube);
-    int column = bind_factors(self, insert, 4, record->number, rocket);
-    for (int i = 0; i < STUDY_RESULTS; i++)
-        bind_number(insert, column + i, of->result[i]);
+    sqlite3_bind_int64(insert, 3, (int64_t)value[0]);
+    bind_numbers(insert, 4, value + 1, record_width(&record->shape) - 1);
     return store_step(insert);
 }
 
@@ -232,7 +218,7 @@ static double now(void)
 static bool insert_record(study_store *self, const study_record *record)
 {
     bool good = put_sample(self, record);
-    for (int i = 1; i <= record->rockets && good; i++)
+    for (int i = 1; i <= record->shape.rockets && good; i++)
         good = put_rocket(self, record, i);
     return good;
 }
@@ -287,7 +273,7 @@ static ld_status open_pending(study_store *self, ld_error *error)
     char *hash = store_text(self, "hash");
     uint64_t key = random_stream(hash ? hash : "") ^ random_stream(LD_VERSION);
     free(hash);
-    ld_status status = pending_open(&self->pending, path, key, self->study->rockets, error);
+    ld_status status = pending_open(&self->pending, path, key, &self->study->shape, error);
     self->greatest = INT64_MAX;
     if (!status)
         status = store_settle(self, true, error);
@@ -396,7 +382,6 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
 
 void store_close(study_store *self)
 {
-    free(self->row);
     sqlite3_finalize(self->insert_sample);
     sqlite3_finalize(self->insert_rocket);
     sqlite3_finalize(self->find);

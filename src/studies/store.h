@@ -24,7 +24,6 @@ typedef struct study_store {
     sqlite3 *database;
     sqlite3_stmt *insert_sample, *insert_rocket, *find;
     const ld_study *study;
-    double *row; // [factors]
     store_journal journal;
     study_pending pending; // records put that are not settled
     double settled;        // [s] when, on a clock of its own

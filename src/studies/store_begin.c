@@ -8,6 +8,7 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/version.h"
 #include "scenario/scenario.h"
+#include "simulation/study_results.h"
 #include "studies/store.h"
 
 #define FORMAT "3"

@@ -42,7 +42,7 @@ ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **ou
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a sample");
     ld_status status = sampler_create(&self->sampler, model, error);
-    self->sample = status ? NULL : sample_create(model->scatter.factor_count);
+    self->sample = status ? NULL : sample_create(&self->sampler);
     if (!status && !self->sample)
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for a sample");
     if (!status)

@@ -5,6 +5,7 @@
 #define LD_STUDIES_STUDY_H
 
 #include "launchdyn/study.h"
+#include "studies/record.h"
 #include "studies/sample.h"
 
 struct ld_study {
@@ -13,7 +14,7 @@ struct ld_study {
     ld_model *model;        // [points] of the sweep; without one the nominal one
     study_sampler *sampler; // [points]
     int64_t samples;        // their numbers go from 1 to this
-    int rockets;            // most that a sample fires
+    study_shape shape;      // the most that a sample's record holds
 };
 
 // Samples of each point.

@@ -6,6 +6,7 @@
 #include "base/suggestion.h"
 #include "model/field.h"
 #include "scenario/scenario.h"
+#include "simulation/study_results.h"
 #include "studies/statistics.h"
 #include "studies/store.h"
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "scenario/scenario.h"
+#include "simulation/study_results.h"
 #include "studies/study.h"
 
 // Adds to a message which point it is about: " (point 5 of the sweep, rocket.mass: 61 kg)".
@@ -76,9 +77,12 @@ static ld_status find_factors(ld_study *self, ld_error *error)
         ld_status status = sampler_create(&self->sampler[i], &self->model[i], error);
         if (status)
             return status;
-        if (self->model[i].firing_count > self->rockets)
-            self->rockets = self->model[i].firing_count;
+        if (self->model[i].firing_count > self->shape.rockets)
+            self->shape.rockets = self->model[i].firing_count;
     }
+    self->shape.of_sample = self->sampler[0].of_sample;
+    self->shape.of_rocket = self->sampler[0].of_rocket;
+    self->shape.results = STUDY_RESULTS;
     return LD_OK;
 }
 

@@ -6,13 +6,14 @@
 #include <time.h>
 
 #include "simulation/simulation.h"
+#include "simulation/study_results.h"
 
 ld_status worker_create(study_worker *self, const ld_study *study, ld_error *error)
 {
     *self = (study_worker){.study = study,
-                           .sample = sample_create(study->nominal->scatter.factor_count),
+                           .sample = sample_create(&study->sampler[0]),
                            .summary = calloc(1, sizeof *self->summary),
-                           .record = calloc(1, record_size(study->rockets))};
+                           .record = calloc(1, record_size(&study->shape))};
     if (self->sample && self->summary && self->record)
         return LD_OK;
     worker_free(self);
@@ -47,16 +48,23 @@ static ld_status run_sample(study_worker *self, permission *asked, ld_error *err
     return status ? status : ld_simulation_run(self->simulation, &options, self->summary, error);
 }
 
-static void fill_rockets(study_worker *self)
+// The numbers of the record: what was drawn and what came of it.
+static void fill_values(study_worker *self)
 {
     const ld_model *model = &self->sample->model;
+    const study_shape *shape = &self->record->shape;
+    const double *drawn = self->sample->drawn;
+    double *value = self->record->value;
+    for (int k = 0; k < shape->of_sample; k++)
+        *value++ = *drawn++;
     for (int i = 0; i < model->firing_count; i++) {
-        study_rocket *rocket = &self->record->rocket[i];
-        rocket->tube = model->firing[i].tube;
-        for (int k = 0; k < STUDY_RESULTS; k++)
-            rocket->result[k] = i < self->summary->rocket_count
-                                    ? study_result_of(&self->summary->rocket[i], &study_results[k])
-                                    : NAN;
+        *value++ = model->firing[i].tube;
+        for (int k = 0; k < shape->of_rocket; k++)
+            *value++ = *drawn++;
+        for (int k = 0; k < shape->results; k++)
+            *value++ = i < self->summary->rocket_count
+                           ? study_result_of(&self->summary->rocket[i], &study_results[k])
+                           : NAN;
     }
 }
 
@@ -72,9 +80,10 @@ void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void 
     study_record *record = self->record;
     record->number = number;
     record->outcome = outcome;
-    record->rockets = self->sample->model.firing_count;
+    record->shape = self->study->shape;
+    record->shape.rockets = self->sample->model.firing_count;
     snprintf(record->reason, sizeof record->reason, "%s", outcome ? error.text : "");
-    fill_rockets(self);
+    fill_values(self);
 }
 
 void worker_run_all(const ld_study *study, study_ledger *ledger)

@@ -2,6 +2,7 @@
 #ifndef LD_STUDIES_WORKER_H
 #define LD_STUDIES_WORKER_H
 
+#include "launchdyn/simulation.h"
 #include "studies/ledger.h"
 #include "studies/record.h"
 #include "studies/study.h"

@@ -1,32 +1,23 @@
-// The launcher: the launching subsystem on its base. A fixed or prescribed base is a motion given
-// over time; a vehicle is the orientating and the marching subsystem, which exchange positions,
-// velocities and spring-damper forces with the tube (model.md, section 2).
+// The launcher: the launching subsystem on its base, which exchange positions, velocities and
+// spring-damper forces (model.md, section 2).
 //
-// State: launching | orientating | marching (both for a vehicle only) | works by kind of force.
+// State: launching | base | works by kind of force, first the launching subsystem's.
 #ifndef LD_SYSTEMS_LAUNCHER_H
 #define LD_SYSTEMS_LAUNCHER_H
 
+#include "systems/base.h"
 #include "systems/launching.h"
-#include "systems/marching.h"
-#include "systems/orientating.h"
 
 enum {
-    LAUNCHER_WORKS = POWER_COUNT + ORIENTATING_POWERS + MARCHING_POWERS,
-    LD_MAX_STATES = 32 + 2 * LD_MAX_MODAL + ORIENTATING_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1 +
-                    LAUNCHER_WORKS,
+    LAUNCHER_MOST_WORKS = POWER_COUNT + BASE_MOST_WORKS,
+    LD_MAX_STATES = 32 + 2 * LD_MAX_MODAL + BASE_MOST_STATES + LAUNCHER_MOST_WORKS,
 };
 
 typedef struct launcher_system {
     const ld_model *model;
     launching_system launching;
-    base_motion motion; // of a fixed or prescribed base
-    bool vehicle;
-    orientating_system orientating; // with the tube that launches now
-    int tube;                       // which that is, in the order of firing
-    int tube_count;
-    orientating_system of_tube[LD_MAX_FIRINGS]; // in the order of firing
-    marching_system marching;
-    int orientating_at, marching_at, work_at; // offsets in the state
+    base_system base;
+    int base_at, work_at; // offsets in the state
     int work_count, state_count;
 } launcher_system;
 
@@ -34,23 +25,19 @@ typedef struct launcher_system {
 typedef struct launcher_input {
     launching_input launching;  // base frame, thrust, mass
     ld_formulation formulation; // of the launching subsystem
-    hinge_rest rest[HINGES];    // of locked hinges
-    bool held;                  // hinges carry rest[].torque (equilibrium)
-    orientating_motion motion;  // of a vehicle
+    base_rest rest;             // of the base in the equilibrium
+    bool held;                  // the base carries what `rest` says (equilibrium)
+    base_found found;
 } launcher_input;
 
 typedef struct launcher_output {
     launching_output launching;
-    orientating_output orientating;
-    marching_output marching;
-    hinge_report hinge[HINGES];
-    double base_dot[ORIENTATING_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1];
+    base_output base; // of a base with a motion of its own
 } launcher_output;
 
-// Builds the launcher, for the first rocket of the model's firing; a road is tabulated from x0 to
-// x1 [m]. `kept` as for launching_build.
+// Builds the launcher, for the first rocket of the model's firing. `kept` as for launching_build.
 ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
-                         double x0, double x1, ld_error *error);
+                         ld_error *error);
 void launcher_free(launcher_system *self);
 
 // Makes *self the launcher of one run, which may go on beside others: it shares what does not
@@ -58,10 +45,10 @@ void launcher_free(launcher_system *self);
 ld_status launcher_share(launcher_system *self, const launcher_system *of, ld_error *error);
 void launcher_free_share(launcher_system *self);
 
-// Takes the tube of firing i as the flexible one, the others with the platform.
+// Takes the tube of firing i as the flexible one, the others with the base.
 void launcher_select(launcher_system *self, int i);
 
-// The base's frames at time t [s] and state: fills input->launching.base and input->motion.
+// The base's frames at time t [s] and state: fills input->launching.base and input->found.
 void launcher_place(const launcher_system *self, double t, const double *state,
                     launcher_input *input);
 
@@ -75,11 +62,11 @@ launching_outcome launcher_evaluate_tube(const launcher_system *self, ld_formula
                                          const launching_input *input, const launching_phase *phase,
                                          const double *state, launching_output *output);
 
-// Orientating and marching subsystem alone, under the wrench of the tube that stands in
-// output->launching (base_force, base_moment). 0, or other where they have no solution.
-int launcher_evaluate_vehicle(const launcher_system *self, const launcher_input *input,
-                              const launching_phase *phase, const double *state,
-                              launcher_output *output);
+// A base with a motion of its own alone, under the wrench of the tube that stands in
+// output->launching (base_force, base_moment). 0, or other where it has no solution.
+int launcher_evaluate_base(const launcher_system *self, const launcher_input *input,
+                           const launching_phase *phase, const double *state,
+                           launcher_output *output);
 
 // Derivative of the state from the accelerations found; works included.
 void launcher_rates(const launcher_system *self, const double *state, const launcher_output *output,
@@ -88,5 +75,8 @@ void launcher_rates(const launcher_system *self, const double *state, const laun
 // Kinetic energy [J] of all bodies; the rocket's if it is in the tube.
 double launcher_kinetic_energy(const launcher_system *self, const launcher_input *input,
                                const launching_phase *phase, const double *state);
+
+// Elastic energy [J] of the tube on its supports and of its base, as just evaluated.
+double launcher_elastic_energy(const launcher_system *self, const launcher_output *output);
 
 #endif

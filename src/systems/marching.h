@@ -7,9 +7,9 @@
 #ifndef LD_SYSTEMS_MARCHING_H
 #define LD_SYSTEMS_MARCHING_H
 
+#include "elements/base_frame.h"
 #include "environment/road.h"
 #include "model/model.h"
-#include "systems/base_motion.h"
 
 enum { WHEEL_STATES = 8, WHEEL_R = 0, WHEEL_V = 3, WHEEL_ETA = 6, WHEEL_XI = 7 };
 

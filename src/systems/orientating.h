@@ -8,9 +8,9 @@
 #ifndef LD_SYSTEMS_ORIENTATING_H
 #define LD_SYSTEMS_ORIENTATING_H
 
+#include "elements/base_frame.h"
 #include "launchdyn/mstmm.h"
 #include "model/model.h"
-#include "systems/base_motion.h"
 
 enum { HINGE_AZIMUTH, HINGE_ELEVATION, HINGES };
 

@@ -8,6 +8,7 @@ typedef struct members {
     int64_t wide, counted;
     int narrow;
     bool yes, no;
+    char text[16];
 } members;
 
 static void walk(members *self, archive *bytes)
@@ -17,15 +18,16 @@ static void walk(members *self, archive *bytes)
     archive_doubles(bytes, self->y, 3);
     archive_int64(bytes, &self->wide);
     archive_count(bytes, &self->counted);
-    archive_int(bytes, &self->narrow);
+    archive_int(bytes, &self->narrow, -7, 12);
     archive_bool(bytes, &self->yes);
     archive_bool(bytes, &self->no);
+    archive_text(bytes, self->text, sizeof self->text);
 }
 
-enum { SIZE = 10 * 8 };
+enum { SIZE = 12 * 8 };
 
-static const members some = {-1.5, {NAN, -0.0, 1e-310}, INT64_MIN, INT64_C(1) << 53, -7, true,
-                             false};
+static const members some = {-1.5,  {NAN, -0.0, 1e-310}, INT64_MIN, INT64_C(1) << 53, -7, true,
+                             false, "fifteen letters"};
 
 static void what_was_saved_comes_back(void **state)
 {
@@ -46,6 +48,7 @@ static void what_was_saved_comes_back(void **state)
     assert_memory_equal(in.y, some.y, sizeof some.y);
     assert_true(in.wide == some.wide && in.counted == some.counted && in.narrow == some.narrow);
     assert_true(in.yes && !in.no);
+    assert_string_equal(in.text, some.text);
 }
 
 static void the_lowest_byte_is_the_first(void **state)
@@ -82,8 +85,10 @@ static void what_does_not_fit_is_refused(void **state)
         {0, 0, 21},              // not what is expected
         {6, 0, 1},               // a count above 2^53
         {6, 7, 0x80},            // or below 0
-        {7, 4, 0},               // beyond an int
+        {7, 0, 0xf8},            // -8: below the least
+        {7, 7, 0x7f},            // above the most
         {8, 0, 2},    {9, 7, 1}, // neither true nor false
+        {11, 7, 'x'},            // a text without an end
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         unsigned char other[SIZE];

@@ -22,9 +22,10 @@ typedef struct observer {
     dense_launch dense;
     dense_vehicle vehicle;
     ld_model weightless;
-    double power[LAUNCHER_WORKS], work[LAUNCHER_WORKS]; // of the row before, since the start
-    double t, height[2], energy;                        // at the start: sum of m y; energies
-    m3 aim;                                             // the undeformed tube at the ignition
+    double power[LAUNCHER_MOST_WORKS],
+        work[LAUNCHER_MOST_WORKS]; // of the row before, since the start
+    double t, height[2], energy;   // at the start: sum of m y; energies
+    m3 aim;                        // the undeformed tube at the ignition
     int rows;
 } observer;
 
@@ -313,7 +314,7 @@ static void say_rocket(instant *at)
 }
 
 // Adaptor i: its columns; powers of its normal force and of its friction on rocket and tube.
-static void say_contact(instant *at, int i, double power[LAUNCHER_WORKS])
+static void say_contact(instant *at, int i, double power[LAUNCHER_MOST_WORKS])
 {
     const ld_adaptor *adaptor = &at->run->model->rocket.adaptor[i];
     char part[64];
@@ -340,7 +341,7 @@ static void say_contact(instant *at, int i, double power[LAUNCHER_WORKS])
     power[POWER_CONTACT_FRICTION] += all - pressing;
 }
 
-static void breech_power(const instant *at, double power[LAUNCHER_WORKS])
+static void breech_power(const instant *at, double power[LAUNCHER_MOST_WORKS])
 {
     moving rocket = rocket_frame(at), under = section(at, at->out.s),
            stop = section(at, at->input.conditions.breech);
@@ -349,7 +350,7 @@ static void breech_power(const instant *at, double power[LAUNCHER_WORKS])
 }
 
 // The friction of the slot against the knob's sliding, and its power.
-static void say_slot(instant *at, double power[LAUNCHER_WORKS])
+static void say_slot(instant *at, double power[LAUNCHER_MOST_WORKS])
 {
     const ld_model *model = at->run->model;
     const ld_slot *slot = &model->tubes.slot;
@@ -382,7 +383,7 @@ static double kinetic_of(const dense_conditions *on, const moving *rocket)
     return 0.5 * on->mass * v3_norm2(v) + 0.5 * v3_dot(w, m3_apply(J, w));
 }
 
-static void rocket_powers(const instant *at, double power[LAUNCHER_WORKS])
+static void rocket_powers(const instant *at, double power[LAUNCHER_MOST_WORKS])
 {
     const ld_model *model = at->run->model;
     const dense_conditions *on = &at->input.conditions;
@@ -406,7 +407,7 @@ static void rocket_powers(const instant *at, double power[LAUNCHER_WORKS])
 
 // ---- tube
 
-static void tube_powers(const instant *at, double power[LAUNCHER_WORKS])
+static void tube_powers(const instant *at, double power[LAUNCHER_MOST_WORKS])
 {
     const flexible_tube *tube = at->run->dense.tube;
     moving under = carrier(at);
@@ -529,7 +530,7 @@ static void heights(const instant *at, double sum[2])
         sum[1] += model->base.vehicle.wheel[i].mass * at->marching[WHEEL_STATES * i + WHEEL_R + 1];
 }
 
-static void say_vehicle(instant *at, double power[LAUNCHER_WORKS])
+static void say_vehicle(instant *at, double power[LAUNCHER_MOST_WORKS])
 {
     say_chassis(at);
     say_hinges(at, power + POWER_COUNT);
@@ -540,7 +541,7 @@ static void say_vehicle(instant *at, double power[LAUNCHER_WORKS])
 // ---- energies and works
 
 // The names in the order of launching_power, orientating_power and marching_power.
-static const char *const work_name[LAUNCHER_WORKS] = {
+static const char *const work_name[LAUNCHER_MOST_WORKS] = {
     "thrust",         "gravity_rocket",
     "contact_normal", "contact_friction",
     "slot",           "slot_friction",
@@ -601,7 +602,7 @@ static void say_works(instant *at, const double *power)
         heights(at, sum);
     if (run->rows == 0)
         memcpy(run->height, sum, sizeof sum);
-    for (int i = 0; i < (vehicle ? LAUNCHER_WORKS : POWER_COUNT); i++) {
+    for (int i = 0; i < (vehicle ? LAUNCHER_MOST_WORKS : POWER_COUNT); i++) {
         if (run->rows > 0)
             run->work[i] += 0.5 * (power[i] + run->power[i]) * (at->t - run->t);
         if (i == POWER_COUNT + ORIENTATING_GRAVITY)
@@ -638,8 +639,8 @@ static void load(instant *at)
     memcpy(on->touch_speed, at->self->phase.touch_speed, sizeof on->touch_speed);
     on->breech = at->run->model->rocket.start_at;
     on->breech_speed = at->self->phase.breech_speed;
-    at->orientating = y + at->self->launcher.orientating_at;
-    at->marching = y + at->self->launcher.marching_at;
+    at->orientating = y + at->self->launcher.base_at;
+    at->marching = at->orientating + VEHICLE_MARCHING;
     if (at->run->model->base.kind != LD_BASE_VEHICLE) {
         dense_base_at(at->run->model, at->t, &on->base);
         return;
@@ -668,7 +669,7 @@ static void look_at_row(observer *run, const launch_state *self, double t, const
                         const double *row)
 {
     instant at = {.run = run, .self = self, .t = t, .y = y};
-    double power[LAUNCHER_WORKS] = {0};
+    double power[LAUNCHER_MOST_WORKS] = {0};
     run->book.row = row;
     load(&at);
     dense_launch_place(&run->dense, &at.input, &at.place);
@@ -689,7 +690,7 @@ static void look_at_row(observer *run, const launch_state *self, double t, const
                                       .marching = at.marching,
                                       .tube_force = v3_from(at.out.base_force),
                                       .tube_moment = v3_from(at.out.base_moment)};
-        memcpy(at.on.rest, self->rest, sizeof at.on.rest);
+        memcpy(at.on.rest, self->rest.hinge, sizeof at.on.rest);
         assert_true(dense_vehicle_evaluate(&run->vehicle, &at.on, &at.base));
         say_vehicle(&at, power);
     }

@@ -172,8 +172,10 @@ static void momentum(const launch_state *self, const double *y, bool with_rocket
     const launching_system *tube = &launcher->launching;
     const launching_layout *at = &tube->layout;
     const ld_tail *tail = &self->model->tubes.tail;
-    const double *base = y + launcher->orientating_at;
-    ld_mstmm_momentum(launcher->orientating.chain, base, base + ORIENTATING_V, p, p + 3);
+    const double *base = y + launcher->base_at;
+    const vehicle_system *vehicle = base_as_vehicle(&launcher->base);
+    ld_mstmm *chain = vehicle->of_tube[launcher->base.tube].chain;
+    ld_mstmm_momentum(chain, base, base + ORIENTATING_V, p, p + 3);
     m3 A_IR = q_matrix(q_from(y + at->quaternion));
     v3 r_R = v3_from(y + at->r), P = v3_from(p), H = v3_from(p + 3);
     const ld_section *section = &self->model->tubes.section[0];
@@ -230,7 +232,7 @@ static void momentum_is_kept(void **state)
         fail_msg("%s", error.text);
     simulation_move_with_base(&launch.state, 0, y);
     static const double speed[ORIENTATING_SPEEDS] = {4, 0.3, -0.2, 0.05, 0.1, -0.08, 0.3, 0.2};
-    memcpy(y + launcher->orientating_at + ORIENTATING_V, speed, sizeof speed);
+    memcpy(y + launcher->base_at + ORIENTATING_V, speed, sizeof speed);
     for (int i = 0; i < 3; i++) {
         y[at->v + i] += 0.2 * (i + 1);
         y[at->w + i] += 0.1 * (i - 1);

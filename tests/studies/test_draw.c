@@ -261,7 +261,7 @@ static void test_several_keys(void **state)
     study_sampler sampler;
     ld_error error;
     assert_int_equal(sampler_create(&sampler, &model, &error), LD_OK);
-    study_sample *sample = sample_create(sampler.factor_count);
+    study_sample *sample = sample_create(&sampler);
     double worst = 0, spread = 0;
     for (int k = 1; k <= 8; k++) {
         assert_int_equal(sample_draw(sample, &sampler, k, &error), LD_OK);
@@ -289,7 +289,7 @@ static double longest_step(const char *factors, double given, double *tolerance)
         model.run.max_step_completed = 0;
     }
     assert_int_equal(sampler_create(&sampler, &model, &error), LD_OK);
-    study_sample *sample = sample_create(sampler.factor_count);
+    study_sample *sample = sample_create(&sampler);
     assert_int_equal(sample_draw(sample, &sampler, 3, &error), LD_OK);
     double step = sample->model.run.max_step;
     *tolerance = sample->model.run.tolerance;

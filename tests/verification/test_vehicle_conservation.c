@@ -58,7 +58,7 @@ static void set_up(flight *f, bool damped)
     memset(f, 0, sizeof *f);
     fill_model(&f->model, damped);
     f->system = aligned_alloc(64, (sizeof *f->system + 63) / 64 * 64);
-    if (launcher_build(f->system, &f->model, NULL, 0, 1, &error))
+    if (launcher_build(f->system, &f->model, NULL, &error))
         fail_msg("%s", error.text);
     dense_vehicle_create(&f->vehicle, &f->model, 8, NULL, 0);
     dense_launch_create(&f->launch, &f->model, &f->system->launching.tube.flexible);
@@ -83,8 +83,8 @@ static void tear_down(flight *f)
 // Chassis turning, hinges at angles with rates, wheels centimetres off their mounts with speeds.
 static void throw_vehicle(flight *f, uint64_t *seed)
 {
-    double *base = f->state + f->system->orientating_at;
-    double *wheel = f->state + f->system->marching_at;
+    double *base = f->state + f->system->base_at;
+    double *wheel = f->state + f->system->base_at + VEHICLE_MARCHING;
     quat q =
         q_from_matrix(m3_mul(m3_rotation_y(0.7), m3_mul(m3_rotation_z(0.3), m3_rotation_x(-0.2))));
     v3_store(base + ORIENTATING_R, v3_make(1, 4, -1));
@@ -92,15 +92,15 @@ static void throw_vehicle(flight *f, uint64_t *seed)
     v3_store(base + ORIENTATING_V, v3_make(3, -1, 2));
     v3_store(base + ORIENTATING_W, v3_make(0.4, -0.5, 0.3));
     for (int i = 0; i < HINGES; i++) {
-        base[ORIENTATING_ANGLE + i] = f->input.rest[i].angle = 0.3 + 0.1 * i;
+        base[ORIENTATING_ANGLE + i] = f->input.rest.hinge[i].angle = 0.3 + 0.1 * i;
         base[ORIENTATING_RATE + i] = 0.3 - 0.5 * i;
     }
     // the stabilisers want to turn by tenths of a radian
     f->model.platform.azimuth.stabiliser.command.data[1] = 1.0;
     f->model.platform.elevation.stabiliser.command.data[1] = 0.7;
     launcher_place(f->system, 0, f->state, &f->input);
-    const base_frame *chassis = &f->input.motion.chassis;
-    marching_place(&f->system->marching, chassis, wheel);
+    const base_frame *chassis = &f->input.found.vehicle.chassis;
+    marching_place(&base_as_vehicle(&f->system->base)->marching, chassis, wheel);
     for (int j = 0; j < f->model.base.vehicle.wheel_count; j++, wheel += WHEEL_STATES) {
         v3 arm = v3_sub(v3_from(wheel + WHEEL_R), chassis->r);
         v3 v = v3_add(chassis->v, v3_cross(chassis->w, arm));
@@ -146,7 +146,7 @@ static void add_point(sums *s, double mass, v3 place, v3 v)
 
 static void add_bodies(const flight *f, sums *s)
 {
-    const double *base = f->state + f->system->orientating_at;
+    const double *base = f->state + f->system->base_at;
     const ld_platform *platform = &f->model.platform;
     const double *hinge_at[HINGES] = {platform->azimuth.hinge_at, platform->elevation.hinge_at};
     v3 r = v3_from(base + ORIENTATING_R), v = v3_from(base + ORIENTATING_V);
@@ -179,17 +179,17 @@ static sums sums_of(flight *f)
     dense_vehicle_output vehicle;
     // vehicle
     add_bodies(f, &s);
-    const double *wheel = f->state + f->system->marching_at;
+    const double *wheel = f->state + f->system->base_at + VEHICLE_MARCHING;
     for (int j = 0; j < f->model.base.vehicle.wheel_count; j++, wheel += WHEEL_STATES)
         add_point(&s, f->model.base.vehicle.wheel[j].mass, v3_from(wheel + WHEEL_R),
                   v3_from(wheel + WHEEL_V));
-    const double *base = f->state + f->system->orientating_at;
+    const double *base = f->state + f->system->base_at;
     dense_vehicle_input given = {.orientating = base,
-                                 .marching = f->state + f->system->marching_at};
+                                 .marching = f->state + f->system->base_at + VEHICLE_MARCHING};
     assert_true(dense_vehicle_evaluate(&f->vehicle, &given, &vehicle));
     s.energy = vehicle.kinetic + vehicle.potential;
     for (int i = 0; i < HINGES; i++) {
-        double turned = base[ORIENTATING_ANGLE + i] - f->input.rest[i].angle;
+        double turned = base[ORIENTATING_ANGLE + i] - f->input.rest.hinge[i].angle;
         s.energy += 0.5 * 1e7 * turned * turned;
     }
     // tube and rocket
@@ -229,7 +229,7 @@ static void follow(flight *f, double tolerance, double time)
     for (int i = 0; i < count; i++)
         atol[i] = i < f->system->work_at ? 1e-2 * tolerance : 1e300;
     for (int i = 0; i < HINGES; i++)
-        atol[f->system->orientating_at + ORIENTATING_Z + i] = tolerance;
+        atol[f->system->base_at + ORIENTATING_Z + i] = tolerance;
     integrator_settings settings = {
         .n = (size_t)count, .rtol = tolerance, .atol = atol, .rhs = rhs, .self = f};
     assert_int_equal(integrator_create(&settings, &stepper, &error), LD_OK);

@@ -1,0 +1,82 @@
+// The state of a launch as bytes.
+#include "simulation/launch_run.h"
+#include "simulation/summary_quantities.h"
+
+static void archive_phase(archive *bytes, launching_phase *phase)
+{
+    archive_bool(bytes, &phase->rocket);
+    archive_bool(bytes, &phase->locked);
+    archive_bool(bytes, &phase->frictionless);
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        archive_bool(bytes, &phase->passed[i]);
+    archive_doubles(bytes, phase->touch_speed, LD_MAX_ADAPTORS);
+    archive_double(bytes, &phase->breech);
+    archive_double(bytes, &phase->breech_speed);
+}
+
+static void archive_launch(archive *bytes, launch_state *self)
+{
+    int current = self->current;
+    archive_int(bytes, &current, 0, self->model->firing_count - 1);
+    if (bytes->loading) {
+        launcher_select(&self->launcher, current);
+        launch_state_select(self, current);
+        self->latest.known = false;
+    }
+    archive_double(bytes, &self->t_ignition);
+    archive_int(bytes, &self->piece, -1, (int)self->motor->corner_count - 1);
+    archive_phase(bytes, &self->phase);
+    for (int i = 0; i < HINGES; i++) {
+        archive_double(bytes, &self->rest.hinge[i].angle);
+        archive_double(bytes, &self->rest.hinge[i].torque);
+    }
+    archive_bool(bytes, &self->on_breech);
+    for (int i = 0; i < 3; i++)
+        archive_doubles(bytes, self->aim.a[i], 3);
+    archive_bool(bytes, &self->jammed);
+    archive_count(bytes, &self->fallbacks);
+    archive_double(bytes, &self->worst_condition);
+}
+
+static void archive_output(archive *bytes, launch_run *run)
+{
+    double *numbers[] = {&run->energy_start, &run->t_start,       &run->t_end,
+                         &run->next_output,  &run->output_step,   &run->output_from,
+                         &run->last_row,     &run->next_progress, &run->greatest_lock_force};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        archive_double(bytes, numbers[i]);
+    archive_count(bytes, &run->output_index);
+    archive_count(bytes, &run->steps_since_progress);
+}
+
+// Of what is known before the run's end.
+static void archive_summary(archive *bytes, launch_run *run)
+{
+    ld_summary *summary = run->summary;
+    const quantity_things things = {.model = run->launch.model};
+    archive_int(bytes, &summary->rocket_count, 0, run->launch.model->firing_count);
+    for (int i = 0; i < summary->rocket_count; i++) {
+        ld_rocket_summary *rocket = &summary->rocket[i];
+        if (bytes->loading)
+            rocket_clear(rocket, true);
+        rocket->tube = run->launch.model->firing[i].tube;
+        archive_bool(bytes, &rocket->flown);
+        archive_bool(bytes, &rocket->final.earth);
+        quantity_archive(&rocket_quantities, &things, rocket, bytes);
+        archive_doubles(bytes, run->point[i], 2);
+    }
+    archive_int(bytes, &summary->equilibrium.wheel_count, 0, LD_MAX_WHEELS);
+    quantity_archive(&run_quantities, &things, summary, bytes);
+    const int most_notes = sizeof summary->note / sizeof *summary->note;
+    archive_int(bytes, &summary->note_count, 0, most_notes);
+    for (int i = 0; i < summary->note_count; i++)
+        archive_text(bytes, summary->note[i], sizeof summary->note[i]);
+}
+
+void launch_archive(launch_run *run, archive *bytes)
+{
+    archive_launch(bytes, &run->launch);
+    archive_output(bytes, run);
+    archive_summary(bytes, run);
+    propagator_archive(run->propagator, bytes);
+}

@@ -1,0 +1,61 @@
+// The kinds of base, and how one is built.
+#include "systems/base.h"
+
+#include <math.h>
+
+static const base_interface *const kinds[] = {&base_fixed, &base_prescribed, &base_vehicle};
+
+ld_status base_build(base_system *self, const ld_model *model, ld_error *error)
+{
+    *self = (base_system){.model = model};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (kinds[i]->kind == model->base.kind)
+            self->kind = kinds[i];
+    if (!self->kind)
+        return ld_fail(error, LD_ERR_INPUT, "base.kind: %d carries no tube", (int)model->base.kind);
+    ld_status status = self->kind->build(self, error);
+    if (status)
+        base_free(self);
+    return status;
+}
+
+void base_free(base_system *self)
+{
+    if (self->kind)
+        self->kind->free(self);
+    *self = (base_system){0};
+}
+
+ld_status base_share(base_system *self, const base_system *of, ld_error *error)
+{
+    *self = *of;
+    if (!self->kind->share)
+        return LD_OK;
+    ld_status status = self->kind->share(self, error);
+    if (status)
+        base_free(self);
+    return status;
+}
+
+void base_free_share(base_system *self)
+{
+    if (self->kind && self->kind->share)
+        base_free(self);
+    *self = (base_system){0};
+}
+
+void base_span(const base_system *self, double *first, double *last)
+{
+    *first = -INFINITY;
+    *last = INFINITY;
+    if (self->kind->span)
+        self->kind->span(self, first, last);
+}
+
+void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3])
+{
+    if (self->kind->angles)
+        self->kind->angles(self, t, angles);
+    else
+        m3_yaw_pitch_roll(&tube->A, angles);
+}

@@ -1,0 +1,140 @@
+// What carries the tube: where the frame T of the undeformed tube is, how it moves, and what the
+// tube's wrench does to it (model.md, section 2). Each kind is a file base_*.c with a table of
+// functions, listed in base.c; nothing outside asks which kind it is.
+//
+// Some kinds go where they are told. Others have a motion of their own, with states, works,
+// equilibrium and natural frequencies: they fill in `dynamics`.
+#ifndef LD_SYSTEMS_BASE_H
+#define LD_SYSTEMS_BASE_H
+
+#include "elements/base_frame.h"
+#include "systems/vehicle.h"
+
+enum {
+    BASE_MOST_STATES = ORIENTATING_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1,
+    BASE_MOST_WORKS = ORIENTATING_POWERS + MARCHING_POWERS,
+    BASE_MOST_EVENTS = LD_MAX_WHEELS,
+    BASE_MOST_SPEEDS = ORIENTATING_SPEEDS,
+    BASE_MOST_FREEDOMS = 3 + 2 * HINGES + 3 * LD_MAX_WHEELS,
+    BASE_GROUPS = 11, // of what moves in a natural mode
+};
+
+typedef struct base_interface base_interface;
+
+// A base as it was built; a run has a copy (base_share) with `tube` and `level` of its own.
+typedef struct base_system {
+    const base_interface *kind;
+    const ld_model *model;
+    void *own;  // what the kind made of the model; constant but for its workspace
+    int tube;   // that launches now, in the order of firing
+    bool level; // on flat ground, whatever the road (linearisation)
+    int state_count, work_count, event_count;
+    int speed_at, speed_count; // in the state: generalised speeds of what carries the tube
+    int freedom_count;         // unknowns of its equilibrium
+    int displacement_count, extra_count; // unknowns of its linearised equations
+} base_system;
+
+// What a kind finds when it places the tube, and wants again in the same evaluation.
+typedef union base_found {
+    orientating_motion vehicle;
+} base_found;
+
+// What a kind tells besides rates and works.
+typedef union base_report {
+    vehicle_report vehicle;
+} base_report;
+
+// What keeps what it was in the equilibrium.
+typedef union base_rest {
+    hinge_rest hinge[HINGES];
+} base_rest;
+
+// What acts on a base.
+typedef struct base_load {
+    v3 force, moment; // [N], [N m] of the tube, about T's origin, in T
+    base_rest rest;
+    bool held;         // it carries what `rest` says, whatever drives it (equilibrium)
+    bool frictionless; // Coulomb friction off (equilibrium, linearisation)
+} base_load;
+
+typedef struct base_output {
+    double rate[BASE_MOST_STATES];
+    double power[BASE_MOST_WORKS];
+    double event[BASE_MOST_EVENTS]; // [m] a step ends where one of them rises through zero
+    double elastic;                 // [J]
+    base_report report;
+} base_output;
+
+// Bases with a motion of their own.
+typedef struct base_dynamics {
+    // Rates and what else is told. Other than 0: singular or not finite.
+    int (*evaluate)(const base_system *self, const base_found *found, const base_load *load,
+                    const double *state, base_output *output);
+    double (*kinetic_energy)(const base_system *self, const double *state); // [J]
+    // Absolute tolerances of the states under the run's; where there is no relative one.
+    void (*tolerances)(const base_system *self, double tolerance, double *atol, bool *absolute);
+    // Gives it the velocity with which it starts.
+    void (*set_off)(const base_system *self, double *state);
+
+    // Equilibrium: a guess under a tube and a rocket of these masses [kg]; its unknowns; what must
+    // vanish; what an equilibrium must fulfil for a run to begin in it; what is kept of it.
+    void (*guess)(const base_system *self, double tube, double rocket, double *state);
+    void (*displace)(const base_system *self, int freedom, double change, double *state);
+    void (*rest_of)(const double *state, base_rest *rest);
+    void (*residual)(const base_system *self, const base_output *output, double *r);
+    ld_status (*check_rest)(const base_system *self, const base_found *found, const double *state,
+                            ld_error *error);
+    // Says that there is none, with the smallest residual found [m/s2].
+    ld_status (*no_rest)(double smallest, ld_error *error);
+
+    // Linearised: small displacements; where in the state their speeds are, and what has a rate
+    // alone. What moves: a group's number and the inertia [kg, kg m2] of a displacement.
+    void (*displace_slightly)(const base_system *self, int displacement, double change,
+                              double *state);
+    int (*speed_of)(const base_system *self, int displacement);
+    int (*extra_of)(const base_system *self, int extra);
+    double (*inertia_of)(const base_system *self, int displacement, int *group);
+    const char *const *groups; // their names, ended by NULL
+    // The key of what ought to hold that group still and does not; NULL: of none.
+    const char *(*holder_of)(int group);
+} base_dynamics;
+
+struct base_interface {
+    ld_base_kind kind;
+    // Fills self->own and the counts.
+    ld_status (*build)(base_system *self, ld_error *error);
+    void (*free)(base_system *self);
+    // Puts a workspace of its own in the place of self->own, shares the rest, which outlives it;
+    // NULL: there is none, all is shared.
+    ld_status (*share)(base_system *self, ld_error *error);
+    // Frame T at time t [s] and the base's state.
+    void (*place)(const base_system *self, double t, const double *state, base_frame *tube,
+                  base_found *found);
+    // Yaw, pitch, roll [rad] for output; NULL: those of T.
+    void (*angles)(const base_system *self, double t, double angles[3]);
+    // First and last time [s] that what it was told covers; NULL: all.
+    void (*span)(const base_system *self, double *first, double *last);
+    // The first instant [s] after t at which a step must end, and the equations change; NULL: none.
+    double (*next_corner)(const base_system *self, double t);
+    const base_dynamics *dynamics; // NULL: it goes where it is told
+};
+
+extern const base_interface base_fixed, base_prescribed, base_vehicle;
+
+ld_status base_build(base_system *self, const ld_model *model, ld_error *error);
+void base_free(base_system *self);
+
+// Makes *self the base of one run; `of` must outlive it.
+ld_status base_share(base_system *self, const base_system *of, ld_error *error);
+void base_free_share(base_system *self);
+
+// First and last time [s] that what the base was told covers.
+void base_span(const base_system *self, double *first, double *last);
+
+// Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
+void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);
+
+// A base of kind vehicle; NULL: it is none.
+const vehicle_system *base_as_vehicle(const base_system *self);
+
+#endif

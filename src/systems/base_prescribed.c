@@ -1,0 +1,128 @@
+// A base that moves over time as the scenario says, at constant velocity, in sines and by a table.
+#include <math.h>
+#include <stdlib.h>
+
+#include "math/spline.h"
+#include "systems/base.h"
+
+typedef struct base_motion {
+    const ld_base *model;
+    m3 mount;       // A_base,tube = Ry(azimuth) Rz(elevation)
+    spline path[6]; // x, y, z, yaw, pitch, roll over time (table)
+} base_motion;
+
+static const double TWO_PI = 6.283185307179586476925286766559;
+
+static const ld_sines *sines_of(const ld_base *model, int i)
+{
+    const ld_sines *all[6] = {&model->surge, &model->heave, &model->sway,
+                              &model->yaw,   &model->pitch, &model->roll};
+    return all[i];
+}
+
+// Value and rate of coordinate i: x, y, z, yaw, pitch, roll.
+static double coordinate(const base_motion *self, int i, double t, double *rate)
+{
+    double value = 0;
+    *rate = 0;
+    if (i < 3) {
+        value = self->model->velocity[i] * t;
+        *rate = self->model->velocity[i];
+    }
+    const ld_sines *sines = sines_of(self->model, i);
+    for (int k = 0; k < sines->count; k++) {
+        double omega = TWO_PI * sines->term[k].frequency;
+        double angle = omega * t + sines->term[k].phase;
+        value += sines->term[k].amplitude * sin(angle);
+        *rate += sines->term[k].amplitude * omega * cos(angle);
+    }
+    if (self->path[i].count) {
+        double slope;
+        value += spline_value(&self->path[i], t, &slope);
+        *rate += slope;
+    }
+    return value;
+}
+
+static void place(const base_system *base, double t, const double *state, base_frame *frame,
+                  base_found *found)
+{
+    (void)state, (void)found;
+    const base_motion *self = base->own;
+    double x[6], u[6];
+    for (int i = 0; i < 6; i++)
+        x[i] = coordinate(self, i, t, &u[i]);
+    // A_base = Ry(yaw) Rz(pitch) Rx(roll); w = yaw' e_y + Ry (pitch' e_z + Rz roll' e_x)
+    m3 Ry = m3_rotation_y(x[3]), Rz = m3_rotation_z(x[4]), Rx = m3_rotation_x(x[5]);
+    m3 A = m3_mul(Ry, m3_mul(Rz, Rx));
+    v3 w = m3_apply(Rz, v3_make(u[5], 0, 0));
+    w.z += u[4];
+    w = m3_apply(Ry, w);
+    w.y += u[3];
+    frame->r = v3_make(x[0], x[1], x[2]);
+    frame->v = v3_make(u[0], u[1], u[2]);
+    frame->A = m3_mul(A, self->mount);
+    frame->q = q_from_matrix(frame->A);
+    frame->w = w;
+}
+
+static ld_status build_paths(base_motion *self, ld_error *error)
+{
+    const ld_table *table = &self->model->motion;
+    if (!table->rows)
+        return LD_OK;
+    double *column = malloc(2 * table->rows * sizeof(double));
+    ld_status status = column ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
+    for (int i = 0; i < 6 && !status; i++) {
+        for (size_t k = 0; k < table->rows; k++) {
+            column[k] = table->data[k * table->columns];
+            column[table->rows + k] = table->data[k * table->columns + 1 + (size_t)i];
+        }
+        status = spline_build(&self->path[i], table->rows, column, column + table->rows, error);
+    }
+    free(column);
+    return status;
+}
+
+static ld_status build(base_system *base, ld_error *error)
+{
+    base_motion *self = calloc(1, sizeof *self);
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the base");
+    base->own = self;
+    self->model = &base->model->base;
+    self->mount =
+        m3_mul(m3_rotation_y(self->model->azimuth), m3_rotation_z(self->model->elevation));
+    return build_paths(self, error);
+}
+
+static void release(base_system *base)
+{
+    base_motion *self = base->own;
+    for (int i = 0; i < 6 && self; i++)
+        spline_free(&self->path[i]);
+    free(self);
+}
+
+// Of the base itself, without azimuth and elevation.
+static void angles(const base_system *base, double t, double angles[3])
+{
+    double rate;
+    for (int i = 0; i < 3; i++)
+        angles[i] = coordinate(base->own, 3 + i, t, &rate);
+}
+
+static void span(const base_system *base, double *first, double *last)
+{
+    const base_motion *self = base->own;
+    const spline *path = &self->path[0];
+    *first = path->count ? path->x[0] : -INFINITY;
+    *last = path->count ? path->x[path->count - 1] : INFINITY;
+}
+
+const base_interface base_prescribed = {.kind = LD_BASE_PRESCRIBED,
+                                        .build = build,
+                                        .free = release,
+                                        .place = place,
+                                        .angles = angles,
+                                        .span = span};
