@@ -292,6 +292,7 @@ static int start(integrator *self, double h)
 // One step of the library's.
 static int evolve(integrator *self, double t_stop)
 {
+    self->loaded = false;
     self->error_previous = self->error;
     self->t_stop = t_stop;
     int flag = ERKStepSetStopTime(self->erk, t_stop);
@@ -411,7 +412,6 @@ integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *er
                               : go_on(self);
     copy(self->y, self->y_previous);
     self->t_previous = self->t;
-    self->loaded = false;
     self->anew = false;
     if (flag >= 0)
         flag = evolve(self, t_stop);
