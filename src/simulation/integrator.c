@@ -23,6 +23,8 @@ typedef enum asked {
     ASKED_STAGE // then the first stage, from which on the library goes on by itself
 } asked;
 
+enum { VECTORS = 8 }; // below
+
 struct integrator {
     integrator_settings settings;
     SUNContext context;
@@ -194,9 +196,10 @@ static int allocate(integrator *self)
         return -1;
     serial_vector_operations(self->y);
     N_VConst(0, self->y);
-    N_Vector *others[] = {&self->atol,          &self->rtol,  &self->work,    &self->y_previous,
-                          &self->rate_previous, &self->y_end, &self->rate_end};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+    N_Vector *others[VECTORS - 1] = {&self->atol,       &self->rtol,          &self->work,
+                                     &self->y_previous, &self->rate_previous, &self->y_end,
+                                     &self->rate_end};
+    for (int i = 0; i < VECTORS - 1; i++) {
         *others[i] = N_VClone(self->y);
         if (!*others[i])
             return -1;
@@ -232,9 +235,10 @@ void integrator_free(integrator *self)
         return;
     if (self->erk)
         ERKStepFree(&self->erk);
-    N_Vector vectors[] = {self->y,          self->atol,          self->rtol,  self->work,
-                          self->y_previous, self->rate_previous, self->y_end, self->rate_end};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    N_Vector vectors[VECTORS] = {self->y,     self->atol,       self->rtol,
+                                 self->work,  self->y_previous, self->rate_previous,
+                                 self->y_end, self->rate_end};
+    for (int i = 0; i < VECTORS; i++)
         if (vectors[i])
             N_VDestroy(vectors[i]);
     if (self->context)
@@ -494,8 +498,8 @@ static void gather(integrator *self)
 
 static void archive_step(integrator *self, archive *bytes)
 {
-    N_Vector vectors[] = {self->y, self->y_previous, self->rate_previous, self->y_end,
-                          self->rate_end};
+    N_Vector vectors[5] = {self->y, self->y_previous, self->rate_previous, self->y_end,
+                           self->rate_end};
     double *numbers[] = {&self->t,     &self->t_previous, &self->t_end, &self->next_step,
                          &self->error, &self->h,          &self->h_next};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
@@ -503,7 +507,7 @@ static void archive_step(integrator *self, archive *bytes)
     archive_bool(bytes, &self->anew);
     archive_bool(bytes, &self->within);
     archive_bool(bytes, &self->shortened);
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    for (int i = 0; i < 5; i++)
         archive_doubles(bytes, data(vectors[i]), self->settings.n);
 }
 
