@@ -141,6 +141,52 @@ void field_initialise(const field_block *block, void *base)
         initialise(f, base);
 }
 
+static bool same_block(const field_block *block, const void *a, const void *b)
+{
+    for (const field_row *f = block->fields; f->name; f++)
+        if (!field_same(f, a, b))
+            return false;
+    return field_form(block, a) == field_form(block, b);
+}
+
+static bool same_bytes(const field_row *field, const void *a, const void *b, size_t size)
+{
+    return memcmp(field_at_const(a, field), field_at_const(b, field), size) == 0;
+}
+
+// As many entries, and each the same.
+static bool same_entries(const field_row *field, const void *a, const void *b)
+{
+    int count = field_switch(a, field);
+    bool same = count == field_switch(b, field);
+    for (int i = 0; i < count && same; i++)
+        same = same_block(field->block, field_entry_const(a, field, i),
+                          field_entry_const(b, field, i));
+    return same;
+}
+
+bool field_same(const field_row *field, const void *a, const void *b)
+{
+    switch (field->kind) {
+    case FIELD_NUMBER:
+        return field->offset == FIELD_NOWHERE ||
+               same_bytes(field, a, b, (size_t)field->count * sizeof(double));
+    case FIELD_INTEGER:
+        return same_bytes(field, a, b, sizeof(int));
+    case FIELD_CHOICE:
+        return same_bytes(field, a, b, sizeof(int)) &&
+               (!field->unit || memcmp((const char *)a + field->other,
+                                       (const char *)b + field->other, sizeof(double)) == 0);
+    case FIELD_BLOCK:
+        return (!field->words || field_switch(a, field) == field_switch(b, field)) &&
+               same_block(field->block, field_at_const(a, field), field_at_const(b, field));
+    case FIELD_LIST:
+        return !field->alternative && same_entries(field, a, b);
+    default:
+        return false;
+    }
+}
+
 static void release_sweep(ld_sweep_axis *axis, int count)
 {
     for (int i = 0; i < count; i++) {

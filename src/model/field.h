@@ -103,6 +103,7 @@ typedef struct field_block {
 } field_block;
 
 extern const field_block scenario_block; // the root
+extern const field_block tubes_block;    // of ld_tubes
 
 // The row of key `name`, or NULL.
 const field_row *field_find(const field_block *block, const char *name);
@@ -132,6 +133,10 @@ bool field_is_required(const field_row *field, int form);
 void field_initialise(const field_block *block, void *base);
 // Frees the texts and tables of the block.
 void field_release(const field_block *block, void *base);
+
+// Whether the key has the same value, to the bit, in two structs of its block: numbers, choices,
+// blocks and lists of them. Keys of other kinds are never the same.
+bool field_same(const field_row *field, const void *a, const void *b);
 
 // Entry `i` of a list or selection.
 void *field_entry(void *base, const field_row *field, int i);

@@ -99,7 +99,7 @@ static void print_cost(const ld_summary *summary, bool launch, FILE *stream)
 void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *stream)
 {
     const quantity_things things = {.model = model};
-    bool launch = model->base.kind != LD_BASE_NONE;
+    bool launch = model_has_launcher(model);
     const char *unnamed = launch ? "Launch" : "Flight alone";
     fprintf(stream, "%s\n", model->title && *model->title ? model->title : unnamed);
     if (launch) {

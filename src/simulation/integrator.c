@@ -1,6 +1,7 @@
 #include "simulation/integrator.h"
 
 #include <arkode/arkode_erkstep.h>
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -309,7 +310,8 @@ static int evolve(integrator *self, double t_stop)
     return flag;
 }
 
-// Takes the last step anew so that it ends at the event, now at self->t.
+// Takes the last step anew so that it ends at the event, or where else it is wanted, now at
+// self->t.
 static integrator_outcome land_on_event(integrator *self, ld_error *error)
 {
     double t_event = self->t;
@@ -430,6 +432,14 @@ integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *er
         return INTEGRATOR_STOPPED;
     ERKStepGetCurrentStep(self->erk, &self->next_step);
     return INTEGRATOR_STEPPED;
+}
+
+integrator_outcome integrator_return(integrator *self, double t, ld_error *error)
+{
+    assert(t >= self->t_previous && t <= self->t);
+    self->t = t;
+    integrator_outcome outcome = land_on_event(self, error);
+    return outcome == INTEGRATOR_FAILED ? outcome : INTEGRATOR_STEPPED;
 }
 
 double integrator_time(const integrator *self)

@@ -7,7 +7,7 @@
 int quantity_count(quantity_each each, const quantity_things *things)
 {
     const ld_model *model = things->model;
-    bool vehicle = model->base.kind == LD_BASE_VEHICLE;
+    bool vehicle = model_has_vehicle(model);
     switch (each) {
     case EACH_VEHICLE:
         return vehicle;

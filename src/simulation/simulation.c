@@ -63,8 +63,8 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
         *simulation = self;
     }
     self->model = model;
-    ld_status status = model->base.kind == LD_BASE_NONE ? flight_alone_create(self, error)
-                                                        : create_launch(self, &kept, error);
+    ld_status status = model_has_launcher(model) ? create_launch(self, &kept, error)
+                                                 : flight_alone_create(self, error);
     launching_tube_free(&kept);
     if (status)
         release(self);

@@ -6,6 +6,7 @@
 
 #include "elements/tail.h"
 #include "elements/tube_dynamics.h"
+#include "model/field.h"
 #include "model/salvo.h"
 
 // ---- set-up ----
@@ -32,11 +33,18 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
     slot_build(&self->model->tubes.slot, rocket, &self->slot);
 }
 
-// Modes and coefficients follow from what ld_tubes holds from its length to its supports.
+// Modes and coefficients follow from all keys of `tubes` but those of the slot and of where the
+// tubes are.
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
-    size_t from = offsetof(ld_tubes, length), to = offsetof(ld_tubes, slot);
-    return memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
+    for (const field_row *key = tubes_block.fields; key->name; key++) {
+        bool apart = key->offset == offsetof(ld_tubes, layout) ||
+                     key->offset == offsetof(ld_tubes, empty) ||
+                     key->offset == offsetof(ld_tubes, slot);
+        if (!apart && !field_same(key, a, b))
+            return false;
+    }
+    return true;
 }
 
 launching_tube launching_take_tube(launching_system *self)
