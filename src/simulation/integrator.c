@@ -254,8 +254,15 @@ ld_status integrator_start(integrator *self, double t, const double *y, ld_error
     (void)error;
     if (y != data(self->y))
         memcpy(data(self->y), y, self->settings.n * sizeof(double));
-    self->t = self->t_previous = t;
+    self->t = self->t_previous = self->t_end = t;
     self->anew = true;
+    // no step lies behind
+    copy(self->y, self->y_end);
+    self->within = false;
+    self->rate = NULL;
+    N_Vector unknown[] = {self->y_previous, self->rate_previous, self->rate_end};
+    for (int i = 0; i < 3; i++)
+        N_VConst(0, unknown[i]);
     return LD_OK;
 }
 
