@@ -10,8 +10,8 @@ static ld_status write_flight_row(void *user, const flight_phase *phase, double 
     ld_run *run = user;
     const ld_sink *sink = run->options.sink;
     double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
-    flight_row(&run->flight, phase, t, state, row);
-    ld_status status = sink->row(sink->self, row, (size_t)run->flight_column_count, error);
+    flight_row(&run->flight, &run->flight_columns, phase, t, state, row);
+    ld_status status = sink->row(sink->self, row, (size_t)run->flight_columns.count, error);
     run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
@@ -20,10 +20,11 @@ static ld_status begin_flight_rows(ld_run *run, int i)
 {
     const ld_sink *sink = run->options.sink;
     double start = simulation_cpu_now();
-    ld_column columns[FLIGHT_MAX_COLUMNS];
-    run->flight_column_count = flight_columns(&run->flight, columns);
-    ld_status status =
-        sink->flight(sink->self, i + 1, columns, (size_t)run->flight_column_count, &run->error);
+    quantity_columns *columns = &run->flight_columns;
+    ld_status status = flight_columns(&run->flight, columns, &run->error);
+    if (!status)
+        status =
+            sink->flight(sink->self, i + 1, columns->column, (size_t)columns->count, &run->error);
     run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
@@ -86,6 +87,7 @@ ld_status launch_fly_all(ld_run *run)
         if (!status)
             status = fly(run, i);
         flight_free(&run->flight);
+        quantity_columns_free(&run->flight_columns);
     }
     return status;
 }

@@ -20,7 +20,8 @@ ld_status launch_open_output(ld_run *run)
     double before = simulation_cpu_now();
     ld_status status = simulation_geometry(system, sink, &run->error);
     if (!status)
-        status = sink->begin(sink->self, system->column, (size_t)system->column_count, &run->error);
+        status = sink->begin(sink->self, system->columns.column, (size_t)system->columns.count,
+                             &run->error);
     run->cpu_output += simulation_cpu_now() - before;
     return status;
 }
@@ -34,7 +35,7 @@ ld_status launch_write_row(ld_run *run, double t, const double *y)
     double start = simulation_cpu_now();
     history_row(&run->launch, t, y, run->energy_start, run->row);
     ld_status status =
-        sink->row(sink->self, run->row, (size_t)run->launch.system->column_count, &run->error);
+        sink->row(sink->self, run->row, (size_t)run->launch.system->columns.count, &run->error);
     run->cpu_output += simulation_cpu_now() - start;
     run->sink_failed = status != LD_OK;
     return status;

@@ -39,8 +39,8 @@ struct ld_run {
     double greatest_lock_force;
     double point[LD_MAX_FIRINGS][2]; // [m] x and z of the rear adaptors at their ignition
     flight_system flight;            // of the rocket that flies now
-    int flight_column_count;
-    double cpu, cpu_output; // [s] spent in all; of it on rows and their sink
+    quantity_columns flight_columns; // its, where rows are wanted
+    double cpu, cpu_output;          // [s] spent in all; of it on rows and their sink
 };
 
 // ---- the launch, step by step (launch.c)

@@ -126,9 +126,9 @@ ld_status ld_run_number(ld_run *run, const char *name, double *value, ld_error *
 {
     const ld_simulation *system = run->launch.system;
     int i = 0;
-    while (i < system->column_count && strcmp(system->column[i].name, name) != 0)
+    while (i < system->columns.count && strcmp(system->columns.column[i].name, name) != 0)
         i++;
-    if (i == system->column_count)
+    if (i == system->columns.count)
         return ld_fail(error, LD_ERR_INPUT, "there is no column \"%s\"", name);
     ld_status status = ld_run_row(run, run->row, error);
     *value = status ? NAN : run->row[i];
