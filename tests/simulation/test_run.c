@@ -281,7 +281,7 @@ static void reading_is_the_row(void **state)
     recorded_run_make(&expected, &model);
     ld_run *run = begin_run(expected.simulation, NULL);
     const ld_column *columns;
-    size_t count = ld_history_columns(expected.simulation, &columns);
+    size_t count = ld_simulation_columns(expected.simulation, &columns);
     double *values = calloc(count, sizeof *values);
     int differ = 0, read = 0;
     static ld_summary unused;
