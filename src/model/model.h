@@ -377,12 +377,30 @@ typedef struct ld_adaptor {
     double clearance; ///< [m] radial; not used by the law `bilateral`, NaN there if not given
 } ld_adaptor;
 
-typedef enum ld_contact_law {
-    LD_CONTACT_HUNT_CROSSLEY,
-    LD_CONTACT_LANKARANI_NIKRAVESH,
-    LD_CONTACT_KELVIN_VOIGT,
-    LD_CONTACT_BILATERAL,
-} ld_contact_law;
+/// The contact laws, the first by default: each with its word and its traits. Their forces stand in
+/// elements/contact.h.
+#define LD_CONTACT_LAWS(LAW)                                                                       \
+    LAW(LD_CONTACT_HUNT_CROSSLEY, "hunt-crossley", 0)                                              \
+    LAW(LD_CONTACT_LANKARANI_NIKRAVESH, "lankarani-nikravesh", LD_CONTACT_BY_TOUCH)                \
+    LAW(LD_CONTACT_KELVIN_VOIGT, "kelvin-voigt", LD_CONTACT_LINEAR)                                \
+    LAW(LD_CONTACT_BILATERAL, "bilateral", LD_CONTACT_LINEAR | LD_CONTACT_TWO_SIDED)
+
+#define LD_CONTACT_LAW_NAME(name, word, traits) name,
+typedef enum ld_contact_law { LD_CONTACT_LAWS(LD_CONTACT_LAW_NAME) } ld_contact_law;
+
+enum {
+    LD_CONTACT_LINEAR = 1,    ///< its exponent is 1, it damps by its own coefficient
+    LD_CONTACT_TWO_SIDED = 2, ///< holds the adaptor on the axis, without clearance
+    LD_CONTACT_BY_TOUCH = 4,  ///< depends on the speed at first touch
+};
+
+/// Whether a law has a trait.
+static inline bool contact_has(ld_contact_law law, unsigned trait)
+{
+#define LD_CONTACT_LAW_TRAITS(name, word, traits) traits,
+    static const unsigned of[] = {LD_CONTACT_LAWS(LD_CONTACT_LAW_TRAITS)};
+    return of[law] & trait;
+}
 
 /// Contact between adaptors and tube: model.md, section 5.
 typedef struct ld_contact {
