@@ -31,7 +31,8 @@ typedef struct ld_messages {
 
 void ld_messages_free(ld_messages *messages);
 
-/// Prints `file:line:column: error: path: text`, a line each (with the source line and a caret).
+/// Prints `file:line:column: error: path: text`, a line each (with the source line and a caret), as
+/// a terminal may show it (ld_visible_text).
 void ld_messages_print(const ld_messages *messages, FILE *stream);
 
 /// Reads and checks a scenario file: of one with a sweep the values that it gives besides, the

@@ -43,6 +43,11 @@ const char *ld_status_name(ld_status status);
 /// failing function can end with `return ld_fail(error, LD_ERR_INPUT, "...", ...);`.
 ld_status ld_fail(ld_error *error, ld_status status, const char *format, ...) LD_PRINTF(3, 4);
 
+/// Writes `text` as a terminal may show it: control characters, and bytes that are no UTF-8, as
+/// `\x1b`; what `size` has no room for as "...". The texts of errors are such already. Returns
+/// `visible`.
+char *ld_visible_text(const char *text, char *visible, size_t size);
+
 /// The one of `count` names that is nearest to `word` by edit distance, for "did you mean"; NULL if
 /// none is near.
 const char *ld_nearest_name(const char *word, const char *const *names, size_t count);

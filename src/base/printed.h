@@ -1,8 +1,10 @@
-// Numbers as people read them.
+// Numbers and texts as people read them.
 #ifndef LD_BASE_PRINTED_H
 #define LD_BASE_PRINTED_H
 
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 
 // What to print with "%.*f" and so many decimals: the value, but 0 where a negative one would come
 // out as -0.000.
@@ -20,5 +22,12 @@ static inline int printed_digits(double value, double spread, int least)
     double digits = floor(log10(fabs(value))) - floor(log10(spread)) + 2;
     return (int)fmin(fmax(digits, least), 12);
 }
+
+// The character at the front of the text as a terminal may show it: a control character, or a byte
+// that is no UTF-8, as \x1b. Returns the bytes that it takes of the text.
+size_t printed_character(const char *text, char shown[5]);
+
+// A text from outside as a terminal may show it, until the end of the block; see ld_visible_text.
+#define VISIBLE(text) ld_visible_text((text), (char[4096]){0}, 4096)
 
 #endif

@@ -21,11 +21,13 @@ const char *ld_status_name(ld_status status)
 ld_status ld_fail(ld_error *error, ld_status status, const char *format, ...)
 {
     if (error) {
+        char text[LD_ERROR_TEXT];
         va_list arguments;
         va_start(arguments, format);
         error->status = status;
-        vsnprintf(error->text, sizeof error->text, format, arguments);
+        vsnprintf(text, sizeof text, format, arguments);
         va_end(arguments);
+        ld_visible_text(text, error->text, sizeof error->text);
     }
     return status;
 }

@@ -9,12 +9,12 @@
 
 void command_complain(const char *format, ...)
 {
-    char text[2 * LD_ERROR_TEXT];
+    char text[2 * LD_ERROR_TEXT], visible[4 * sizeof text];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    fprintf(stderr, "launchdyn: %s\n", text);
+    fprintf(stderr, "launchdyn: %s\n", ld_visible_text(text, visible, sizeof visible));
 }
 
 int command_fail(ld_status status, const ld_error *error)

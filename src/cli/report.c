@@ -13,8 +13,10 @@ static int finish(ld_status status, const ld_error *error, const ld_report *repo
         return command_fail(status, error);
     for (int i = 0; i < report->note_count; i++)
         command_complain("%s", report->note[i]);
+    char visible[1024];
     if (!quiet)
-        printf("%s: %.0f kB\n", file, (double)report->bytes * 1e-3);
+        printf("%s: %.0f kB\n", ld_visible_text(file, visible, sizeof visible),
+               (double)report->bytes * 1e-3);
     return 0;
 }
 

@@ -46,12 +46,13 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
         int code = command_fail(status, &error);
         return progress_signal() ? 128 + progress_signal() : code;
     }
+    char folder[1024];
     if (!status && !wishes->run.quiet && wishes->shards)
         printf(
             "shard %d of %d: %lld samples, %lld failed; when all shards are done: launchdyn study "
             "merge %s\n",
             wishes->shard, wishes->shards, (long long)counts.done, (long long)counts.failed,
-            wishes->run.folder);
+            ld_visible_text(wishes->run.folder, folder, sizeof folder));
     if (!status && !wishes->run.quiet && counts.look > 0)
         printf("the stopping rule %s after %lld samples\n",
                counts.enough ? "holds" : "does not hold", (long long)counts.samples);

@@ -7,6 +7,7 @@
 #include "elements/base_frame.h"
 #include "elements/flexible_tube.h"
 #include "elements/motor.h"
+#include "elements/work.h"
 
 enum { LD_MAX_MODAL = 2 * LD_NB + LD_NT + LD_NA };
 
@@ -45,21 +46,21 @@ typedef struct adaptor_report {
     double force;       // [N] with friction
 } adaptor_report;
 
-// Powers by kind of force [W], in the order of ld_work.
-enum launching_power {
-    POWER_THRUST,
-    POWER_GRAVITY_ROCKET,
-    POWER_CONTACT_NORMAL, // of adaptors and breech
-    POWER_CONTACT_FRICTION,
-    POWER_SLOT,
-    POWER_SLOT_FRICTION,
-    POWER_LOCK,
-    POWER_SUPPORT_DAMPING,
-    POWER_MODAL_DAMPING,
-    POWER_BASE,
-    POWER_MASS_CHANGE,
-    POWER_COUNT
-};
+// Powers [W] by kind of force, and the works [J] that they add up to.
+#define LAUNCHING_WORKS(X)                                                                         \
+    X(POWER_THRUST, "thrust", "work of the thrust")                                                \
+    X(POWER_GRAVITY_ROCKET, "gravity_rocket", "work of gravity on the rocket")                     \
+    X(POWER_CONTACT_NORMAL, "contact_normal", "work of the normal forces of adaptors and breech")  \
+    X(POWER_CONTACT_FRICTION, "contact_friction", "work of the contact friction")                  \
+    X(POWER_SLOT, "slot", "work of the slot force (zero but for step errors)")                     \
+    X(POWER_SLOT_FRICTION, "slot_friction", "work of the slot friction")                           \
+    X(POWER_LOCK, "lock", "work of the lock (zero but for step errors)")                           \
+    X(POWER_SUPPORT_DAMPING, "support_damping", "work of the support dampers")                     \
+    X(POWER_MODAL_DAMPING, "modal_damping", "work of the modal damping")                           \
+    X(POWER_BASE, "base", "work of the moving base through the supports")                          \
+    X(POWER_MASS_CHANGE, "mass_change", "kinetic energy carried off by burnt propellant")
+
+enum launching_power { LAUNCHING_WORKS(WORK_PLACE) POWER_COUNT };
 
 typedef struct launching_output {
     v3 a, w_dot;                 // inertial acceleration of R's origin, derivative of w, in R

@@ -103,7 +103,7 @@ static ld_status fill(ld_road_view *view, ld_error *error)
 ld_status ld_road_view_create(const ld_model *model, ld_stretch stretch, ld_road_view **view,
                               ld_error *error)
 {
-    if (model->base.kind != LD_BASE_VEHICLE)
+    if (!model_has_vehicle(model))
         return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is no vehicle");
     ld_road_view *created = calloc(1, sizeof *created);
     if (!created)

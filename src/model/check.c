@@ -249,7 +249,7 @@ static void check_block(model_checker *checker, const char *path, const field_bl
 static void check_complete(model_checker *checker, const ld_model *model)
 {
     char path[32];
-    bool launch = model->base.kind != LD_BASE_NONE;
+    bool launch = model_has_launcher(model);
     for (int i = 0; launch && i < model->tubes.section_count; i++) {
         const ld_section *s = &model->tubes.section[i];
         double sum = s->mass_per_length + s->axial_stiffness + s->bending_stiffness +

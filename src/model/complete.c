@@ -105,7 +105,7 @@ void model_complete(ld_model *model)
     const ld_table *thrust = &rocket->motor.thrust;
     for (int i = 0; i < tubes->section_count; i++)
         complete_section(&tubes->section[i], &tubes->material);
-    if (model->base.kind == LD_BASE_NONE)
+    if (!model_has_launcher(model))
         complete_flight(model);
     complete_empty(rocket);
     if (isnan(rocket->propellant))

@@ -152,8 +152,15 @@ typedef enum ld_base_kind {
     LD_BASE_FIXED,
     LD_BASE_PRESCRIBED,
     LD_BASE_VEHICLE,
-    LD_BASE_NONE, ///< no launcher: a flight alone
+    LD_BASE_NONE,     ///< no launcher: a flight alone
+    LD_BASE_EXTERNAL, ///< told where it is by whoever runs the launch, step by step
 } ld_base_kind;
+
+/// How an external base goes on between the instants at which it is told.
+typedef enum ld_extrapolation {
+    LD_EXTRAPOLATION_ACCELERATION, ///< with the acceleration that its last two velocities tell
+    LD_EXTRAPOLATION_VELOCITY,     ///< with its last velocity
+} ld_extrapolation;
 
 /// One sinusoid of a road, `amplitude sin(2 pi x/wavelength + phase)`, on both tracks.
 typedef struct ld_road_sine {
@@ -293,6 +300,7 @@ typedef struct ld_base {
     ld_sines yaw, pitch, roll;   ///< [rad] base pose Ry(yaw) Rz(pitch) Rx(roll) (prescribed)
     ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
     ld_vehicle vehicle;
+    ld_extrapolation extrapolation; ///< (external)
 } ld_base;
 
 /// Isotropic material of the tube; NaN: not given.
@@ -527,13 +535,13 @@ typedef struct ld_firing_order {
 
 typedef enum ld_start { LD_START_EQUILIBRIUM, LD_START_UNDEFORMED } ld_start;
 typedef enum ld_formulation { LD_FORMULATION_REDUCED, LD_FORMULATION_OVERALL } ld_formulation;
-typedef enum ld_run_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING } ld_run_end;
+typedef enum ld_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING } ld_end;
 
 typedef struct ld_run_settings {
     ld_start start;
     ld_formulation formulation;
     double lead_in; ///< [s]
-    ld_run_end end;
+    ld_end end;
     double end_time;            ///< [s] after the last ignition (LD_END_TIME)
     double tolerance;           ///< [-] relative tolerance of the integrator
     double max_step;            ///< [s] longest step until the last rocket has left its tube; NaN:
@@ -706,6 +714,17 @@ struct ld_model {
     int point;            ///< of the sweep that its values are those of; 0: nominal
     int sample;           ///< whose drawn numbers it has, of its point; 0: nominal
 };
+
+/// False: a flight alone.
+static inline bool model_has_launcher(const ld_model *model)
+{
+    return model->base.kind != LD_BASE_NONE;
+}
+/// Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
+static inline bool model_has_vehicle(const ld_model *model)
+{
+    return model->base.kind == LD_BASE_VEHICLE;
+}
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
 /// a default become NaN.

@@ -346,8 +346,7 @@ static void thrust_rules(const rule_set *rules)
 static void coupling_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
-    if (model->run.coupling_step > 0 && model->base.kind != LD_BASE_VEHICLE &&
-        (int)model->base.kind >= 0)
+    if (model->run.coupling_step > 0 && !model_has_vehicle(model) && (int)model->base.kind >= 0)
         broken(rules, "run.coupling", 0,
                "goes with base.kind: vehicle; another base has no subsystems to couple");
 }
@@ -443,7 +442,7 @@ static void scatter_rules(const rule_set *rules)
 void model_check_rules(const ld_model *model, rule_report *report, void *self)
 {
     const rule_set all = {model, report, self};
-    if (model->base.kind != LD_BASE_NONE)
+    if (model_has_launcher(model))
         launch_rules(&all);
     else
         start_rules(&all);

@@ -174,7 +174,7 @@ static void turret_rules(const rule_set *rules, const char *name, const ld_turre
 void vehicle_rules(const rule_set *rules)
 {
     const ld_platform *platform = &rules->model->platform;
-    if (rules->model->base.kind != LD_BASE_VEHICLE)
+    if (!model_has_vehicle(rules->model))
         return;
     road_rules(rules);
     wheel_rules(rules);

@@ -363,9 +363,14 @@ static const field_block tyre_block = {.fields = tyre_fields};
 static const field_word base_words[] = {{"fixed", LD_BASE_FIXED},
                                         {"prescribed", LD_BASE_PRESCRIBED},
                                         {"vehicle", LD_BASE_VEHICLE},
+                                        {"external", LD_BASE_EXTERNAL},
                                         {NULL, 0}};
+static const field_word extrapolation_words[] = {{"acceleration", LD_EXTRAPOLATION_ACCELERATION},
+                                                 {"velocity", LD_EXTRAPOLATION_VELOCITY},
+                                                 {NULL, 0}};
 #define FIXED_OR_PRESCRIBED (FORM(LD_BASE_FIXED) | FORM(LD_BASE_PRESCRIBED))
 #define VEHICLE FORM(LD_BASE_VEHICLE)
+#define EXTERNAL FORM(LD_BASE_EXTERNAL)
 static const field_row base_fields[] = {
     {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "what carries the tube"},
     {"azimuth", NUMBER(ld_base, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
@@ -391,6 +396,10 @@ static const field_row base_fields[] = {
      .forms = VEHICLE, .doc = "spring-damper between chassis and each wheel"},
     {"tyre", BLOCK(ld_base, vehicle.tyre, tyre_block), .required = true, .forms = VEHICLE,
      .doc = "between each wheel and the road"},
+    {"extrapolation", CHOICE(ld_base, extrapolation, extrapolation_words),
+     DEFAULT(LD_EXTRAPOLATION_ACCELERATION), .forms = EXTERNAL,
+     .doc = "how it goes on between two instants at which it is told: with the acceleration of its "
+            "last two velocities, or with the last velocity"},
     {0}};
 static const field_block base_block = {.fields = base_fields,
                                        .form = base_words,
@@ -484,7 +493,7 @@ static const field_row layout_fields[] = {
     {"pitch", NUMBER(ld_layout, pitch, "m"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "distance between neighbours"},
     {"first", VECTOR(ld_layout, first, "m", 3), FROM_TO(-1000, 1000), DEFAULT(0),
-     .doc = "rear end of tube 1, platform axes (a fixed or prescribed base does without)"},
+     .doc = "rear end of tube 1, platform axes (a base that is no vehicle does without)"},
     {0}};
 static const field_block layout_block = {.fields = layout_fields};
 
@@ -780,9 +789,10 @@ static const field_block aerodynamics_block = {.fields = aerodynamics_fields,
 static const field_word kind_words[] = {{"base.kind: fixed", LD_BASE_FIXED},
                                         {"base.kind: prescribed", LD_BASE_PRESCRIBED},
                                         {"base.kind: vehicle", LD_BASE_VEHICLE},
+                                        {"base.kind: external", LD_BASE_EXTERNAL},
                                         {"flight", LD_BASE_NONE},
                                         {NULL, 0}};
-#define IN_TUBE .forms = FIXED_OR_PRESCRIBED | VEHICLE
+#define IN_TUBE .forms = FIXED_OR_PRESCRIBED | VEHICLE | EXTERNAL
 #define IN_FLIGHT FORM(LD_BASE_NONE)
 #define NOT_IN_FLIGHT(text) .optional = IN_FLIGHT, .initial_doc = (text)
 static const field_word motor_words[] = {{"", 0}, {"none", 1}, {NULL, 0}};

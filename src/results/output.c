@@ -55,7 +55,7 @@ static ld_status begin(void *self, const ld_column *columns, size_t count, ld_er
     ld_status status = history_hdf5_begin(output->hdf5, columns, count, error);
     if (!status && output->csv)
         status = history_csv_begin(output->csv, columns, count, error);
-    if (!status && output->model->base.kind == LD_BASE_NONE)
+    if (!status && !model_has_launcher(output->model))
         status = begin_line(output, 1, columns, count, error);
     return status;
 }

@@ -131,7 +131,7 @@ static void write_number(json_writer *json, const quantity_walk *at, const void 
 static void write_numbers(json_writer *json, const quantity_table *table,
                           const quantity_things *things, const void *from)
 {
-    bool launch = things->model->base.kind != LD_BASE_NONE;
+    bool launch = model_has_launcher(things->model);
     for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at))
         if ((launch || !at.group->launch) && quantity_is_there(at.group, from))
             write_number(json, &at, from);
@@ -200,7 +200,7 @@ static void write_summary(json_writer *json, const ld_model *model, const ld_sum
     write_end(json, summary);
     write_rockets(json, summary, &things);
     write_numbers(json, &run_quantities, &things, summary);
-    if (model->base.kind != LD_BASE_NONE)
+    if (model_has_launcher(model))
         write_modes(json, summary, &things);
     write_numbers(json, &cost_quantities, &things, summary);
     write_texts(json, origin);

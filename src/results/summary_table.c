@@ -99,9 +99,9 @@ static void print_cost(const ld_summary *summary, bool launch, FILE *stream)
 void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *stream)
 {
     const quantity_things things = {.model = model};
-    bool launch = model->base.kind != LD_BASE_NONE;
+    bool launch = model_has_launcher(model);
     const char *unnamed = launch ? "Launch" : "Flight alone";
-    fprintf(stream, "%s\n", model->title && *model->title ? model->title : unnamed);
+    fprintf(stream, "%s\n", model->title && *model->title ? VISIBLE(model->title) : unnamed);
     if (launch) {
         print_modes(summary, stream);
         fputs("\nEquilibrium at the start\n", stream);
@@ -114,7 +114,7 @@ void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *st
     }
     print_cost(summary, launch, stream);
     for (int i = 0; i < summary->note_count; i++)
-        fprintf(stream, "%snote: %s\n", i ? "" : "\n", summary->note[i]);
+        fprintf(stream, "%snote: %s\n", i ? "" : "\n", VISIBLE(summary->note[i]));
     if (!summary->complete)
-        fprintf(stream, "\nStopped at %.7f s: %s\n", summary->t_end, summary->stopped);
+        fprintf(stream, "\nStopped at %.7f s: %s\n", summary->t_end, VISIBLE(summary->stopped));
 }

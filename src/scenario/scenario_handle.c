@@ -61,10 +61,10 @@ ld_source *ld_model_source(const ld_model *model)
 
 bool ld_model_has_launcher(const ld_model *model)
 {
-    return model->base.kind != LD_BASE_NONE;
+    return model_has_launcher(model);
 }
 
 bool ld_model_has_vehicle(const ld_model *model)
 {
-    return model->base.kind == LD_BASE_VEHICLE;
+    return model_has_vehicle(model);
 }

@@ -1,3 +1,4 @@
+#include "base/printed.h"
 #include "scenario/scenario_reader.h"
 
 #include <stdio.h>
@@ -20,43 +21,36 @@ void ld_messages_free(ld_messages *messages)
     *messages = (ld_messages){0};
 }
 
-static bool is_control(char c)
-{
-    return ((unsigned char)c < 0x20 && c != '\t') || c == 0x7f;
-}
-
 // Prints the part of the source line around the column, and a caret below it. Columns count
-// characters: bytes that continue a UTF-8 character add none.
+// characters; tabs stay tabs, and stand below themselves.
 static void print_excerpt(const ld_message *m, FILE *stream)
 {
     enum { BEFORE = 80, WIDTH = 120 };
-    int from = m->column > BEFORE ? m->column - BEFORE : 1, column = 0;
+    char shown[5], below[4 * BEFORE + 1] = "";
+    int from = m->column > BEFORE ? m->column - BEFORE : 1, column = 1;
     fprintf(stream, "    ");
-    for (const char *c = m->source; *c; c++) {
-        column += ((unsigned char)*c & 0xc0) != 0x80;
-        if (column >= from && column < from + WIDTH)
-            fputc(is_control(*c) ? '?' : *c, stream);
-    }
-    fprintf(stream, "\n    ");
-    column = 0;
-    for (const char *c = m->source; *c; c++) {
-        if (((unsigned char)*c & 0xc0) == 0x80)
-            continue;
-        column++;
+    for (const char *c = m->source; *c && column < from + WIDTH; column++) {
+        bool tab = *c == '\t', plain = *c == '\\';
+        c += printed_character(c, shown);
+        int width = shown[0] == '\\' && !plain && !tab ? (int)strlen(shown) : 1;
+        if (column >= from)
+            fputs(tab ? "\t" : shown, stream);
         if (column >= from && column < m->column)
-            fputc(*c == '\t' ? '\t' : ' ', stream);
+            snprintf(below + strlen(below), sizeof below - strlen(below), "%*s", width,
+                     tab ? "\t" : " ");
     }
-    fprintf(stream, "^\n");
+    fprintf(stream, "\n    %s^\n", below);
 }
 
 void ld_messages_print(const ld_messages *messages, FILE *stream)
 {
     for (size_t i = 0; i < messages->count; i++) {
         const ld_message *m = &messages->item[i];
-        fprintf(stream, "%s:", m->file);
+        fprintf(stream, "%s:", VISIBLE(m->file));
         if (m->line > 0)
             fprintf(stream, "%d:%d:", m->line, m->column);
-        fprintf(stream, " error: %s%s%s\n", m->path, m->path[0] ? ": " : "", m->text);
+        fprintf(stream, " error: %s%s%s\n", VISIBLE(m->path), m->path[0] ? ": " : "",
+                VISIBLE(m->text));
         if (m->source[0])
             print_excerpt(m, stream);
     }
@@ -233,7 +227,7 @@ const char *reader_quote(const char *text, char buffer[64])
     buffer[n++] = '"';
     const char *c = text;
     for (; *c && n < LONGEST; c++)
-        buffer[n++] = is_control(*c) || *c == '\t' ? '?' : *c;
+        buffer[n++] = *c;
     // no half of a UTF-8 character at the cut
     while (*c && n > 1 && ((unsigned char)*c & 0xc0) == 0x80) {
         c--;

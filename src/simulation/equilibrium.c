@@ -507,6 +507,12 @@ static ld_status settle_base(const launch_state *self, double t, const launching
     memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
     const base_system *base = &self->launcher.base;
     const base_dynamics *dynamics = base->kind->dynamics;
+    if (base->kind->tell && !self->told)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "base.kind: external: nobody tells where the base is; a program does that, "
+                       "from the start on and step by step");
+    if (base->kind->tell)
+        base->kind->tell(base, t, true, self->told, y + self->launcher.base_at);
     if (!dynamics)
         return LD_OK;
     dynamics->guess(base, self->launcher.launching.tube.m, self->motor->full.m,

@@ -1,8 +1,43 @@
-// The rocket against the launcher: figures of its exit that keep their meaning however steep the
-// launcher stands and however it moves.
+// Directions and their rates; the tube's tip against the undeformed tube; the rocket against the
+// launcher: figures of its exit that keep their meaning however steep the launcher stands and
+// however it moves.
 #include <math.h>
 
 #include "simulation/launch_state.h"
+
+direction_angles direction_angles_of(v3 d, v3 d_dot)
+{
+    double level2 = d.x * d.x + d.z * d.z, level = sqrt(level2);
+    double level_dot = level > 0 ? (d.x * d_dot.x + d.z * d_dot.z) / level : 0;
+    return (direction_angles){
+        .pitch = atan2(d.y, level),
+        .yaw = atan2(-d.z, d.x),
+        .pitch_rate = (d_dot.y * level - d.y * level_dot) / (level2 + d.y * d.y),
+        .yaw_rate = (d.z * d_dot.x - d.x * d_dot.z) / level2,
+    };
+}
+
+tip_state tip_state_of(const launch_state *self, const base_frame *base, const double *y)
+{
+    const launching_system *launching = &self->launcher.launching;
+    const launching_layout *at = &launching->layout;
+    launching_section tip;
+    double length = launching->tube.flexible.length;
+    launching_section_at(launching, y, length, &tip);
+    m3 A_TR = m3_mul(m3_transpose(base->A), q_matrix(q_from(y + at->quaternion)));
+    v3 r = m3_apply_transposed(base->A, v3_sub(v3_from(y + at->r), base->r));
+    v3 base_v = m3_apply_transposed(base->A, base->v),
+       base_w = m3_apply_transposed(base->A, base->w);
+    v3 place = v3_add(r, m3_apply(A_TR, tip.P));
+    v3 v = v3_sub(m3_apply(A_TR, tip.v), v3_add(base_v, v3_cross(base_w, place)));
+    v3 w = v3_sub(m3_apply(A_TR, tip.w), base_w);
+    v3 axis = m3_apply(A_TR, m3_column(tip.A, 0));
+    return (tip_state){
+        .offset = v3_sub(place, v3_make(length, 0, 0)),
+        .offset_dot = v, // base_w x place is taken off: the derivative of base coordinates
+        .angles = direction_angles_of(axis, v3_cross(w, axis)),
+    };
+}
 
 rocket_motion rocket_motion_of(const launching_pose *pose, v3 c, const double *y,
                                const launching_layout *at)

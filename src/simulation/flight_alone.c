@@ -17,8 +17,9 @@ static ld_status write_row(void *user, const flight_phase *phase, double t, cons
 {
     alone_run *run = user;
     double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
-    flight_row(&run->self->flight, phase, t, state, row);
-    ld_status status = run->sink->row(run->sink->self, row, (size_t)run->self->column_count, error);
+    flight_row(&run->self->flight, &run->self->columns, phase, t, state, row);
+    ld_status status =
+        run->sink->row(run->sink->self, row, (size_t)run->self->columns.count, error);
     run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
@@ -27,7 +28,7 @@ ld_status flight_alone_create(ld_simulation *self, ld_error *error)
 {
     ld_status status = flight_build(&self->flight, self->model, 0, error);
     if (!status)
-        self->column_count = flight_columns(&self->flight, self->column);
+        status = flight_columns(&self->flight, &self->columns, error);
     return status;
 }
 
@@ -58,7 +59,8 @@ static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *
     double start = simulation_cpu_now();
     ld_status status = LD_OK;
     if (run->sink)
-        status = run->sink->begin(run->sink->self, self->column, (size_t)self->column_count, error);
+        status = run->sink->begin(run->sink->self, self->columns.column,
+                                  (size_t)self->columns.count, error);
     run->cpu_output += simulation_cpu_now() - start;
     if (!status)
         status = free_flight_run(&job, state, &summary->rocket[0], summary, error);

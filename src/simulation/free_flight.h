@@ -2,6 +2,7 @@
 #ifndef LD_SIMULATION_FREE_FLIGHT_H
 #define LD_SIMULATION_FREE_FLIGHT_H
 
+#include "simulation/quantity.h"
 #include "simulation/summary.h"
 #include "systems/flight.h"
 
@@ -32,10 +33,12 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
 // The phase in which a flight begins at t.
 flight_phase free_flight_phase(const flight_system *system, double t_ignition, double t);
 
-// History of a flight: columns (count returned; the texts are constant) and the values of a row.
+// History of a flight: columns, to be freed, and the values of a row.
 enum { FLIGHT_MAX_COLUMNS = 64 };
-int flight_columns(const flight_system *system, ld_column columns[FLIGHT_MAX_COLUMNS]);
-void flight_row(const flight_system *system, const flight_phase *phase, double t,
-                const double *state, double *row);
+extern const quantity_table flight_quantities;
+ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error);
+void flight_row(const flight_system *system, const quantity_columns *columns,
+                const flight_phase *phase, double t, const double *state,
+                double row[FLIGHT_MAX_COLUMNS]);
 
 #endif

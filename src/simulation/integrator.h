@@ -54,6 +54,10 @@ ld_status integrator_start(integrator *self, double t, const double *y, ld_error
 // event the next step starts anew, whether integrator_start was called or not.
 integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error);
 
+// Takes the last step anew so that it ends at t, which lies in it; where error control makes it
+// still shorter, before t. INTEGRATOR_STEPPED or _FAILED.
+integrator_outcome integrator_return(integrator *self, double t, ld_error *error);
+
 double integrator_time(const integrator *self);
 const double *integrator_state(const integrator *self);
 // Where the last step began.

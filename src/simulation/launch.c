@@ -6,49 +6,51 @@
 #include "simulation/summary_quantities.h"
 
 // Rocket i of the firing comes next: its lock closed, its motor not yet lit.
-static void set_up_rocket(launch_run *run, int i)
+static void set_up_rocket(ld_run *run, int i)
 {
     const ld_firing *firing = &run->launch.model->firing[i];
     launch_state_select(&run->launch, i);
     run->greatest_lock_force = 0;
-    ld_rocket_summary *rocket = &run->summary->rocket[i];
-    run->summary->rocket_count = i + 1;
+    ld_rocket_summary *rocket = &run->summary.rocket[i];
+    run->summary.rocket_count = i + 1;
     rocket_clear(rocket, true);
     rocket->t_ignition = firing->at;
     rocket->tube = firing->tube;
 }
 
-static ld_status find_start(launch_run *run, double *y)
+static ld_status find_start(ld_run *run, double *y)
 {
     launch_state *self = &run->launch;
     const ld_simulation *system = self->system;
     if (system->stability)
-        return ld_fail(run->error, system->stability, "%s", system->unstable.text);
+        return ld_fail(&run->error, system->stability, "%s", system->unstable.text);
     ld_status status = LD_OK;
     if (self->model->run.start == LD_START_EQUILIBRIUM)
         status =
-            simulation_equilibrium(self, run->t_start, y, &run->summary->equilibrium, run->error);
+            simulation_equilibrium(self, run->t_start, y, &run->summary.equilibrium, &run->error);
     else
-        status = simulation_undeformed(self, run->t_start, y, run->error);
+        status = simulation_undeformed(self, run->t_start, y, &run->error);
     if (status)
         return status;
     simulation_move_with_base(self, run->t_start, y);
     return status;
 }
 
-static bool finished(const launch_run *run, double t)
+bool launch_is_finished(const ld_run *run)
 {
     const launch_state *self = &run->launch;
+    if (run->ahead)
+        return false;
     if (self->current + 1 < self->model->firing_count)
         return false;
     if (self->model->run.end == LD_END_TIME)
-        return t >= run->t_end;
+        return propagator_time(run->propagator) >= run->t_end;
     return self->phase.passed[0];
 }
 
 // Once a rocket is out, the next tube is put in its place; the balance goes on without what that
 // drops.
-static ld_status change_tube(launch_run *run, double t)
+static ld_status change_tube(ld_run *run, double t)
 {
     launch_state *self = &run->launch;
     int next = self->current + 1;
@@ -60,32 +62,33 @@ static ld_status change_tube(launch_run *run, double t)
            (size_t)self->launcher.state_count * sizeof(double));
     launch_energy_at(self, t, y, run->energy_start, &before);
     set_up_rocket(run, next);
-    ld_status status = simulation_change_tube(self, next, t, y, run->error);
+    ld_status status = simulation_change_tube(self, next, t, y, &run->error);
     if (status)
         return status;
     self->phase.locked = self->rocket->lock.present;
     launch_energy_at(self, t, y, run->energy_start, &after);
     run->energy_start += after.residual - before.residual;
-    run->summary->rocket[next].energy_dropped = before.kinetic - after.kinetic;
+    run->summary.rocket[next].energy_dropped = before.kinetic - after.kinetic;
     launch_let_go_at_once(run, t, y);
     launch_restart_output(run, t);
+    launch_tell(run, LD_EVENT_TUBE, t, -1);
     run->last_row = NAN;
-    status = propagator_start(run->propagator, t, y, true, run->error);
+    status = propagator_start(run->propagator, t, y, true, &run->error);
     return status ? status : launch_write_row(run, t, y);
 }
 
-static ld_status step_failed(launch_run *run)
+static ld_status step_failed(ld_run *run)
 {
     double t = propagator_time(run->propagator);
     if (launch_check_tube(run, t, propagator_state(run->propagator)) || !run->launch.jammed)
         return LD_ERR_NUMERIC;
-    return ld_fail(run->error, LD_ERR_LAUNCH,
+    return ld_fail(&run->error, LD_ERR_LAUNCH,
                    "the knob jams in the slot at t = %.6g s: with this angle and friction no slot "
                    "force fulfils the constraint",
                    propagator_time(run->propagator));
 }
 
-static ld_status after_step(launch_run *run, integrator_outcome outcome)
+static ld_status after_step(ld_run *run, integrator_outcome outcome)
 {
     launch_state *self = &run->launch;
     double t = propagator_time(run->propagator);
@@ -107,33 +110,85 @@ static ld_status after_step(launch_run *run, integrator_outcome outcome)
         status = launch_check_step(run, t, y);
     if (!status && (changed || outcome == INTEGRATOR_EVENT)) {
         launch_let_go_at_once(run, t, y);
-        status = propagator_start(run->propagator, t, y, false, run->error);
+        status = propagator_start(run->propagator, t, y, false, &run->error);
     }
     return status;
 }
 
-static ld_status loop(launch_run *run)
+// One step; what happens at its end has not happened yet.
+static ld_status step(ld_run *run)
 {
-    double t = propagator_time(run->propagator);
-    while (!finished(run, t)) {
-        ld_status status = launch_check_base(run, t);
-        if (status)
-            return status;
-        integrator_outcome outcome =
-            propagator_step(run->propagator, launch_next_stop(run, t), run->error);
-        if (outcome == INTEGRATOR_FAILED)
-            return step_failed(run);
-        t = propagator_time(run->propagator);
-        status = after_step(run, outcome);
-        if (!status)
-            status = change_tube(run, t);
-        if (status)
-            return status;
-    }
+    double t = propagator_time(run->propagator), stop = launch_next_stop(run, t);
+    ld_status status = launch_check_base(run, t);
+    if (status)
+        return status;
+    run->outcome = propagator_step(run->propagator, fmin(stop, run->t_input), &run->error);
+    if (run->outcome == INTEGRATOR_FAILED)
+        return step_failed(run);
+    if (run->outcome == INTEGRATOR_STOPPED && propagator_time(run->propagator) < stop)
+        run->outcome = INTEGRATOR_STEPPED; // an input's instant is none of the launch
+    run->ahead = true;
+    run->event_count = run->event_told = 0;
     return LD_OK;
 }
 
-static ld_status begin(launch_run *run)
+// What happens at the end of the step.
+static ld_status arrive(ld_run *run)
+{
+    run->ahead = false;
+    ld_status status = after_step(run, run->outcome);
+    if (!status)
+        status = change_tube(run, propagator_time(run->propagator));
+    if (!status && launch_is_finished(run))
+        launch_tell(run, LD_EVENT_END, propagator_time(run->propagator), -1);
+    return status;
+}
+
+ld_status launch_advance(ld_run *run, double t, bool to_event)
+{
+    while (!run->status) {
+        if (to_event && !run->ahead && run->event_told < run->event_count)
+            break;
+        double reached = propagator_time(run->propagator);
+        if (run->ahead ? t < reached : t <= reached || launch_is_finished(run))
+            break;
+        run->status = run->ahead ? arrive(run) : step(run);
+        if (run->status)
+            launch_write_last_row(run);
+    }
+    run->t = run->ahead ? t : propagator_time(run->propagator);
+    return run->status;
+}
+
+ld_status launch_stand(ld_run *run)
+{
+    if (!run->ahead)
+        return run->status;
+    double t = run->t;
+    run->outcome = propagator_return(run->propagator, t, &run->error);
+    run->status = run->outcome == INTEGRATOR_FAILED ? LD_ERR_NUMERIC : LD_OK;
+    // error control may have made the step still shorter
+    run->t_input = t;
+    launch_advance(run, t, false);
+    run->t_input = INFINITY;
+    return run->status;
+}
+
+ld_status launch_ignite(ld_run *run)
+{
+    double t = propagator_time(run->propagator);
+    const double *y = propagator_state(run->propagator);
+    launch_record_ignition(run, t, y);
+    run->status = launch_write_row(run, t, y);
+    launch_pass_stop(run, t);
+    launch_restart_output(run, t);
+    launch_let_go_at_once(run, t, y);
+    if (!run->status)
+        run->status = propagator_start(run->propagator, t, y, false, &run->error);
+    return run->status;
+}
+
+ld_status launch_begin(ld_run *run)
 {
     launch_state *self = &run->launch;
     double y[LD_MAX_STATES];
@@ -141,20 +196,16 @@ static ld_status begin(launch_run *run)
     double last = model->firing[model->firing_count - 1].at;
     run->t_start = fmin(model->firing[0].at, 0 - model->run.lead_in);
     run->t_end = model->run.end == LD_END_TIME ? last + model->run.end_time : INFINITY;
+    run->t = run->t_start;
+    run->t_input = INFINITY;
     run->last_row = NAN;
-    run->summary->t_end = run->t_start;
+    run->summary.t_end = run->t_start;
     set_up_rocket(run, 0);
     ld_status status = launch_check_base(run, run->t_start);
     if (!status)
         status = find_start(run, y);
-    const ld_sink *sink = run->options ? run->options->sink : NULL;
-    double before = simulation_cpu_now();
-    if (!status && sink)
-        status = simulation_geometry(self->system, sink, run->error);
-    if (!status && sink)
-        status = sink->begin(sink->self, self->system->column, (size_t)self->system->column_count,
-                             run->error);
-    run->cpu_output += simulation_cpu_now() - before;
+    if (!status)
+        status = launch_open_output(run);
     if (status)
         return status;
     ld_energy energy;
@@ -168,39 +219,8 @@ static ld_status begin(launch_run *run)
     launch_let_go_at_once(run, run->t_start, y);
     launch_restart_output(run, run->t_start);
     run->next_progress = run->t_start;
-    status = propagator_create(&run->launch, &run->propagator, run->error);
+    status = propagator_create(&run->launch, &run->propagator, &run->error);
     if (!status)
-        status = propagator_start(run->propagator, run->t_start, y, true, run->error);
+        status = propagator_start(run->propagator, run->t_start, y, true, &run->error);
     return status ? status : launch_write_row(run, run->t_start, y);
-}
-
-ld_status ld_simulation_run(const ld_simulation *system, const ld_run_options *options,
-                            ld_summary *summary, ld_error *error)
-{
-    ld_error own;
-    double start = simulation_cpu_now();
-    memset(summary, 0, sizeof *summary);
-    double row[LD_MAX_COLUMNS], between[LD_MAX_STATES];
-    launch_run run = {.options = options,
-                      .summary = summary,
-                      .error = error ? error : &own,
-                      .row = row,
-                      .between = between};
-    *run.error = (ld_error){0};
-    if (system->model->base.kind == LD_BASE_NONE)
-        return flight_alone_run(system, options, summary, run.error);
-    ld_status status = launch_state_begin(&run.launch, system, run.error);
-    if (!status)
-        status = begin(&run);
-    if (!status) {
-        status = loop(&run);
-        if (status)
-            launch_write_last_row(&run);
-        else
-            status = launch_fly_all(&run);
-    }
-    launch_summarise(&run, status, simulation_cpu_now() - start - run.cpu_output);
-    propagator_free(run.propagator);
-    launch_state_end(&run.launch);
-    return status;
 }

@@ -1,4 +1,6 @@
 // The state of a launch as bytes.
+#include <limits.h>
+
 #include "simulation/launch_run.h"
 #include "simulation/summary_quantities.h"
 
@@ -38,7 +40,7 @@ static void archive_launch(archive *bytes, launch_state *self)
     archive_double(bytes, &self->worst_condition);
 }
 
-static void archive_output(archive *bytes, launch_run *run)
+static void archive_output(archive *bytes, ld_run *run)
 {
     double *numbers[] = {&run->energy_start, &run->t_start,       &run->t_end,
                          &run->next_output,  &run->output_step,   &run->output_from,
@@ -50,9 +52,9 @@ static void archive_output(archive *bytes, launch_run *run)
 }
 
 // Of what is known before the run's end.
-static void archive_summary(archive *bytes, launch_run *run)
+static void archive_summary(archive *bytes, ld_run *run)
 {
-    ld_summary *summary = run->summary;
+    ld_summary *summary = &run->summary;
     const quantity_things things = {.model = run->launch.model};
     archive_int(bytes, &summary->rocket_count, 0, run->launch.model->firing_count);
     for (int i = 0; i < summary->rocket_count; i++) {
@@ -73,9 +75,31 @@ static void archive_summary(archive *bytes, launch_run *run)
         archive_text(bytes, summary->note[i], sizeof summary->note[i]);
 }
 
-void launch_archive(launch_run *run, archive *bytes)
+// Where the run stands, and what its events are that have not been told.
+static void archive_present(archive *bytes, ld_run *run)
+{
+    int outcome = (int)run->outcome;
+    archive_double(bytes, &run->t);
+    archive_bool(bytes, &run->ahead);
+    archive_int(bytes, &outcome, INTEGRATOR_STEPPED, INTEGRATOR_EVENT);
+    run->outcome = (integrator_outcome)outcome;
+    archive_int(bytes, &run->event_count, 0, MOST_EVENTS);
+    archive_int(bytes, &run->event_told, 0, run->event_count);
+    for (int i = 0; i < run->event_count; i++) {
+        ld_event *one = &run->event[i];
+        int kind = (int)one->kind;
+        archive_int(bytes, &kind, LD_EVENT_NONE, LD_EVENT_END);
+        one->kind = (ld_event_kind)kind;
+        archive_double(bytes, &one->t);
+        archive_int(bytes, &one->rocket, 0, LD_MAX_FIRINGS);
+        archive_int(bytes, &one->part, 0, INT_MAX);
+    }
+}
+
+void launch_archive(ld_run *run, archive *bytes)
 {
     archive_launch(bytes, &run->launch);
+    archive_present(bytes, run);
     archive_output(bytes, run);
     archive_summary(bytes, run);
     propagator_archive(run->propagator, bytes);

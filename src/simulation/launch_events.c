@@ -1,13 +1,21 @@
 // What happens at events and stops of a launch: the lock lets go, adaptors pass the tip, ignition,
 // corners.
+#include <assert.h>
 #include <math.h>
 
 #include "simulation/launch_run.h"
 
-static void pass_adaptor(launch_run *run, int i, double t, const double *y)
+void launch_tell(ld_run *run, ld_event_kind kind, double t, int part)
+{
+    assert(run->event_count < MOST_EVENTS);
+    run->event[run->event_count++] =
+        (ld_event){.kind = kind, .t = t, .rocket = run->launch.current + 1, .part = part + 1};
+}
+
+static void pass_adaptor(ld_run *run, int i, double t, const double *y)
 {
     launch_state *self = &run->launch;
-    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
+    ld_rocket_summary *rocket = &run->summary.rocket[self->current];
     int count = self->launcher.launching.adaptors.count, ahead = 0;
     double since = t - self->t_ignition;
     const ld_adaptor *adaptor = self->rocket->adaptor;
@@ -15,6 +23,7 @@ static void pass_adaptor(launch_run *run, int i, double t, const double *y)
         ahead += adaptor[j].at > adaptor[i].at;
     self->phase.passed[i] = true;
     rocket->t_exit[i] = since;
+    launch_tell(run, LD_EVENT_EXIT, t, i);
     if (i == 0) {
         rocket->t_rear = since;
         launch_record_exit(run, t, y);
@@ -26,7 +35,7 @@ static void pass_adaptor(launch_run *run, int i, double t, const double *y)
 }
 
 // Rear adaptor out: the rocket goes; the balance goes on without its energy.
-static void let_rocket_go(launch_run *run, double t, const double *y)
+static void let_rocket_go(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     launcher_input input;
@@ -46,16 +55,17 @@ static double touch_speed(const launch_state *self, double speed)
 }
 
 // The lock lets go; where the rocket then stands it meets the breech.
-static void let_go(launch_run *run, double t, const double *y)
+static void let_go(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     self->phase.locked = false;
     self->phase.breech = fmin(self->phase.breech, y[self->launcher.launching.layout.x]);
-    run->summary->rocket[self->current].t_release = t - self->t_ignition;
+    run->summary.rocket[self->current].t_release = t - self->t_ignition;
+    launch_tell(run, LD_EVENT_RELEASE, t, -1);
 }
 
 // Switches what the events just located say; true where the equations changed.
-bool launch_switch_phase(launch_run *run, double t, const double *y)
+bool launch_switch_phase(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     int count = self->launcher.launching.adaptors.count;
@@ -73,6 +83,7 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
             // first touch: its speed is kept for the whole contact
             self->phase.touch_speed[i] =
                 touch_speed(self, launching_offset_rate(&self->launcher.launching, y, i));
+            launch_tell(run, LD_EVENT_TOUCH, t, i);
             changed = true;
         }
     }
@@ -81,10 +92,15 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
         launching_pose unused;
         launching_rocket_pose(&self->launcher.launching, y, &unused, &out);
         self->phase.breech_speed = touch_speed(self, -out.y[0]);
+        launch_tell(run, LD_EVENT_BREECH, t, -1);
         changed = true;
     }
-    for (int j = 0; j < self->launcher.base.event_count; j++)
-        changed |= propagator_event(run->propagator, EVENT_BASE, j) > 0;
+    for (int j = 0; j < self->launcher.base.event_count; j++) {
+        int direction = propagator_event(run->propagator, EVENT_BASE, j);
+        if (direction)
+            launch_tell(run, direction > 0 ? LD_EVENT_LAND : LD_EVENT_LIFT, t, j);
+        changed |= direction > 0;
+    }
     bool last = self->current + 1 == self->model->firing_count;
     if (self->phase.passed[0] && self->phase.rocket &&
         !(last && self->model->run.end != LD_END_TIME)) {
@@ -96,7 +112,7 @@ bool launch_switch_phase(launch_run *run, double t, const double *y)
 
 // A jump of the thrust, or the start itself, can carry the lock's force past the release force
 // without a crossing that the integrator could locate.
-void launch_let_go_at_once(launch_run *run, double t, const double *y)
+void launch_let_go_at_once(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     if (!self->phase.locked)
@@ -116,7 +132,7 @@ double launch_change_instant(const launch_state *self)
 }
 
 // The next instant at which the step must end: ignition, a corner of the thrust, the end.
-double launch_next_stop(const launch_run *run, double t)
+double launch_next_stop(const ld_run *run, double t)
 {
     const launch_state *self = &run->launch;
     const base_system *base = &self->launcher.base;
@@ -138,14 +154,17 @@ double launch_next_stop(const launch_run *run, double t)
 
 // At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve, or of
 // what drives the base.
-bool launch_pass_stop(launch_run *run, double t)
+bool launch_pass_stop(ld_run *run, double t)
 {
     launch_state *self = &run->launch;
-    bool changed = self->launcher.base.kind->next_corner != NULL;
+    const base_system *base = &self->launcher.base;
+    int before = self->piece;
     while (t >= self->t_ignition && self->piece + 1 < (int)self->motor->corner_count &&
-           t >= self->t_ignition + self->motor->t[self->piece + 1]) {
+           t >= self->t_ignition + self->motor->t[self->piece + 1])
         self->piece++;
-        changed = true;
-    }
-    return changed;
+    bool burning = self->piece != before, driven = base->kind->next_corner != NULL;
+    bool base_corner = driven && base->kind->next_corner(base, nextafter(t, -INFINITY)) == t;
+    if (base_corner || (burning && t > self->t_ignition))
+        launch_tell(run, LD_EVENT_CORNER, t, -1);
+    return burning || driven;
 }

@@ -7,34 +7,35 @@
 static ld_status write_flight_row(void *user, const flight_phase *phase, double t,
                                   const double *state, ld_error *error)
 {
-    launch_run *run = user;
-    const ld_sink *sink = run->options->sink;
+    ld_run *run = user;
+    const ld_sink *sink = run->options.sink;
     double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
-    flight_row(&run->flight, phase, t, state, row);
-    ld_status status = sink->row(sink->self, row, (size_t)run->flight_column_count, error);
+    flight_row(&run->flight, &run->flight_columns, phase, t, state, row);
+    ld_status status = sink->row(sink->self, row, (size_t)run->flight_columns.count, error);
     run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
 
-static ld_status begin_flight_rows(launch_run *run, int i)
+static ld_status begin_flight_rows(ld_run *run, int i)
 {
-    const ld_sink *sink = run->options->sink;
+    const ld_sink *sink = run->options.sink;
     double start = simulation_cpu_now();
-    ld_column columns[FLIGHT_MAX_COLUMNS];
-    run->flight_column_count = flight_columns(&run->flight, columns);
-    ld_status status =
-        sink->flight(sink->self, i + 1, columns, (size_t)run->flight_column_count, run->error);
+    quantity_columns *columns = &run->flight_columns;
+    ld_status status = flight_columns(&run->flight, columns, &run->error);
+    if (!status)
+        status =
+            sink->flight(sink->self, i + 1, columns->column, (size_t)columns->count, &run->error);
     run->cpu_output += simulation_cpu_now() - start;
     return status;
 }
 
 // Flies rocket i from the state in which it left its tube; nothing jumps.
-static ld_status fly(launch_run *run, int i)
+static ld_status fly(ld_run *run, int i)
 {
     const ld_model *model = run->launch.model;
-    ld_rocket_summary *rocket = &run->summary->rocket[i];
+    ld_rocket_summary *rocket = &run->summary.rocket[i];
     double t = rocket->t_ignition + rocket->t_rear, state[FLIGHT_STATES];
-    bool rows = run->options && run->options->sink && run->options->sink->flight;
+    bool rows = run->options.sink && run->options.sink->flight;
     quat q = q_from(rocket->exit.quaternion);
     const earth *globe = &run->flight.earth;
     m3 A_EB = m3_mul(globe->A_EI, q_matrix(q));
@@ -49,7 +50,7 @@ static ld_status fly(launch_run *run, int i)
     double height = flight_center(&run->flight, t, state).r.y;
     if (model->run.end == LD_END_TIME && run->flight.has_ground && height < run->flight.ground) {
         simulation_note(
-            run->summary,
+            &run->summary,
             "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
             "mass centre at y = %.4g m",
             rocket->tube, height);
@@ -63,29 +64,30 @@ static ld_status fly(launch_run *run, int i)
         .t_end = run->t_end,
         .launch_x = run->point[i][0],
         .launch_z = run->point[i][1],
-        .options = run->options,
+        .options = &run->options,
         .row = rows ? write_flight_row : NULL,
         .self = run,
     };
     ld_status status = rows ? begin_flight_rows(run, i) : LD_OK;
     if (!status)
-        status = free_flight_run(&job, state, rocket, run->summary, run->error);
+        status = free_flight_run(&job, state, rocket, &run->summary, &run->error);
     return status;
 }
 
 // Every rocket that has left its tube flies to the ground, or until the run's end.
-ld_status launch_fly_all(launch_run *run)
+ld_status launch_fly_all(ld_run *run)
 {
     ld_status status = LD_OK;
     if (run->launch.model->run.end == LD_END_TIP)
         return LD_OK;
-    for (int i = 0; i < run->summary->rocket_count && !status; i++) {
-        if (isnan(run->summary->rocket[i].t_rear))
+    for (int i = 0; i < run->summary.rocket_count && !status; i++) {
+        if (isnan(run->summary.rocket[i].t_rear))
             continue;
-        status = flight_build(&run->flight, run->launch.model, i, run->error);
+        status = flight_build(&run->flight, run->launch.model, i, &run->error);
         if (!status)
             status = fly(run, i);
         flight_free(&run->flight);
+        quantity_columns_free(&run->flight_columns);
     }
     return status;
 }

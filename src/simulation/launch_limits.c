@@ -3,7 +3,7 @@
 
 #include "simulation/launch_run.h"
 
-ld_status launch_check_tube(launch_run *run, double t, const double *y)
+ld_status launch_check_tube(ld_run *run, double t, const double *y)
 {
     const int parts = 4;
     double length = run->launch.launcher.launching.tube.flexible.length;
@@ -13,7 +13,7 @@ ld_status launch_check_tube(launch_run *run, double t, const double *y)
         launching_section_at(&run->launch.launcher.launching, y, x, &at);
         double sag = hypot(at.P.y, at.P.z);
         if (sag > 0.2 * length || at.A.a[0][0] < 0.8)
-            return ld_fail(run->error, LD_ERR_NUMERIC,
+            return ld_fail(&run->error, LD_ERR_NUMERIC,
                            "the tube bends beyond what small deflections allow at t = %.6g s: "
                            "%.3g m from its rear end it is %.3g m off its axis",
                            t, x, sag);
@@ -21,13 +21,13 @@ ld_status launch_check_tube(launch_run *run, double t, const double *y)
     return LD_OK;
 }
 
-static ld_status check_progress(launch_run *run, double t, const double *y)
+static ld_status check_progress(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     const ld_rocket *rocket = self->rocket;
     double since = t - self->t_ignition, s = y[self->launcher.launching.layout.x];
     if (self->phase.passed[0] && since < 0)
-        return ld_fail(run->error, LD_ERR_LAUNCH,
+        return ld_fail(&run->error, LD_ERR_LAUNCH,
                        "the rocket slid out of the tube's tip at t = %.6g s, %.3g s before its "
                        "ignition",
                        t, -since);
@@ -35,7 +35,7 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
         return LD_OK;
     if (self->phase.breech - s > 0.1 * self->launcher.launching.tube.flexible.length)
         return ld_fail(
-            run->error, LD_ERR_LAUNCH,
+            &run->error, LD_ERR_LAUNCH,
             "the rocket is %.4g m behind the breech at t = %.6g s: a contact of %.6g N/m "
             "does not hold it",
             self->phase.breech - s, t, rocket->contact.stiffness);
@@ -43,66 +43,65 @@ static ld_status check_progress(launch_run *run, double t, const double *y)
         return LD_OK;
     if (self->phase.locked)
         return ld_fail(
-            run->error, LD_ERR_LAUNCH,
+            &run->error, LD_ERR_LAUNCH,
             "the lock never let go: it carried at most %.6g N of the release force %.6g N "
             "by %.4g s after ignition",
             run->greatest_lock_force, rocket->lock.release_force, since);
     return ld_fail(
-        run->error, LD_ERR_LAUNCH,
+        &run->error, LD_ERR_LAUNCH,
         "the rocket is stuck in the tube: its rear adaptor is at %.4g m of %.4g m, %.4g s "
         "after ignition",
         s, self->launcher.launching.tube.flexible.length, since);
 }
 
 // Launches must not overlap.
-static ld_status check_next(launch_run *run, double t)
+static ld_status check_next(ld_run *run, double t)
 {
     const launch_state *self = &run->launch;
     int next = self->current + 1;
     if (next == self->model->firing_count || !self->phase.rocket ||
         t < self->model->firing[next].at)
         return LD_OK;
-    return ld_fail(run->error, LD_ERR_LAUNCH,
+    return ld_fail(&run->error, LD_ERR_LAUNCH,
                    "firing %d: at its ignition, t = %.6g s, the rocket before is still in its "
                    "tube; launches that overlap are not simulated",
                    next + 1, t);
 }
 
 // A table of the base's motion must go on beyond t.
-ld_status launch_check_base(launch_run *run, double t)
+ld_status launch_check_base(ld_run *run, double t)
 {
     double first, last;
     base_span(&run->launch.launcher.base, &first, &last);
     if (t >= first && t < last)
         return LD_OK;
-    return ld_fail(run->error, LD_ERR_INPUT,
+    return ld_fail(&run->error, LD_ERR_INPUT,
                    "the table of the base's motion goes from %.6g s to %.6g s, which does not "
                    "cover the launch (now at t = %.6g s)",
                    first, last, t);
 }
 
 // Steps of less than 50 ns on the average over a millisecond: the run would hardly go on.
-static ld_status check_steps(launch_run *run, double t)
+static ld_status check_steps(ld_run *run, double t)
 {
     const int64_t most = 20000;
     if (++run->steps_since_progress <= most)
         return LD_OK;
-    return ld_fail(run->error, LD_ERR_NUMERIC,
+    return ld_fail(&run->error, LD_ERR_NUMERIC,
                    "the steps became too short to go on: more than %lld within a millisecond, up "
                    "to t = %.9g s",
                    (long long)most, t);
 }
 
 // Every millisecond of physics: the caller hears of it, and the tube is looked at.
-static ld_status report_progress(launch_run *run, double t)
+static ld_status report_progress(ld_run *run, double t)
 {
-    const ld_run_options *options = run->options;
     if (t < run->next_progress)
         return LD_OK;
     run->next_progress = t + 1e-3;
     run->steps_since_progress = 0;
     ld_status status = launch_check_tube(run, t, propagator_state(run->propagator));
-    if (status || !options || !options->progress)
+    if (status || !run->options.progress)
         return status;
     // a launch's end is not known: the travel's share is the estimate
     const launch_state *self = &run->launch;
@@ -113,12 +112,12 @@ static ld_status report_progress(launch_run *run, double t)
     double expected = lead_in + 0.2;
     double share =
         t < self->t_ignition ? (t - run->t_start) / expected : (lead_in + 0.2 * in_tube) / expected;
-    if (!options->progress(options->self, share))
-        return ld_fail(run->error, LD_ERR_INTERRUPTED, "interrupted at t = %.6g s", t);
+    if (!run->options.progress(run->options.self, share))
+        return ld_fail(&run->error, LD_ERR_INTERRUPTED, "interrupted at t = %.6g s", t);
     return LD_OK;
 }
 
-ld_status launch_check_step(launch_run *run, double t, const double *y)
+ld_status launch_check_step(ld_run *run, double t, const double *y)
 {
     ld_status status = check_progress(run, t, y);
     if (!status)

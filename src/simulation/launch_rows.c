@@ -3,7 +3,7 @@
 
 // From ignition on rows come at the tube's step; before it, and where a rocket has left and another
 // is to follow, at that of the lead-in.
-static double output_step(const launch_run *run, double t)
+static double output_step(const ld_run *run, double t)
 {
     const launch_state *self = &run->launch;
     bool between = !self->phase.rocket && self->current + 1 < self->model->firing_count;
@@ -11,28 +11,44 @@ static double output_step(const launch_run *run, double t)
                                            : self->model->run.output_step_tube;
 }
 
-ld_status launch_write_row(launch_run *run, double t, const double *y)
+ld_status launch_open_output(ld_run *run)
 {
-    const ld_sink *sink = run->options ? run->options->sink : NULL;
+    const ld_sink *sink = run->options.sink;
+    const ld_simulation *system = run->launch.system;
+    if (!sink)
+        return LD_OK;
+    double before = simulation_cpu_now();
+    ld_status status = simulation_geometry(system, sink, &run->error);
+    if (!status)
+        status = sink->begin(sink->self, system->columns.column, (size_t)system->columns.count,
+                             &run->error);
+    run->cpu_output += simulation_cpu_now() - before;
+    return status;
+}
+
+ld_status launch_write_row(ld_run *run, double t, const double *y)
+{
+    const ld_sink *sink = run->options.sink;
     if (!sink || t == run->last_row)
         return LD_OK;
     run->last_row = t;
     double start = simulation_cpu_now();
     history_row(&run->launch, t, y, run->energy_start, run->row);
     ld_status status =
-        sink->row(sink->self, run->row, (size_t)run->launch.system->column_count, run->error);
+        sink->row(sink->self, run->row, (size_t)run->launch.system->columns.count, &run->error);
     run->cpu_output += simulation_cpu_now() - start;
     run->sink_failed = status != LD_OK;
     return status;
 }
 
 // Rows that fell into the last step.
-ld_status launch_write_rows(launch_run *run)
+ld_status launch_write_rows(ld_run *run)
 {
     double now = propagator_time(run->propagator);
-    while (run->options && run->options->sink && run->next_output <= now) {
+    while (run->next_output <= now) {
         double t = run->next_output;
-        propagator_interpolate(run->propagator, t, run->between);
+        if (run->options.sink)
+            propagator_interpolate(run->propagator, t, run->between);
         ld_status status = launch_write_row(run, t, run->between);
         if (status)
             return status;
@@ -42,7 +58,7 @@ ld_status launch_write_rows(launch_run *run)
     return LD_OK;
 }
 
-void launch_restart_output(launch_run *run, double t)
+void launch_restart_output(ld_run *run, double t)
 {
     run->output_from = t;
     run->output_index = 1;
@@ -51,11 +67,10 @@ void launch_restart_output(launch_run *run, double t)
 }
 
 // A run that ends early has its last state as its last row.
-void launch_write_last_row(launch_run *run)
+void launch_write_last_row(ld_run *run)
 {
-    ld_error unused, *error = run->error;
-    run->error = &unused;
+    ld_error first = run->error;
     if (!run->sink_failed)
         launch_write_row(run, propagator_time(run->propagator), propagator_state(run->propagator));
-    run->error = error;
+    run->error = first;
 }

@@ -3,18 +3,30 @@
 #ifndef LD_SIMULATION_LAUNCH_RUN_H
 #define LD_SIMULATION_LAUNCH_RUN_H
 
+#include "launchdyn/run.h"
 #include "simulation/propagator.h"
 #include "systems/flight.h"
 
-typedef struct launch_run {
+enum { MOST_EVENTS = 2 * LD_MAX_ADAPTORS + LD_MAX_WHEELS + 8 }; // at one instant
+
+struct ld_run {
     launch_state launch;
-    const ld_run_options *options; // who listens
-    ld_summary *summary;
-    ld_error *error;
+    ld_run_options options; // who listens
+    ld_summary summary;     // so far
+    ld_status status;       // what ended the run early, with its sentence
+    ld_error error;
     propagator *propagator;
-    double *row;         // one row of the history
-    double *between;     // state between steps
-    double energy_start; // [J]
+
+    double t;   // [s] the present
+    bool ahead; // a step ends later than the present: what happens at its end has not
+    integrator_outcome outcome;  // of that step
+    double t_input;              // [s] a step ends there, for an input; infinity: none comes
+    int event_count, event_told; // at the present
+    ld_event event[MOST_EVENTS];
+
+    double row[LD_MAX_COLUMNS];    // one row of the history
+    double between[LD_MAX_STATES]; // state between steps
+    double energy_start;           // [J]
     double t_start, t_end;
     double next_output; // time of the next row
     double output_step;
@@ -27,61 +39,78 @@ typedef struct launch_run {
     double greatest_lock_force;
     double point[LD_MAX_FIRINGS][2]; // [m] x and z of the rear adaptors at their ignition
     flight_system flight;            // of the rocket that flies now
-    int flight_column_count;
-    double cpu_output; // [s] spent on rows and their sink
-} launch_run;
+    quantity_columns flight_columns; // its, where rows are wanted
+    double cpu, cpu_output;          // [s] spent in all; of it on rows and their sink
+};
+
+// ---- the launch, step by step (launch.c)
+
+// Finds the start; the run's state has begun.
+ld_status launch_begin(ld_run *run);
+bool launch_is_finished(const ld_run *run);
+// Goes on until the integrator's time has reached t, or the launch is finished, or (`to_event`)
+// something happens. The present is then t, or where that was.
+ld_status launch_advance(ld_run *run, double t, bool to_event);
+// Takes the step under way anew so that it ends at the present.
+ld_status launch_stand(ld_run *run);
+// Lights the rocket at the present, at which a step ends.
+ld_status launch_ignite(ld_run *run);
 
 // ---- rows (launch_rows.c)
 
+// Hands geometry and columns to the sink.
+ld_status launch_open_output(ld_run *run);
 // A row at t and state y; one instant gives one row.
-ld_status launch_write_row(launch_run *run, double t, const double *y);
+ld_status launch_write_row(ld_run *run, double t, const double *y);
 // Rows that fell into the last step.
-ld_status launch_write_rows(launch_run *run);
+ld_status launch_write_rows(ld_run *run);
 // Output instants count from t on, at the step that holds there.
-void launch_restart_output(launch_run *run, double t);
+void launch_restart_output(ld_run *run, double t);
 // A run that ends early has its last state as its last row.
-void launch_write_last_row(launch_run *run);
+void launch_write_last_row(ld_run *run);
 
 // ---- events and stops (launch_events.c)
 
+// Keeps what happens at t for whoever asks; `part`: adaptor or wheel, -1: of none.
+void launch_tell(ld_run *run, ld_event_kind kind, double t, int part);
 // Switches what the events just located say; true where the equations changed.
-bool launch_switch_phase(launch_run *run, double t, const double *y);
+bool launch_switch_phase(ld_run *run, double t, const double *y);
 // Opens a lock that carries more than its release force without a crossing to be located.
-void launch_let_go_at_once(launch_run *run, double t, const double *y);
+void launch_let_go_at_once(ld_run *run, double t, const double *y);
 // When the next tube takes the place of the one that is empty now [s].
 double launch_change_instant(const launch_state *self);
 // The next instant at which a step must end [s]; at one: what begins there, true where the
 // equations change.
-double launch_next_stop(const launch_run *run, double t);
-bool launch_pass_stop(launch_run *run, double t);
+double launch_next_stop(const ld_run *run, double t);
+bool launch_pass_stop(ld_run *run, double t);
 
 // ---- what ends a run early (launch_limits.c)
 
-ld_status launch_check_tube(launch_run *run, double t, const double *y);
-ld_status launch_check_base(launch_run *run, double t);
+ld_status launch_check_tube(ld_run *run, double t, const double *y);
+ld_status launch_check_base(ld_run *run, double t);
 // After each step; each millisecond the caller hears of it.
-ld_status launch_check_step(launch_run *run, double t, const double *y);
+ld_status launch_check_step(ld_run *run, double t, const double *y);
 
 // ---- summary (launch_summary.c)
 
-void launch_record_ignition(launch_run *run, double t, const double *y);
-void launch_record_exit(launch_run *run, double t, const double *landed);
+void launch_record_ignition(ld_run *run, double t, const double *y);
+void launch_record_exit(ld_run *run, double t, const double *landed);
 // Largest contact and slot forces so far.
-void launch_watch_forces(launch_run *run, double t, const double *y);
+void launch_watch_forces(ld_run *run, double t, const double *y);
 void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,
                       ld_energy *energy);
-void launch_summarise(launch_run *run, ld_status status, double cpu_seconds);
+void launch_summarise(ld_run *run);
 
 // ---- saving and loading (launch_archive.c)
 
 // All that the run's steps, rows and summary to come depend on, or that the summary holds by now;
 // loads into a run of the same model, whose propagator is there. One walk, as in archive.h. After a
 // failed load the run can only be ended.
-void launch_archive(launch_run *run, archive *bytes);
+void launch_archive(ld_run *run, archive *bytes);
 
 // ---- flights (launch_flights.c)
 
 // Every rocket that has left its tube flies to the ground, or until the run's end.
-ld_status launch_fly_all(launch_run *run);
+ld_status launch_fly_all(ld_run *run);
 
 #endif

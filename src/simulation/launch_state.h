@@ -23,10 +23,11 @@ typedef struct launch_state {
     int current; // rocket in the order of firing
     double t_ignition;
     launching_phase phase;
-    base_rest rest; // of the equilibrium
-    bool on_breech; // the equilibrium is one without a lock, the breech carries the rocket
-    m3 aim;         // A_IT, the undeformed tube on its base, as it stood at that ignition
-    int piece;      // of the thrust curve
+    const base_frame *told; // T at the start, of a base that is told; NULL: nobody tells
+    base_rest rest;         // of the equilibrium
+    bool on_breech;         // the equilibrium is one without a lock, the breech carries the rocket
+    m3 aim;                 // A_IT, the undeformed tube on its base, as it stood at that ignition
+    int piece;              // of the thrust curve
     bool jammed;
     struct { // the latest evaluation, which at a step's end is that of the step's end
         bool known;

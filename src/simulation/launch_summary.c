@@ -6,7 +6,7 @@
 
 #include "simulation/launch_run.h"
 
-void launch_record_exit(launch_run *run, double t, const double *landed)
+void launch_record_exit(ld_run *run, double t, const double *landed)
 {
     launch_state *self = &run->launch;
     const launching_layout *at = &self->launcher.launching.layout;
@@ -14,7 +14,7 @@ void launch_record_exit(launch_run *run, double t, const double *landed)
     double y[LD_MAX_STATES];
     memcpy(y, landed, (size_t)self->launcher.state_count * sizeof(double));
     y[at->x] = fmin(y[at->x], self->launcher.launching.tube.flexible.length);
-    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
+    ld_rocket_summary *rocket = &run->summary.rocket[self->current];
     launching_output out;
     launching_pose pose;
     launcher_input input;
@@ -60,7 +60,7 @@ void launch_record_exit(launch_run *run, double t, const double *landed)
 }
 
 // Where the rocket is when it is lit, over the ground, and how its tube is aimed.
-void launch_record_ignition(launch_run *run, double t, const double *y)
+void launch_record_ignition(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     const launching_layout *at = &self->launcher.launching.layout;
@@ -68,6 +68,7 @@ void launch_record_ignition(launch_run *run, double t, const double *y)
     launching_pose pose;
     launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
     v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), pose.p1));
+    launch_tell(run, LD_EVENT_IGNITION, t, -1);
     run->point[self->current][0] = r.x;
     run->point[self->current][1] = r.z;
     launcher_input input;
@@ -76,12 +77,12 @@ void launch_record_ignition(launch_run *run, double t, const double *y)
 }
 
 // Largest contact and slot forces so far.
-void launch_watch_forces(launch_run *run, double t, const double *y)
+void launch_watch_forces(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     if (!self->phase.rocket)
         return;
-    ld_rocket_summary *rocket = &run->summary->rocket[self->current];
+    ld_rocket_summary *rocket = &run->summary.rocket[self->current];
     const launcher_output *at = simulation_output(self, t, y);
     if (!at)
         return;
@@ -128,16 +129,17 @@ static void note_formulation(const launch_state *self, ld_summary *summary)
                         (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
 }
 
-void launch_summarise(launch_run *run, ld_status status, double cpu_seconds)
+void launch_summarise(ld_run *run)
 {
     launch_state *self = &run->launch;
-    ld_summary *summary = run->summary;
+    ld_summary *summary = &run->summary;
+    ld_status status = run->status;
     summary->complete = status == LD_OK;
-    if (status && !run->error->text[0])
-        ld_fail(run->error, status, "the receiver of the rows stopped the run");
+    if (status && !run->error.text[0])
+        ld_fail(&run->error, status, "the receiver of the rows stopped the run");
     if (status)
-        memcpy(summary->stopped, run->error->text, sizeof summary->stopped);
-    summary->statistics.cpu_seconds = cpu_seconds;
+        memcpy(summary->stopped, run->error.text, sizeof summary->stopped);
+    summary->statistics.cpu_seconds = run->cpu - run->cpu_output;
     summary->statistics.cpu_seconds_setup = self->system->cpu_seconds_setup;
     summary->mode_count = self->system->mode_count;
     memcpy(summary->mode, self->system->mode, sizeof summary->mode);

@@ -434,7 +434,7 @@ int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, in
     launch_state state, *self = &state;
     linear_system system = {0};
     launching_phase phase = {.rocket = false};
-    if (simulation->model->base.kind == LD_BASE_NONE)
+    if (!model_has_launcher(simulation->model))
         return 0; // a flight alone has no tube
     if (launch_state_begin(self, simulation, NULL))
         return 0;
@@ -487,7 +487,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     launch_state state, *self = &state;
     bool moving = simulation->launcher.base.kind->dynamics != NULL;
     *count = *pole_count = 0;
-    if (simulation->model->base.kind == LD_BASE_NONE)
+    if (!model_has_launcher(simulation->model))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
     ld_status status = launch_state_begin(self, simulation, error);
     if (status)

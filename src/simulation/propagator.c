@@ -506,6 +506,15 @@ integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *er
     return outcome == INTEGRATOR_STOPPED && t < t_stop ? INTEGRATOR_STEPPED : outcome;
 }
 
+integrator_outcome propagator_return(propagator *self, double t, ld_error *error)
+{
+    integrator_outcome outcome = integrator_return(self->integrator, t, error);
+    if (self->apart)
+        join(self, integrator_time(self->integrator), integrator_state(self->integrator),
+             self->state);
+    return outcome;
+}
+
 double propagator_time(const propagator *self)
 {
     return integrator_time(self->integrator);

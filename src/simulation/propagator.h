@@ -15,6 +15,7 @@ void propagator_free(propagator *self);
 // `anew`: the state is another one, nothing of before goes on.
 ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error);
 integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error);
+integrator_outcome propagator_return(propagator *self, double t, ld_error *error);
 double propagator_time(const propagator *self);
 const double *propagator_state(const propagator *self);
 void propagator_interpolate(propagator *self, double t, double *y);

@@ -2,21 +2,22 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 int quantity_count(quantity_each each, const quantity_things *things)
 {
     const ld_model *model = things->model;
-    bool vehicle = model->base.kind == LD_BASE_VEHICLE;
+    bool vehicle = model && model_has_vehicle(model);
     switch (each) {
     case EACH_VEHICLE:
         return vehicle;
     case EACH_EARTH:
-        return model->environment.earth.kind != LD_EARTH_FLAT;
+        return things->earth;
     case EACH_COORDINATE:
         return things->coordinates;
     case EACH_ADAPTOR:
-        return model->rocket.adaptor_count;
+        return model ? model->rocket.adaptor_count : 0;
     case EACH_HINGE:
         return vehicle ? 2 : 0;
     case EACH_WHEEL:
@@ -26,26 +27,32 @@ int quantity_count(quantity_each each, const quantity_things *things)
     }
 }
 
+static const char *name_of(quantity_each each, int item, const quantity_things *things)
+{
+    static const char *const hinges[] = {"azimuth", "elevation"};
+    switch (each) {
+    case EACH_ADAPTOR:
+        return things->model->rocket.adaptor[item].name;
+    case EACH_HINGE:
+        return hinges[item];
+    case EACH_WHEEL:
+        return things->model->base.vehicle.wheel[item].name;
+    default:
+        return "";
+    }
+}
+
 void quantity_text(const char *text, quantity_each each, int item, const quantity_things *things,
                    char *to, size_t size)
 {
-    static const char *const hinges[] = {"azimuth", "elevation"};
-    const ld_model *model = things->model;
-    const char *mark = strstr(text, "%s"), *name = "";
-    char number[16];
-    snprintf(number, sizeof number, "%d", item + 1);
-    if (each == EACH_ADAPTOR)
-        name = model->rocket.adaptor[item].name;
-    else if (each == EACH_WHEEL)
-        name = model->base.vehicle.wheel[item].name;
-    else if (each == EACH_HINGE)
-        name = hinges[item];
-    else if (each == EACH_COORDINATE)
-        name = number;
-    if (mark)
-        snprintf(to, size, "%.*s%s%s", (int)(mark - text), text, name, mark + 2);
-    else
+    const char *mark = strstr(text, "%s");
+    if (!mark)
         snprintf(to, size, "%s", text);
+    else if (each == EACH_COORDINATE)
+        snprintf(to, size, "%.*s%d%s", (int)(mark - text), text, item + 1, mark + 2);
+    else
+        snprintf(to, size, "%.*s%s%s", (int)(mark - text), text, name_of(each, item, things),
+                 mark + 2);
 }
 
 // Leaves groups of which there is nothing.
@@ -153,5 +160,66 @@ void quantity_archive(const quantity_table *table, const quantity_things *things
         archive_double(bytes, &value);
         if (bytes->loading)
             quantity_put(&at.row->at, at.item, value, in);
+    }
+}
+
+// ---- columns ----
+
+// The text as it stands, or with the name of which, written at *room, which is moved on.
+static const char *say(const char *text, const quantity_walk *at, char **room)
+{
+    if (!strstr(text, "%s"))
+        return text;
+    const char *written = *room;
+    quantity_text(text, at->group->each, at->item, at->things, *room, QUANTITY_TEXT);
+    *room += strlen(*room) + 1;
+    return written;
+}
+
+ld_status quantity_columns_make(quantity_columns *self, const quantity_table *table,
+                                const quantity_things *things, ld_error *error)
+{
+    size_t count = 0, several = 0;
+    for (int i = 0; i < table->groups; i++) {
+        const quantity_group *group = &table->group[i];
+        size_t columns = (size_t)(quantity_count(group->each, things) * group->rows);
+        count += columns;
+        several += group->each > EACH_EARTH ? columns : 0;
+    }
+    self->count = 0;
+    self->column = calloc(count, sizeof *self->column);
+    self->cell = calloc(count, sizeof *self->cell);
+    self->text = malloc(several * 2 * QUANTITY_TEXT + 1);
+    if (!self->column || !self->cell || !self->text) {
+        quantity_columns_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the columns' names");
+    }
+    char *room = self->text;
+    for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at)) {
+        self->cell[self->count] = (quantity_cell){
+            at.row->at.offset + (size_t)at.item * at.row->at.stride, at.group->where.offset};
+        self->column[self->count++] =
+            (ld_column){.name = say(at.row->name, &at, &room),
+                        .unit = at.row->unit,
+                        .description = say(at.row->description, &at, &room)};
+    }
+    return LD_OK;
+}
+
+void quantity_columns_free(quantity_columns *self)
+{
+    free(self->column);
+    free(self->cell);
+    free(self->text);
+    *self = (quantity_columns){0};
+}
+
+void quantity_row(const quantity_columns *self, const void *from, double *row)
+{
+    const char *start = from;
+    for (int i = 0; i < self->count; i++) {
+        const quantity_cell *cell = &self->cell[i];
+        bool there = cell->where == 0 || *(const bool *)(start + cell->where);
+        row[i] = there ? *(const double *)(const void *)(start + cell->offset) : NAN;
     }
 }

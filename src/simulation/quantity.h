@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "base/archive.h"
+#include "launchdyn/results.h"
 #include "model/model.h"
 
 // What there is one of each: a run; a vehicle, where the base is one; a round or WGS 84 Earth; then
@@ -92,8 +93,9 @@ typedef struct quantity_table {
 
 // What tells how many there are of each, and their names.
 typedef struct quantity_things {
-    const ld_model *model;
-    int coordinates; // modal
+    const ld_model *model; // NULL: none that have names
+    int coordinates;       // modal
+    bool earth;            // round or WGS 84
 } quantity_things;
 
 int quantity_count(quantity_each each, const quantity_things *things);
@@ -133,5 +135,24 @@ void quantity_put(const quantity_place *place, int item, double value, void *in)
 // Saves or loads the numbers of a struct that the table has and that are there; not the whole ones.
 void quantity_archive(const quantity_table *table, const quantity_things *things, void *in,
                       archive *bytes);
+
+// Where a column's number is found in the struct; where not 0, it is there if that bool is set.
+typedef struct quantity_cell {
+    size_t offset, where; // [bytes]
+} quantity_cell;
+
+// A column each, in order, of a table that has numbers alone.
+typedef struct quantity_columns {
+    int count;
+    ld_column *column;
+    quantity_cell *cell;
+    char *text; // of names and descriptions that say of which
+} quantity_columns;
+
+ld_status quantity_columns_make(quantity_columns *self, const quantity_table *table,
+                                const quantity_things *things, ld_error *error);
+void quantity_columns_free(quantity_columns *self);
+// The values of all columns, NaN of those that are not there.
+void quantity_row(const quantity_columns *self, const void *from, double *row);
 
 #endif

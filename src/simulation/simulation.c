@@ -25,17 +25,10 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
     }
     if (status)
         return status;
-    history_build(self);
-    if (self->launcher.base.kind->dynamics)
+    status = history_build(self, error);
+    if (!status && self->launcher.base.kind->dynamics)
         self->stability = simulation_check_stability(self, &self->growing, &self->unstable);
-    return LD_OK;
-}
-
-// Makes it empty, but for the columns' texts, which are many and mean nothing until they are
-// counted.
-static void clear(ld_simulation *self)
-{
-    memset(self, 0, offsetof(ld_simulation, column));
+    return status;
 }
 
 static void release(ld_simulation *self)
@@ -44,7 +37,8 @@ static void release(ld_simulation *self)
     flight_free(&self->flight);
     for (int i = 0; i < self->motor_count; i++)
         motor_free(&self->motor_of[i]);
-    clear(self);
+    quantity_columns_free(&self->columns);
+    memset(self, 0, sizeof *self);
 }
 
 ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)
@@ -59,12 +53,12 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
         self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
         if (!self)
             return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
-        clear(self);
+        memset(self, 0, sizeof *self);
         *simulation = self;
     }
     self->model = model;
-    ld_status status = model->base.kind == LD_BASE_NONE ? flight_alone_create(self, error)
-                                                        : create_launch(self, &kept, error);
+    ld_status status = model_has_launcher(model) ? create_launch(self, &kept, error)
+                                                 : flight_alone_create(self, error);
     launching_tube_free(&kept);
     if (status)
         release(self);

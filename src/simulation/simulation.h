@@ -4,6 +4,7 @@
 #define LD_SIMULATION_SIMULATION_H
 
 #include "elements/motor.h"
+#include "simulation/quantity.h"
 #include "simulation/summary.h"
 #include "systems/flight.h"
 #include "systems/launcher.h"
@@ -29,9 +30,7 @@ struct ld_simulation {
     int mode_count;
     ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
 
-    int column_count, rocket_columns; // in all; those of the rocket in its tube
-    ld_column column[LD_MAX_COLUMNS];
-    char column_text[LD_MAX_COLUMNS][2][96]; // names and descriptions of columns that are counted
+    quantity_columns columns; // of the history; of a flight alone: of its flight
 };
 
 // Makes *simulation (NULL: a new one) that of `model`, as ld_simulation_create does but without the
@@ -54,7 +53,8 @@ ld_status flight_alone_run(const ld_simulation *self, const ld_run_options *opti
 ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error);
 
 // Names the columns of the history, once.
-void history_build(ld_simulation *self);
+ld_status history_build(ld_simulation *self, ld_error *error);
+extern const quantity_table launch_quantities;
 
 // Refuses a vehicle's stabiliser that cannot hold its platform, by the equations linearised about
 // the equilibrium on a flat road. `growing`: the fastest growing eigenvalue of any part, zero where

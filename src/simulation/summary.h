@@ -104,37 +104,17 @@ typedef struct ld_rocket_summary {
     ld_final_state final;
 } ld_rocket_summary;
 
-/// Work by kind of force since the start [J]; positive: into the tube and the rocket.
-typedef struct ld_work {
-    double thrust;
-    double gravity_rocket;
-    double contact_normal; ///< of adaptors and breech
-    double contact_friction;
-    double slot; ///< of the constraint force N: zero but for the step error
-    double slot_friction;
-    double lock; ///< zero but for the step error
-    double support_damping;
-    double modal_damping;
-    double base;        ///< by the moving base through the supports
-    double mass_change; ///< kinetic energy carried off by the burnt propellant: model.md section 5
-    /// Of a vehicle alone; `base` is then the share of the platform, which the sum leaves out.
-    double stabilisers; ///< of both stabilisers or locks
-    double hinge_friction;
-    double gravity_platform; ///< on chassis and platforms
-    double gravity_wheels;
-    double suspension_damping;
-    double tyre;      ///< normal forces of the road
-    double tyre_side; ///< side forces, and those that hold a parked vehicle
-    double drive;     ///< along the way, of the road on driven wheels
-} ld_work;
+enum { LD_MAX_WORKS = 24 };
 
 /// Energy of tube, tail, supports and rocket at the end [J]; `residual` is what the balance misses.
 typedef struct ld_energy {
     double kinetic;
-    double potential; ///< of tube and tail in gravity, from the origin of I (rocket:
-                      ///< work.gravity_rocket)
+    double potential; ///< of tube and tail in gravity, from the origin of I (of the rocket: its
+                      ///< work)
     double elastic;   ///< of the tube's modes and the support springs
-    ld_work work;
+    /// Work by kind of force since the start, in the state's order; positive: into tube and rocket.
+    /// Of a vehicle POWER_BASE is the share of the platform, which the sum leaves out.
+    double work[LD_MAX_WORKS];
     double residual;          ///< change of the three above less the sum of the works
     double residual_relative; ///< the same over the largest single work
 } ld_energy;

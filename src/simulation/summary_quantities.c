@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "systems/launcher.h"
+
 #define ROCKET(member) .at = QUANTITY_AT(ld_rocket_summary, member)
 #define RUN(member) .at = QUANTITY_AT(ld_summary, member)
 #define ADAPTOR(array) .at = QUANTITY_EACH_OF(ld_rocket_summary, array)
@@ -213,29 +215,11 @@ static const quantity energies[] = {
     {"energy.potential", "J", "potential energy of tube and tail in gravity", RUN(energy.potential)},
     {"energy.elastic", "J", "elastic energy of modes, supports and suspensions", RUN(energy.elastic)},
 };
-static const quantity works[] = {
-    {"energy.work.thrust", "J", "work of the thrust", RUN(energy.work.thrust)},
-    {"energy.work.gravity_rocket", "J", "work of gravity on the rocket", RUN(energy.work.gravity_rocket)},
-    {"energy.work.contact_normal", "J", "work of the normal forces of adaptors and breech", RUN(energy.work.contact_normal)},
-    {"energy.work.contact_friction", "J", "work of the contact friction", RUN(energy.work.contact_friction)},
-    {"energy.work.slot", "J", "work of the slot force (zero but for step errors)", RUN(energy.work.slot)},
-    {"energy.work.slot_friction", "J", "work of the slot friction", RUN(energy.work.slot_friction)},
-    {"energy.work.lock", "J", "work of the lock (zero but for step errors)", RUN(energy.work.lock)},
-    {"energy.work.support_damping", "J", "work of the support dampers", RUN(energy.work.support_damping)},
-    {"energy.work.modal_damping", "J", "work of the modal damping", RUN(energy.work.modal_damping)},
-    {"energy.work.base", "J", "work of the moving base through the supports", RUN(energy.work.base)},
-    {"energy.work.mass_change", "J", "kinetic energy carried off by burnt propellant", RUN(energy.work.mass_change)},
-};
-static const quantity vehicle_works[] = {
-    {"energy.work.stabilisers", "J", "work of the stabilisers or locks", RUN(energy.work.stabilisers)},
-    {"energy.work.hinge_friction", "J", "work of the friction in the hinges", RUN(energy.work.hinge_friction)},
-    {"energy.work.gravity_platform", "J", "work of gravity on chassis and platforms", RUN(energy.work.gravity_platform)},
-    {"energy.work.gravity_wheels", "J", "work of gravity on the wheels", RUN(energy.work.gravity_wheels)},
-    {"energy.work.suspension_damping", "J", "work of the suspension dampers", RUN(energy.work.suspension_damping)},
-    {"energy.work.tyre", "J", "work of the road's normal forces on the wheels", RUN(energy.work.tyre)},
-    {"energy.work.tyre_side", "J", "work of side forces, and of those that hold it parked", RUN(energy.work.tyre_side)},
-    {"energy.work.drive", "J", "work of the road on driven wheels", RUN(energy.work.drive)},
-};
+#define LAUNCHING(place, name, is) {"energy.work." name, "J", is, RUN(energy.work[place])},
+#define ORIENTATING(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
+#define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
+static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
+static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity balance[] = {
     {"energy.residual", "J", "what the energy balance misses", RUN(energy.residual)},
     {"energy.residual_relative", "1", "the same over the largest single work", RUN(energy.residual_relative)},

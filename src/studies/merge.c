@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/printed.h"
 #include "studies/store.h"
 
 // The databases that a folder holds of a study run in parts.
@@ -229,7 +230,7 @@ static ld_status print_state(study_store *self, const shard_list *list, FILE *st
             counts.done > counts.samples
                 ? "%s: %" PRId64 " samples kept, %" PRId64 " asked for, %" PRId64 " failed\n"
                 : "%s: %" PRId64 " of %" PRId64 " samples, %" PRId64 " failed\n",
-            self->path, counts.done, counts.samples, counts.failed);
+            VISIBLE(self->path), counts.done, counts.samples, counts.failed);
     for (size_t i = 0; i < list->found.gl_pathc && !status; i++)
         status = print_unfinished(self, list->found.gl_pathv[i], counts.samples, stream, error);
     if (!status && counts.done < counts.samples)

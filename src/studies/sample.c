@@ -114,7 +114,7 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
         self->salvo[i - 1] = self->model.rocket;
     }
     // a vehicle carries more rockets than are fired, which are as the scenario says
-    bool apart = rockets > 1 || self->model.base.kind == LD_BASE_VEHICLE;
+    bool apart = rockets > 1 || model_has_vehicle(&self->model);
     self->model.rocket = apart ? shared : self->salvo[0];
     self->model.salvo = apart ? self->salvo : NULL;
     return status;

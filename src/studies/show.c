@@ -139,7 +139,7 @@ static void print_name(FILE *stream, const study_column *column)
     char name[192];
     snprintf(name, sizeof name, "%s%s%s%s", column->name, column->unit[0] ? " [" : "", column->unit,
              column->unit[0] ? "]" : "");
-    fprintf(stream, "%-26s", name);
+    fprintf(stream, "%-26s", VISIBLE(name));
 }
 
 static ld_status print_counts(const shown *self, const study_point *point, ld_error *error)
@@ -155,7 +155,8 @@ static ld_status print_counts(const shown *self, const study_point *point, ld_er
             point->done, point->asked, point->failed);
     for (int i = 0; i < count && !status; i++)
         fprintf(self->stream, "  %" PRId64 " failed (%s), the first of them %" PRId64 ": %s\n",
-                failure[i].count, failure[i].status, failure[i].first, failure[i].reason);
+                failure[i].count, VISIBLE(failure[i].status), failure[i].first,
+                VISIBLE(failure[i].reason));
     return status;
 }
 
@@ -284,8 +285,8 @@ static void print_ellipse(FILE *stream, const study_column *const pair[2],
                           const covariance_ellipse *e, const estimate axis[2], size_t count)
 {
     const double degrees = 57.295779513082321;
-    fprintf(stream, "%s and %s [%s]: centre %.6g, %.6g; %zu rockets\n", pair[0]->name,
-            pair[1]->name, pair[0]->unit, e->mean[0], e->mean[1], count);
+    fprintf(stream, "%s and %s [%s]: centre %.6g, %.6g; %zu rockets\n", VISIBLE(pair[0]->name),
+            VISIBLE(pair[1]->name), VISIBLE(pair[0]->unit), e->mean[0], e->mean[1], count);
     fputs("    semi-axes of one standard deviation", stream);
     print_estimate(stream, 0, &axis[0], NAN);
     fputs(" and", stream);
@@ -294,7 +295,7 @@ static void print_ellipse(FILE *stream, const study_column *const pair[2],
             "\n    of 95 %% of a normal distribution %.4g and %.4g; the long one %.4g deg from %s "
             "towards %s\n",
             ellipse_radius * e->semi_axis[0], ellipse_radius * e->semi_axis[1], e->angle * degrees,
-            pair[0]->name, pair[1]->name);
+            VISIBLE(pair[0]->name), VISIBLE(pair[1]->name));
 }
 
 static ld_status print_ellipses(shown *self, const study_point *point, ld_error *error)
@@ -344,7 +345,7 @@ static void print_share(FILE *stream, int width, estimate e)
 
 static int share_width(const study_column *column)
 {
-    int length = (int)strlen(column->name);
+    int length = (int)strlen(VISIBLE(column->name));
     return length > 9 ? length : 9;
 }
 
@@ -380,12 +381,12 @@ static void print_shares(const shown *self, const estimate *share)
             "these samples; +- half a 95 %% interval\n\n%-33s",
             "");
     for (int i = 0; i < self->count; i++)
-        fprintf(self->stream, " %*s", share_width(self->column[i]), self->column[i]->name);
+        fprintf(self->stream, " %*s", share_width(self->column[i]), VISIBLE(self->column[i]->name));
     for (int k = 0; k < factors; k++) {
         const study_column *factor = &data->column[data->result_count + k];
         if (factor->seed)
             continue;
-        fprintf(self->stream, "\n%-33s", factor->name);
+        fprintf(self->stream, "\n%-33s", VISIBLE(factor->name));
         for (int i = 0; i < self->count; i++)
             print_share(self->stream, share_width(self->column[i]), share[i * factors + k]);
     }
@@ -421,7 +422,8 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     if (data->swept_count > 0) {
         fprintf(self->stream, "%s%" PRId64 ".", point > data->point ? "\n" : "", point->number);
         for (int k = 0; k < data->swept_count; k++)
-            fprintf(self->stream, "%s %s: %s", k ? "," : "", data->swept[k], point->text[k]);
+            fprintf(self->stream, "%s %s: %s", k ? "," : "", VISIBLE(data->swept[k]),
+                    VISIBLE(point->text[k]));
         fputc('\n', self->stream);
     }
     ld_status status = print_counts(self, point, error);
@@ -458,9 +460,9 @@ static void print_beside(const shown *self, int from, int to)
 {
     const study_data *data = self->data;
     for (int k = 0; k < data->swept_count; k++) {
-        fprintf(self->stream, "\n%-26s", data->swept[k]);
+        fprintf(self->stream, "\n%-26s", VISIBLE(data->swept[k]));
         for (int i = from; i < to; i++)
-            fprintf(self->stream, " %-*.*s", CELL, CELL, data->point[i].text[k]);
+            fprintf(self->stream, " %-*.*s", CELL, CELL, VISIBLE(data->point[i].text[k]));
     }
     for (int c = 0; c < self->count; c++) {
         fputc('\n', self->stream);

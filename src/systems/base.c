@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-static const base_interface *const kinds[] = {&base_fixed, &base_prescribed, &base_vehicle};
+static const base_interface *const kinds[] = {&base_fixed, &base_prescribed, &base_vehicle,
+                                              &base_external};
 
 ld_status base_build(base_system *self, const ld_model *model, ld_error *error)
 {

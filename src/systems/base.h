@@ -2,7 +2,7 @@
 // tube's wrench does to it (model.md, section 2). Each kind is a file base_*.c with a table of
 // functions, listed in base.c; nothing outside asks which kind it is.
 //
-// Some kinds go where they are told. Others have a motion of their own, with states, works,
+// Some kinds go where time or a caller says. Others have a motion of their own, with rates, works,
 // equilibrium and natural frequencies: they fill in `dynamics`.
 #ifndef LD_SYSTEMS_BASE_H
 #define LD_SYSTEMS_BASE_H
@@ -112,14 +112,18 @@ struct base_interface {
                   base_found *found);
     // Yaw, pitch, roll [rad] for output; NULL: those of T.
     void (*angles)(const base_system *self, double t, double angles[3]);
-    // First and last time [s] that what it was told covers; NULL: all.
+    // First and last time [s] that its table covers; NULL: all.
     void (*span)(const base_system *self, double *first, double *last);
     // The first instant [s] after t at which a step must end, and the equations change; NULL: none.
     double (*next_corner)(const base_system *self, double t);
-    const base_dynamics *dynamics; // NULL: it goes where it is told
+    // Takes frame T of the instant t [s], the present one, into the state; `first`: nothing of
+    // before goes on. NULL: nobody tells it.
+    void (*tell)(const base_system *self, double t, bool first, const base_frame *now,
+                 double *state);
+    const base_dynamics *dynamics; // NULL: it has no motion of its own
 };
 
-extern const base_interface base_fixed, base_prescribed, base_vehicle;
+extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external;
 
 ld_status base_build(base_system *self, const ld_model *model, ld_error *error);
 void base_free(base_system *self);
@@ -128,7 +132,7 @@ void base_free(base_system *self);
 ld_status base_share(base_system *self, const base_system *of, ld_error *error);
 void base_free_share(base_system *self);
 
-// First and last time [s] that what the base was told covers.
+// First and last time [s] at which the base knows where it is.
 void base_span(const base_system *self, double *first, double *last);
 
 // Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.

@@ -8,20 +8,22 @@
 #define LD_SYSTEMS_MARCHING_H
 
 #include "elements/base_frame.h"
+#include "elements/work.h"
 #include "environment/road.h"
 #include "model/model.h"
 
 enum { WHEEL_STATES = 8, WHEEL_R = 0, WHEEL_V = 3, WHEEL_ETA = 6, WHEEL_XI = 7 };
 
-// Powers [W] by kind of force, on wheels and chassis together.
-enum marching_power {
-    MARCHING_GRAVITY,    // on the wheels
-    MARCHING_SUSPENSION, // dampers
-    MARCHING_TYRE,       // normal force, by the road
-    MARCHING_SIDE,       // lateral force, and along while parked
-    MARCHING_DRIVE,      // longitudinal force while rolling
-    MARCHING_POWERS
-};
+// Powers [W] by kind of force, on wheels and chassis together, and their works [J]: of the road's
+// lateral force, also along while parked; of its longitudinal force while rolling.
+#define MARCHING_WORKS(X)                                                                          \
+    X(MARCHING_GRAVITY, "gravity_wheels", "work of gravity on the wheels")                         \
+    X(MARCHING_SUSPENSION, "suspension_damping", "work of the suspension dampers")                 \
+    X(MARCHING_TYRE, "tyre", "work of the road's normal forces on the wheels")                     \
+    X(MARCHING_SIDE, "tyre_side", "work of side forces, and of those that hold it parked")         \
+    X(MARCHING_DRIVE, "drive", "work of the road on driven wheels")
+
+enum marching_power { MARCHING_WORKS(WORK_PLACE) MARCHING_POWERS };
 
 typedef struct marching_system {
     const ld_vehicle *model;

@@ -9,6 +9,7 @@
 #define LD_SYSTEMS_ORIENTATING_H
 
 #include "elements/base_frame.h"
+#include "elements/work.h"
 #include "launchdyn/mstmm.h"
 #include "model/model.h"
 
@@ -26,12 +27,13 @@ enum {
     ORIENTATING_STATES = 19
 };
 
-enum orientating_power {
-    ORIENTATING_STABILISER, // both drives (or locks)
-    ORIENTATING_FRICTION,   // both hinges
-    ORIENTATING_GRAVITY,
-    ORIENTATING_POWERS
-};
+// Powers [W] by kind of force, and their works [J].
+#define ORIENTATING_WORKS(X)                                                                       \
+    X(ORIENTATING_STABILISER, "stabilisers", "work of the stabilisers or locks")                   \
+    X(ORIENTATING_FRICTION, "hinge_friction", "work of the friction in the hinges")                \
+    X(ORIENTATING_GRAVITY, "gravity_platform", "work of gravity on chassis and platforms")
+
+enum orientating_power { ORIENTATING_WORKS(WORK_PLACE) ORIENTATING_POWERS };
 
 // Hinge angle and torque of the equilibrium, about which a locked hinge has its spring.
 typedef struct hinge_rest {

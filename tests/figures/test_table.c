@@ -20,7 +20,7 @@ typedef struct shown_columns {
 
 static ld_model model;
 static ld_simulation *simulation;
-static ld_column of_flight[FLIGHT_MAX_COLUMNS];
+static quantity_columns of_flight;
 static shown_columns launch, in_flight;
 
 static int set_up(void **state)
@@ -28,10 +28,11 @@ static int set_up(void **state)
     (void)state;
     flight_system flight = {.earth = {.flat = true}};
     reference_vehicle(&model, 5);
-    if (ld_simulation_create(&model, &simulation, NULL))
+    if (ld_simulation_create(&model, &simulation, NULL) ||
+        flight_columns(&flight, &of_flight, NULL))
         return -1;
     launch.count = ld_history_columns(simulation, &launch.column);
-    in_flight = (shown_columns){of_flight, (size_t)flight_columns(&flight, of_flight)};
+    in_flight = (shown_columns){of_flight.column, (size_t)of_flight.count};
     return 0;
 }
 
@@ -39,6 +40,7 @@ static int tear_down(void **state)
 {
     (void)state;
     ld_simulation_free(simulation);
+    quantity_columns_free(&of_flight);
     reference_model_free(&model);
     return 0;
 }
