@@ -150,24 +150,54 @@ static bool enter_list(walk *w, const field_row *f)
     return extend(w, name ? name : number);
 }
 
+// The row of the next key of the path; NULL after a refusal, or at the path's end.
+static const field_row *next_row(walk *w)
+{
+    if (!next_key(w))
+        return NULL;
+    const field_row *f = field_find(w->block, w->key);
+    if (!f) {
+        refuse_key(w, "key", field_nearest_key(w->block, w->key));
+        return NULL;
+    }
+    if (!extend(w, w->key))
+        return NULL;
+    if (!field_has_form(f, field_form(w->block, w->base))) {
+        refuse(w, "%s does not belong to this scenario", w->place->path);
+        return NULL;
+    }
+    return f;
+}
+
+static walk begin_walk(const ld_model *model, const char *path, field_place *place, char *why,
+                       size_t size)
+{
+    *place = (field_place){0};
+    why[0] = '\0';
+    return (walk){.rest = path,
+                  .block = &scenario_block,
+                  .base = model,
+                  .place = place,
+                  .why = why,
+                  .size = size};
+}
+
+// Why a path that has come to its end is not what was looked for; false.
+static bool refuse_end(const walk *w, const char *path)
+{
+    if (w->why[0])
+        return false;
+    if (w->rest[0] || !path[0])
+        return refuse(w, "not a path of keys joined by dots, such as rocket.mass");
+    return refuse(w, "%s is a block: name one of its keys", w->place->path);
+}
+
 bool field_locate(const ld_model *model, const char *path, field_place *place, char *why,
                   size_t size)
 {
-    walk w = {.rest = path,
-              .block = &scenario_block,
-              .base = model,
-              .place = place,
-              .why = why,
-              .size = size};
-    *place = (field_place){0};
-    while (next_key(&w)) {
-        const field_row *f = field_find(w.block, w.key);
-        if (!f)
-            return refuse_key(&w, "key", field_nearest_key(w.block, w.key));
-        if (!extend(&w, w.key))
-            return false;
-        if (!field_has_form(f, field_form(w.block, w.base)))
-            return refuse(&w, "%s does not belong to this scenario", place->path);
+    walk w = begin_walk(model, path, place, why, size);
+    const field_row *f;
+    while ((f = next_row(&w))) {
         if (is_scalar(f))
             return take_number(&w, f);
         bool study = w.block == &scenario_block &&
@@ -179,9 +209,26 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
         if (!inside)
             return false;
     }
-    if (w.rest[0] || !path[0])
-        return refuse(&w, "not a path of keys joined by dots, such as rocket.mass");
-    return refuse(&w, "%s is a block: name one of its keys", place->path);
+    return refuse_end(&w, path);
+}
+
+bool field_reach(const ld_model *model, const char *path, field_value *value, char *why,
+                 size_t size)
+{
+    field_place place;
+    walk w = begin_walk(model, path, &place, why, size);
+    const field_row *f;
+    while ((f = next_row(&w))) {
+        *value = (field_value){f, w.base};
+        if (!w.rest[0])
+            return true;
+        bool inside = f->kind == FIELD_BLOCK  ? enter_block(&w, f)
+                      : f->kind == FIELD_LIST ? enter_list(&w, f)
+                                              : refuse(&w, "%s has no keys", place.path);
+        if (!inside)
+            return false;
+    }
+    return refuse_end(&w, path);
 }
 
 double field_get(const ld_model *model, const field_place *place)

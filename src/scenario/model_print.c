@@ -126,11 +126,8 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
     }
 }
 
-// Whether the key has a value to print.
-static bool is_given(const field_row *f, const void *base, int form)
+static bool has_value(const field_row *f, const void *base)
 {
-    if (f->kind == FIELD_LATER || !field_has_form(f, form))
-        return false;
     if (f->kind == FIELD_NUMBER)
         return !isnan(*(const double *)field_at_const(base, f));
     if (f->kind == FIELD_TEXT)
@@ -139,7 +136,13 @@ static bool is_given(const field_row *f, const void *base, int form)
         return ((const ld_table *)field_at_const(base, f))->rows > 0;
     if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP)
         return field_switch(base, f) > 0;
-    return true;
+    return f->kind != FIELD_LATER;
+}
+
+// Whether the key has a value to print.
+static bool is_given(const field_row *f, const void *base, int form)
+{
+    return field_has_form(f, form) && has_value(f, base);
 }
 
 static void print_entry(FILE *stream, const field_block *block, const void *base)
@@ -405,4 +408,30 @@ void scenario_until_text(const ld_until *until, char *text, size_t size)
         return;
     print_statistic(stream, until);
     fclose(stream);
+}
+
+// The word that stands in place of a block, or NULL.
+static const char *word_of_block(const field_value *value)
+{
+    const field_row *f = value->row;
+    const char *word = f->words ? field_word_of(f->words, field_switch(value->base, f))->name : "";
+    return word[0] ? word : NULL;
+}
+
+bool scenario_value_text(const field_value *value, char *text, size_t size)
+{
+    const field_row *f = value->row;
+    bool block = f->kind == FIELD_BLOCK;
+    text[0] = '\0';
+    if (block ? !word_of_block(value) : f->kind > FIELD_CHOICE && f->kind != FIELD_SELECTION)
+        return false;
+    FILE *stream = open_text(text, size);
+    if (!stream)
+        return true;
+    if (block)
+        fputs(word_of_block(value), stream);
+    else if (has_value(f, value->base))
+        print_scalar(stream, f, value->base);
+    fclose(stream);
+    return true;
 }
