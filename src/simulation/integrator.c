@@ -24,6 +24,8 @@ typedef enum asked {
     ASKED_STAGE // then the first stage, from which on the library goes on by itself
 } asked;
 
+enum { VECTORS = 8 }; // below
+
 struct integrator {
     integrator_settings settings;
     SUNContext context;
@@ -195,9 +197,10 @@ static int allocate(integrator *self)
         return -1;
     serial_vector_operations(self->y);
     N_VConst(0, self->y);
-    N_Vector *others[] = {&self->atol,          &self->rtol,  &self->work,    &self->y_previous,
-                          &self->rate_previous, &self->y_end, &self->rate_end};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+    N_Vector *others[VECTORS - 1] = {&self->atol,       &self->rtol,          &self->work,
+                                     &self->y_previous, &self->rate_previous, &self->y_end,
+                                     &self->rate_end};
+    for (int i = 0; i < VECTORS - 1; i++) {
         *others[i] = N_VClone(self->y);
         if (!*others[i])
             return -1;
@@ -233,9 +236,10 @@ void integrator_free(integrator *self)
         return;
     if (self->erk)
         ERKStepFree(&self->erk);
-    N_Vector vectors[] = {self->y,          self->atol,          self->rtol,  self->work,
-                          self->y_previous, self->rate_previous, self->y_end, self->rate_end};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    N_Vector vectors[VECTORS] = {self->y,     self->atol,       self->rtol,
+                                 self->work,  self->y_previous, self->rate_previous,
+                                 self->y_end, self->rate_end};
+    for (int i = 0; i < VECTORS; i++)
         if (vectors[i])
             N_VDestroy(vectors[i]);
     if (self->context)
@@ -250,8 +254,15 @@ ld_status integrator_start(integrator *self, double t, const double *y, ld_error
     (void)error;
     if (y != data(self->y))
         memcpy(data(self->y), y, self->settings.n * sizeof(double));
-    self->t = self->t_previous = t;
+    self->t = self->t_previous = self->t_end = t;
     self->anew = true;
+    // no step lies behind
+    copy(self->y, self->y_end);
+    self->within = false;
+    self->rate = NULL;
+    N_Vector unknown[] = {self->y_previous, self->rate_previous, self->rate_end};
+    for (int i = 0; i < 3; i++)
+        N_VConst(0, unknown[i]);
     return LD_OK;
 }
 
@@ -293,6 +304,7 @@ static int start(integrator *self, double h)
 // One step of the library's.
 static int evolve(integrator *self, double t_stop)
 {
+    self->loaded = false;
     self->error_previous = self->error;
     self->t_stop = t_stop;
     int flag = ERKStepSetStopTime(self->erk, t_stop);
@@ -413,7 +425,6 @@ integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *er
                               : go_on(self);
     copy(self->y, self->y_previous);
     self->t_previous = self->t;
-    self->loaded = false;
     self->anew = false;
     if (flag >= 0)
         flag = evolve(self, t_stop);
@@ -504,8 +515,8 @@ static void gather(integrator *self)
 
 static void archive_step(integrator *self, archive *bytes)
 {
-    N_Vector vectors[] = {self->y, self->y_previous, self->rate_previous, self->y_end,
-                          self->rate_end};
+    N_Vector vectors[5] = {self->y, self->y_previous, self->rate_previous, self->y_end,
+                           self->rate_end};
     double *numbers[] = {&self->t,     &self->t_previous, &self->t_end, &self->next_step,
                          &self->error, &self->h,          &self->h_next};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
@@ -513,7 +524,7 @@ static void archive_step(integrator *self, archive *bytes)
     archive_bool(bytes, &self->anew);
     archive_bool(bytes, &self->within);
     archive_bool(bytes, &self->shortened);
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    for (int i = 0; i < 5; i++)
         archive_doubles(bytes, data(vectors[i]), self->settings.n);
 }
 

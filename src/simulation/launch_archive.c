@@ -94,8 +94,6 @@ static void archive_present(archive *bytes, ld_run *run)
         archive_int(bytes, &one->rocket, 0, LD_MAX_FIRINGS);
         archive_int(bytes, &one->part, 0, INT_MAX);
     }
-    archive_double(bytes, &run->cpu);
-    archive_double(bytes, &run->cpu_output);
 }
 
 void launch_archive(ld_run *run, archive *bytes)

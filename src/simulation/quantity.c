@@ -8,6 +8,8 @@
 quantity_things quantity_things_of(const ld_model *model)
 {
     static const char hinges[2][16] = {"azimuth", "elevation"};
+    if (!model)
+        return (quantity_things){0};
     bool vehicle = model_has_vehicle(model);
     return (quantity_things){
         .count = {[EACH_RUN] = 1,

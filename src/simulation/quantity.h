@@ -101,7 +101,7 @@ typedef struct quantity_things {
     bool launcher;             // there is one
 } quantity_things;
 
-// Those of a model, which must outlive them; coordinates are of the tube as it was built.
+// Those of a model, which must outlive them (NULL: none); coordinates are of the tube as built.
 quantity_things quantity_things_of(const ld_model *model);
 
 const char *quantity_name_of(const quantity_things *things, quantity_each each, int item);

@@ -25,10 +25,7 @@ static ld_run *run_create(const ld_simulation *simulation, const ld_run_options 
         run->options = *options;
     run->launch.system = simulation;
     run->launch.model = simulation->model;
-    const ld_rocket *rocket = &simulation->model->rocket;
-    run->summary.adaptor_count = rocket->adaptor_count;
-    for (int i = 0; i < rocket->adaptor_count; i++)
-        memcpy(run->summary.adaptor[i], rocket->adaptor[i].name, sizeof run->summary.adaptor[i]);
+    run->summary.model = simulation->model;
     if (has_launch(run))
         run->status = launch_state_begin(&run->launch, simulation, &run->error);
     return run;
