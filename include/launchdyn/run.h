@@ -91,7 +91,7 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error);
 ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
 
 /// Goes on where the run that was saved stood. The sink gets geometry, columns, and the rows that
-/// come after.
+/// come after; CPU times count from here on.
 /// @param simulation of an equal model
 /// @param run NULL after a failure
 /// @return LD_OK; LD_ERR_INPUT (no state of a run, cut off, damaged, of another model or another

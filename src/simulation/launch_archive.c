@@ -47,6 +47,9 @@ static void archive_output(archive *bytes, ld_run *run)
                          &run->last_row,     &run->next_progress, &run->greatest_lock_force};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         archive_double(bytes, numbers[i]);
+    const ld_run_settings *steps = &run->launch.model->run;
+    bytes->failed |= run->output_step != steps->output_step_lead_in &&
+                     run->output_step != steps->output_step_tube;
     archive_count(bytes, &run->output_index);
     archive_count(bytes, &run->steps_since_progress);
 }
@@ -96,6 +99,17 @@ static void archive_present(archive *bytes, ld_run *run)
     }
 }
 
+// The present lies in the last step, or at its end; rows come after what has been gone through.
+static void check_instants(const ld_run *run, archive *bytes)
+{
+    double begins = propagator_previous_time(run->propagator);
+    double ends = propagator_time(run->propagator);
+    bool present = run->ahead ? begins <= run->t && run->t <= ends : run->t == ends;
+    double next_row = run->output_from + (double)run->output_index * run->output_step;
+    bool rows = run->next_output == next_row && next_row > (run->ahead ? begins : ends);
+    bytes->failed |= !present || !rows;
+}
+
 void launch_archive(ld_run *run, archive *bytes)
 {
     archive_launch(bytes, &run->launch);
@@ -103,4 +117,5 @@ void launch_archive(ld_run *run, archive *bytes)
     archive_output(bytes, run);
     archive_summary(bytes, run);
     propagator_archive(run->propagator, bytes);
+    check_instants(run, bytes);
 }
