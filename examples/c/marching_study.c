@@ -3,6 +3,7 @@
 // the others differences and ratios with intervals of 95 %.
 //
 //     marching_study SEEDS SCENARIO.yaml... [PATH=VALUE...]
+#include <launchdyn/history.h>
 #include <launchdyn/scenario.h>
 #include <launchdyn/simulation.h>
 #include <launchdyn/summary.h>
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { THREADS = 2, MOST_SCENARIOS = 8, MOST_SETS = 16, MOST_ROWS = 40000 };
+enum { THREADS = 2, MOST_SCENARIOS = 8, MOST_SETS = 16 };
 
 static const double pi = 3.141592653589793;
 
@@ -73,43 +74,27 @@ static const char *const column_name[COLUMNS] = {
     [FORCE_FRONT] = "contact.front.force",
 };
 
-// The rows of one run, kept by a sink.
+// The columns of one run.
 typedef struct record {
     size_t rows;
-    size_t source[COLUMNS];           // where the column is in a row
-    double value[COLUMNS][MOST_ROWS]; // t counts from ignition
+    const double *value[COLUMNS];
     double t_ignition;
 } record;
 
-static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
+static ld_status take_columns(record *run, const ld_history *history, ld_error *error)
 {
-    record *kept = self;
-    kept->rows = 0;
     for (int i = 0; i < COLUMNS; i++) {
-        size_t j = 0;
-        while (j < count && strcmp(columns[j].name, column_name[i]) != 0)
-            j++;
-        if (j == count) {
-            snprintf(error->text, sizeof error->text, "no column %s", column_name[i]);
-            return error->status = LD_ERR_INPUT;
-        }
-        kept->source[i] = j;
+        run->value[i] = ld_history_column(history, column_name[i], &run->rows);
+        if (!run->value[i])
+            return ld_fail(error, LD_ERR_INPUT, "no column %s", column_name[i]);
     }
     return LD_OK;
 }
 
-static ld_status row(void *self, const double *values, size_t count, ld_error *error)
+// From ignition.
+static double time_of(const record *run, size_t i)
 {
-    record *kept = self;
-    (void)count;
-    if (kept->rows == MOST_ROWS) {
-        snprintf(error->text, sizeof error->text, "more than %d rows", MOST_ROWS);
-        return error->status = LD_ERR_INPUT;
-    }
-    for (int i = 0; i < COLUMNS; i++)
-        kept->value[i][kept->rows] = values[kept->source[i]];
-    kept->value[T][kept->rows++] -= kept->t_ignition;
-    return LD_OK;
+    return run->value[T][i] - run->t_ignition;
 }
 
 // The last row not later than t.
@@ -118,7 +103,7 @@ static size_t row_at(const record *run, double t)
     size_t low = 0, high = run->rows;
     while (high - low > 1) {
         size_t middle = (low + high) / 2;
-        *(run->value[T][middle] <= t + 1e-9 ? &low : &high) = middle;
+        *(time_of(run, middle) <= t + 1e-9 ? &low : &high) = middle;
     }
     return low;
 }
@@ -132,10 +117,10 @@ static double at(const record *run, int column, double t)
 static double between(const record *run, int column, double t)
 {
     size_t i = row_at(run, t);
-    const double *x = run->value[T], *y = run->value[column];
-    if (i + 1 >= run->rows || x[i + 1] <= x[i])
+    const double *y = run->value[column], last = time_of(run, i);
+    if (i + 1 >= run->rows || time_of(run, i + 1) <= last)
         return y[i];
-    return y[i] + (y[i + 1] - y[i]) * (t - x[i]) / (x[i + 1] - x[i]);
+    return y[i] + (y[i + 1] - y[i]) * (t - last) / (time_of(run, i + 1) - last);
 }
 
 static double mean_of(const record *run, int column, double from, double to)
@@ -337,8 +322,10 @@ static void measure_jump(const record *run, const char *instant, double t, resul
 // A result of the first rocket.
 static double number(const ld_summary *summary, const char *name)
 {
+    char path[64];
     double value;
-    ld_summary_number(summary, 1, name, &value, NULL);
+    snprintf(path, sizeof path, "rocket.1.%s", name);
+    ld_summary_number(summary, path, &value, NULL);
     return value;
 }
 
@@ -364,7 +351,7 @@ static void measure_rocket(const record *run, const ld_summary *rocket, result *
     put(out, "time in the tube", "ms", 1e3, number(rocket, "t_rear"));
     put(out, "muzzle speed", "m/s", 1, number(rocket, "muzzle_speed"));
     put(out, "spin rate at exit", "rad/s", 1, number(rocket, "spin_rate"));
-    put(out, "roll at exit", "deg", 180 / pi, at(run, GAMMA, number(rocket, "t_rear") - 1e-6));
+    put(out, "roll at exit", "deg", 180 / pi, number(rocket, "relative.gamma"));
     put_heading(out, "(d) pitch and yaw");
     const struct {
         const char *name;
@@ -415,29 +402,34 @@ typedef struct study {
     atomic_int next;
 } study;
 
-static ld_status run_model(const ld_model *model, record *kept, result *out, ld_error *error)
+static ld_status run_model(const ld_model *model, result *out, ld_error *error)
 {
     ld_simulation *simulation = NULL;
     ld_summary *summary = ld_summary_new();
-    ld_sink sink = {.self = kept, .begin = begin, .row = row};
-    ld_status status = ld_model_number(model, "firing.1.at", &kept->t_ignition, error);
+    ld_history *history = ld_history_new(NULL);
+    ld_run_options options = {.sink = ld_history_sink(history)};
+    record kept;
+    ld_status status = ld_model_number(model, "firing.1.at", &kept.t_ignition, error);
     if (!status)
         status = ld_simulation_create(model, &simulation, error);
     if (!status)
-        status = ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, summary, error);
+        status = ld_simulation_run(simulation, &options, summary, error);
+    if (!status)
+        status = take_columns(&kept, history, error);
     if (!status) {
-        measure_after_exit(kept, number(summary, "t_rear"), out);
-        measure_jumps(kept, summary, out);
-        measure_rocket(kept, summary, out);
-        measure_stabilisers(kept, out);
+        measure_after_exit(&kept, number(summary, "t_rear"), out);
+        measure_jumps(&kept, summary, out);
+        measure_rocket(&kept, summary, out);
+        measure_stabilisers(&kept, out);
     }
     ld_simulation_free(simulation);
     ld_summary_free(summary);
+    ld_history_free(history);
     return status;
 }
 
 // One scenario on one road.
-static void run_one(const study *self, int scenario, int seed, record *kept)
+static void run_one(const study *self, int scenario, int seed)
 {
     result *out = &self->result[scenario * self->seeds + seed];
     const char *set[MOST_SETS + 4];
@@ -457,7 +449,7 @@ static void run_one(const study *self, int scenario, int seed, record *kept)
         snprintf(out->problem, sizeof out->problem, "cannot read it");
         return;
     }
-    if (run_model(model, kept, out, &error))
+    if (run_model(model, out, &error))
         snprintf(out->problem, sizeof out->problem, "%.*s", LD_ERROR_TEXT - 1, error.text);
     ld_model_free(model);
 }
@@ -465,11 +457,9 @@ static void run_one(const study *self, int scenario, int seed, record *kept)
 static void *work(void *self_)
 {
     study *self = self_;
-    record *kept = malloc(sizeof *kept);
     int i, count = self->scenarios * self->seeds;
-    while (kept && (i = atomic_fetch_add(&self->next, 1)) < count)
-        run_one(self, i / self->seeds, i % self->seeds, kept);
-    free(kept);
+    while ((i = atomic_fetch_add(&self->next, 1)) < count)
+        run_one(self, i / self->seeds, i % self->seeds);
     return NULL;
 }
 

@@ -70,7 +70,7 @@ bool ld_run_is_finished(const ld_run *run);
 /// A column of the history, by name, at the present time.
 /// @return LD_OK, LD_ERR_INPUT (no such column, a flight alone), or what ended the run
 ld_status ld_run_number(ld_run *run, const char *name, double *value, ld_error *error);
-/// All of them, in the order of ld_history_columns(). @return as ld_run_number()
+/// All of them, in the order of ld_simulation_columns(). @return as ld_run_number()
 ld_status ld_run_row(ld_run *run, double *values, ld_error *error);
 
 /// What came of it so far, for ld_summary_number(); energies, notes, flights are there at the end

@@ -51,6 +51,53 @@ ld_status ld_scenario_read_text(const char *text, size_t length, const char *nam
                                 const char *folder, const char *const *sets, size_t count,
                                 ld_model **model, ld_messages *messages);
 
+/// A model of overrides alone, "path=value" as of --set; all else has the language's defaults.
+ld_status ld_model_new(const char *const *sets, size_t count, ld_model **model,
+                       ld_messages *messages);
+
+/// Sets a key by its path to a value with its unit, as --set does: ("rocket.mass", "61 kg"),
+/// ("rocket.motor.thrust", "{file: other.eng}"). The whole scenario is read again with it, so that
+/// what follows from the key follows. Not while anything made of the model is there.
+/// @param messages filled on failure (free with ld_messages_free())
+/// @return LD_OK; LD_ERR_INPUT (no such key, no such value, or one that does not fit the others),
+///         LD_ERR_MEMORY: then the model is as before
+ld_status ld_model_set(ld_model *model, const char *path, const char *value, ld_messages *messages);
+
+/// Sets several keys at once, `count` texts "path=value": for those that fit only together.
+ld_status ld_model_set_all(ld_model *model, const char *const *sets, size_t count,
+                           ld_messages *messages);
+
+/// A number of the model by the path of its key ("rocket.mass"; of a vector a component:
+/// "rocket.center.x"; of a list a member by its name or number: "rocket.adaptors.rear.at"), in SI.
+/// @param value NaN on failure, and where it is not given
+/// @return LD_OK, LD_ERR_INPUT (no such number: why)
+ld_status ld_model_number(const ld_model *model, const char *path, double *value, ld_error *error);
+
+/// A value as text that can be set again: "61 kg", "1 0 0 m", "fixed".
+/// @param text of `size` bytes, always ended; what is too long is cut
+/// @return LD_OK, LD_ERR_INPUT (no such key; a block, a list or a table, which is more than a line)
+ld_status ld_model_text(const ld_model *model, const char *path, char *text, size_t size,
+                        ld_error *error);
+
+/// A table ("rocket.motor.thrust"), in SI.
+/// @param table [rows][columns], the model's own; NULL without rows
+/// @return LD_OK, LD_ERR_INPUT (no such table)
+ld_status ld_model_table(const ld_model *model, const char *path, const double **table,
+                         size_t *rows, size_t *columns, ld_error *error);
+
+/// A key of the scenario language that has a value.
+typedef struct ld_key {
+    const char *path;        ///< "rocket.mass"; N stands for the name or number of a list's member
+    const char *unit;        ///< SI, "" without
+    const char *description; ///< one line
+    const char *expected;    ///< what its value looks like: "a number with a unit of kg, > 0 kg"
+    double low, high;        ///< what a number may be, in SI; infinite without bound
+    int required;            ///< has no default
+} ld_key;
+
+/// Hands out every key of the language, valid during the call.
+void ld_scenario_keys(void (*take)(void *self, const ld_key *key), void *self);
+
 /// Number of axes of the model's sweep: 0 without.
 int ld_scenario_axes(const ld_model *model);
 
@@ -77,12 +124,6 @@ ld_status ld_scenario_read_source(ld_source *source, int point, ld_model **model
 
 /// The texts that a model was read from, as long as the model is there.
 ld_source *ld_model_source(const ld_model *model);
-
-/// A number of the model by the path of its key, as in --set ("rocket.mass"; of a vector a
-/// component: "rocket.center.x"), in SI.
-/// @param value NaN on failure, and where it is not given
-/// @return LD_OK, LD_ERR_INPUT (no such number: why)
-ld_status ld_model_number(const ld_model *model, const char *path, double *value, ld_error *error);
 
 /// Whether a scenario has a launcher, and whether that is a vehicle; a flight alone has none.
 bool ld_model_has_launcher(const ld_model *model);

@@ -85,7 +85,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
                                      ld_error *error);
 
 /// Columns of the history, in order.
-size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns);
+size_t ld_simulation_columns(const ld_simulation *simulation, const ld_column **columns);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

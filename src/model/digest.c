@@ -93,7 +93,10 @@ uint64_t model_digest(const ld_model *model)
 {
     uint64_t digest = of_block(DIGEST_BEGIN, &scenario_block, model);
     const field_block *rocket = field_find(&scenario_block, "rocket")->block;
-    for (int i = 0; model->salvo && i < model->firing_count; i++)
-        digest = of_block(digest, rocket, &model->salvo[i]);
+    for (int i = 0; model->salvo && i < model->firing_count; i++) {
+        ld_model with = *model; // its tables know a rocket by its place in a model
+        with.rocket = model->salvo[i];
+        digest = of_block(digest, rocket, &with);
+    }
     return digest;
 }

@@ -158,6 +158,17 @@ typedef struct field_place {
 // Finds the number of `model` with the path of keys; false: `why` says what is wrong with the path.
 bool field_locate(const ld_model *model, const char *path, field_place *place, char *why,
                   size_t size);
+// The value of a key, whatever it is: its row and the struct that it is in.
+typedef struct field_value {
+    const field_row *row;
+    const void *base;
+} field_value;
+
+// Finds the value of `model` with the path of keys; false: `why` says what is wrong with the path,
+// or that it leads to a member of a list.
+bool field_reach(const ld_model *model, const char *path, field_value *value, char *why,
+                 size_t size);
+
 double field_get(const ld_model *model, const field_place *place);
 void field_set(ld_model *model, const field_place *place, double value);
 

@@ -150,24 +150,54 @@ static bool enter_list(walk *w, const field_row *f)
     return extend(w, name ? name : number);
 }
 
+// The row of the next key of the path; NULL after a refusal, or at the path's end.
+static const field_row *next_row(walk *w)
+{
+    if (!next_key(w))
+        return NULL;
+    const field_row *f = field_find(w->block, w->key);
+    if (!f) {
+        refuse_key(w, "key", field_nearest_key(w->block, w->key));
+        return NULL;
+    }
+    if (!extend(w, w->key))
+        return NULL;
+    if (!field_has_form(f, field_form(w->block, w->base))) {
+        refuse(w, "%s does not belong to this scenario", w->place->path);
+        return NULL;
+    }
+    return f;
+}
+
+static walk begin_walk(const ld_model *model, const char *path, field_place *place, char *why,
+                       size_t size)
+{
+    *place = (field_place){0};
+    why[0] = '\0';
+    return (walk){.rest = path,
+                  .block = &scenario_block,
+                  .base = model,
+                  .place = place,
+                  .why = why,
+                  .size = size};
+}
+
+// Why a path that has come to its end is not what was looked for; false.
+static bool refuse_end(const walk *w, const char *path)
+{
+    if (w->why[0])
+        return false;
+    if (w->rest[0] || !path[0])
+        return refuse(w, "not a path of keys joined by dots, such as rocket.mass");
+    return refuse(w, "%s is a block: name one of its keys", w->place->path);
+}
+
 bool field_locate(const ld_model *model, const char *path, field_place *place, char *why,
                   size_t size)
 {
-    walk w = {.rest = path,
-              .block = &scenario_block,
-              .base = model,
-              .place = place,
-              .why = why,
-              .size = size};
-    *place = (field_place){0};
-    while (next_key(&w)) {
-        const field_row *f = field_find(w.block, w.key);
-        if (!f)
-            return refuse_key(&w, "key", field_nearest_key(w.block, w.key));
-        if (!extend(&w, w.key))
-            return false;
-        if (!field_has_form(f, field_form(w.block, w.base)))
-            return refuse(&w, "%s does not belong to this scenario", place->path);
+    walk w = begin_walk(model, path, place, why, size);
+    const field_row *f;
+    while ((f = next_row(&w))) {
         if (is_scalar(f))
             return take_number(&w, f);
         bool study = w.block == &scenario_block &&
@@ -179,9 +209,26 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
         if (!inside)
             return false;
     }
-    if (w.rest[0] || !path[0])
-        return refuse(&w, "not a path of keys joined by dots, such as rocket.mass");
-    return refuse(&w, "%s is a block: name one of its keys", place->path);
+    return refuse_end(&w, path);
+}
+
+bool field_reach(const ld_model *model, const char *path, field_value *value, char *why,
+                 size_t size)
+{
+    field_place place;
+    walk w = begin_walk(model, path, &place, why, size);
+    const field_row *f;
+    while ((f = next_row(&w))) {
+        *value = (field_value){f, w.base};
+        if (!w.rest[0])
+            return true;
+        bool inside = f->kind == FIELD_BLOCK  ? enter_block(&w, f)
+                      : f->kind == FIELD_LIST ? enter_list(&w, f)
+                                              : refuse(&w, "%s has no keys", place.path);
+        if (!inside)
+            return false;
+    }
+    return refuse_end(&w, path);
 }
 
 double field_get(const ld_model *model, const field_place *place)
@@ -232,8 +279,9 @@ static bool has_values_between(const ld_factor *factor, double nominal)
 // Whether values lie about that of the scenario.
 static bool is_about_nominal(const ld_factor *factor)
 {
-    return factor->distribution == LD_NORMAL || factor->distribution == LD_LOGNORMAL ||
-           (factor->distribution == LD_UNIFORM && isnan(factor->between[0]));
+    const distribution_row *row = distribution_of(factor->distribution);
+    return (row->traits & LD_ABOUT_NOMINAL) ||
+           (row->given == LD_GIVEN_SPAN && isnan(factor->between[0]));
 }
 
 // Whether the numbers of the factor after the first are alike and have its value in the scenario,
@@ -265,23 +313,23 @@ static bool goes_with(const ld_model *model, const ld_factor *factor, const fiel
 {
     double nominal = field_get(model, place);
     bool about = is_about_nominal(factor);
+    const distribution_row *row = distribution_of(factor->distribution);
     const char *text = NULL;
-    if (place->whole && factor->distribution != LD_DISCRETE &&
-        factor->distribution != LD_EACH_SAMPLE)
+    if (place->whole && !(row->traits & LD_FOR_WHOLE))
         text = "a whole number can only be discrete, or {each: sample}";
-    else if (!place->whole && factor->distribution == LD_EACH_SAMPLE)
+    else if (!place->whole && (row->traits & LD_SEED))
         text = "{each: sample} is for whole numbers, such as seeds";
     else if (factor->per_rocket && !factor_may_be_per_rocket(factor))
         text = "only what is below rocket can be drawn per rocket";
     else if (about && !isfinite(nominal))
         text = "has no value in this scenario about which to scatter";
-    else if (factor->distribution == LD_LOGNORMAL && nominal <= 0)
-        text = "a lognormal distribution needs a value > 0 in the scenario";
-    else if (factor->distribution == LD_NORMAL && !isnan(factor->between[0]) &&
+    else if ((row->traits & LD_ABOVE_ZERO) && nominal <= 0)
+        text = "a %s distribution needs a value > 0 in the scenario";
+    else if ((row->traits & LD_BOUNDED) && !isnan(factor->between[0]) &&
              !has_values_between(factor, nominal))
-        text = "so far from the value in the scenario a normal distribution has nothing to keep";
+        text = "so far from the value in the scenario a %s distribution has nothing to keep";
     if (text)
-        snprintf(why, size, "%s", text);
+        snprintf(why, size, text, row->word);
     return !text;
 }
 
@@ -337,7 +385,7 @@ bool correlated_is_possible(const ld_scatter *scatter, const ld_correlated *grou
             for (int k = 0; k < (g == group ? i : g->count); k++)
                 again = again || g->factor[k] == group->factor[i];
         const char *text = again ? "is in a group already"
-                           : own->distribution == LD_EACH_SAMPLE
+                           : distribution_of(own->distribution)->traits & LD_SEED
                                ? "is a seed, which depends on nothing"
                            : own->per_rocket != first->per_rocket
                                ? "is not drawn as the first of its group, for every rocket or for "

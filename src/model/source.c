@@ -61,6 +61,24 @@ ld_source *source_hold(ld_source *self)
     return self;
 }
 
+ld_source *source_copy(const ld_source *self)
+{
+    ld_source *copy = source_new(self->name, self->folder);
+    bool fine = copy != NULL;
+    for (size_t i = 0; i < self->file_count && fine; i++) {
+        const ld_source_file *file = self->file[i];
+        char *text = malloc(file->length + 1);
+        fine = text && source_add(copy, file->name, memcpy(text, file->text, file->length + 1),
+                                  file->length);
+    }
+    for (size_t i = 0; i < self->set_count && fine; i++)
+        fine = source_add_set(copy, self->set[i]);
+    if (fine)
+        return copy;
+    source_free(copy);
+    return NULL;
+}
+
 void source_free(ld_source *self)
 {
     if (!self || --self->users > 0)

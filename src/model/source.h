@@ -11,6 +11,8 @@ ld_source *source_new(const char *name, const char *folder);
 const ld_source_file *source_add(ld_source *self, const char *name, char *text, size_t length);
 // Adds an override; false: no memory.
 bool source_add_set(ld_source *self, const char *text);
+// A copy with a user of its own; NULL: no memory.
+ld_source *source_copy(const ld_source *self);
 // The file of that name beside the scenario itself, or NULL.
 const ld_source_file *source_find(const ld_source *self, const char *name);
 // One user more, who frees it too; not from several threads at once.

@@ -126,11 +126,8 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
     }
 }
 
-// Whether the key has a value to print.
-static bool is_given(const field_row *f, const void *base, int form)
+static bool has_value(const field_row *f, const void *base)
 {
-    if (f->kind == FIELD_LATER || !field_has_form(f, form))
-        return false;
     if (f->kind == FIELD_NUMBER)
         return !isnan(*(const double *)field_at_const(base, f));
     if (f->kind == FIELD_TEXT)
@@ -139,7 +136,13 @@ static bool is_given(const field_row *f, const void *base, int form)
         return ((const ld_table *)field_at_const(base, f))->rows > 0;
     if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP)
         return field_switch(base, f) > 0;
-    return true;
+    return f->kind != FIELD_LATER;
+}
+
+// Whether the key has a value to print.
+static bool is_given(const field_row *f, const void *base, int form)
+{
+    return field_has_form(f, form) && has_value(f, base);
 }
 
 static void print_entry(FILE *stream, const field_block *block, const void *base)
@@ -184,23 +187,23 @@ static void print_table(FILE *stream, const field_row *f, const ld_table *table,
 
 static void print_distribution(FILE *stream, const ld_factor *factor, const char *unit)
 {
+    const distribution_row *row = distribution_of(factor->distribution);
     const char *between = "";
-    switch (factor->distribution) {
-    case LD_NORMAL:
-        fprintf(stream, "normal: ");
+    fprintf(stream, "%s: ", row->word);
+    switch (row->given) {
+    case LD_GIVEN_DEVIATION:
         print_number(stream, &factor->deviation, 1, unit);
         break;
-    case LD_LOGNORMAL:
-        fprintf(stream, "lognormal: ");
+    case LD_GIVEN_RATIO:
         print_number(stream, &factor->deviation, 1, "");
         break;
-    case LD_UNIFORM:
-        fprintf(stream, isnan(factor->between[0]) ? "uniform: +-" : "uniform: ");
+    case LD_GIVEN_SPAN:
+        fputs(isnan(factor->between[0]) ? "+-" : "", stream);
         print_number(stream, isnan(factor->between[0]) ? &factor->spread : factor->between,
                      isnan(factor->between[0]) ? 1 : 2, unit);
         return;
-    case LD_DISCRETE:
-        fprintf(stream, "discrete: [");
+    case LD_GIVEN_VALUES:
+        fprintf(stream, "[");
         for (int i = 0; i < factor->value_count; i++, between = ", ") {
             fprintf(stream, "%s", between);
             print_number(stream, &factor->value[i], 1, unit);
@@ -213,8 +216,8 @@ static void print_distribution(FILE *stream, const ld_factor *factor, const char
         }
         fprintf(stream, "]");
         return;
-    case LD_EACH_SAMPLE:
-        fprintf(stream, "each: sample");
+    case LD_GIVEN_SAMPLE:
+        fprintf(stream, "sample");
         return;
     }
     if (!isnan(factor->within)) {
@@ -405,4 +408,30 @@ void scenario_until_text(const ld_until *until, char *text, size_t size)
         return;
     print_statistic(stream, until);
     fclose(stream);
+}
+
+// The word that stands in place of a block, or NULL.
+static const char *word_of_block(const field_value *value)
+{
+    const field_row *f = value->row;
+    const char *word = f->words ? field_word_of(f->words, field_switch(value->base, f))->name : "";
+    return word[0] ? word : NULL;
+}
+
+bool scenario_value_text(const field_value *value, char *text, size_t size)
+{
+    const field_row *f = value->row;
+    bool block = f->kind == FIELD_BLOCK;
+    text[0] = '\0';
+    if (block ? !word_of_block(value) : f->kind > FIELD_CHOICE && f->kind != FIELD_SELECTION)
+        return false;
+    FILE *stream = open_text(text, size);
+    if (!stream)
+        return true;
+    if (block)
+        fputs(word_of_block(value), stream);
+    else if (has_value(f, value->base))
+        print_scalar(stream, f, value->base);
+    fclose(stream);
+    return true;
 }

@@ -1,7 +1,7 @@
 // Models as handles.
 #include <stdlib.h>
+#include <string.h>
 
-#include "model/field.h"
 #include "scenario/scenario.h"
 
 // Hands out what has been read; NULL after a failure.
@@ -43,15 +43,12 @@ ld_status ld_scenario_read_source(ld_source *source, int point, ld_model **model
                     self, model);
 }
 
-ld_status ld_model_number(const ld_model *model, const char *path, double *value, ld_error *error)
+ld_status ld_model_new(const char *const *sets, size_t count, ld_model **model,
+                       ld_messages *messages)
 {
-    field_place place;
-    char why[LD_ERROR_TEXT];
-    *value = NAN;
-    if (!field_locate(model, path, &place, why, sizeof why))
-        return ld_fail(error, LD_ERR_INPUT, "%s", why);
-    *value = field_get(model, &place);
-    return LD_OK;
+    static const char nothing[] = "launchdyn: 1\n";
+    return ld_scenario_read_text(nothing, strlen(nothing), "defaults", "", sets, count, model,
+                                 messages);
 }
 
 ld_source *ld_model_source(const ld_model *model)

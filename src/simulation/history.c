@@ -340,7 +340,7 @@ ld_status history_build(ld_simulation *self, ld_error *error)
     return quantity_columns_make(&self->columns, &launch_quantities, &things, error);
 }
 
-size_t ld_history_columns(const ld_simulation *simulation, const ld_column **columns)
+size_t ld_simulation_columns(const ld_simulation *simulation, const ld_column **columns)
 {
     *columns = simulation->columns.column;
     return (size_t)simulation->columns.count;

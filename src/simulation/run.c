@@ -25,6 +25,7 @@ static ld_run *run_create(const ld_simulation *simulation, const ld_run_options 
         run->options = *options;
     run->launch.system = simulation;
     run->launch.model = simulation->model;
+    run->summary.model = simulation->model;
     if (has_launch(run))
         run->status = launch_state_begin(&run->launch, simulation, &run->error);
     return run;

@@ -151,6 +151,7 @@ typedef struct ld_equilibrium_summary {
 } ld_equilibrium_summary;
 
 struct ld_summary {
+    const ld_model *model; ///< of the run: names of its parts; NULL: nothing has run
     int rocket_count;
     ld_rocket_summary rocket[LD_MAX_FIRINGS];
     ld_equilibrium_summary equilibrium;

@@ -131,7 +131,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
         if (field_locate(&model, factor_path(factor, 0), &place, why, sizeof why) &&
             place.row->unit)
             self->column[i].unit = place.row->unit;
-        self->column[i].seed = factor->distribution == LD_EACH_SAMPLE;
+        self->column[i].seed = distribution_of(factor->distribution)->traits & LD_SEED;
     }
     data->title = keep(self, strdup(model.title ? model.title : ""));
     model_clear(&model);

@@ -31,7 +31,7 @@ static int set_up(void **state)
     if (ld_simulation_create(&model, &simulation, NULL) ||
         flight_columns(&flight, &of_flight, NULL))
         return -1;
-    launch.count = ld_history_columns(simulation, &launch.column);
+    launch.count = ld_simulation_columns(simulation, &launch.column);
     in_flight = (shown_columns){of_flight.column, (size_t)of_flight.count};
     return 0;
 }

@@ -49,7 +49,7 @@ void recorded_run_free(recorded_run *run)
 size_t recorded_column(const recorded_run *run, const char *name)
 {
     const ld_column *columns;
-    size_t count = ld_history_columns(run->simulation, &columns);
+    size_t count = ld_simulation_columns(run->simulation, &columns);
     for (size_t i = 0; i < count; i++)
         if (strcmp(columns[i].name, name) == 0)
             return i;

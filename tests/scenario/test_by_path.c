@@ -1,0 +1,243 @@
+// Values of a model by path: set as by --set, told as numbers, texts and tables.
+#include "support/check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "launchdyn/scenario.h"
+#include "model/model.h"
+
+#define FIXED LD_SOURCE_DIR "/examples/fixed.yaml"
+
+static ld_model *read_fixed(const char *set)
+{
+    ld_model *model;
+    ld_messages messages;
+    assert_int_equal(ld_scenario_read(FIXED, &set, set != NULL, &model, &messages), LD_OK);
+    return model;
+}
+
+// What the model prints, to be freed.
+static char *print(const ld_model *model)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    ld_model_print(model, stream);
+    fclose(stream);
+    return text;
+}
+
+static void check_same(const ld_model *model, const ld_model *expected)
+{
+    char *text = print(model), *other = print(expected);
+    assert_string_equal(text, other);
+    free(text);
+    free(other);
+}
+
+static void set(ld_model *model, const char *path, const char *value)
+{
+    ld_messages messages;
+    if (ld_model_set(model, path, value, &messages))
+        ld_messages_print(&messages, stderr);
+    assert_int_equal(messages.count, 0);
+}
+
+static double number(const ld_model *model, const char *path)
+{
+    double value;
+    ld_error error = {.text = ""};
+    assert_int_equal(ld_model_number(model, path, &value, &error), LD_OK);
+    return value;
+}
+
+static void check_text(const ld_model *model, const char *path, const char *expected)
+{
+    char text[128];
+    ld_error error = {.text = ""};
+    assert_int_equal(ld_model_text(model, path, text, sizeof text, &error), LD_OK);
+    assert_string_equal(text, expected);
+}
+
+static void test_set_is_as_an_override(void **state)
+{
+    (void)state;
+    ld_model *model = read_fixed(NULL), *expected = read_fixed("rocket.mass=61.5 kg");
+    set(model, "rocket.mass", "61500 g");
+    CHECK_BELOW("mass set in grams [kg]", number(model, "rocket.mass") - 61.5, 0);
+    set(model, "rocket.mass", "61.5 kg");
+    check_same(model, expected);
+    // what follows from a key follows: the thrust table's end gives the time that counts as stuck
+    set(model, "rocket.motor.thrust", "[[0 s, 10 kN], [3 s, 10 kN]]");
+    CHECK_BELOW("stuck time [s]", number(model, "run.stuck_time") - 4, 0);
+    ld_model_free(expected);
+    ld_model_free(model);
+}
+
+// Refuses and leaves the model as it was.
+static void check_refused(ld_model *model, const char *path, const char *value, const char *text)
+{
+    ld_messages messages;
+    char *before = print(model);
+    assert_int_equal(ld_model_set(model, path, value, &messages), LD_ERR_INPUT);
+    char *after = print(model);
+    assert_string_equal(after, before);
+    printf("%s: %s\n", messages.item[0].path, messages.item[0].text);
+    assert_non_null(strstr(messages.item[0].text, text));
+    ld_messages_free(&messages);
+    free(before);
+    free(after);
+}
+
+static void test_wrong_values_are_refused(void **state)
+{
+    (void)state;
+    ld_model *model = read_fixed(NULL);
+    check_refused(model, "rocket.mas", "61 kg", "did you mean \"mass\"?");
+    check_refused(model, "rocket.mass", "61", "without a unit");
+    check_refused(model, "rocket.mass", "61 m", "another dimension");
+    check_refused(model, "rocket.mass", "-1 kg", "> 0 kg");
+    check_refused(model, "rocket.adaptors.raer.at", "1 m", "no entry \"raer\"");
+    ld_model_free(model);
+}
+
+static void test_several_at_once(void **state)
+{
+    (void)state;
+    ld_messages messages;
+    ld_model *model = read_fixed(NULL);
+    // a prescribed base without a motion, and a motion without such a base
+    const char *both[] = {"base.kind=prescribed", "base.velocity=3 0 0 m/s"};
+    assert_int_equal(ld_model_set(model, "base.velocity", "3 0 0 m/s", &messages), LD_ERR_INPUT);
+    ld_messages_free(&messages);
+    assert_int_equal(ld_model_set_all(model, both, 2, &messages), LD_OK);
+    check_text(model, "base.velocity", "3 0 0 m/s");
+    ld_model_free(model);
+}
+
+static void test_a_key_set_often_is_kept_once(void **state)
+{
+    (void)state;
+    ld_model *model = read_fixed("tubes.length=5 m");
+    char value[32];
+    for (int i = 0; i < 20; i++) {
+        snprintf(value, sizeof value, "%d kg", 60 + i);
+        set(model, "rocket.mass", value);
+        set(model, "rocket.lock.release_force", "9 kN");
+    }
+    CHECK_BELOW("overrides kept", (double)model->source->set_count - 3, 0);
+    CHECK_BELOW("the last mass [kg]", number(model, "rocket.mass") - 79, 0);
+    CHECK_BELOW("another override stays [m]", number(model, "tubes.length") - 5, 0);
+    ld_model_free(model);
+}
+
+static void test_values_are_told(void **state)
+{
+    (void)state;
+    ld_model *model = read_fixed(NULL);
+    const double *table;
+    size_t rows, columns;
+    ld_error error;
+    char text[64];
+    double value;
+    check_text(model, "base.kind", "fixed");
+    check_text(model, "rocket.adaptors.1.name", "rear");
+    CHECK_BELOW("second adaptor by name and number [m]",
+                number(model, "rocket.adaptors.2.at") - number(model, "rocket.adaptors.middle.at"),
+                0);
+    assert_int_equal(ld_model_table(model, "rocket.motor.thrust", &table, &rows, &columns, &error),
+                     LD_OK);
+    assert_ptr_equal(table, model->rocket.motor.thrust.data);
+    CHECK_BELOW("columns of the thrust table", (double)columns - 2, 0);
+    assert_true(rows > 1);
+
+    assert_int_equal(ld_model_text(model, "rocket", text, sizeof text, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "rocket is more than a line");
+    assert_int_equal(ld_model_text(model, "rocket.motor.thrust", text, sizeof text, &error),
+                     LD_ERR_INPUT);
+    assert_int_equal(ld_model_text(model, "rocket.mas", text, sizeof text, &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "did you mean \"mass\"?"));
+    assert_int_equal(ld_model_number(model, "rocket.center", &value, &error), LD_ERR_INPUT);
+    assert_true(isnan(value));
+    assert_int_equal(ld_model_table(model, "rocket.mass", &table, &rows, &columns, &error),
+                     LD_ERR_INPUT);
+    assert_null(table);
+    ld_model_free(model);
+}
+
+// What a walk over all keys finds.
+typedef struct key_walk {
+    ld_model *model;
+    const char *printed;
+    int keys, set, vectors;
+} key_walk;
+
+// A key's text, set again, leaves the model as it is.
+static void set_again(void *self, const ld_key *key)
+{
+    key_walk *walk = self;
+    char text[512];
+    walk->keys++;
+    assert_true(key->path[0] && key->description[0] && key->expected[0]);
+    // a single output step counts for all three, one of the three leaves the others to the default
+    if (strstr(key->path, ".N") || strncmp(key->path, "run.output_step.", 16) == 0 ||
+        ld_model_text(walk->model, key->path, text, sizeof text, NULL) || !text[0])
+        return;
+    double value;
+    if (ld_model_number(walk->model, key->path, &value, NULL) == LD_OK && !isnan(value))
+        assert_true(value >= key->low && value <= key->high);
+    set(walk->model, key->path, text);
+    char *printed = print(walk->model);
+    if (strcmp(printed, walk->printed) != 0)
+        fail_msg("%s: set again to %s the model is another:\n%s", key->path, text, printed);
+    free(printed);
+    walk->set++;
+}
+
+static void test_every_text_can_be_set_again(void **state)
+{
+    (void)state;
+    ld_model *model = read_fixed(NULL);
+    char *printed = print(model);
+    key_walk walk = {.model = model, .printed = printed};
+    ld_scenario_keys(set_again, &walk);
+    printf("%d keys, %d with a text in this scenario\n", walk.keys, walk.set);
+    assert_true(walk.keys > 200 && walk.set > 40);
+    free(printed);
+    ld_model_free(model);
+}
+
+static void test_a_model_of_overrides_alone(void **state)
+{
+    (void)state;
+    ld_model *model;
+    ld_messages messages;
+    assert_int_equal(ld_model_new(NULL, 0, &model, &messages), LD_ERR_INPUT);
+    assert_null(model);
+    assert_true(messages.count > 0);
+    ld_messages_free(&messages);
+    const char *flight[] = {"rocket.mass=10 kg", "rocket.inertia=1 1 1 kg.m2",
+                            "flight={position: 0 1 0 km, velocity: 100 0 0 m/s}"};
+    if (ld_model_new(flight, 3, &model, &messages))
+        ld_messages_print(&messages, stdout);
+    assert_int_equal(messages.count, 0);
+    CHECK_BELOW("mass of the body [kg]", number(model, "rocket.mass") - 10, 0);
+    assert_false(ld_model_has_launcher(model));
+    ld_model_free(model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_set_is_as_an_override),
+        cmocka_unit_test(test_wrong_values_are_refused),
+        cmocka_unit_test(test_several_at_once),
+        cmocka_unit_test(test_a_key_set_often_is_kept_once),
+        cmocka_unit_test(test_values_are_told),
+        cmocka_unit_test(test_every_text_can_be_set_again),
+        cmocka_unit_test(test_a_model_of_overrides_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
