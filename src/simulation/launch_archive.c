@@ -28,10 +28,7 @@ static void archive_launch(archive *bytes, launch_state *self)
     archive_double(bytes, &self->t_ignition);
     archive_int(bytes, &self->piece, -1, (int)self->motor->corner_count - 1);
     archive_phase(bytes, &self->phase);
-    for (int i = 0; i < HINGES; i++) {
-        archive_double(bytes, &self->rest.hinge[i].angle);
-        archive_double(bytes, &self->rest.hinge[i].torque);
-    }
+    archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_bool(bytes, &self->on_breech);
     for (int i = 0; i < 3; i++)
         archive_doubles(bytes, self->aim.a[i], 3);
