@@ -55,7 +55,7 @@ static void archive_output(archive *bytes, ld_run *run)
 static void archive_summary(archive *bytes, ld_run *run)
 {
     ld_summary *summary = &run->summary;
-    const quantity_things things = {.model = run->launch.model};
+    const quantity_things things = quantity_things_of(run->launch.model);
     archive_int(bytes, &summary->rocket_count, 0, run->launch.model->firing_count);
     for (int i = 0; i < summary->rocket_count; i++) {
         ld_rocket_summary *rocket = &summary->rocket[i];
