@@ -1,6 +1,7 @@
 // What the report of studies shows, as JSON. All statistics are computed here, none in the page.
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "launchdyn/version.h"
 #include "report/report_study.h"
@@ -304,9 +305,9 @@ static void write_failures(FILE *json, study_source *source, const study_series 
     enum { LEAST_EACH = 5 };
     int most = MOST_FAILURES / source->series_count, count = 0;
     most = most > LEAST_EACH ? most : LEAST_EACH;
-    study_failed failed[MOST_FAILURES];
-    ld_error error;
-    if (study_data_failed(series->data, series->point, failed, most, &count, &error))
+    study_failed *failed = malloc((size_t)most * sizeof *failed);
+    ld_error error = {.text = "no memory"};
+    if (!failed || study_data_failed(series->data, series->point, failed, most, &count, &error))
         report_take_note(source->report, "%.60s: failed samples cannot be read: %s.", series->label,
                          error.text);
     fputs(",\"failures\":[", json);
@@ -318,6 +319,7 @@ static void write_failures(FILE *json, study_source *source, const study_series 
         fputc(']', json);
     }
     fputc(']', json);
+    free(failed);
 }
 
 // Pairs of a swept key and its value.
