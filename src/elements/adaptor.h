@@ -141,13 +141,12 @@ LD_INLINE void adaptor_add(const int lanes, const adaptor_set *self, const tube_
     double penetration = e - self->clearance[i];
     *report = (adaptor_report){
         .s = adaptor.foot->x, .y = adaptor.y, .z = adaptor.z, .penetration = penetration};
-    bool bilateral = self->law.kind == LD_CONTACT_BILATERAL;
-    if (penetration <= 0 && !bilateral)
+    if (penetration <= 0 && !self->law.two_sided)
         return;
     v3 v_C = v3_add(rocket->v_O1, v3_cross(rocket->w_B, adaptor.arm));
     adaptor_rates(tube, rocket, i, v_C, &adaptor);
     v3 W = adaptor.C, force;
-    if (bilateral)
+    if (self->law.two_sided)
         force = bilateral_force(&self->law, tube, &adaptor, v_C, report, now->out);
     else
         force = wall_force(&self->law, guide->flexible.bore_radius, &adaptor, i, e, &W, now);

@@ -8,6 +8,7 @@
 
 typedef struct contact_law {
     ld_contact_law kind;
+    bool two_sided, by_touch;
     double k;     // [N/m]
     double n;     // exponent
     double d0;    // [m] reference penetration
@@ -23,6 +24,8 @@ LD_INLINE contact_law contact_law_of(const ld_contact *model)
 {
     double e = model->restitution;
     return (contact_law){.kind = model->law,
+                         .two_sided = contact_has(model->law, LD_CONTACT_TWO_SIDED),
+                         .by_touch = contact_has(model->law, LD_CONTACT_BY_TOUCH),
                          .k = model->stiffness,
                          .n = model->exponent,
                          .d0 = model->reference_penetration,

@@ -385,12 +385,30 @@ typedef struct ld_adaptor {
     double clearance; ///< [m] radial; not used by the law `bilateral`, NaN there if not given
 } ld_adaptor;
 
-typedef enum ld_contact_law {
-    LD_CONTACT_HUNT_CROSSLEY,
-    LD_CONTACT_LANKARANI_NIKRAVESH,
-    LD_CONTACT_KELVIN_VOIGT,
-    LD_CONTACT_BILATERAL,
-} ld_contact_law;
+/// The contact laws, the first by default: each with its word and its traits. Their forces stand in
+/// elements/contact.h.
+#define LD_CONTACT_LAWS(LAW)                                                                       \
+    LAW(LD_CONTACT_HUNT_CROSSLEY, "hunt-crossley", 0)                                              \
+    LAW(LD_CONTACT_LANKARANI_NIKRAVESH, "lankarani-nikravesh", LD_CONTACT_BY_TOUCH)                \
+    LAW(LD_CONTACT_KELVIN_VOIGT, "kelvin-voigt", LD_CONTACT_LINEAR)                                \
+    LAW(LD_CONTACT_BILATERAL, "bilateral", LD_CONTACT_LINEAR | LD_CONTACT_TWO_SIDED)
+
+#define LD_CONTACT_LAW_NAME(name, word, traits) name,
+typedef enum ld_contact_law { LD_CONTACT_LAWS(LD_CONTACT_LAW_NAME) } ld_contact_law;
+
+enum {
+    LD_CONTACT_LINEAR = 1,    ///< its exponent is 1, it damps by its own coefficient
+    LD_CONTACT_TWO_SIDED = 2, ///< holds the adaptor on the axis, without clearance
+    LD_CONTACT_BY_TOUCH = 4,  ///< depends on the speed at first touch
+};
+
+/// Whether a law has a trait.
+static inline bool contact_has(ld_contact_law law, unsigned trait)
+{
+#define LD_CONTACT_LAW_TRAITS(name, word, traits) traits,
+    static const unsigned of[] = {LD_CONTACT_LAWS(LD_CONTACT_LAW_TRAITS)};
+    return of[law] & trait;
+}
 
 /// Contact between adaptors and tube: model.md, section 5.
 typedef struct ld_contact {
@@ -539,14 +557,51 @@ typedef struct ld_run_settings {
     double coupling_step; ///< [s] at which the subsystems, integrated apart, exchange; 0: together
 } ld_run_settings;
 
-/// Distribution of a factor about its nominal value, the scenario's: model.md, section 10.
-typedef enum ld_distribution {
-    LD_NORMAL,
-    LD_UNIFORM,
-    LD_LOGNORMAL, ///< the nominal value is the median
-    LD_DISCRETE,
-    LD_EACH_SAMPLE, ///< a whole number of the key's range, another one in each sample
-} ld_distribution;
+/// Distributions of a factor: each with its word, what a scenario says of it, and its traits. What
+/// they make of a uniform number stands in studies/draw.c (model.md, section 10).
+#define LD_DISTRIBUTIONS(ROW)                                                                      \
+    ROW(LD_NORMAL, "normal", LD_GIVEN_DEVIATION, LD_ABOUT_NOMINAL | LD_BOUNDED)                    \
+    ROW(LD_UNIFORM, "uniform", LD_GIVEN_SPAN, 0)                                                   \
+    ROW(LD_LOGNORMAL, "lognormal", LD_GIVEN_RATIO, LD_ABOUT_NOMINAL | LD_ABOVE_ZERO)               \
+    ROW(LD_DISCRETE, "discrete", LD_GIVEN_VALUES, LD_FOR_WHOLE)                                    \
+    ROW(LD_EACH_SAMPLE, "each", LD_GIVEN_SAMPLE, LD_FOR_WHOLE | LD_SEED)
+
+#define LD_DISTRIBUTION_NAME(name, word, given, traits) name,
+typedef enum ld_distribution { LD_DISTRIBUTIONS(LD_DISTRIBUTION_NAME) } ld_distribution;
+
+#define LD_DISTRIBUTION_ONE(name, word, given, traits) +1
+enum { LD_DISTRIBUTION_COUNT = LD_DISTRIBUTIONS(LD_DISTRIBUTION_ONE) };
+
+/// What a scenario says of a distribution.
+typedef enum ld_given {
+    LD_GIVEN_DEVIATION, ///< `deviation` in the key's unit
+    LD_GIVEN_RATIO,     ///< `deviation`, a plain number
+    LD_GIVEN_SPAN,      ///< `between`, or `spread`
+    LD_GIVEN_VALUES,    ///< `value` with `weight`
+    LD_GIVEN_SAMPLE,    ///< the word `sample`
+} ld_given;
+
+/// Traits of a distribution.
+enum {
+    LD_ABOUT_NOMINAL = 1, ///< always about the scenario's value
+    LD_BOUNDED = 2,       ///< may be kept `within` or `between`
+    LD_ABOVE_ZERO = 4,    ///< of values > 0, whose median is the nominal one
+    LD_FOR_WHOLE = 8,     ///< for whole numbers too
+    LD_SEED = 16, ///< for whole numbers alone, another one of the key's range in each sample
+};
+
+typedef struct distribution_row {
+    const char *word;
+    ld_given given;
+    unsigned traits;
+} distribution_row;
+
+static inline const distribution_row *distribution_of(ld_distribution distribution)
+{
+#define LD_DISTRIBUTION_ROW(name, word, given, traits) {word, given, traits},
+    static const distribution_row row[] = {LD_DISTRIBUTIONS(LD_DISTRIBUTION_ROW)};
+    return &row[distribution];
+}
 
 /// Several keys under one name, which always have the same value.
 typedef struct ld_together {
@@ -560,14 +615,14 @@ typedef struct ld_factor {
                             ///< components of vectors by .w, .x, .y, .z; of several: their name
     ld_together together;
     ld_distribution distribution;
-    double deviation;  ///< normal: standard deviation; lognormal: that of the logarithm [-]
-    double within;     ///< [-] normal: kept within so many standard deviations; NaN: not
-    double between[2]; ///< normal: kept between these; uniform: the ends; NaN: not given
-    double spread;     ///< uniform: nominal +- this, where `between` is NaN
+    double deviation;  ///< standard deviation, or that of the logarithm [-]
+    double within;     ///< [-] kept within so many standard deviations; NaN: not
+    double between[2]; ///< kept between these; of a span its ends; NaN: not given
+    double spread;     ///< of a span: nominal +- this, where `between` is NaN
     int value_count;
-    double value[LD_MAX_CHOICES];  ///< discrete
-    double weight[LD_MAX_CHOICES]; ///< discrete
-    bool per_rocket;               ///< drawn for every rocket (keys of the rocket only)
+    double value[LD_MAX_CHOICES];
+    double weight[LD_MAX_CHOICES];
+    bool per_rocket; ///< drawn for every rocket (keys of the rocket only)
 } ld_factor;
 
 /// Factors whose normal scores are correlated (Gaussian copula): of normal factors the matrix is
@@ -582,7 +637,7 @@ typedef enum ld_statistic { LD_STATISTIC_MEAN, LD_STATISTIC_DEVIATION } ld_stati
 
 /// How well a statistic of a result must be known for a study to stop before its last sample.
 typedef struct ld_until {
-    char result[LD_MAX_NAME]; ///< name of the result's column, e.g. "t_rear"
+    char result[2 * LD_MAX_NAME]; ///< name of the result's column, e.g. "t_rear"
     ld_statistic statistic;
     double half_width; ///< of the 95 % interval, in SI or, where relative, as a share of the
                        ///< statistic's magnitude

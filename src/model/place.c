@@ -279,8 +279,9 @@ static bool has_values_between(const ld_factor *factor, double nominal)
 // Whether values lie about that of the scenario.
 static bool is_about_nominal(const ld_factor *factor)
 {
-    return factor->distribution == LD_NORMAL || factor->distribution == LD_LOGNORMAL ||
-           (factor->distribution == LD_UNIFORM && isnan(factor->between[0]));
+    const distribution_row *row = distribution_of(factor->distribution);
+    return (row->traits & LD_ABOUT_NOMINAL) ||
+           (row->given == LD_GIVEN_SPAN && isnan(factor->between[0]));
 }
 
 // Whether the numbers of the factor after the first are alike and have its value in the scenario,
@@ -312,23 +313,23 @@ static bool goes_with(const ld_model *model, const ld_factor *factor, const fiel
 {
     double nominal = field_get(model, place);
     bool about = is_about_nominal(factor);
+    const distribution_row *row = distribution_of(factor->distribution);
     const char *text = NULL;
-    if (place->whole && factor->distribution != LD_DISCRETE &&
-        factor->distribution != LD_EACH_SAMPLE)
+    if (place->whole && !(row->traits & LD_FOR_WHOLE))
         text = "a whole number can only be discrete, or {each: sample}";
-    else if (!place->whole && factor->distribution == LD_EACH_SAMPLE)
+    else if (!place->whole && (row->traits & LD_SEED))
         text = "{each: sample} is for whole numbers, such as seeds";
     else if (factor->per_rocket && !factor_may_be_per_rocket(factor))
         text = "only what is below rocket can be drawn per rocket";
     else if (about && !isfinite(nominal))
         text = "has no value in this scenario about which to scatter";
-    else if (factor->distribution == LD_LOGNORMAL && nominal <= 0)
-        text = "a lognormal distribution needs a value > 0 in the scenario";
-    else if (factor->distribution == LD_NORMAL && !isnan(factor->between[0]) &&
+    else if ((row->traits & LD_ABOVE_ZERO) && nominal <= 0)
+        text = "a %s distribution needs a value > 0 in the scenario";
+    else if ((row->traits & LD_BOUNDED) && !isnan(factor->between[0]) &&
              !has_values_between(factor, nominal))
-        text = "so far from the value in the scenario a normal distribution has nothing to keep";
+        text = "so far from the value in the scenario a %s distribution has nothing to keep";
     if (text)
-        snprintf(why, size, "%s", text);
+        snprintf(why, size, text, row->word);
     return !text;
 }
 
@@ -384,7 +385,7 @@ bool correlated_is_possible(const ld_scatter *scatter, const ld_correlated *grou
             for (int k = 0; k < (g == group ? i : g->count); k++)
                 again = again || g->factor[k] == group->factor[i];
         const char *text = again ? "is in a group already"
-                           : own->distribution == LD_EACH_SAMPLE
+                           : distribution_of(own->distribution)->traits & LD_SEED
                                ? "is a seed, which depends on nothing"
                            : own->per_rocket != first->per_rocket
                                ? "is not drawn as the first of its group, for every rocket or for "

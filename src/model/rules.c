@@ -291,7 +291,7 @@ static void adaptor_rules(const rule_set *rules)
             if (adaptor->name[0] && strcmp(adaptor->name, rocket->adaptor[j].name) == 0)
                 broken(rules, "rocket.adaptors.#.name", i + 1, "\"%s\" is the name of adaptor %d",
                        adaptor->name, j + 1);
-        if (rocket->contact.law == LD_CONTACT_BILATERAL || (int)rocket->contact.law < 0)
+        if ((int)rocket->contact.law < 0 || contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
             continue;
         if (isnan(adaptor->clearance))
             broken(rules, "rocket.adaptors.#.clearance", i + 1,
@@ -311,9 +311,9 @@ static void adaptor_rules(const rule_set *rules)
 static void contact_rules(const rule_set *rules)
 {
     const ld_contact *contact = &rules->model->rocket.contact;
-    bool linear = contact->law == LD_CONTACT_KELVIN_VOIGT || contact->law == LD_CONTACT_BILATERAL;
     if ((int)contact->law < 0)
         return;
+    bool linear = contact_has(contact->law, LD_CONTACT_LINEAR);
     if (linear && contact->exponent > 1)
         broken(rules, "rocket.contact.exponent", 0, "%g; this law is linear, its exponent is 1",
                contact->exponent);

@@ -660,13 +660,10 @@ static const field_row adaptor_fields[] = {
     {0}};
 static const field_block adaptor_block = {.fields = adaptor_fields};
 
-static const field_word law_words[] = {{"hunt-crossley", LD_CONTACT_HUNT_CROSSLEY},
-                                       {"lankarani-nikravesh", LD_CONTACT_LANKARANI_NIKRAVESH},
-                                       {"kelvin-voigt", LD_CONTACT_KELVIN_VOIGT},
-                                       {"bilateral", LD_CONTACT_BILATERAL},
-                                       {NULL, 0}};
+#define LAW_WORD(name, word, traits) {word, name},
+static const field_word law_words[] = {LD_CONTACT_LAWS(LAW_WORD){NULL, 0}};
 static const field_row contact_fields[] = {
-    {"law", CHOICE(ld_contact, law, law_words), DEFAULT(LD_CONTACT_HUNT_CROSSLEY),
+    {"law", CHOICE(ld_contact, law, law_words), DEFAULT(0),
      .doc = "force over penetration; bilateral holds the adaptors on the axis"},
     {"stiffness", NUMBER(ld_contact, stiffness, "N/m"), POSITIVE, REQUIRED,
      .doc = "k, in N/m for every exponent"},

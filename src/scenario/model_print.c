@@ -187,23 +187,23 @@ static void print_table(FILE *stream, const field_row *f, const ld_table *table,
 
 static void print_distribution(FILE *stream, const ld_factor *factor, const char *unit)
 {
+    const distribution_row *row = distribution_of(factor->distribution);
     const char *between = "";
-    switch (factor->distribution) {
-    case LD_NORMAL:
-        fprintf(stream, "normal: ");
+    fprintf(stream, "%s: ", row->word);
+    switch (row->given) {
+    case LD_GIVEN_DEVIATION:
         print_number(stream, &factor->deviation, 1, unit);
         break;
-    case LD_LOGNORMAL:
-        fprintf(stream, "lognormal: ");
+    case LD_GIVEN_RATIO:
         print_number(stream, &factor->deviation, 1, "");
         break;
-    case LD_UNIFORM:
-        fprintf(stream, isnan(factor->between[0]) ? "uniform: +-" : "uniform: ");
+    case LD_GIVEN_SPAN:
+        fputs(isnan(factor->between[0]) ? "+-" : "", stream);
         print_number(stream, isnan(factor->between[0]) ? &factor->spread : factor->between,
                      isnan(factor->between[0]) ? 1 : 2, unit);
         return;
-    case LD_DISCRETE:
-        fprintf(stream, "discrete: [");
+    case LD_GIVEN_VALUES:
+        fprintf(stream, "[");
         for (int i = 0; i < factor->value_count; i++, between = ", ") {
             fprintf(stream, "%s", between);
             print_number(stream, &factor->value[i], 1, unit);
@@ -216,8 +216,8 @@ static void print_distribution(FILE *stream, const ld_factor *factor, const char
         }
         fprintf(stream, "]");
         return;
-    case LD_EACH_SAMPLE:
-        fprintf(stream, "each: sample");
+    case LD_GIVEN_SAMPLE:
+        fprintf(stream, "sample");
         return;
     }
     if (!isnan(factor->within)) {
@@ -294,7 +294,7 @@ static double percent(double share)
 
 static void print_statistic(FILE *stream, const ld_until *until)
 {
-    const study_result *result = study_result_named(until->result);
+    const quantity *result = study_result_like(until->result);
     double value = until->relative ? percent(until->half_width) : until->half_width;
     fprintf(stream, "%s.%s: ", until->result,
             until->statistic == LD_STATISTIC_MEAN ? "mean" : "deviation");

@@ -17,9 +17,10 @@ typedef struct factor_reader {
 } factor_reader;
 
 // Keys of a factor: its distribution, and what goes with it.
-static const char *const key_names[] = {"normal", "uniform", "lognormal", "discrete", "each",
-                                        "within", "between", "weights",   "per",      "paths"};
-enum { DISTRIBUTIONS = 5, KEYS = sizeof key_names / sizeof *key_names };
+#define WORD(name, word, given, traits) word,
+static const char *const key_names[] = {LD_DISTRIBUTIONS(WORD) "within", "between", "weights",
+                                        "per", "paths"};
+enum { KEYS = sizeof key_names / sizeof *key_names };
 
 static const field_range any = {-INFINITY, INFINITY, 1, 1}, positive = {0, INFINITY, 1, 1},
                          not_negative = {0, INFINITY, 0, 1};
@@ -141,17 +142,17 @@ static bool read_word(const factor_reader *self, const tree_node *node, const ch
 // Reads the numbers of the distribution `node`.
 static bool read_distribution(const factor_reader *self, const tree_node *node, bool whole)
 {
-    switch (self->factor->distribution) {
-    case LD_NORMAL:
+    switch (distribution_of(self->factor->distribution)->given) {
+    case LD_GIVEN_DEVIATION:
         return read_numbers(self, node, node->text, self->number.unit, positive,
                             &self->factor->deviation, 1);
-    case LD_LOGNORMAL:
+    case LD_GIVEN_RATIO:
         return read_numbers(self, node, node->text, "", positive, &self->factor->deviation, 1);
-    case LD_UNIFORM:
+    case LD_GIVEN_SPAN:
         return read_uniform(self, node);
-    case LD_DISCRETE:
+    case LD_GIVEN_VALUES:
         return read_discrete(self, node, whole);
-    case LD_EACH_SAMPLE:
+    case LD_GIVEN_SAMPLE:
         return read_word(self, node, "sample", NULL);
     }
     return false;
@@ -173,12 +174,24 @@ static bool read_bounds(const factor_reader *self)
            (!between || read_ends(self, between, any, self->factor->between));
 }
 
+static void refuse_without(const factor_reader *self)
+{
+    char words[128] = "";
+    for (int i = 0; i < LD_DISTRIBUTION_COUNT; i++) {
+        size_t length = strlen(words);
+        const char *before = i == 0 ? "" : i + 1 < LD_DISTRIBUTION_COUNT ? ", " : " or ";
+        snprintf(words + length, sizeof words - length, "%s%s", before, key_names[i]);
+    }
+    reader_refuse(self->reader, self->map->key_at, self->path, "has no distribution; expected %s",
+                  words);
+}
+
 // The one distribution that the block gives, or NULL after a message.
 static const tree_node *find_distribution(factor_reader *self)
 {
     const tree_node *found = NULL;
     char path[256];
-    for (int i = 0; i < DISTRIBUTIONS; i++) {
+    for (int i = 0; i < LD_DISTRIBUTION_COUNT; i++) {
         const tree_node *node = tree_member(self->map, key_names[i]);
         if (node && found) {
             reader_refuse(self->reader, node->key_at, path_of(self, node->key, path, sizeof path),
@@ -191,22 +204,22 @@ static const tree_node *find_distribution(factor_reader *self)
         }
     }
     if (!found)
-        reader_refuse(self->reader, self->map->key_at, self->path,
-                      "has no distribution; expected normal, uniform, lognormal, discrete or each");
+        refuse_without(self);
     return found;
 }
 
 // Whether each key of the block goes with its distribution.
 static bool keys_go_together(const factor_reader *self)
 {
-    ld_distribution given = self->factor->distribution;
+    const distribution_row *row = distribution_of(self->factor->distribution);
     bool good = true;
     for (const tree_node *member = self->map->first; member; member = member->next) {
         char path[256];
         const char *key = member->key, *other = NULL;
-        if ((strcmp(key, "within") == 0 || strcmp(key, "between") == 0) && given != LD_NORMAL)
+        bool bounds = strcmp(key, "within") == 0 || strcmp(key, "between") == 0;
+        if (bounds && !(row->traits & LD_BOUNDED))
             other = "normal";
-        if (strcmp(key, "weights") == 0 && given != LD_DISCRETE)
+        if (strcmp(key, "weights") == 0 && row->given != LD_GIVEN_VALUES)
             other = "discrete";
         path_of(self, key, path, sizeof path);
         if (other)
@@ -354,5 +367,5 @@ void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_mo
     if (correlated && factors)
         fill_correlated(reader, correlated, model);
     if (until)
-        fill_until(reader, until, &model->scatter);
+        fill_until(reader, until, model);
 }

@@ -261,7 +261,7 @@ static double depth_under(const ld_contact *contact, double load)
 static double offset_under(const ld_rocket *rocket, int i, double load, double extra)
 {
     const ld_contact *contact = &rocket->contact;
-    if (contact->law == LD_CONTACT_BILATERAL)
+    if (contact_has(contact->law, LD_CONTACT_TWO_SIDED))
         return load / contact->stiffness;
     return copysign(rocket->adaptor[i].clearance + depth_under(contact, fabs(load)) + extra, load);
 }

@@ -32,7 +32,7 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
     const launching_system *launching = &self->launcher.launching;
     const adaptor_report *adaptor = out->launching.adaptor;
     const double away = 1;
-    bool touching = launching->adaptors.law.kind == LD_CONTACT_LANKARANI_NIKRAVESH;
+    bool touching = launching->adaptors.law.by_touch;
     if (one.kind == EVENT_BASE)
         return out->base.event[one.index] / 1e-3;
     if (!phase->rocket)

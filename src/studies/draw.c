@@ -32,7 +32,7 @@ static double draw_alone(const ld_scatter *scatter, const ld_factor *factor, int
 {
     uint64_t seed = (uint64_t)scatter->seed, stream = random_stream(factor->path);
     double u = random_uniform(seed, stream, (uint64_t)sample, (uint64_t)rocket, 0);
-    if (scatter->plan != LD_PLAN_LHS || factor->distribution == LD_EACH_SAMPLE)
+    if (scatter->plan != LD_PLAN_LHS || (distribution_of(factor->distribution)->traits & LD_SEED))
         return u;
     int64_t strata = scatter->samples / scatter->replicates, i = sample - 1;
     int64_t stratum = draw_permuted((uint64_t[]){seed, stream}, (uint64_t)(i / strata),
