@@ -66,7 +66,7 @@ static section section_at(const ld_summary *self, int index)
 static void take_section(const section *s, const quantity_things *things,
                          void (*take)(void *self, const ld_quantity *quantity), void *to)
 {
-    bool launch = things->model->base.kind != LD_BASE_NONE;
+    bool launch = model_has_launcher(things->model);
     for (quantity_walk at = quantity_first(s->table, things); at.row; quantity_next(&at)) {
         char name[SUMMARY_NAME], text[QUANTITY_NAME], description[512];
         if ((at.group->launch && !launch) || !quantity_is_there(at.group, s->from))
