@@ -108,7 +108,7 @@ ld_status ld_run_base_wrench(ld_run *run, ld_base_wrench *wrench, ld_error *erro
 ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
 
 /// Goes on where the run that was saved stood. The sink gets geometry, columns, and the rows that
-/// come after.
+/// come after; CPU times count from here on.
 /// @param simulation of an equal model
 /// @param run NULL after a failure
 /// @return LD_OK; LD_ERR_INPUT (no state of a run, cut off, damaged, of another model or another
