@@ -13,13 +13,16 @@ enum { LD_MAX_MODAL = 2 * LD_NB + LD_NT + LD_NA };
 
 // Offsets in the state of the launching subsystem: r_R [3] origin of R in I [m]; q_IR [4]
 // quaternion of R; v, w [3 + 3] velocity of R's origin and angular velocity of R, in R; q, q_dot
-// [nq] modal coordinates; x [6] s, y_S, z_S, psi, theta, gamma; V [6] velocity of O1 and rate of B
-// against I, in R.
+// [nq] modal coordinates; x [6] the rocket's coordinates in the tube; V [6] velocity of O1 and rate
+// of B against I, in R.
 typedef struct launching_layout {
     int r, quaternion, v, w, q, q_dot, x, V;
     int nq;
     int count; // states in all
 } launching_layout;
+
+// The rocket's coordinates in the tube, from `x` on: travel [m], offsets [m], angles [rad] of A_SB.
+enum { X_S, X_Y, X_Z, X_PSI, X_THETA, X_GAMMA, X_COUNT };
 
 // What is switched by events.
 typedef struct launching_phase {

@@ -15,13 +15,13 @@ LD_INLINE void rocket_load(const tube_system *guide, const launching_layout *lay
                            launching_output *out)
 {
     const double *x = state + layout->x, *V = state + layout->V;
-    rocket->s = x[0];
-    rocket->y = x[1];
-    rocket->z = x[2];
+    rocket->s = x[X_S];
+    rocket->y = x[X_Y];
+    rocket->z = x[X_Z];
     double sp, cp, st, ct, sg, cg;
-    sine_cosine_small(x[3], &sp, &cp);
-    sine_cosine_small(x[4], &st, &ct);
-    sine_cosine_small(x[5], &sg, &cg);
+    sine_cosine_small(x[X_PSI], &sp, &cp);
+    sine_cosine_small(x[X_THETA], &st, &ct);
+    sine_cosine_small(x[X_GAMMA], &sg, &cg);
     rocket->A_SB = (m3){{{cp * ct, cp * st * sg - sp * cg, cp * st * cg + sp * sg},
                          {sp * ct, sp * st * sg + cp * cg, sp * st * cg - cp * sg},
                          {-st, ct * sg, ct * cg}}};

@@ -35,9 +35,9 @@ void simulation_displace(const launch_state *self, int freedom, double change, d
     } else if (freedom < 6 + at->nq) {
         y[at->q + freedom - 6] += change;
     } else if (freedom < 10 + at->nq) {
-        y[at->x + 1 + freedom - 6 - at->nq] += change;
+        y[at->x + X_Y + freedom - 6 - at->nq] += change;
     } else if (freedom < launching_freedoms(self)) {
-        y[at->x] += change;
+        y[at->x + X_S] += change;
     } else {
         const base_system *base = &self->launcher.base;
         base->kind->dynamics->displace(base, freedom - launching_freedoms(self), change,
@@ -66,7 +66,7 @@ void simulation_straight(const launch_state *self, const base_frame *base, doubl
     memset(y, 0, (size_t)at->count * sizeof(double));
     v3_store(y + at->r, base->r);
     memcpy(y + at->quaternion, &base->q, sizeof base->q);
-    y[at->x] = self->rocket->start_at;
+    y[at->x + X_S] = self->rocket->start_at;
 }
 
 void simulation_move_with_base(const launch_state *self, double t, double *y)
@@ -279,10 +279,10 @@ static void guess_contacts(const launch_state *self, int i, int j, v3 pull, doub
     double e_j = offset_under(rocket, j, share * weight, extra);
     double slope = (e_j - e_i) / span;
     double e_0 = e_i - slope * from;
-    x[1] = e_0 * pull.y / lean;
-    x[2] = e_0 * pull.z / lean;
-    x[3] = slope * pull.y / lean;
-    x[4] = -slope * pull.z / lean;
+    x[X_Y] = e_0 * pull.y / lean;
+    x[X_Z] = e_0 * pull.z / lean;
+    x[X_PSI] = slope * pull.y / lean;
+    x[X_THETA] = -slope * pull.z / lean;
 }
 
 // Of a base that is a vehicle.
@@ -434,10 +434,10 @@ static void guess_leaning(const launch_state *self, int i, int j, v3 pull, doubl
         lateral at_j = pressed_to(rocket, j, load_j);
         slope = (lateral){(at_j.y - at_i.y) / span, (at_j.z - at_i.z) / span};
     }
-    x[1] = at_i.y - slope.y * from;
-    x[2] = at_i.z - slope.z * from;
-    x[3] = slope.y;
-    x[4] = -slope.z;
+    x[X_Y] = at_i.y - slope.y * from;
+    x[X_Z] = at_i.z - slope.z * from;
+    x[X_PSI] = slope.y;
+    x[X_THETA] = -slope.z;
 }
 
 // `best`: what the state in y has reached.
@@ -503,7 +503,7 @@ static double find_start(launch_state *self, problem *the, launching_phase *phas
     self->on_breech = true;
     phase->locked = false;
     the->count++;
-    y[self->launcher.launching.layout.x] -= depth_under(&self->rocket->contact, pressed);
+    y[self->launcher.launching.layout.x + X_S] -= depth_under(&self->rocket->contact, pressed);
     best = INFINITY;
     for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
         best = newton(the, y);

@@ -23,9 +23,9 @@ typedef struct launch_instant {
         v3 r, v;
         direction_angles angles;
     } tip_inertial;
-    bool rocket; // in its tube: what follows is there
-    double x[6]; // of the state
-    v3 v_O1;     // in I
+    bool rocket;       // in its tube: what follows is there
+    double x[X_COUNT]; // of the state
+    v3 v_O1;           // in I
     direction_angles angles;
     double spin;
     ld_tip_off tip_off;
@@ -50,7 +50,7 @@ typedef struct launch_instant {
 // clang-format off
 static const quantity frames[] = {
     {"t", "s", "time on the run's clock", AT(t)},
-    {"phase", "1", "0 before ignition, 1 locked, 2 moving in the tube, 3 tube alone", AT(phase)},
+    {"phase", "1", "0 locked before ignition, 1 after it, 2 free in the tube, 3 tube alone", AT(phase)},
     {"base.x", "m", "undeformed tube's rear end, in I", AT(input.launching.base.r.x)},
     {"base.y", "m", "undeformed tube's rear end, in I", AT(input.launching.base.r.y)},
     {"base.z", "m", "undeformed tube's rear end, in I", AT(input.launching.base.r.z)},
@@ -98,12 +98,12 @@ static const quantity tip[] = {
     {"tip.inertial_yaw_rate", "rad/s", "rate of tip.inertial_yaw", AT(tip_inertial.angles.yaw_rate)},
 };
 static const quantity rocket[] = {
-    {"rocket.s", "m", "travel: rear adaptor's station in the tube", AT(x[0])},
-    {"rocket.y", "m", "rear adaptor's offset from the axis, in S", AT(x[1])},
-    {"rocket.z", "m", "rear adaptor's offset from the axis, in S", AT(x[2])},
-    {"rocket.psi", "rad", "relative pitch: A_SB = Rz(psi) Ry(theta) Rx(gamma)", AT(x[3])},
-    {"rocket.theta", "rad", "relative yaw", AT(x[4])},
-    {"rocket.gamma", "rad", "relative roll", AT(x[5])},
+    {"rocket.s", "m", "travel: rear adaptor's station in the tube", AT(x[X_S])},
+    {"rocket.y", "m", "rear adaptor's offset from the axis, in S", AT(x[X_Y])},
+    {"rocket.z", "m", "rear adaptor's offset from the axis, in S", AT(x[X_Z])},
+    {"rocket.psi", "rad", "relative pitch: A_SB = Rz(psi) Ry(theta) Rx(gamma)", AT(x[X_PSI])},
+    {"rocket.theta", "rad", "relative yaw", AT(x[X_THETA])},
+    {"rocket.gamma", "rad", "relative roll", AT(x[X_GAMMA])},
     {"rocket.s_dot", "m/s", "rate of rocket.s", AT(out.launching.y[0])},
     {"rocket.y_dot", "m/s", "rate of rocket.y", AT(out.launching.y[1])},
     {"rocket.z_dot", "m/s", "rate of rocket.z", AT(out.launching.y[2])},

@@ -59,7 +59,7 @@ static void let_go(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     self->phase.locked = false;
-    self->phase.breech = fmin(self->phase.breech, y[self->launcher.launching.layout.x]);
+    self->phase.breech = fmin(self->phase.breech, y[self->launcher.launching.layout.x + X_S]);
     run->summary.rocket[self->current].t_release = t - self->t_ignition;
     launch_tell(run, LD_EVENT_RELEASE, t, -1);
 }

@@ -25,7 +25,7 @@ static ld_status check_progress(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     const ld_rocket *rocket = self->rocket;
-    double since = t - self->t_ignition, s = y[self->launcher.launching.layout.x];
+    double since = t - self->t_ignition, s = y[self->launcher.launching.layout.x + X_S];
     if (self->phase.passed[0] && since < 0)
         return ld_fail(&run->error, LD_ERR_LAUNCH,
                        "the rocket slid out of the tube's tip at t = %.6g s, %.3g s before its "
@@ -106,7 +106,7 @@ static ld_status report_progress(ld_run *run, double t)
     // a launch's end is not known: the travel's share is the estimate
     const launch_state *self = &run->launch;
     double length = self->launcher.launching.tube.flexible.length, s0 = self->rocket->start_at;
-    double s = propagator_state(run->propagator)[self->launcher.launching.layout.x];
+    double s = propagator_state(run->propagator)[self->launcher.launching.layout.x + X_S];
     double in_tube = fmin(1, sqrt(fmax(0, (s - s0) / (length - s0))));
     double lead_in = self->t_ignition - run->t_start;
     double expected = lead_in + 0.2;

@@ -13,7 +13,7 @@ void launch_record_exit(ld_run *run, double t, const double *landed)
     // the curvature jumps at the tip: its inner value counts, on whichever side the step landed
     double y[LD_MAX_STATES];
     memcpy(y, landed, (size_t)self->launcher.state_count * sizeof(double));
-    y[at->x] = fmin(y[at->x], self->launcher.launching.tube.flexible.length);
+    y[at->x + X_S] = fmin(y[at->x + X_S], self->launcher.launching.tube.flexible.length);
     ld_rocket_summary *rocket = &run->summary.rocket[self->current];
     launching_output out;
     launching_pose pose;
@@ -32,11 +32,11 @@ void launch_record_exit(ld_run *run, double t, const double *landed)
     rocket->pitch_rate = angles.pitch_rate;
     rocket->yaw_rate = angles.yaw_rate;
     const double *x = y + at->x, *w = out.y + 3;
-    rocket->relative.y = x[1];
-    rocket->relative.z = x[2];
-    rocket->relative.psi = x[3];
-    rocket->relative.theta = x[4];
-    rocket->relative.gamma = x[5];
+    rocket->relative.y = x[X_Y];
+    rocket->relative.z = x[X_Z];
+    rocket->relative.psi = x[X_PSI];
+    rocket->relative.theta = x[X_THETA];
+    rocket->relative.gamma = x[X_GAMMA];
     rocket->relative.w_x = w[0];
     rocket->relative.w_y = w[1];
     rocket->relative.w_z = w[2];

@@ -104,7 +104,7 @@ static int rates(const launch_state *self, const linear_system *system,
     memcpy(r + half, y_dot + at->v, 6 * sizeof(double));
     memcpy(r + half + 6, y_dot + at->q_dot, (size_t)at->nq * sizeof(double));
     if (phase->rocket) {
-        memcpy(r + tube, y_dot + at->x, 6 * sizeof(double));
+        memcpy(r + tube, y_dot + at->x, X_COUNT * sizeof(double));
         memcpy(r + half + tube, y_dot + at->V, 6 * sizeof(double));
     }
     for (int i = 0; i < system->base; i++) {

@@ -119,10 +119,10 @@ static void find_tolerances(const launch_state *self, tolerances *all)
         atol[at->r + i] = 1e-2 * tolerance;
         all->absolute[at->r + i] = true;
         atol[at->v + i] = atol[at->w + i] = tolerance;
-        atol[at->x + i] = i == 0 ? tolerance : 1e-2 * tolerance;
-        atol[at->x + 3 + i] = 1e-2 * tolerance;
         atol[at->V + i] = atol[at->V + 3 + i] = tolerance;
     }
+    for (int i = 0; i < X_COUNT; i++)
+        atol[at->x + i] = i == X_S ? tolerance : 1e-2 * tolerance;
     for (int i = 0; i < 4; i++)
         atol[at->quaternion + i] = 1e-2 * tolerance;
     for (int i = 0; i < at->nq; i++) {

@@ -21,7 +21,7 @@ static void lay_out(launching_layout *at, int nq)
     at->w = n, n += 3;
     at->q = n, n += nq;
     at->q_dot = n, n += nq;
-    at->x = n, n += 6;
+    at->x = n, n += X_COUNT;
     at->V = n, n += 6;
     at->count = n;
 }
@@ -136,12 +136,12 @@ void launching_rates(const launching_system *self, const double *state, const la
     memcpy(state_dot + at->q_dot, out->q_ddot, (size_t)at->nq * sizeof(double));
     if (rocket) {
         // V in R: d/dt V = [a_O1; alpha_B] - w x V
-        memcpy(state_dot + at->x, out->x_dot, 6 * sizeof(double));
+        memcpy(state_dot + at->x, out->x_dot, X_COUNT * sizeof(double));
         v3 v_O1 = v3_from(state + at->V), w_B = v3_from(state + at->V + 3);
         v3_store(state_dot + at->V, v3_sub(out->a_O1, v3_cross(w, v_O1)));
         v3_store(state_dot + at->V + 3, v3_sub(out->alpha_B, v3_cross(w, w_B)));
     } else {
-        memset(state_dot + at->x, 0, 12 * sizeof(double));
+        memset(state_dot + at->x, 0, (X_COUNT + 6) * sizeof(double));
     }
 }
 
