@@ -56,6 +56,7 @@ typedef struct ld_run_options {
     /// (0 to 1, an estimate); return false to stop: the run then ends with LD_ERR_INTERRUPTED and
     /// keeps what it has.
     bool (*progress)(void *self, double share);
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_run_options;
 
 /// Runs from the start to the end that the model asks for. On failure the summary holds what was
