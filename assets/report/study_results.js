@@ -13,23 +13,29 @@ const MORE = [
   ["tip.pitch_rate", "tip of the tube, pitch rate", "mrad/s", 1e3],
   ["tip.yaw_rate", "tip of the tube, yaw rate", "mrad/s", 1e3],
   ["downrange", "downrange", "m", 1],
-  ["t_impact", "impact, on the run's clock", "s", 1],
+  ["t_impact", "impact, from ignition", "s", 1],
 ];
 
 const PARTS = [
   ["Attitude and rates at the exit", /^(pitch|yaw)/],
   ["Speeds at the exit", /speed$|^spin/],
-  ["Flight", /^(apogee|downrange|drift|range|t_impact|time_of_flight|impact|max)/],
+  ["Flight", /^(apogee|downrange|drift|range|t_impact|time_of_flight|impact|max_mach|max_angle)/],
   ["Against the launcher at the exit", /^(tip_off|aim)\./],
   ["Tip of the tube", /^tip\./],
   ["Place and velocity at the exit", /^exit\./],
   ["Instants", /^t_/],
+  ["Greatest forces in the tube", /^max_/],
 ];
+
+// Whether a key of the lists is that of a result; key.* is that of one result an adaptor.
+const isOf = (key, name) => key === name || key === `flight.${name}` ||
+  (key.endsWith("*") && name.startsWith(key.slice(0, -1)));
 
 // A result of the study's data with all that.
 export function describe({ name, unit, ...rest }) {
-  const row = [...ROCKET, ...MORE].find(([key]) => key === name || key === `flight.${name}`);
-  const [, label, shown, factor] = row ?? [name, name, unit, 1];
+  const row = [...ROCKET, ...MORE].find(([key]) => isOf(key, name));
+  const [key, pattern, shown, factor] = row ?? [name, name, unit, 1];
+  const label = pattern.replace("%s", () => name.slice(key.length - 1).replaceAll("_", " "));
   const text = label[0].toUpperCase() + label.slice(1);
   const part = /^(impact|t_impact)/.test(name) ? 2 : PARTS.findIndex(([, pattern]) => pattern.test(name));
   return { ...rest, name, si: unit, label: text, unit: shown, factor, part, axis: shown ? `${label} [${shown}]` : label };

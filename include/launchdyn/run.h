@@ -1,5 +1,5 @@
 /// A run that is stepped: begun, taken forward to a time or to the next event, looked at, told when
-/// to ignite, saved and loaded, ended.
+/// to ignite or where its base is, saved and loaded, ended.
 ///
 /// The steps are those of ld_simulation_run(), however often and wherever the run is stopped to be
 /// looked at: between their ends values are interpolated. So rows and summary have the same bits,
@@ -83,6 +83,23 @@ const ld_summary *ld_run_summary(const ld_run *run);
 /// @return LD_OK; LD_ERR_INPUT (it burns already, t lies behind or after the next firing)
 ld_status ld_run_ignite(ld_run *run, double t, ld_error *error);
 
+/// An input: where the base is at the present time and how it moves (base.kind: external). Until it
+/// is told again it goes on with its velocity, and with the acceleration that its last two
+/// velocities tell unless base.extrapolation says without. A step ends at every time to which such
+/// a run is taken: tell the base there, then go on.
+/// @return LD_OK; LD_ERR_INPUT (another kind of base, a number that is not finite, a quaternion
+///         whose length is not 1; the launch is over); what ended the run
+ld_status ld_run_tell_base(ld_run *run, const ld_base_frame *base, ld_error *error);
+
+/// What the launching tube does to its base, all in I.
+typedef struct ld_base_wrench {
+    double force[3];  ///< [N]
+    double moment[3]; ///< [N m] about the undeformed tube's rear end
+} ld_base_wrench;
+
+/// That of the present time, on a base of any kind. @return as ld_run_number()
+ld_status ld_run_base_wrench(ld_run *run, ld_base_wrench *wrench, ld_error *error);
+
 /// Writes the state as bytes, with the version of their form, a digest of the model and a checksum.
 /// Loaded, in this process or another one of the same program, it goes on with the same bits.
 /// @param bytes [capacity] may be NULL where capacity is 0
@@ -91,7 +108,7 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error);
 ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
 
 /// Goes on where the run that was saved stood. The sink gets geometry, columns, and the rows that
-/// come after.
+/// come after; CPU times count from here on.
 /// @param simulation of an equal model
 /// @param run NULL after a failure
 /// @return LD_OK; LD_ERR_INPUT (no state of a run, cut off, damaged, of another model or another

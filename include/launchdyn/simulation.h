@@ -48,7 +48,16 @@ typedef struct ld_simulation ld_simulation;
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **simulation, ld_error *error);
 void ld_simulation_free(ld_simulation *simulation);
 
-/// What the caller wants to hear while it runs; every member may be NULL or 0.
+/// Where the undeformed tube is on its base, and how that moves: its rear end, and axes of which x
+/// goes along it.
+typedef struct ld_base_frame {
+    double position[3];   ///< [m] of the rear end in I
+    double quaternion[4]; ///< tube axes against I, scalar part first, of length 1
+    double velocity[3];   ///< [m/s] of the rear end, in I
+    double rate[3];       ///< [rad/s] angular velocity, in I
+} ld_base_frame;
+
+/// What the caller wants to hear while it runs, and what it says; every member may be NULL or 0.
 typedef struct ld_run_options {
     const ld_sink *sink; ///< rows of the history at the output steps and at the key instants
     void *self;
@@ -56,6 +65,7 @@ typedef struct ld_run_options {
     /// (0 to 1, an estimate); return false to stop: the run then ends with LD_ERR_INTERRUPTED and
     /// keeps what it has.
     bool (*progress)(void *self, double share);
+    const ld_base_frame *base; ///< of base.kind: external, which needs it, at the start of the run
     const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_run_options;
 

@@ -637,7 +637,7 @@ typedef enum ld_statistic { LD_STATISTIC_MEAN, LD_STATISTIC_DEVIATION } ld_stati
 
 /// How well a statistic of a result must be known for a study to stop before its last sample.
 typedef struct ld_until {
-    char result[LD_MAX_NAME]; ///< name of the result's column, e.g. "t_rear"
+    char result[2 * LD_MAX_NAME]; ///< name of the result's column, e.g. "t_rear"
     ld_statistic statistic;
     double half_width; ///< of the 95 % interval, in SI or, where relative, as a share of the
                        ///< statistic's magnitude

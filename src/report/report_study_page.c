@@ -1,6 +1,8 @@
 // What the report of studies shows, as JSON. All statistics are computed here, none in the page.
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "launchdyn/version.h"
 #include "report/report_study.h"
@@ -16,10 +18,10 @@ enum {
     MOST_FAILURES = 200
 };
 
-static int most_places(const study_source *source)
+static int most_places(const study_source *source, int results)
 {
     double bytes = source->share * BYTES_OF_PLACES;
-    int fit = (int)(bytes / (BYTES_OF_A_PLACE * STUDY_RESULTS * source->series_count));
+    int fit = (int)(bytes / (BYTES_OF_A_PLACE * results * source->series_count));
     return fit < REPORT_PLACES ? fit : REPORT_PLACES;
 }
 
@@ -168,7 +170,7 @@ static study_bins sort_into_bins(const study_source *source)
 }
 
 // Of a result that some series has: running estimates, bins, statistics with a histogram.
-static ld_status write_result(FILE *json, const study_source *source, const study_result *result,
+static ld_status write_result(FILE *json, const study_source *source, const study_column *result,
                               int places)
 {
     group_statistics statistics[REPORT_SERIES];
@@ -206,23 +208,49 @@ static ld_status write_result(FILE *json, const study_source *source, const stud
     return LD_OK;
 }
 
+// The results of all series in the order of the first that has them; to be freed. NULL: no memory.
+static const study_column **list_results(const study_source *source, int *count)
+{
+    int most = 0;
+    for (int i = 0; i < source->series_count; i++)
+        most += source->series[i].data->result_count;
+    const study_column **list = calloc((size_t)most + 1, sizeof *list);
+    *count = 0;
+    for (int i = 0; list && i < source->series_count; i++) {
+        const study_data *data = source->series[i].data;
+        for (int k = 0; k < data->result_count; k++) {
+            int same = 0;
+            while (same < *count && strcmp(list[same]->name, data->column[k].name) != 0)
+                same++;
+            if (same == *count)
+                list[(*count)++] = &data->column[k];
+        }
+    }
+    return list;
+}
+
 static ld_status write_results(FILE *json, study_source *source)
 {
-    int places = most_places(source);
+    int results;
+    const study_column **result = list_results(source, &results);
+    if (!result)
+        return LD_ERR_MEMORY;
+    int places = most_places(source, results);
     bool first = true;
     ld_status status = LD_OK;
-    for (const study_result *result = study_results; result->name && !status; result++) {
+    for (int k = 0; k < results && !status; k++) {
         size_t count = 0;
         for (int i = 0; i < source->series_count; i++) {
-            read_values(source, &source->series[i], &result->name, 1);
+            read_values(source, &source->series[i], &result[k]->name, 1);
             count += source->series[i].values.count;
         }
         if (count == 0)
             continue;
         fputs(first ? "\n" : ",\n", json);
         first = false;
-        status = write_result(json, source, result, places);
+        status = write_result(json, source, result[k], places);
     }
+    free(result);
     return status;
 }
 

@@ -131,9 +131,8 @@ static void write_number(json_writer *json, const quantity_walk *at, const void 
 static void write_numbers(json_writer *json, const quantity_table *table,
                           const quantity_things *things, const void *from)
 {
-    bool launch = model_has_launcher(things->model);
     for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at))
-        if ((launch || !at.group->launch) && quantity_is_there(at.group, from))
+        if ((things->launcher || !at.group->launch) && quantity_is_there(at.group, from))
             write_number(json, &at, from);
     json_enter(json, "");
 }
@@ -191,7 +190,7 @@ static void write_texts(json_writer *json, const ld_origin *origin)
 static void write_summary(json_writer *json, const ld_model *model, const ld_summary *summary,
                           const ld_origin *origin)
 {
-    const quantity_things things = {.model = model};
+    const quantity_things things = quantity_things_of(model);
     json_open(json, NULL, '{');
     json_text(json, "title", model->title ? model->title : "");
     json_text(json, "version", LD_VERSION);

@@ -34,7 +34,7 @@ static void print_block(const quantity_table *table, const quantity_things *thin
     for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at)) {
         quantity_walk shown = at;
         if (at.group->backwards)
-            shown.item = quantity_count(at.group->each, things) - 1 - at.item;
+            shown.item = things->count[at.group->each] - 1 - at.item;
         if (at.group->block == block && at.row->line.label)
             print_line(&shown, from, stream);
     }
@@ -98,7 +98,7 @@ static void print_cost(const ld_summary *summary, bool launch, FILE *stream)
 
 void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *stream)
 {
-    const quantity_things things = {.model = model};
+    const quantity_things things = quantity_things_of(model);
     bool launch = model_has_launcher(model);
     const char *unnamed = launch ? "Launch" : "Flight alone";
     fprintf(stream, "%s\n", model->title && *model->title ? VISIBLE(model->title) : unnamed);

@@ -294,7 +294,7 @@ static double percent(double share)
 
 static void print_statistic(FILE *stream, const ld_until *until)
 {
-    const study_result *result = study_result_named(until->result);
+    const quantity *result = study_result_like(until->result);
     double value = until->relative ? percent(until->half_width) : until->half_width;
     fprintf(stream, "%s.%s: ", until->result,
             until->statistic == LD_STATISTIC_MEAN ? "mean" : "deviation");

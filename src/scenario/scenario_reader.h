@@ -148,7 +148,7 @@ void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *mod
 void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_model *model);
 // Its groups of correlated factors, and the statistics of its stopping rule.
 void fill_correlated(scenario_reader *reader, const tree_node *list, ld_model *model);
-void fill_until(scenario_reader *reader, const tree_node *map, ld_scatter *scatter);
+void fill_until(scenario_reader *reader, const tree_node *map, ld_model *model);
 
 // A text in double quotes.
 void scenario_print_text(FILE *stream, const char *text);

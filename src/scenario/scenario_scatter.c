@@ -367,5 +367,5 @@ void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_mo
     if (correlated && factors)
         fill_correlated(reader, correlated, model);
     if (until)
-        fill_until(reader, until, &model->scatter);
+        fill_until(reader, until, model);
 }

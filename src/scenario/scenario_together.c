@@ -16,7 +16,7 @@ static const char *wrong_with_name(const char *name)
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (strcmp(name, keys[i]) == 0)
             return "is a column of every study; give another name";
-    return study_result_named(name) ? "is the name of a result; give another name" : NULL;
+    return study_result_like(name) ? "is the name of a result; give another name" : NULL;
 }
 
 const tree_node *together_paths(scenario_reader *reader, const tree_node *block, const char *path)

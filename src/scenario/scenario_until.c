@@ -13,21 +13,19 @@ enum { STATISTICS = sizeof statistic_names / sizeof *statistic_names };
 
 // Refuses a key that names no statistic of a result.
 static void refuse_name(scenario_reader *reader, const tree_node *node, const char *path,
-                        const char *result)
+                        const char *result, const quantity_things *things)
 {
     const char *point = strrchr(node->key, '.');
     const char *statistic = point ? ld_nearest_name(point + 1, statistic_names, STATISTICS) : NULL;
-    name_suggestion best = suggestion_begin(result), whole = suggestion_begin(node->key);
-    for (const study_result *r = study_results; r->name; r++) {
-        suggestion_offer(&best, r->name);
-        suggestion_offer(&whole, r->name);
-    }
+    char best[QUANTITY_NAME], whole[QUANTITY_NAME];
+    study_result_near(things, result, best);
+    study_result_near(things, node->key, whole);
     // without a statistic, what stands before the last point is no result's name
-    const char *near = study_result_named(result) ? result : whole.name ? whole.name : best.name;
-    if (near && near != whole.name && statistic)
+    const char *near = study_result_find(things, result).row ? result : *whole ? whole : best;
+    if (*near && near != whole && statistic)
         reader_refuse(reader, node->key_at, path,
                       "no statistic of a result, did you mean \"%s.%s\"?", near, statistic);
-    else if (near)
+    else if (*near)
         reader_refuse(reader, node->key_at, path,
                       "no statistic of a result, did you mean \"%s.mean\" or \"%s.deviation\"?",
                       near, near);
@@ -37,7 +35,7 @@ static void refuse_name(scenario_reader *reader, const tree_node *node, const ch
 }
 
 static void read_half_width(scenario_reader *reader, const tree_node *node, const char *path,
-                            const study_result *result, ld_until *until)
+                            const quantity *result, ld_until *until)
 {
     field_row row = {
         .kind = FIELD_NUMBER, .unit = result->unit, .range = {0, INFINITY, 1, 1}, .count = 1};
@@ -53,9 +51,10 @@ static void read_half_width(scenario_reader *reader, const tree_node *node, cons
     quantity_read(reader, &row, node->at, path, node->text, &until->half_width, 1);
 }
 
-static void read_until(scenario_reader *reader, const tree_node *node, ld_until *until)
+static void read_until(scenario_reader *reader, const tree_node *node,
+                       const quantity_things *things, ld_until *until)
 {
-    char path[READER_MAX_PATH], name[LD_MAX_NAME] = "";
+    char path[READER_MAX_PATH], name[sizeof until->result] = "";
     const char *point = strrchr(node->key, '.');
     size_t length = point ? (size_t)(point - node->key) : strlen(node->key);
     int statistic = 0;
@@ -63,9 +62,9 @@ static void read_until(scenario_reader *reader, const tree_node *node, ld_until 
     snprintf(name, sizeof name, "%.*s", (int)length, node->key);
     while (point && statistic < STATISTICS && strcmp(point + 1, statistic_names[statistic]) != 0)
         statistic++;
-    const study_result *result = study_result_named(name);
+    const quantity *result = study_result_find(things, name).row;
     if (!point || statistic == STATISTICS || !result) {
-        refuse_name(reader, node, path, name);
+        refuse_name(reader, node, path, name, things);
         return;
     }
     memcpy(until->result, name, sizeof name);
@@ -73,13 +72,15 @@ static void read_until(scenario_reader *reader, const tree_node *node, ld_until 
     read_half_width(reader, node, path, result, until);
 }
 
-void fill_until(scenario_reader *reader, const tree_node *map, ld_scatter *scatter)
+void fill_until(scenario_reader *reader, const tree_node *map, ld_model *model)
 {
+    ld_scatter *scatter = &model->scatter;
+    const quantity_things things = quantity_things_of(model);
     if (map->kind != NODE_MAP || map->count < 1 || map->count > LD_MAX_UNTIL) {
         reader_refuse(reader, map->key_at, "scatter.until",
                       "expected 1 to %d statistics, such as {t_rear.mean: 0.1 %%}", LD_MAX_UNTIL);
         return;
     }
     for (const tree_node *node = map->first; node; node = node->next)
-        read_until(reader, node, &scatter->until[scatter->until_count++]);
+        read_until(reader, node, &things, &scatter->until[scatter->until_count++]);
 }

@@ -76,7 +76,7 @@ const quantity_table flight_quantities = {groups, sizeof groups / sizeof *groups
 
 ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error)
 {
-    quantity_things things = {.earth = !system->earth.flat};
+    const quantity_things things = {.count = {[EACH_RUN] = 1, [EACH_EARTH] = !system->earth.flat}};
     return quantity_columns_make(columns, &flight_quantities, &things, error);
 }
 

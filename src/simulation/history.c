@@ -335,8 +335,8 @@ static void find(const launch_state *self, double t, const double *y, double ene
 
 ld_status history_build(ld_simulation *self, ld_error *error)
 {
-    const quantity_things things = {.model = self->model,
-                                    .coordinates = self->launcher.launching.layout.nq};
+    quantity_things things = quantity_things_of(self->model);
+    things.count[EACH_COORDINATE] = self->launcher.launching.layout.nq;
     return quantity_columns_make(&self->columns, &launch_quantities, &things, error);
 }
 

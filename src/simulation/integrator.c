@@ -526,6 +526,7 @@ static void archive_step(integrator *self, archive *bytes)
     archive_bool(bytes, &self->shortened);
     for (int i = 0; i < 5; i++)
         archive_doubles(bytes, data(vectors[i]), self->settings.n);
+    bytes->failed |= !(self->t_previous <= self->t) || !(self->anew || self->h > 0);
 }
 
 void integrator_archive(integrator *self, archive *bytes)

@@ -203,6 +203,8 @@ ld_status launch_begin(ld_run *run)
     set_up_rocket(run, 0);
     ld_status status = launch_check_base(run, run->t_start);
     if (!status)
+        status = launch_begin_base(run);
+    if (!status)
         status = find_start(run, y);
     if (!status)
         status = launch_open_output(run);

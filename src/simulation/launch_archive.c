@@ -28,10 +28,7 @@ static void archive_launch(archive *bytes, launch_state *self)
     archive_double(bytes, &self->t_ignition);
     archive_int(bytes, &self->piece, -1, (int)self->motor->corner_count - 1);
     archive_phase(bytes, &self->phase);
-    for (int i = 0; i < HINGES; i++) {
-        archive_double(bytes, &self->rest.hinge[i].angle);
-        archive_double(bytes, &self->rest.hinge[i].torque);
-    }
+    archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_bool(bytes, &self->on_breech);
     for (int i = 0; i < 3; i++)
         archive_doubles(bytes, self->aim.a[i], 3);
@@ -47,6 +44,9 @@ static void archive_output(archive *bytes, ld_run *run)
                          &run->last_row,     &run->next_progress, &run->greatest_lock_force};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         archive_double(bytes, numbers[i]);
+    const ld_run_settings *steps = &run->launch.model->run;
+    bytes->failed |= run->output_step != steps->output_step_lead_in &&
+                     run->output_step != steps->output_step_tube;
     archive_count(bytes, &run->output_index);
     archive_count(bytes, &run->steps_since_progress);
 }
@@ -55,7 +55,7 @@ static void archive_output(archive *bytes, ld_run *run)
 static void archive_summary(archive *bytes, ld_run *run)
 {
     ld_summary *summary = &run->summary;
-    const quantity_things things = {.model = run->launch.model};
+    const quantity_things things = quantity_things_of(run->launch.model);
     archive_int(bytes, &summary->rocket_count, 0, run->launch.model->firing_count);
     for (int i = 0; i < summary->rocket_count; i++) {
         ld_rocket_summary *rocket = &summary->rocket[i];
@@ -96,6 +96,17 @@ static void archive_present(archive *bytes, ld_run *run)
     }
 }
 
+// The present lies in the last step, or at its end; rows come after what has been gone through.
+static void check_instants(const ld_run *run, archive *bytes)
+{
+    double begins = propagator_previous_time(run->propagator);
+    double ends = propagator_time(run->propagator);
+    bool present = run->ahead ? begins <= run->t && run->t <= ends : run->t == ends;
+    double next_row = run->output_from + (double)run->output_index * run->output_step;
+    bool rows = run->next_output == next_row && next_row > (run->ahead ? begins : ends);
+    bytes->failed |= !present || !rows;
+}
+
 void launch_archive(ld_run *run, archive *bytes)
 {
     archive_launch(bytes, &run->launch);
@@ -103,4 +114,5 @@ void launch_archive(ld_run *run, archive *bytes)
     archive_output(bytes, run);
     archive_summary(bytes, run);
     propagator_archive(run->propagator, bytes);
+    check_instants(run, bytes);
 }

@@ -141,8 +141,9 @@ double launch_next_stop(const ld_run *run, double t)
     stop = fmin(stop, run->t_end);
     if (base->kind->next_corner)
         stop = fmin(stop, base->kind->next_corner(base, t));
+    // where nobody has said when, a step still wants a finite end
     if (t < self->t_ignition)
-        return fmin(stop, self->t_ignition);
+        return fmin(stop, isinf(self->t_ignition) ? t + 1 : self->t_ignition);
     if (self->current + 1 < self->model->firing_count)
         stop = fmin(stop, self->phase.rocket ? self->model->firing[self->current + 1].at
                                              : launch_change_instant(self));

@@ -16,6 +16,7 @@ struct ld_run {
     ld_status status;       // what ended the run early, with its sentence
     ld_error error;
     propagator *propagator;
+    base_frame told; // frame T at the start, of a base that is told
 
     double t;   // [s] the present
     bool ahead; // a step ends later than the present: what happens at its end has not
@@ -55,6 +56,15 @@ ld_status launch_advance(ld_run *run, double t, bool to_event);
 ld_status launch_stand(ld_run *run);
 // Lights the rocket at the present, at which a step ends.
 ld_status launch_ignite(ld_run *run);
+
+// ---- a base that is told where it is (launch_base.c)
+
+// Takes what the options say of it at the start.
+ld_status launch_begin_base(ld_run *run);
+// At the present, of which a step then ends. Only what was told is to blame for what it returns.
+ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *error);
+// On any base, in the state y of the present.
+ld_status launch_wrench(ld_run *run, const double *y, ld_base_wrench *wrench, ld_error *error);
 
 // ---- rows (launch_rows.c)
 

@@ -520,6 +520,11 @@ double propagator_time(const propagator *self)
     return integrator_time(self->integrator);
 }
 
+double propagator_previous_time(const propagator *self)
+{
+    return integrator_previous_time(self->integrator);
+}
+
 const double *propagator_state(const propagator *self)
 {
     return self->apart ? self->state : integrator_state(self->integrator);
@@ -599,6 +604,9 @@ void propagator_archive(propagator *self, archive *bytes)
     for (int i = 0; i < 3; i++)
         archive_double(bytes, instants[i]);
     archive_count(bytes, &self->exchanges);
+    // the exchanges are counted up to one that lies ahead
+    double step = self->launch->model->run.coupling_step;
+    bytes->failed |= !(self->t_first + ((double)self->exchanges + 1) * step >= self->t);
     archive_frame(bytes, &self->chassis);
     archive_frame(bytes, &self->tube);
     archive_wrench(bytes, &self->on_chassis);

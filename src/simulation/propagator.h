@@ -17,6 +17,7 @@ ld_status propagator_start(propagator *self, double t, const double *y, bool ane
 integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error);
 integrator_outcome propagator_return(propagator *self, double t, ld_error *error);
 double propagator_time(const propagator *self);
+double propagator_previous_time(const propagator *self);
 const double *propagator_state(const propagator *self);
 void propagator_interpolate(propagator *self, double t, double *y);
 int propagator_event(const propagator *self, event_kind kind, int index);

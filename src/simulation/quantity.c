@@ -5,41 +5,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-int quantity_count(quantity_each each, const quantity_things *things)
+quantity_things quantity_things_of(const ld_model *model)
 {
-    const ld_model *model = things->model;
-    bool vehicle = model && model_has_vehicle(model);
-    switch (each) {
-    case EACH_VEHICLE:
-        return vehicle;
-    case EACH_EARTH:
-        return things->earth;
-    case EACH_COORDINATE:
-        return things->coordinates;
-    case EACH_ADAPTOR:
-        return model ? model->rocket.adaptor_count : 0;
-    case EACH_HINGE:
-        return vehicle ? 2 : 0;
-    case EACH_WHEEL:
-        return vehicle ? model->base.vehicle.wheel_count : 0;
-    default:
-        return 1;
-    }
+    static const char hinges[2][16] = {"azimuth", "elevation"};
+    if (!model)
+        return (quantity_things){0};
+    bool vehicle = model_has_vehicle(model);
+    return (quantity_things){
+        .count = {[EACH_RUN] = 1,
+                  [EACH_VEHICLE] = vehicle,
+                  [EACH_ADAPTOR] = model->rocket.adaptor_count,
+                  [EACH_HINGE] = vehicle ? 2 : 0,
+                  [EACH_WHEEL] = vehicle ? model->base.vehicle.wheel_count : 0},
+        .name = {[EACH_ADAPTOR] = model->rocket.adaptor[0].name,
+                 [EACH_HINGE] = hinges[0],
+                 [EACH_WHEEL] = model->base.vehicle.wheel[0].name},
+        .stride = {[EACH_ADAPTOR] = sizeof model->rocket.adaptor[0],
+                   [EACH_HINGE] = sizeof hinges[0],
+                   [EACH_WHEEL] = sizeof model->base.vehicle.wheel[0]},
+        .launcher = model_has_launcher(model),
+    };
 }
 
-static const char *name_of(quantity_each each, int item, const quantity_things *things)
+const char *quantity_name_of(const quantity_things *things, quantity_each each, int item)
 {
-    static const char *const hinges[] = {"azimuth", "elevation"};
-    switch (each) {
-    case EACH_ADAPTOR:
-        return things->model->rocket.adaptor[item].name;
-    case EACH_HINGE:
-        return hinges[item];
-    case EACH_WHEEL:
-        return things->model->base.vehicle.wheel[item].name;
-    default:
-        return "";
-    }
+    return things->name[each] + (size_t)item * things->stride[each];
+}
+
+int quantity_item_named(const quantity_things *things, quantity_each each, const char *name)
+{
+    for (int i = 0; i < things->count[each]; i++)
+        if (strcmp(quantity_name_of(things, each, i), name) == 0)
+            return i;
+    return -1;
 }
 
 void quantity_text(const char *text, quantity_each each, int item, const quantity_things *things,
@@ -48,11 +46,11 @@ void quantity_text(const char *text, quantity_each each, int item, const quantit
     const char *mark = strstr(text, "%s");
     if (!mark)
         snprintf(to, size, "%s", text);
-    else if (each == EACH_COORDINATE)
+    else if (!things->name[each])
         snprintf(to, size, "%.*s%d%s", (int)(mark - text), text, item + 1, mark + 2);
     else
-        snprintf(to, size, "%.*s%s%s", (int)(mark - text), text, name_of(each, item, things),
-                 mark + 2);
+        snprintf(to, size, "%.*s%s%s", (int)(mark - text), text,
+                 quantity_name_of(things, each, item), mark + 2);
 }
 
 // Leaves groups of which there is nothing.
@@ -60,7 +58,7 @@ static void settle(quantity_walk *walk)
 {
     const quantity_table *table = walk->table;
     while (walk->at_group < table->groups &&
-           walk->item >= quantity_count(table->group[walk->at_group].each, walk->things)) {
+           walk->item >= walk->things->count[table->group[walk->at_group].each]) {
         walk->at_group++;
         walk->item = walk->at_row = 0;
     }
@@ -182,7 +180,7 @@ ld_status quantity_columns_make(quantity_columns *self, const quantity_table *ta
     size_t count = 0, several = 0;
     for (int i = 0; i < table->groups; i++) {
         const quantity_group *group = &table->group[i];
-        size_t columns = (size_t)(quantity_count(group->each, things) * group->rows);
+        size_t columns = (size_t)(things->count[group->each] * group->rows);
         count += columns;
         several += group->each > EACH_EARTH ? columns : 0;
     }

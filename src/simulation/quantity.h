@@ -22,6 +22,7 @@ typedef enum quantity_each {
     EACH_ADAPTOR,
     EACH_HINGE, // azimuth, elevation
     EACH_WHEEL,
+    EACH_COUNT
 } quantity_each;
 
 // A number in the struct that a table is about.
@@ -91,14 +92,21 @@ typedef struct quantity_table {
     int groups;
 } quantity_table;
 
-// What tells how many there are of each, and their names.
+// How many there are of each, and their names: that of item i stands i * stride behind the first;
+// NULL: they are numbered from 1.
 typedef struct quantity_things {
-    const ld_model *model; // NULL: none that have names
-    int coordinates;       // modal
-    bool earth;            // round or WGS 84
+    int count[EACH_COUNT];
+    const char *name[EACH_COUNT];
+    size_t stride[EACH_COUNT]; // [bytes]
+    bool launcher;             // there is one
 } quantity_things;
 
-int quantity_count(quantity_each each, const quantity_things *things);
+// Those of a model, which must outlive them (NULL: none); coordinates are of the tube as built.
+quantity_things quantity_things_of(const ld_model *model);
+
+const char *quantity_name_of(const quantity_things *things, quantity_each each, int item);
+// The item of that name; -1: there is none.
+int quantity_item_named(const quantity_things *things, quantity_each each, const char *name);
 
 // The longest name: the longest of a row with the longest of a thing.
 enum { QUANTITY_NAME = 2 * LD_MAX_NAME, QUANTITY_TEXT = 96 + LD_MAX_NAME };

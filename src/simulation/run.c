@@ -69,7 +69,10 @@ static ld_status advance(ld_run *run, double t, bool to_event, ld_error *error)
         return ld_fail(error, LD_ERR_INPUT,
                        "the run stands at t = %.9g s and cannot go on to t = %.9g s", run->t, t);
     double start = simulation_cpu_now();
+    if (run->launch.launcher.base.kind->tell) // what it is told comes then
+        run->t_input = t;
     launch_advance(run, t, to_event);
+    run->t_input = INFINITY;
     run->cpu += simulation_cpu_now() - start;
     return told(run, error);
 }
@@ -100,6 +103,18 @@ double ld_run_time(const ld_run *run)
 bool ld_run_is_finished(const ld_run *run)
 {
     return run->status || !has_launch(run) || launch_is_finished(run);
+}
+
+ld_status ld_run_tell_base(ld_run *run, const ld_base_frame *base, ld_error *error)
+{
+    if (run->status)
+        return told(run, error);
+    if (ld_run_is_finished(run))
+        return ld_fail(error, LD_ERR_INPUT, "the launch is over, the base is told nothing more");
+    double start = simulation_cpu_now();
+    ld_status status = launch_tell_base(run, base, error);
+    run->cpu += simulation_cpu_now() - start;
+    return status ? status : told(run, error);
 }
 
 // ---- what it tells
@@ -134,6 +149,15 @@ ld_status ld_run_number(ld_run *run, const char *name, double *value, ld_error *
     ld_status status = ld_run_row(run, run->row, error);
     *value = status ? NAN : run->row[i];
     return status;
+}
+
+ld_status ld_run_base_wrench(ld_run *run, ld_base_wrench *wrench, ld_error *error)
+{
+    if (run->status)
+        return told(run, error);
+    if (!has_launch(run))
+        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no base");
+    return launch_wrench(run, present_state(run), wrench, error);
 }
 
 const ld_summary *ld_run_summary(const ld_run *run)

@@ -1,22 +1,21 @@
-// What a study keeps of each rocket.
+// What a study keeps of each rocket: the quantities of a rocket that are marked so, in their order.
 #ifndef LD_SIMULATION_STUDY_RESULTS_H
 #define LD_SIMULATION_STUDY_RESULTS_H
 
-#include <stddef.h>
+#include "simulation/summary_quantities.h"
 
-#include "simulation/summary.h"
+// A way through them, as quantity_first and quantity_next.
+quantity_walk study_result_first(const quantity_things *things);
+void study_result_next(quantity_walk *walk);
+int study_result_count(const quantity_things *things);
+void study_result_name(const quantity_walk *at, char name[QUANTITY_NAME]);
 
-typedef struct study_result {
-    const char *name; // of its column
-    const char *unit; // SI
-    size_t offset;    // of the double in ld_rocket_summary
-} study_result;
+// That of this name; row NULL: there is none. `near`: the name that may be meant, or "".
+quantity_walk study_result_find(const quantity_things *things, const char *name);
+void study_result_near(const quantity_things *things, const char *name, char near[QUANTITY_NAME]);
 
-extern const study_result study_results[]; // ends with a NULL name
-enum { STUDY_RESULTS = 52 };
-
-// The result with that name, or NULL.
-const study_result *study_result_named(const char *name);
+// The row of a result with that name, whatever the adaptors are called; NULL: none.
+const quantity *study_result_like(const char *name);
 
 // Two results of one unit that scatter together.
 typedef struct study_pair {
@@ -27,7 +26,5 @@ typedef struct study_pair {
 
 enum { STUDY_PAIRS = 5 };
 extern const study_pair study_pairs[STUDY_PAIRS];
-
-double study_result_of(const ld_rocket_summary *rocket, const study_result *result);
 
 #endif

@@ -66,10 +66,9 @@ static section section_at(const ld_summary *self, int index)
 static void take_section(const section *s, const quantity_things *things,
                          void (*take)(void *self, const ld_quantity *quantity), void *to)
 {
-    bool launch = things->model->base.kind != LD_BASE_NONE;
     for (quantity_walk at = quantity_first(s->table, things); at.row; quantity_next(&at)) {
         char name[SUMMARY_NAME], text[QUANTITY_NAME], description[512];
-        if ((at.group->launch && !launch) || !quantity_is_there(at.group, s->from))
+        if ((at.group->launch && !things->launcher) || !quantity_is_there(at.group, s->from))
             continue;
         quantity_text(at.row->name, at.group->each, at.item, things, text, sizeof text);
         snprintf(name, sizeof name, "%s%s", s->prefix, text);
@@ -82,7 +81,7 @@ static void take_section(const section *s, const quantity_things *things,
 void ld_summary_each(const ld_summary *self, void (*take)(void *self, const ld_quantity *quantity),
                      void *to)
 {
-    const quantity_things things = {.model = self->model};
+    const quantity_things things = quantity_things_of(self->model);
     section s;
     for (int i = 0; (s = section_at(self, i)).table; i++)
         take_section(&s, &things, take, to);
@@ -119,7 +118,7 @@ static ld_status refuse(const ld_summary *self, const char *name, ld_error *erro
 ld_status ld_summary_number(const ld_summary *self, const char *name, double *value,
                             ld_error *error)
 {
-    const quantity_things things = {.model = self->model};
+    const quantity_things things = quantity_things_of(self->model);
     section s;
     *value = NAN;
     for (int i = 0; (s = section_at(self, i)).table; i++) {

@@ -11,7 +11,7 @@
 #include "simulation/study_results.h"
 #include "studies/store.h"
 
-#define FORMAT "3"
+#define FORMAT "4"
 
 // The scenario as text in which nothing is left out but when to stop: the rule, and the number of
 // samples where more may be added.
@@ -53,8 +53,12 @@ static ld_status make_tables(study_store *self, ld_error *error)
     for (int i = 0; i < scatter->factor_count; i++)
         if (store_is_of_rocket(self, i))
             fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
-    for (const study_result *r = study_results; r->name; r++)
-        fprintf(stream, ", \"%s\" REAL", r->name);
+    quantity_walk at = study_result_first(&self->study->things);
+    for (; at.row; study_result_next(&at)) {
+        char name[QUANTITY_NAME];
+        study_result_name(&at, name);
+        fprintf(stream, ", \"%s\" REAL", name);
+    }
     fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID;", stream);
     ld_status status = fclose(stream) == 0 ? store_execute(self, text, error) : LD_ERR_MEMORY;
     free(text);

@@ -5,6 +5,7 @@
 #define LD_STUDIES_STUDY_H
 
 #include "launchdyn/study.h"
+#include "simulation/study_results.h"
 #include "studies/record.h"
 #include "studies/sample.h"
 
@@ -14,6 +15,7 @@ struct ld_study {
     ld_model *model;        // [points] of the sweep; without one the nominal one
     study_sampler *sampler; // [points]
     int64_t samples;        // their numbers go from 1 to this
+    quantity_things things; // of the nominal model: adaptors, of which each has results
     study_shape shape;      // the most that a sample's record holds
 };
 

@@ -61,14 +61,6 @@ static bool is_key(const char *name)
     return false;
 }
 
-static const study_result *result_named(const char *name)
-{
-    for (const study_result *r = study_results; r->name; r++)
-        if (strcmp(r->name, name) == 0)
-            return r;
-    return NULL;
-}
-
 // Adds the columns of a table: first its results, then its factors, are counted.
 static ld_status list_table(study_data *data, const char *table, bool factors, ld_error *error)
 {
@@ -81,7 +73,7 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
     ld_status status = LD_OK;
     while (!status && sqlite3_step(row) == SQLITE_ROW) {
         const char *name = (const char *)sqlite3_column_text(row, 1);
-        const study_result *result = result_named(name);
+        const quantity *result = study_result_like(name);
         self->has_points |= strcmp(name, "point") == 0;
         if (is_key(name) || factors != !result)
             continue;

@@ -82,7 +82,8 @@ static ld_status find_factors(ld_study *self, ld_error *error)
     }
     self->shape.of_sample = self->sampler[0].of_sample;
     self->shape.of_rocket = self->sampler[0].of_rocket;
-    self->shape.results = STUDY_RESULTS;
+    self->things = quantity_things_of(self->nominal);
+    self->shape.results = study_result_count(&self->things);
     return LD_OK;
 }
 

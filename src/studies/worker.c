@@ -48,6 +48,19 @@ static ld_status run_sample(study_worker *self, permission *asked, ld_error *err
     return status ? status : ld_simulation_run(self->simulation, &options, self->summary, error);
 }
 
+// Of an adaptor by its name, which another point of the sweep may have elsewhere or not at all.
+static double result_of(const quantity_walk *at, const ld_model *model,
+                        const ld_rocket_summary *rocket)
+{
+    quantity_walk here = *at;
+    if (at->group->each == EACH_ADAPTOR) {
+        const char *name = quantity_name_of(at->things, EACH_ADAPTOR, at->item);
+        const quantity_things things = quantity_things_of(model);
+        here.item = quantity_item_named(&things, EACH_ADAPTOR, name);
+    }
+    return here.item < 0 ? NAN : quantity_value(&here, rocket);
+}
+
 // The numbers of the record: what was drawn and what came of it.
 static void fill_values(study_worker *self)
 {
@@ -61,10 +74,11 @@ static void fill_values(study_worker *self)
         *value++ = model->firing[i].tube;
         for (int k = 0; k < shape->of_rocket; k++)
             *value++ = *drawn++;
-        for (int k = 0; k < shape->results; k++)
-            *value++ = i < self->summary->rocket_count
-                           ? study_result_of(&self->summary->rocket[i], &study_results[k])
-                           : NAN;
+        const ld_rocket_summary *rocket =
+            i < self->summary->rocket_count ? &self->summary->rocket[i] : NULL;
+        quantity_walk at = study_result_first(&self->study->things);
+        for (; at.row; study_result_next(&at))
+            *value++ = rocket ? result_of(&at, model, rocket) : NAN;
     }
 }
 

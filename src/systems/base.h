@@ -46,6 +46,7 @@ typedef union base_report {
 
 // What keeps what it was in the equilibrium.
 typedef union base_rest {
+    double number[2 * HINGES]; // all of them
     hinge_rest hinge[HINGES];
 } base_rest;
 

@@ -26,7 +26,7 @@
 
 // Asked for by the caller: may grow into what is reserved.
 SIZE(ld_picture, 80);
-SIZE(ld_run_options, 56);
+SIZE(ld_run_options, 64);
 SIZE(ld_sink, 72);
 SIZE(ld_study_options, 72);
 SIZE(ld_study_view, 48);
@@ -44,6 +44,8 @@ SIZE(ld_study_values, 32);
 
 // In the caller's memory, or one beside the other: stay as they are.
 SIZE(ld_array, 48);
+SIZE(ld_base_frame, 104);
+SIZE(ld_base_wrench, 48);
 SIZE(ld_column, 24);
 SIZE(ld_error, 644);
 SIZE(ld_estimate, 24);

@@ -367,9 +367,21 @@ static void say_exit(const finished_run *run, column_book *book)
               v3_norm(triple(&run->tube, "rocket.v", xyz, run->tube.rows - 1)));
 }
 
+static const char *const adaptors[] = {"rear", "middle", "front"};
+
+static void say_peaks(const finished_run *run, column_book *book, const char *at)
+{
+    for (int i = 0; i < 3; i++) {
+        char name[64], column[64];
+        snprintf(column, sizeof column, "contact.%s.force", adaptors[i]);
+        snprintf(name, sizeof name, "max_contact_force.%s", adaptors[i]);
+        expect_at(book, at, name, largest_of(&run->tube, column));
+    }
+    expect_at(book, at, "max_slot_force", largest_of(&run->tube, "slot.force"));
+}
+
 static void say_rocket(finished_run *run)
 {
-    static const char *const adaptors[] = {"rear", "middle", "front"};
     const char *at = "rockets.0.";
     column_book *book = &run->json;
     say_instants(run, book, at);
@@ -377,6 +389,7 @@ static void say_rocket(finished_run *run)
     say(book, at, relative, COUNT(relative), &run->tube);
     say(book, at, at_landing, COUNT(at_landing), run->tube.flight);
     say_exit(run, book);
+    say_peaks(run, book, at);
     say_flight(run, book, "rockets.0.flight.");
     size_t last = run->tube.flight->rows - 1;
     expect_triple(
@@ -387,12 +400,8 @@ static void say_rocket(finished_run *run)
         snprintf(column, sizeof column, "contact.%s.y", adaptors[i]);
         snprintf(name, sizeof name, "t_exit.%s", adaptors[i]);
         expect_at(book, at, name, gone(run, column));
-        snprintf(column, sizeof column, "contact.%s.force", adaptors[i]);
-        snprintf(name, sizeof name, "max_contact_force.%s", adaptors[i]);
-        expect_at(book, at, name, largest_of(&run->tube, column));
     }
     expect_at(book, at, "tube", run->model.firing[0].tube);
-    expect_at(book, at, "max_slot_force", largest_of(&run->tube, "slot.force"));
     expect_at(book, at, "energy_dropped", 0);
 }
 
@@ -546,17 +555,20 @@ static void test_rates_of_flight(void **state)
 static void test_study_results(void **state)
 {
     finished_run *run = *state;
-    ld_column column[STUDY_RESULTS];
-    double value[STUDY_RESULTS];
+    static ld_column column[BOOK_COLUMNS];
+    static char name[BOOK_COLUMNS][QUANTITY_NAME];
+    static double value[BOOK_COLUMNS];
+    const quantity_things things = quantity_things_of(&run->model);
     column_book *book = calloc(1, sizeof *book);
     book->column = column;
-    book->count = STUDY_RESULTS;
     book->row = value;
-    for (int i = 0; i < STUDY_RESULTS; i++) {
-        column[i] = (ld_column){.name = study_results[i].name, .unit = study_results[i].unit};
-        value[i] = study_result_of(&run->summary.rocket[0], &study_results[i]);
+    for (quantity_walk r = study_result_first(&things); r.row; study_result_next(&r)) {
+        study_result_name(&r, name[book->count]);
+        column[book->count] = (ld_column){.name = name[book->count], .unit = r.row->unit};
+        value[book->count++] = quantity_value(&r, &run->summary.rocket[0]);
     }
     say_instants(run, book, "");
+    say_peaks(run, book, "");
     say(book, "", at_exit, COUNT(at_exit), &run->tube);
     say_flight(run, book, "");
     v3 place = triple(run->tube.flight, "rocket.", xyz, 0);

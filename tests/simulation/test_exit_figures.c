@@ -34,6 +34,13 @@ static const char *const name[FIGURES] = {
     "aim.vz",
 };
 
+static double result_named(const ld_rocket_summary *rocket, const char *result)
+{
+    const quantity_things things = {.count = {[EACH_RUN] = 1}};
+    quantity_walk found = quantity_find(&rocket_quantities, &things, result);
+    return quantity_value(&found, rocket);
+}
+
 static void read_example(const char *file, const char *const *sets, size_t count, ld_model *model)
 {
     char path[256];
@@ -188,7 +195,7 @@ static void compare(const recorded_run *run, const ld_model *model, int rocket,
     // the summary has the values of the row of the exit
     for (int k = 0; k < FIGURES; k++) {
         double there = recorded_value(run, last, column[k]);
-        double figure = study_result_of(summary, study_result_named(name[k]));
+        double figure = result_named(summary, name[k]);
         if (!(fabs(figure - there) <= 1e-7 + 1e-7 * fabs(there)))
             fail_msg("%s: %.17g in the summary, %.17g in the history", name[k], figure, there);
     }
@@ -300,7 +307,7 @@ static void test_fixed_base(void **state)
 
 static double figure_of(const ld_summary *summary, int k)
 {
-    return study_result_of(&summary->rocket[0], study_result_named(name[k]));
+    return result_named(&summary->rocket[0], name[k]);
 }
 
 // Without gravity it is one launch, wherever it points.

@@ -28,7 +28,7 @@ static void energy_balance(void **state)
     marching(&model, 30 / 3.6);
     model.run.lead_in = 3;
     ld_summary summary = summary_of_run(&model);
-    const quantity_things things = {.model = &model};
+    const quantity_things things = quantity_things_of(&model);
     double work[3];
     static const char *const names[] = {"energy.work.thrust", "energy.work.drive",
                                         "energy.work.tyre"};

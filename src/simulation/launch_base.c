@@ -1,0 +1,84 @@
+// A base that is told where it is, and the wrench on any base.
+#include <math.h>
+#include <string.h>
+
+#include "simulation/launch_run.h"
+
+static bool are_finite(const double *values, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += 0 * values[i];
+    return sum == 0;
+}
+
+// The frame as it is told; a quaternion's last digits are put right.
+static ld_status read_frame(const ld_base_frame *given, base_frame *frame, ld_error *error)
+{
+    if (!are_finite(given->position, 3) || !are_finite(given->quaternion, 4) ||
+        !are_finite(given->velocity, 3) || !are_finite(given->rate, 3))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the base is told a place or a motion that is not finite");
+    quat q = q_from(given->quaternion);
+    double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!(fabs(length - 1) <= 1e-6))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the base is told a quaternion of length %.9g in place of 1", length);
+    *frame = (base_frame){
+        .r = v3_from(given->position),
+        .v = v3_from(given->velocity),
+        .A = q_matrix(q),
+        .q = {q.w / length, q.x / length, q.y / length, q.z / length},
+        .w = v3_from(given->rate),
+    };
+    return LD_OK;
+}
+
+static ld_status nobody_tells(const base_system *base, ld_error *error)
+{
+    if (base->kind->tell)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT,
+                   "the base is told where it is, which goes with base.kind: external alone");
+}
+
+ld_status launch_begin_base(ld_run *run)
+{
+    if (!run->options.base)
+        return LD_OK;
+    run->launch.told = &run->told;
+    ld_status status = nobody_tells(&run->launch.launcher.base, &run->error);
+    return status ? status : read_frame(run->options.base, &run->told, &run->error);
+}
+
+ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *error)
+{
+    const launcher_system *launcher = &run->launch.launcher;
+    const base_system *base = &launcher->base;
+    double y[LD_MAX_STATES];
+    base_frame now;
+    ld_status status = nobody_tells(base, error);
+    if (!status)
+        status = read_frame(given, &now, error);
+    if (status || launch_stand(run))
+        return status;
+    memcpy(y, propagator_state(run->propagator), (size_t)launcher->state_count * sizeof *y);
+    base->kind->tell(base, run->t, false, &now, y + launcher->base_at);
+    launch_let_go_at_once(run, run->t, y);
+    run->status = propagator_start(run->propagator, run->t, y, false, &run->error);
+    return LD_OK;
+}
+
+ld_status launch_wrench(ld_run *run, const double *y, ld_base_wrench *wrench, ld_error *error)
+{
+    launcher_input input;
+    const launcher_output *out = simulation_output(&run->launch, run->t, y);
+    if (!out)
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "the equations of motion gave no finite result at t = %.9g s", run->t);
+    launcher_place(&run->launch.launcher, run->t, y, &input);
+    const m3 *A = &input.launching.base.A;
+    v3_store(wrench->force, m3_apply(*A, out->launching.base_force));
+    v3_store(wrench->moment, m3_apply(*A, out->launching.base_moment));
+    return LD_OK;
+}
