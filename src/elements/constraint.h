@@ -22,6 +22,7 @@ typedef struct constraint_direction {
     double rigid[6]; // L^-1 (B_r - C B_q): forward-substituted
     double beta;     // right-hand side besides accelerations
     double drift;    // e . v_rel
+    int work;        // of its force, which among the powers
 } constraint_direction;
 
 // Velocity-dependent accelerations of the section at s (formulation.md, section 4: gv, gw).
@@ -174,11 +175,13 @@ LD_INLINE void constraints_begin(const int lanes, const tube_system *guide,
     set->friction = set->v_tau = 0;
 }
 
-// The next direction, a force along n at the point P + r_T of the section, O1 + rho of the rocket.
+// The next direction, a force along n at the point P + r_T of the section, O1 + rho of the rocket;
+// what it does counts as that work.
 LD_INLINE constraint_direction *constrain_force(const launching_instant *now, v3 n, v3 dn_dt,
-                                                v3 r_T, v3 rho, constraint_set *set)
+                                                v3 r_T, v3 rho, int work, constraint_set *set)
 {
     constraint_direction *e = &set->e[set->count++];
+    e->work = work;
     direction_load(now, &set->shapes, n, v3_zero(), r_T, rho, e);
     force_bias(now, &set->bias, n, dn_dt, r_T, rho, e);
     return e;
@@ -228,14 +231,12 @@ LD_INLINE void constraints_report(const constraint_set *set, launching_output *o
         out->N = set->x[slot];
         out->drift = set->e[slot].drift;
         out->slot_friction = set->friction;
-        out->power[POWER_SLOT] = set->x[slot] * set->e[slot].drift;
         out->power[POWER_SLOT_FRICTION] = set->friction * set->v_tau;
     }
-    if (lock >= 0) {
+    if (lock >= 0)
         out->lock_force = -set->x[lock];
-        for (int i = lock; i < set->count; i++)
-            out->power[POWER_LOCK] += set->x[i] * set->e[i].drift;
-    }
+    for (int i = 0; i < set->count; i++)
+        out->power[set->e[i].work] += set->x[i] * set->e[i].drift;
 }
 
 #endif

@@ -15,6 +15,7 @@ LD_INLINE void roll_constrain(const launching_instant *now, constraint_set *set)
     direction_load(now, &set->shapes, v3_zero(), axis, v3_zero(), v3_zero(), roll);
     v3 axis_dot = v3_cross(v3_add(now->tube.w, rocket->Om), axis);
     v3 w_rel = v3_sub(rocket->w_B, rocket->w_P);
+    roll->work = POWER_LOCK;
     roll->beta = v3_dot(axis_dot, w_rel) - v3_dot(axis, set->bias.gw);
     roll->drift = v3_dot(axis, w_rel);
 }
@@ -23,7 +24,8 @@ LD_INLINE void lock_constrain(const launching_instant *now, bool holds_roll, con
 {
     const rocket_state *rocket = &now->rocket;
     set->lock_row = set->count;
-    constrain_force(now, m3_column(rocket->at.A, 0), v3_zero(), rocket->Ad, v3_zero(), set);
+    constrain_force(now, m3_column(rocket->at.A, 0), v3_zero(), rocket->Ad, v3_zero(), POWER_LOCK,
+                    set);
     if (holds_roll)
         roll_constrain(now, set);
 }

@@ -69,7 +69,7 @@ LD_INLINE void slot_constrain(const slot_system *self, const launching_instant *
     v3 n = m3_apply(rocket->at.A, slot.n), tau = m3_apply(rocket->at.A, slot.tau);
     v3 r_T = m3_apply(rocket->at.A, slot.r_E), rho = v3_sub(r_T, rocket->Ad);
     set->slot_row = set->count;
-    constrain_force(now, n, m3_apply(rocket->at.A, slot.n_dot), r_T, rho, set);
+    constrain_force(now, n, m3_apply(rocket->at.A, slot.n_dot), r_T, rho, POWER_SLOT, set);
     set->sliding = !now->phase->locked && !now->phase->frictionless && self->friction > 0;
     if (!set->sliding)
         return;

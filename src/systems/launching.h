@@ -92,10 +92,6 @@ void launching_section_at(const launching_system *self, const double *state, dou
 // Rate [m/s] at which adaptor i's offset from the axis grows, the foot's motion included.
 double launching_offset_rate(const launching_system *self, const double *state, int i);
 
-// Feet of the adaptors on the axis [m] (only those not passed), for the events.
-void launching_feet(const launching_system *self, const launching_phase *phase, const double *state,
-                    double *feet);
-
 // Kinetic energy of tube, tail and (if in the tube) rocket [J].
 double launching_kinetic_energy(const launching_system *self, const launching_input *input,
                                 const launching_phase *phase, const double *state);

@@ -121,27 +121,6 @@ launching_outcome launching_evaluate(const launching_system *self, const launchi
     return evaluate_any(self, input, phase, state, out);
 }
 
-void launching_feet(const launching_system *self, const launching_phase *phase, const double *state,
-                    double *feet)
-{
-    tube_state tube;
-    int lanes = self->tube.flexible.nbp / 4;
-    tube_load(lanes, &self->tube, &self->layout, state, &tube);
-    rocket_state rocket;
-    launching_output unused;
-    rocket_load(&self->tube, &self->layout, state, &tube, &rocket, &unused);
-    for (int i = 0; i < self->adaptors.count; i++) {
-        double guess = rocket.s + self->adaptors.at[i];
-        feet[i] = guess;
-        // far from the tip the sign is all that is asked for
-        if (i == 0 || phase->passed[i] || fabs(guess - self->tube.flexible.length) > 0.02)
-            continue;
-        adaptor_state adaptor;
-        adaptor_load(&self->adaptors, &self->tube, &tube, &rocket, i, &adaptor);
-        feet[i] = adaptor.foot->x;
-    }
-}
-
 void launching_project(const launching_system *self, const launching_input *input,
                        const launching_phase *phase, double *state)
 {

@@ -1,0 +1,361 @@
+// A quantity is written once: each of a summary, given a value of its own, is found under its name
+// in summary.json and in the table after a run; docs/quantities.md says what the tables say; the
+// report names nothing that is not there.
+#include "support/check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text_file.h"
+#include "launchdyn/output.h"
+#include "simulation/free_flight.h"
+#include "simulation/simulation.h"
+#include "simulation/study_results.h"
+#include "support/reference_model.h"
+#include "support/scratch.h"
+
+// ---- a value of its own
+
+typedef struct made_run {
+    ld_model model;
+    ld_summary summary;
+    quantity_things things;
+} made_run;
+
+static made_run made;
+
+static void put(const quantity_walk *at, double value, void *in_struct)
+{
+    const quantity_place *place = &at->row->at;
+    char *to = (char *)in_struct + place->offset + (size_t)at->item * place->stride;
+    if (place->type == QUANTITY_NUMBER)
+        memcpy(to, &value, sizeof value);
+    else if (place->type == QUANTITY_INT64)
+        memcpy(to, &(int64_t){(int64_t)value}, sizeof(int64_t));
+    else
+        memcpy(to, &(int){(int)value}, sizeof(int));
+}
+
+// Number `index` of the table's quantities, from its beginning.
+static double value_of(const quantity_table *table, int index)
+{
+    return (table == &rocket_quantities ? 1001 : table == &run_quantities ? 2001 : 3001) + index;
+}
+
+static void fill(const quantity_table *table, void *in_struct)
+{
+    int index = 0;
+    for (quantity_walk at = quantity_first(table, &made.things); at.row; quantity_next(&at))
+        put(&at, value_of(table, index++), in_struct);
+}
+
+static int set_up(void **state)
+{
+    reference_vehicle(&made.model, 5);
+    made.things = quantity_things_of(&made.model);
+    made.summary.rocket_count = 1;
+    made.summary.rocket[0].flown = made.summary.rocket[0].final.earth = true;
+    made.summary.equilibrium.wheel_count = made.model.base.vehicle.wheel_count;
+    made.summary.complete = true;
+    fill(&rocket_quantities, &made.summary.rocket[0]);
+    fill(&run_quantities, &made.summary);
+    fill(&cost_quantities, &made.summary);
+    return scratch_make(state);
+}
+
+static int tear_down(void **state)
+{
+    reference_model_free(&made.model);
+    return scratch_remove(state);
+}
+
+// ---- summary.json
+
+// "key.key value" of each number, a line each; of lists the index.
+static char *numbers_of(const char *file)
+{
+    char command[512], *text = calloc(1, 1 << 17);
+    snprintf(command, sizeof command,
+             "jq -r 'paths(type == \"number\") as $p |"
+             " \"=\\($p | map(tostring) | join(\".\")) \\(getpath($p))\"' %s",
+             file);
+    FILE *list = popen(command, "r");
+    assert_non_null(list);
+    text[fread(text, 1, (1 << 17) - 1, list)] = 0;
+    assert_int_equal(pclose(list), 0);
+    return text;
+}
+
+// Where the quantity stands there: lists by index, the things of a list by their own.
+static void path_of(const quantity_walk *at, int in_list, char *path, size_t size)
+{
+    char text[QUANTITY_NAME];
+    const char *pattern = at->row->json ? at->row->json : at->row->name;
+    const char *item = strstr(pattern, "[].%s"), *end = strstr(pattern, "[]");
+    if (item) {
+        end = strstr(item + 5, "[]");
+        snprintf(path, size, "%.*s.%d%.*s", (int)(item - pattern), pattern, at->item,
+                 end ? (int)(end - item - 5) : (int)strlen(item + 5), item + 5);
+    } else {
+        quantity_text(pattern, at->group->each, at->item, at->things, text, sizeof text);
+        snprintf(path, size, "%.*s", (int)strcspn(text, "["), text);
+    }
+    if (end)
+        snprintf(path + strlen(path), size - strlen(path), ".%d", in_list);
+}
+
+static void look_in_json(const quantity_table *table, const char *prefix, const char *text)
+{
+    int index = 0, in_list = 0;
+    const char *before = NULL;
+    for (quantity_walk at = quantity_first(table, &made.things); at.row; quantity_next(&at)) {
+        char path[2 * QUANTITY_NAME], line[2 * QUANTITY_NAME + 64];
+        in_list = before && at.row->json && strcmp(before, at.row->json) == 0 ? in_list + 1 : 0;
+        before = at.row->json;
+        path_of(&at, in_list, path, sizeof path);
+        snprintf(line, sizeof line, "=%s%s %.0f\n", prefix, path, value_of(table, index++));
+        if (!strstr(text, line))
+            fail_msg("summary.json has no %s", line);
+    }
+    printf("    %d numbers of summary.json\n", index);
+}
+
+static void test_summary_json(void **state)
+{
+    (void)state;
+    ld_error error;
+    if (ld_summary_write(in("summary.json"), &made.model, &made.summary, &error))
+        fail_msg("%s", error.text);
+    char *text = numbers_of(in("summary.json"));
+    look_in_json(&rocket_quantities, "rockets.0.", text);
+    look_in_json(&run_quantities, "", text);
+    look_in_json(&cost_quantities, "", text);
+    free(text);
+}
+
+// ---- the table after a run
+
+static int look_in_table(const quantity_table *table, const char *text)
+{
+    const char *number = NULL;
+    int index = 0, lines = 0;
+    for (quantity_walk at = quantity_first(table, &made.things); at.row; quantity_next(&at)) {
+        const quantity_line *line = &at.row->line;
+        double value = value_of(table, index++);
+        char label[QUANTITY_TEXT], start[QUANTITY_TEXT + 8];
+        if (line->label) {
+            quantity_text(line->label, at.group->each, at.item, &made.things, label, sizeof label);
+            snprintf(start, sizeof start, "\n  %-22s ", label);
+            number = strstr(text, start);
+            if (!number)
+                fail_msg("the table after a run has no line \"%s\"", label);
+            number += strlen(start);
+            lines++;
+        } else if (!line->beside) {
+            continue;
+        }
+        char *end;
+        double shown = strtod(number, &end);
+        if (fabs(shown - value * line->factor) > 1e-5 * fabs(shown))
+            fail_msg("%s: %.9g in the table, not %.9g", at.row->name, shown, value * line->factor);
+        number = end;
+    }
+    return lines;
+}
+
+static void test_table(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&text, &length);
+    ld_summary_print(&made.model, &made.summary, stream);
+    fclose(stream);
+    int lines = look_in_table(&rocket_quantities, text) + look_in_table(&run_quantities, text);
+    printf("    %d lines of the table after a run\n", lines);
+    assert_int_equal(lines, 40);
+    free(text);
+}
+
+// ---- names
+
+// No name stands twice in a table, and each finds its own number.
+static void test_names(void **state)
+{
+    (void)state;
+    const quantity_table *tables[] = {&rocket_quantities, &run_quantities, &cost_quantities};
+    for (int i = 0; i < 3; i++) {
+        void *from = i ? (void *)&made.summary : (void *)&made.summary.rocket[0];
+        int index = 0;
+        for (quantity_walk at = quantity_first(tables[i], &made.things); at.row;
+             quantity_next(&at)) {
+            char name[QUANTITY_NAME];
+            quantity_text(at.row->name, at.group->each, at.item, &made.things, name, sizeof name);
+            quantity_walk found = quantity_find(tables[i], &made.things, name);
+            assert_ptr_equal(found.row, at.row);
+            assert_ptr_equal(quantity_like(tables[i], name), at.row);
+            assert_true(quantity_value(&found, from) == value_of(tables[i], index++));
+        }
+    }
+    assert_null(quantity_find(&run_quantities, &made.things, "energy.work").row);
+    assert_null(study_result_like("relative.psi"));
+    for (int i = 0; i < STUDY_PAIRS; i++)
+        for (int k = 0; k < 2; k++)
+            assert_string_equal(study_result_like(study_pairs[i].name[k])->unit,
+                                study_pairs[i].unit);
+}
+
+// Every key that the report's lists begin with, `["key", "label", ...`, is a number of a summary.
+static void look_in_script(const char *file)
+{
+    char *text = NULL, path[256];
+    size_t length;
+    int keys = 0;
+    snprintf(path, sizeof path, LD_SOURCE_DIR "/assets/report/%s", file);
+    assert_int_equal(text_file_read(path, 1 << 20, &text, &length, NULL), 0);
+    for (char *at = text; (at = strstr(at, "\n  [\"")) != NULL;) {
+        char *key = at + 5, *end = strchr(key, '"'), name[160];
+        at = end;
+        if (end[2] != ' ' || end[3] != '"')
+            continue;
+        bool several = end[-1] == '*';
+        *end = 0;
+        const char *const before[] = {"", "equilibrium.", "energy.", "statistics."};
+        bool there = false;
+        for (int i = 0; i < 4 && !there; i++) {
+            snprintf(name, sizeof name, "%s%.*s%s", before[i], (int)(end - key) - several, key,
+                     several ? (strcmp(key, "work.*") == 0 ? "thrust" : "rear") : "");
+            const char *short_name = strncmp(name, "flight.", 7) == 0 ? name + 7 : name;
+            there = quantity_like(&rocket_quantities, short_name) ||
+                    quantity_like(&run_quantities, name) || quantity_like(&cost_quantities, name);
+        }
+        if (!there)
+            fail_msg("%s: no quantity is called %s", file, key);
+        keys++;
+        *end = '"';
+    }
+    printf("    %d keys in %s\n", keys, file);
+    assert_true(keys >= 10);
+    free(text);
+}
+
+static void test_report(void **state)
+{
+    (void)state;
+    look_in_script("results.js");
+    look_in_script("study_results.js");
+    look_in_script("summary.js");
+}
+
+// ---- docs/quantities.md
+
+static void write_names(FILE *stream, const quantity *row, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const char *mark = strstr(row[i].name, "%s");
+        fputs(i ? ", `" : "`", stream);
+        if (mark)
+            fprintf(stream, "%.*sNAME%s`", (int)(mark - row[i].name), row[i].name, mark + 2);
+        else
+            fprintf(stream, "%s`", row[i].name);
+    }
+}
+
+// Neighbours that are the same but for their names share a line.
+static bool are_alike(const quantity *a, const quantity *b)
+{
+    bool same_json = a->json && b->json ? strcmp(a->json, b->json) == 0 : !a->json && !b->json;
+    return same_json && strcmp(a->unit, b->unit) == 0 && a->studied == b->studied &&
+           strcmp(a->description, b->description) == 0;
+}
+
+static void write_table(FILE *stream, const char *heading, const quantity_table *table,
+                        bool of_summary)
+{
+    fprintf(stream, "\n## %s\n", heading);
+    for (int i = 0; i < table->groups; i++) {
+        const quantity_group *group = &table->group[i];
+        fprintf(stream, "\n**%c%s**\n\n", group->title[0] - 'a' + 'A', group->title + 1);
+        fputs(of_summary
+                  ? "| quantity | unit | is | in `summary.json` | study |\n| --- | --- | --- "
+                    "| --- | --- |\n"
+                  : "| column | unit | is |\n| --- | --- | --- |\n",
+              stream);
+        for (int k = 0, next; k < group->rows; k = next) {
+            const quantity *row = &group->row[k];
+            for (next = k + 1; next < group->rows && are_alike(row, &group->row[next]); next++)
+                ;
+            char is[512], path[QUANTITY_NAME];
+            snprintf(is, sizeof is, "%s", row->description);
+            const char *mark = strstr(row->description, "%s");
+            if (mark)
+                snprintf(is, sizeof is, "%.*sNAME%s", (int)(mark - row->description),
+                         row->description, mark + 2);
+            mark = row->json ? strstr(row->json, ".%s") : NULL;
+            snprintf(path, sizeof path, "%s", row->json ? row->json : "");
+            if (mark)
+                snprintf(path, sizeof path, "%.*s%s", (int)(mark - row->json), row->json, mark + 3);
+            fputs("| ", stream);
+            write_names(stream, row, next - k);
+            fprintf(stream, " | %s | %s |", *row->unit ? row->unit : "1", is);
+            if (of_summary)
+                fprintf(stream, " %s%s%s | %s |", *path ? "`" : "", path, *path ? "`" : "",
+                        row->studied ? "yes" : "");
+            fputc('\n', stream);
+        }
+    }
+}
+
+static void write_document(FILE *stream)
+{
+    fputs("# Quantities\n\n"
+          "What a run tells, as the program's tables have it: `ctest -R results.quantities` holds "
+          "this document to them.\n"
+          "All is in SI and radians; frames and signs are those of [model.md](model.md); T is the "
+          "undeformed tube on its base\n"
+          "([results.md](results.md#against-the-launcher)). NAME: of each adaptor, wheel, hinge "
+          "(`azimuth`, `elevation`) or modal\n"
+          "coordinate. Instants count from the rocket's ignition; what did not happen is `null` or "
+          "NaN. In `summary.json` a quantity\n"
+          "stands under its name, where nothing else is said; `study`: [studies](study.md) keep "
+          "it.\n",
+          stream);
+    write_table(stream, "Of a rocket (`rockets` of summary.json)", &rocket_quantities, true);
+    write_table(stream, "Of the run", &run_quantities, true);
+    write_table(stream, "Of its computation", &cost_quantities, true);
+    write_table(stream, "Of a natural mode (`modes` of summary.json)", &mode_quantities, true);
+    write_table(stream, "Columns of a launch", &launch_quantities, false);
+    write_table(stream, "Columns of a flight", &flight_quantities, false);
+}
+
+static void test_document(void **state)
+{
+    (void)state;
+    char *text = NULL, *kept = NULL;
+    size_t length = 0, kept_length = 0;
+    FILE *stream = open_memstream(&text, &length);
+    write_document(stream);
+    fclose(stream);
+    text_file_read(LD_SOURCE_DIR "/docs/quantities.md", 1 << 20, &kept, &kept_length, NULL);
+    if (!kept || kept_length != length || memcmp(kept, text, length) != 0) {
+        FILE *file = fopen(LD_BINARY_DIR "/quantities.md", "w");
+        assert_non_null(file);
+        fputs(text, file);
+        fclose(file);
+        fail_msg("docs/quantities.md is not what the tables say: that is %s",
+                 LD_BINARY_DIR "/quantities.md");
+    }
+    printf("    %zu bytes\n", length);
+    free(text);
+    free(kept);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_summary_json), cmocka_unit_test(test_table),
+        cmocka_unit_test(test_names),        cmocka_unit_test(test_report),
+        cmocka_unit_test(test_document),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
