@@ -19,8 +19,8 @@ extern "C" {
 /// What came of a call. `LD_OK` is zero, so `if (status)` means "it failed".
 typedef enum ld_status {
     LD_OK = 0,
-    LD_ERR_INPUT,       ///< the scenario or an argument is wrong (exit code 2 of the command)
-    LD_ERR_FILE,        ///< a file cannot be read or written
+    LD_ERR_INPUT,       ///< an argument, the scenario or a file that is read is wrong or not there
+    LD_ERR_FILE,        ///< a file cannot be written
     LD_ERR_MEMORY,      ///< no memory
     LD_ERR_NUMERIC,     ///< the numerics failed: NaN, singular matrix, no convergence
     LD_ERR_LAUNCH,      ///< the launch cannot go on: stuck, jammed, never released

@@ -26,8 +26,8 @@ static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *le
     if (ferror(stream) || used > limit) {
         free(buffer);
         if (used > limit)
-            return ld_fail(error, LD_ERR_FILE, "is larger than %zu kB", limit / 1024);
-        return ld_fail(error, LD_ERR_FILE, "cannot be read: %s", strerror(errno));
+            return ld_fail(error, LD_ERR_INPUT, "is larger than %zu kB", limit / 1024);
+        return ld_fail(error, LD_ERR_INPUT, "cannot be read: %s", strerror(errno));
     }
     buffer[used] = '\0';
     *text = buffer;
@@ -42,14 +42,14 @@ ld_status text_file_read(const char *path, size_t limit, char **text, size_t *le
     if (strcmp(path, "-") == 0)
         return read_stream(stdin, limit, text, length, error);
     if (stat(path, &about) != 0)
-        return ld_fail(error, LD_ERR_FILE, "cannot be read: %s", strerror(errno));
+        return ld_fail(error, LD_ERR_INPUT, "cannot be read: %s", strerror(errno));
     if (!S_ISREG(about.st_mode))
-        return ld_fail(error, LD_ERR_FILE, "is not a regular file");
+        return ld_fail(error, LD_ERR_INPUT, "is not a regular file");
     if (about.st_size > (off_t)limit)
-        return ld_fail(error, LD_ERR_FILE, "is larger than %zu kB", limit / 1024);
+        return ld_fail(error, LD_ERR_INPUT, "is larger than %zu kB", limit / 1024);
     FILE *stream = fopen(path, "rb");
     if (!stream)
-        return ld_fail(error, LD_ERR_FILE, "cannot be read: %s", strerror(errno));
+        return ld_fail(error, LD_ERR_INPUT, "cannot be read: %s", strerror(errno));
     ld_status status = read_stream(stream, limit, text, length, error);
     fclose(stream);
     return status;

@@ -11,11 +11,12 @@ static int check_points(const ld_model *model, void *data)
     int points = ld_scenario_axes(model) > 0 ? ld_scenario_points(model) : 0;
     for (int point = 1; point <= points; point++) {
         ld_model *one;
-        if (command_read_source(ld_model_source(model), point, &one)) {
+        ld_status status = command_read_source(ld_model_source(model), point, &one);
+        if (status) {
             char name[256];
             ld_scenario_point_name(model, point, name, sizeof name);
             command_complain("this is point %d of the sweep: %s", point, name);
-            return EXIT_INPUT;
+            return command_code(status);
         }
         ld_model_free(one);
     }

@@ -1,10 +1,13 @@
 #include "cli/command.h"
 
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
+#include "cli/progress.h"
 #include "launchdyn/scenario.h"
 
 void command_complain(const char *format, ...)
@@ -17,10 +20,43 @@ void command_complain(const char *format, ...)
     fprintf(stderr, "launchdyn: %s\n", ld_visible_text(text, visible, sizeof visible));
 }
 
+int command_code(ld_status status)
+{
+    switch (status) {
+    case LD_OK:
+        return 0;
+    case LD_ERR_LAUNCH:
+    case LD_ERR_NUMERIC:
+        return EXIT_LAUNCH;
+    case LD_ERR_INPUT:
+        return EXIT_INPUT;
+    case LD_ERR_INTERRUPTED:
+        return 128 + progress_signal();
+    case LD_ERR_FILE:
+    case LD_ERR_MEMORY:
+    case LD_ERR_MISSING:
+        break;
+    }
+    return EXIT_SYSTEM;
+}
+
 int command_fail(ld_status status, const ld_error *error)
 {
     command_complain("%s", error->text);
-    return status == LD_ERR_INPUT ? EXIT_INPUT : EXIT_FAILED;
+    return command_code(status);
+}
+
+int command_begin(void)
+{
+    enum { LEAST_STACK = 512 }; // [kB]
+    struct rlimit stack;
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= LEAST_STACK * 1024)
+        return 0;
+    command_complain("the stack is limited to %llu kB, and %d kB are needed (ulimit -s %d)",
+                     (unsigned long long)stack.rlim_cur / 1024, LEAST_STACK, LEAST_STACK);
+    return EXIT_SYSTEM;
 }
 
 // "unknown option --cvs (did you mean --csv?)"
@@ -137,8 +173,9 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
                     void *data)
 {
     ld_model *model;
-    if (read_file(file, sets, &model))
-        return EXIT_INPUT;
+    ld_status status = read_file(file, sets, &model);
+    if (status)
+        return command_code(status);
     int code = work(model, data);
     ld_model_free(model);
     return code;

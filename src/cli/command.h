@@ -11,8 +11,20 @@
 #include "launchdyn/status.h"
 #include "launchdyn/study.h"
 
-// What the command ends with, beside 0; an interrupted run ends with 128 + the signal's number.
-enum { EXIT_FAILED = 1, EXIT_INPUT = 2 };
+// What the command ends with, beside 0 and 128 + the number of the signal that stopped it.
+enum {
+    EXIT_LAUNCH = 1, // launch or flight cannot be computed to its end: what there is was written
+    EXIT_INPUT = 2,  // what was given is wrong: words, scenario, tables, folders of results
+    EXIT_SYSTEM = 3, // what is needed is not to be had: room on a disk, memory, threads, gnuplot
+};
+
+// Before all else, in every program: a pipe that was cut and a file that grows beyond its limit
+// become errors of the write and do not end the program. Returns 0, or EXIT_SYSTEM after a message
+// where the stack is limited to less than is needed.
+int command_begin(void);
+
+// The exit code that belongs to a status.
+int command_code(ld_status status);
 
 // One command: a row of the table in main.c.
 typedef struct command command;

@@ -127,10 +127,12 @@ static int dispatch(int argc, const char **argv)
 
 int main(int argc, char **argv)
 {
-    int code = dispatch(argc, (const char **)argv);
+    int code = command_begin();
+    if (!code)
+        code = dispatch(argc, (const char **)argv);
     if (fflush(stdout) != 0 || ferror(stdout)) {
         command_complain("cannot print: %s", strerror(errno));
-        return code ? code : EXIT_FAILED;
+        return code ? code : EXIT_SYSTEM;
     }
     return code;
 }

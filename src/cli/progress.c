@@ -21,7 +21,10 @@ static double now(void)
 
 void progress_start(run_progress *progress, bool quiet)
 {
-    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = SA_RESETHAND};
+    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = SA_RESETHAND}, hangup;
+    sigaction(SIGHUP, NULL, &hangup);
+    if (hangup.sa_handler != SIG_IGN)
+        sigaction(SIGHUP, &action, NULL);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     *progress = (run_progress){.shown = !quiet && isatty(STDERR_FILENO), .start = now()};

@@ -12,7 +12,8 @@ typedef struct run_progress {
     double start, latest; // [s] of the start and of the line last drawn
 } run_progress;
 
-// From now on SIGINT and SIGTERM ask for a stop; a second one ends the program at once.
+// From now on SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP ask for a stop; a second
+// one of a kind ends the program at once.
 void progress_start(run_progress *progress, bool quiet);
 
 // For ld_run_options.progress: false once a stop was asked for.

@@ -17,19 +17,19 @@ static bool leaves_results(ld_status status)
            status == LD_ERR_INTERRUPTED;
 }
 
-// Runs and writes; `status` of the run is returned, or of the writing where the run was fine.
+// Runs and writes; the status of the run is returned, or of the writing where that fails.
 static ld_status simulate(ld_simulation *simulation, const ld_model *model,
                           const run_wishes *wishes, ld_summary *summary, ld_error *error)
 {
     ld_output *output = NULL;
     ld_status status = LD_OK;
+    run_progress progress;
+    progress_start(&progress, wishes->quiet != 0); // first: a stop leaves no half a file behind
     if (wishes->folder)
         status = ld_output_open(wishes->folder, model, wishes->csv != 0, &output, error);
     if (status)
         return status;
 
-    run_progress progress;
-    progress_start(&progress, wishes->quiet != 0);
     ld_run_options options = {.sink = output ? ld_output_sink(output) : NULL,
                               .self = &progress,
                               .progress = progress_share};
@@ -44,10 +44,10 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
     ld_status written = output ? ld_output_finish(output, summary, &problem) : LD_OK;
     if (!written && !wishes->quiet)
         ld_summary_print(model, summary, stdout);
-    if (written && status)
-        command_complain("%s", problem.text);
-    if (!written || status)
+    if (!written)
         return status;
+    if (status)
+        command_complain("%s", error->text);
     *error = problem;
     return written;
 }
@@ -78,8 +78,8 @@ int run_model(const ld_model *model, void *data)
     if (!status)
         return code;
     fflush(stdout);
-    code = command_fail(status, &error);
-    return status == LD_ERR_INTERRUPTED ? 128 + progress_signal() : code;
+    int failed = command_fail(status, &error);
+    return code ? code : failed;
 }
 
 static int run_sample(const ld_model *point, int number, run_wishes *wishes)
@@ -106,7 +106,9 @@ static int run_again(const char *folder, run_wishes *wishes)
     int code = EXIT_INPUT;
     if (!origin.source) {
         command_complain("%s cannot be run again: its model was not read from a scenario", folder);
-    } else if (command_read_source(origin.source, origin.point, &model) == LD_OK) {
+    } else if ((status = command_read_source(origin.source, origin.point, &model)) != LD_OK) {
+        code = command_code(status);
+    } else {
         command_tell_difference(folder, &origin);
         code =
             origin.sample > 0 ? run_sample(model, origin.sample, wishes) : run_model(model, wishes);

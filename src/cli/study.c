@@ -42,10 +42,6 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
                                 .go_on = progress_go_on};
     ld_status status = run(study, wishes->run.folder, &options, &counts, &error);
     progress_end(&progress);
-    if (status == LD_ERR_INTERRUPTED) {
-        int code = command_fail(status, &error);
-        return progress_signal() ? 128 + progress_signal() : code;
-    }
     char folder[1024];
     if (!status && !wishes->run.quiet && wishes->shards)
         printf(
@@ -95,9 +91,8 @@ static int study_do(ld_study *study, study_wishes *wishes)
 static int study_file(const char *file, study_wishes *wishes)
 {
     ld_study *study = NULL;
-    if (command_read_study(file, wishes->run.sets, &study))
-        return EXIT_INPUT;
-    return study_do(study, wishes);
+    ld_status status = command_read_study(file, wishes->run.sets, &study);
+    return status ? command_code(status) : study_do(study, wishes);
 }
 
 // The study that a folder holds, from the texts that it keeps.
@@ -112,7 +107,9 @@ static int study_again(const char *folder, study_wishes *wishes)
     int code = EXIT_INPUT;
     if (!origin.source) {
         command_complain("%s cannot be run again: its model was not read from a scenario", folder);
-    } else if (command_read_study_source(origin.source, &study) == LD_OK) {
+    } else if ((status = command_read_study_source(origin.source, &study)) != LD_OK) {
+        code = command_code(status);
+    } else {
         command_tell_difference(folder, &origin);
         code = study_do(study, wishes);
     }

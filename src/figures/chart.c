@@ -165,8 +165,7 @@ static void write_chart(FILE *script, const chart *self, size_t index, drawn_cur
     write_axes(script, self, x, y);
 }
 
-static ld_status write_charts(FILE *script, const void *what, plot_format format,
-                              const char *output, ld_error *error)
+static ld_status write_charts(FILE *script, const void *what, plot_format format, ld_error *error)
 {
     const chart_page *page = what;
     drawn_curve drawn = {0};
@@ -174,7 +173,7 @@ static ld_status write_charts(FILE *script, const void *what, plot_format format
     if (!status) {
         double height = HEADING + HEIGHT * (double)page->count;
         locale_t before = numeric_locale_enter();
-        plot_begin(script, format, height, output);
+        plot_begin(script, format, height);
         fputs("set clip two\n", script);
         for (size_t i = 0; i < page->count; i++) {
             write_chart(script, &page->charts[i], i, &drawn);

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,26 +60,67 @@ static void read_complaint(FILE *printed, char *complaint, size_t size)
     }
 }
 
-// Runs gnuplot from PATH on the script, without a shell and without the user's settings.
-static ld_status run_gnuplot(FILE *script, FILE *printed, ld_error *error)
+// Starts gnuplot from PATH, without a shell and without the user's settings; what it draws goes to
+// `drawn`. A cut pipe and a limit of files do to it what they do by default.
+static int start_gnuplot(FILE *script, int drawn, FILE *printed, pid_t *child)
 {
     char *arguments[] = {"gnuplot", "--default-settings", NULL};
     posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGPIPE);
+    sigaddset(&signals, SIGXFSZ);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &signals);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, fileno(script), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, fileno(printed), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, drawn, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, fileno(printed), STDERR_FILENO);
-    pid_t child = 0;
-    int problem = posix_spawnp(&child, arguments[0], &actions, NULL, arguments, environ);
+    int problem = posix_spawnp(child, arguments[0], &actions, &attributes, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    return problem;
+}
+
+// Writes what comes from gnuplot, which itself would not see that a disk is full. Reads on to the
+// end in any case. Returns 0 or the number of what went wrong.
+static int take_picture(int drawn, FILE *picture)
+{
+    char bytes[1 << 14];
+    int problem = 0;
+    ssize_t count;
+    while ((count = read(drawn, bytes, sizeof bytes)) > 0 || (count < 0 && errno == EINTR))
+        if (count > 0 && !problem && fwrite(bytes, 1, (size_t)count, picture) < (size_t)count)
+            problem = errno;
+    if (count < 0 && !problem)
+        problem = errno;
+    return !problem && fflush(picture) != 0 ? errno : problem;
+}
+
+static ld_status run_gnuplot(FILE *script, FILE *printed, FILE *picture, const char *file,
+                             ld_error *error)
+{
+    int drawn[2], code = 0;
+    pid_t child = 0;
+    if (pipe(drawn) != 0)
+        return ld_fail(error, LD_ERR_FILE, "cannot make a pipe: %s", strerror(errno));
+    fcntl(drawn[0], F_SETFD, FD_CLOEXEC);
+    fcntl(drawn[1], F_SETFD, FD_CLOEXEC);
+    int problem = start_gnuplot(script, drawn[1], printed, &child);
+    close(drawn[1]);
+    int unwritten = problem ? 0 : take_picture(drawn[0], picture);
+    close(drawn[0]);
     if (problem == ENOENT)
         return ld_fail(error, LD_ERR_MISSING,
                        "gnuplot not found: install it (Debian: apt install gnuplot-nox)");
     if (problem)
         return ld_fail(error, LD_ERR_MISSING, "cannot run gnuplot: %s", strerror(problem));
-    int code = 0;
     while (waitpid(child, &code, 0) < 0 && errno == EINTR)
         ;
+    if (unwritten)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(unwritten));
     if (code == 0)
         return LD_OK;
     char complaint[256];
@@ -86,20 +128,19 @@ static ld_status run_gnuplot(FILE *script, FILE *printed, ld_error *error)
     return ld_fail(error, LD_ERR_FILE, "gnuplot failed: %s", complaint);
 }
 
-// Draws into the file `part`.
-static ld_status draw(plot_writer *write, const void *page, plot_format format, const char *part,
-                      ld_error *error)
+static ld_status draw(plot_writer *write, const void *page, plot_format format, FILE *picture,
+                      const char *file, ld_error *error)
 {
     FILE *script = tmpfile(), *printed = tmpfile();
     ld_status status = LD_OK;
     if (!script || !printed)
         status = ld_fail(error, LD_ERR_FILE, "cannot make a temporary file: %s", strerror(errno));
     if (!status)
-        status = write(script, page, format, part, error);
+        status = write(script, page, format, error);
     if (!status && (fflush(script) != 0 || ferror(script) || lseek(fileno(script), 0, SEEK_SET)))
         status = ld_fail(error, LD_ERR_FILE, "cannot write a temporary file: %s", strerror(errno));
     if (!status)
-        status = run_gnuplot(script, printed, error);
+        status = run_gnuplot(script, printed, picture, file, error);
     if (script)
         fclose(script);
     if (printed)
@@ -114,12 +155,12 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
     char part[4096];
     if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
         return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
-    int probe = open(part, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (probe < 0)
+    FILE *picture = fopen(part, "wb");
+    if (!picture)
         return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
-    close(probe);
-    ld_status status = draw(write, page, format, part, error);
-    if (!status && rename(part, file) != 0)
+    ld_status status = draw(write, page, format, picture, file, error);
+    bool closed = fclose(picture) == 0;
+    if (!status && (!closed || rename(part, file) != 0))
         status = ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
     if (status)
         unlink(part);

@@ -84,9 +84,8 @@ bool plot_figure_shows(const plot_figure *figure, const char *column);
 // Whether a run has a column that the figure shows.
 bool plot_figure_has_columns(const plot_figure *figure, const history_data *run);
 
-// Writes the commands with which gnuplot draws `page` into `output`.
-typedef ld_status plot_writer(FILE *script, const void *page, plot_format format,
-                              const char *output, ld_error *error);
+// Writes the commands with which gnuplot draws `page` to its standard output.
+typedef ld_status plot_writer(FILE *script, const void *page, plot_format format, ld_error *error);
 
 // The writer of a plot_page.
 plot_writer plot_write_script;
@@ -98,9 +97,9 @@ ld_status plot_format_of(const char *file, plot_format *format, ld_error *error)
 ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
                     ld_error *error);
 
-// Sets terminal, output and styles 1 to 6 of lines, and begins a page of this height: pixels of an
+// Sets terminal and styles 1 to 6 of lines, and begins a page of this height: pixels of an
 // svg 1000 wide, points of a pdf, half pixels of a png.
-void plot_begin(FILE *script, plot_format format, double height, const char *output);
+void plot_begin(FILE *script, plot_format format, double height);
 
 // Text between the single quotes of gnuplot.
 void plot_write_quoted(FILE *script, const char *text);

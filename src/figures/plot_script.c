@@ -588,7 +588,7 @@ static double place_figures(const plot_page *page, plot_drawing *drawing)
     return top;
 }
 
-void plot_begin(FILE *script, plot_format format, double height, const char *output)
+void plot_begin(FILE *script, plot_format format, double height)
 {
     if (format == PLOT_SVG)
         fprintf(script, "set terminal svg size %d,%.0f font 'sans-serif,12' background 'white'",
@@ -602,9 +602,7 @@ void plot_begin(FILE *script, plot_format format, double height, const char *out
                 "set terminal pngcairo size %d,%.0f font 'sans-serif,12' fontscale 1.5 linewidth "
                 "2 pointscale 2 background 'white'",
                 2 * WIDTH, 2 * height);
-    fputs(" noenhanced\nset encoding utf8\nset output ", script);
-    plot_write_quoted(script, output);
-    fputs("\nset multiplot\n"
+    fputs(" noenhanced\nset encoding utf8\nset multiplot\n"
           "set key at graph 1, 1.15 right center horizontal Left reverse samplen 2 font ',10'\n"
           "set grid lc rgb '#e0e0e0' lw 0.8\nset border 3 lc rgb '#404040'\n"
           "set tics nomirror font ',10'\nset format '%g'\n",
@@ -656,8 +654,7 @@ static size_t most_rows(const plot_page *page)
     return rows;
 }
 
-ld_status plot_write_script(FILE *script, const void *what, plot_format format, const char *output,
-                            ld_error *error)
+ld_status plot_write_script(FILE *script, const void *what, plot_format format, ld_error *error)
 {
     const plot_page *page = what;
     size_t rows = most_rows(page);
@@ -677,7 +674,7 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
         status = set_sources(&drawing, i, error);
     if (!status) {
         locale_t before = numeric_locale_enter();
-        plot_begin(script, format, drawing.height, output);
+        plot_begin(script, format, drawing.height);
         place_figures(page, &drawing);
         fputs("unset multiplot\nunset output\n", script);
         numeric_locale_leave(before);

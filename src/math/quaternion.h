@@ -2,11 +2,18 @@
 #ifndef LD_MATH_QUATERNION_H
 #define LD_MATH_QUATERNION_H
 
+#include <stddef.h>
+
 #include "math/mat3.h"
 
 typedef struct quat {
     double w, x, y, z;
 } quat;
+// it is copied into four numbers of a state as it stands
+_Static_assert(offsetof(quat, w) == 0 && offsetof(quat, x) == sizeof(double) &&
+                   offsetof(quat, y) == 2 * sizeof(double) &&
+                   offsetof(quat, z) == 3 * sizeof(double) && sizeof(quat) == 4 * sizeof(double),
+               "a quaternion is four numbers, the scalar part first");
 
 LD_INLINE quat q_from(const double a[4])
 {

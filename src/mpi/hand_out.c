@@ -4,11 +4,12 @@
 #include "mpi/hand_out.h"
 
 #include <mpi.h>
-#include <omp.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
+#include "cli/command.h"
 #include "studies/ledger.h"
 #include "studies/worker.h"
 
@@ -103,26 +104,23 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
                          ld_study_counts *counts, ld_error *error)
 {
     study_ledger ledger;
+    pthread_t worker;
     leader all = {.ledger = &ledger, .record_size = record_size(&study->shape)};
     MPI_Comm_size(MPI_COMM_WORLD, &all.processes);
     all.state = calloc((size_t)all.processes, sizeof *all.state);
     all.record = calloc(1, all.record_size);
     if (!all.state || !all.record) {
         fputs("launchdyn-mpi: no memory for the records of samples\n", stderr);
-        MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+        MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
     }
     study_calm_blas();
     ledger_open(&ledger, study, folder, STORE_ROLLBACK, options, counts, error);
-#pragma omp parallel num_threads(all.processes > 1 ? 2 : 1)
-    {
-        // MPI is the main thread's
-        if (omp_get_thread_num() == 0)
-            serve(&all);
-        else
-            worker_run_all(study, &ledger);
-    }
-    // alone, or without a second thread
-    worker_run_all(study, &ledger);
+    // MPI is this thread's; alone, or without a second one, it runs samples after it has served
+    bool second = all.processes > 1 && worker_start(&worker, &ledger) == 0;
+    serve(&all);
+    if (second)
+        pthread_join(worker, NULL);
+    worker_run_all(&ledger);
     free(all.state);
     free(all.record);
     return ledger_close(&ledger);

@@ -60,7 +60,7 @@ static int read_everywhere(const char *file, char **sets, int process, ld_study 
     if (failed < processes) {
         if (failed > 0)
             command_complain("process %d cannot read %s as process 0 does", failed, file);
-        return EXIT_INPUT;
+        return status ? command_code(status) : EXIT_INPUT;
     }
     ld_error error;
     status = study_check(*study, &error);
@@ -125,11 +125,14 @@ int main(int argc, char **argv)
     MPI_Comm_rank(MPI_COMM_WORLD, &process);
     // one of them talks
     if (process > 0 && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)))
-        MPI_Abort(MPI_COMM_WORLD, EXIT_FAILED);
-    int code = given >= MPI_THREAD_FUNNELED ? run_command(argc, (const char **)argv, process)
-                                            : EXIT_FAILED;
-    if (given < MPI_THREAD_FUNNELED)
+        MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
+    int code = command_begin();
+    if (!code && given >= MPI_THREAD_FUNNELED) {
+        code = run_command(argc, (const char **)argv, process);
+    } else if (!code) {
         command_complain("this MPI is made for programs without threads");
+        code = EXIT_SYSTEM;
+    }
     MPI_Finalize();
     return process == 0 ? code : 0;
 }

@@ -332,9 +332,9 @@ static void write_failures(FILE *json, study_source *source, const study_series 
     enum { LEAST_EACH = 5 };
     int most = MOST_FAILURES / source->series_count, count = 0;
     most = most > LEAST_EACH ? most : LEAST_EACH;
-    study_failed failed[MOST_FAILURES];
-    ld_error error;
-    if (study_data_failed(series->data, series->point, failed, most, &count, &error))
+    study_failed *failed = malloc((size_t)most * sizeof *failed);
+    ld_error error = {.text = "no memory"};
+    if (!failed || study_data_failed(series->data, series->point, failed, most, &count, &error))
         report_take_note(source->report, "%.60s: failed samples cannot be read: %s.", series->label,
                          error.text);
     fputs(",\"failures\":[", json);
@@ -346,6 +346,7 @@ static void write_failures(FILE *json, study_source *source, const study_series 
         fputc(']', json);
     }
     fputc(']', json);
+    free(failed);
 }
 
 // Pairs of a swept key and its value.

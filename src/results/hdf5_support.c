@@ -38,11 +38,11 @@ static herr_t find_reason(unsigned depth, const H5E_error2_t *entry, void *data)
     return 0;
 }
 
-ld_status hdf5_failed(ld_error *error, const char *what, const char *path)
+ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path)
 {
     reason found = {0, "HDF5 failed"};
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &found);
-    return ld_fail(error, LD_ERR_FILE, "cannot %s %s: %s", what, path,
+    return ld_fail(error, status, "cannot %s %s: %s", what, path,
                    found.number ? strerror(found.number) : found.text);
 }
 

@@ -16,8 +16,8 @@ typedef struct hdf5_quiet {
 hdf5_quiet hdf5_quiet_begin(void);
 void hdf5_quiet_end(const hdf5_quiet *quiet);
 
-// LD_ERR_FILE with "cannot `what` `path`: reason", the reason from HDF5's error stack.
-ld_status hdf5_failed(ld_error *error, const char *what, const char *path);
+// `status` with "cannot `what` `path`: reason", the reason from HDF5's error stack.
+ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path);
 
 // A group whose members keep the order in which they were made.
 hid_t hdf5_create_group(hid_t parent, const char *name);

@@ -23,7 +23,7 @@ struct history_hdf5 {
 
 static ld_status failed(const history_hdf5 *history, ld_error *error)
 {
-    return hdf5_failed(error, "write", history->path);
+    return hdf5_failed(error, LD_ERR_FILE, "write", history->path);
 }
 
 static bool create_file(history_hdf5 *history, const char *title)

@@ -214,7 +214,7 @@ static ld_status read_launcher(hid_t file, const char *path, int number, history
         H5Gclose(rocket);
     if (!read_table(file, "history", history) || !read_flights(file, history) ||
         !read_geometry(file, history))
-        return hdf5_failed(error, "read", path);
+        return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     if (history->columns == 0 && history->flights == 0)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no history", path);
     return LD_OK;
@@ -240,7 +240,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
     hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     ld_status status = LD_OK;
     if (file < 0) {
-        status = hdf5_failed(error, "read", path);
+        status = hdf5_failed(error, LD_ERR_INPUT, "read", path);
     } else {
         status = read(file, path, rocket, history, error);
         H5Fclose(file);

@@ -1,6 +1,7 @@
 // The start of a launch: undeformed, or in static equilibrium found by Newton's method.
 #include <lapacke.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "math/rotation_vector.h"
@@ -101,8 +102,9 @@ typedef struct problem {
     const launching_phase *phase;
     int first, count;
     bool dead;
-    double spring; // [1/s2] holds y_S, z_S, psi, theta to the tube's axis
-    double h;      // [m, rad, ...] step of the differences
+    double spring;    // [1/s2] holds y_S, z_S, psi, theta to the tube's axis
+    double h;         // [m, rad, ...] step of the differences
+    double *jacobian; // [count + 1][count + 1] of Newton's method, by columns
 } problem;
 
 // Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
@@ -188,7 +190,7 @@ static int newton_step(const problem *the, const double *y, const double *r, dou
 {
     int n = the->count;
     double h = the->h;
-    double J[MAX_FREEDOMS * MAX_FREEDOMS], plus[MAX_FREEDOMS], minus[MAX_FREEDOMS];
+    double *J = the->jacobian, plus[MAX_FREEDOMS], minus[MAX_FREEDOMS];
     double trial[LD_MAX_STATES];
     lapack_int pivot[MAX_FREEDOMS];
     size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
@@ -205,6 +207,15 @@ static int newton_step(const problem *the, const double *y, const double *r, dou
         step[j] = -r[j];
     }
     return LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, J, n, pivot, step, n);
+}
+
+// Room for the Jacobian of a problem, to be freed: too large for a stack. It may get a freedom
+// more.
+static ld_status make_room(problem *the, ld_error *error)
+{
+    size_t most = (size_t)the->count + 1;
+    the->jacobian = malloc(most * most * sizeof *the->jacobian);
+    return the->jacobian ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the equilibrium");
 }
 
 // Newton with halved steps from the guess in y. Ends where no step makes the residual smaller.
@@ -521,7 +532,11 @@ static ld_status settle_base(const launch_state *self, double t, const launching
     problem dead = {
         .self = self, .t = t, .phase = phase, .first = first, .dead = true, .h = DIFFERENCE};
     dead.count = simulation_freedoms(self) - first;
+    ld_status status = make_room(&dead, error);
+    if (status)
+        return status;
     double reached = newton(&dead, y);
+    free(dead.jacobian);
     if (reached <= accepted)
         return LD_OK;
     return dynamics->no_rest(reached, error);
@@ -580,7 +595,11 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
         return status;
     problem whole = {
         .self = self, .t = t, .phase = &phase, .count = simulation_freedoms(self), .h = DIFFERENCE};
+    status = make_room(&whole, error);
+    if (status)
+        return status;
     double best = find_start(self, &whole, &phase, start, accepted, y);
+    free(whole.jacobian);
     if (!(best <= accepted))
         return ld_fail(
             error, LD_ERR_NUMERIC,
@@ -686,8 +705,12 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     self->on_breech = false;
     problem tube = {
         .self = self, .t = t, .phase = &phase, .count = launching_freedoms(self), .h = DIFFERENCE};
+    ld_status status = make_room(&tube, error);
+    if (status)
+        return status;
     double found[LD_MAX_STATES];
     double best = find_start(self, &tube, &phase, still, accepted, found);
+    free(tube.jacobian);
     if (!(best <= accepted))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "tube %d finds no static equilibrium when it takes its place at t = %.6g s "

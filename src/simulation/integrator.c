@@ -35,7 +35,8 @@ struct integrator {
     double next_step; // size to begin with after a restart; 0: the library chooses
     int *found;       // event flags of the last landing
     int failed_rhs;
-    bool anew; // the next step starts anew
+    bool anew;    // the next step starts anew
+    bool stopped; // the last step landed on a stop
 
     // What the library knows but does not tell, for those who save it.
     N_Vector y_previous, rate_previous; // where the last step began
@@ -256,6 +257,7 @@ ld_status integrator_start(integrator *self, double t, const double *y, ld_error
         memcpy(data(self->y), y, self->settings.n * sizeof(double));
     self->t = self->t_previous = self->t_end = t;
     self->anew = true;
+    self->stopped = false;
     // no step lies behind
     copy(self->y, self->y_end);
     self->within = false;
@@ -304,7 +306,7 @@ static int start(integrator *self, double h)
 // One step of the library's.
 static int evolve(integrator *self, double t_stop)
 {
-    self->loaded = false;
+    self->loaded = self->stopped = false;
     self->error_previous = self->error;
     self->t_stop = t_stop;
     int flag = ERKStepSetStopTime(self->erk, t_stop);
@@ -412,7 +414,7 @@ static integrator_outcome stop_at_once(integrator *self, double t_stop)
         ERKStepGetDky(self->erk, t_stop, 0, self->y);
     self->within = true;
     self->t = t_stop;
-    self->anew = true;
+    self->stopped = true;
     return INTEGRATOR_STOPPED;
 }
 
@@ -434,8 +436,8 @@ integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *er
         ERKStepGetRootInfo(self->erk, self->found);
         return land_on_event(self, error);
     }
-    self->anew = flag == ARK_TSTOP_RETURN || self->t >= t_stop;
-    if (self->anew)
+    self->stopped = flag == ARK_TSTOP_RETURN || self->t >= t_stop;
+    if (self->stopped)
         return INTEGRATOR_STOPPED;
     ERKStepGetCurrentStep(self->erk, &self->next_step);
     return INTEGRATOR_STEPPED;
@@ -507,7 +509,7 @@ static void gather(integrator *self)
         ERKStepGetCurrentStep(self->erk, &self->h_next);
         self->shortened = self->h_next == left_to(self->t_stop, self->t);
     }
-    if (self->anew) {
+    if (self->anew || self->stopped) {
         self->h_next = 0;
         self->shortened = false;
     }
@@ -521,7 +523,12 @@ static void archive_step(integrator *self, archive *bytes)
                          &self->error, &self->h,          &self->h_next};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         archive_double(bytes, numbers[i]);
-    archive_bool(bytes, &self->anew);
+    bool anew = self->anew || self->stopped;
+    archive_bool(bytes, &anew);
+    if (bytes->loading) {
+        self->anew = anew;
+        self->stopped = false;
+    }
     archive_bool(bytes, &self->within);
     archive_bool(bytes, &self->shortened);
     for (int i = 0; i < 5; i++)

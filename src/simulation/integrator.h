@@ -50,8 +50,8 @@ void integrator_free(integrator *self);
 ld_status integrator_start(integrator *self, double t, const double *y, ld_error *error);
 
 // One step of error-controlled size, not beyond t_stop. At an event the step is taken anew to end
-// on it, so that the state there is a step's end and not an interpolated one. After a stop or an
-// event the next step starts anew, whether integrator_start was called or not.
+// on it, so that the state there is a step's end and not an interpolated one. After an event the
+// next step starts anew, whether integrator_start was called or not.
 integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error);
 
 // Takes the last step anew so that it ends at t, which lies in it; where error control makes it
@@ -71,8 +71,8 @@ int64_t integrator_steps(const integrator *self);
 int64_t integrator_evaluations(const integrator *self);
 
 // Saves all that the steps to come depend on, the last one's interpolation and the counts, or loads
-// it into an integrator of the same settings, which then goes on with the same bits. After a
-// failed load it wants integrator_start.
+// it into an integrator of the same settings, which then goes on with the same bits; one that was
+// saved on a stop as after integrator_start there. After a failed load it wants integrator_start.
 void integrator_archive(integrator *self, archive *bytes);
 
 #endif

@@ -147,6 +147,7 @@ struct propagator {
     launch_state *launch;
     event_list events;
     integrator *integrator; // of all, or of the launching subsystem
+    bool stopped;           // its last step landed on a stop
     double state[LD_MAX_STATES];
 
     // apart alone
@@ -485,10 +486,22 @@ ld_status propagator_start(propagator *self, double t, const double *y, bool ane
     return integrator_start(self->integrator, t, launching, error);
 }
 
+// The integrator's step; after a stop it starts anew, as one does that was saved there.
+static integrator_outcome step(propagator *self, double t_stop, ld_error *error)
+{
+    integrator *stepper = self->integrator;
+    if (self->stopped &&
+        integrator_start(stepper, integrator_time(stepper), integrator_state(stepper), error))
+        return INTEGRATOR_FAILED;
+    integrator_outcome outcome = integrator_step(stepper, t_stop, error);
+    self->stopped = outcome == INTEGRATOR_STOPPED;
+    return outcome;
+}
+
 integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error)
 {
     if (!self->apart)
-        return integrator_step(self->integrator, t_stop, error);
+        return step(self, t_stop, error);
     double t = integrator_time(self->integrator), launching[LD_MAX_STATES];
     const launcher_system *launcher = &self->launch->launcher;
     if (t >= self->t_next) {
@@ -499,8 +512,7 @@ integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *er
         if (integrator_start(self->integrator, t, launching, error))
             return INTEGRATOR_FAILED;
     }
-    integrator_outcome outcome =
-        integrator_step(self->integrator, fmin(t_stop, self->t_next), error);
+    integrator_outcome outcome = step(self, fmin(t_stop, self->t_next), error);
     t = integrator_time(self->integrator);
     join(self, t, integrator_state(self->integrator), self->state);
     return outcome == INTEGRATOR_STOPPED && t < t_stop ? INTEGRATOR_STEPPED : outcome;

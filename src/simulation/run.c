@@ -10,7 +10,7 @@
 
 static bool has_launch(const ld_run *run)
 {
-    return run->launch.model->base.kind != LD_BASE_NONE;
+    return model_has_launcher(run->launch.model);
 }
 
 // A run whose rocket stands in its tube; NULL: no memory.

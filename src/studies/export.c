@@ -61,7 +61,7 @@ static ld_status count_rows(study_store *store, int64_t *rows, ld_error *error)
     sqlite3_stmt *count =
         store_prepare(store, "SELECT count(*) FROM sample JOIN rocket USING (sample)", error);
     if (!count)
-        return LD_ERR_FILE;
+        return store_status(store);
     bool read = sqlite3_step(count) == SQLITE_ROW;
     *rows = read ? sqlite3_column_int64(count, 0) : 0;
     sqlite3_finalize(count);
@@ -110,7 +110,7 @@ static ld_status write_csv(const export_table *table, FILE *stream, ld_error *er
         fputc('\n', stream);
     }
     if (result != SQLITE_DONE)
-        return ld_fail(error, LD_ERR_FILE, "cannot read %s", table->path);
+        return ld_fail(error, LD_ERR_INPUT, "cannot read %s", table->path);
     return LD_OK;
 }
 
@@ -164,7 +164,7 @@ static ld_status export_rows(const study_data *data, study_store *store, const c
     table.row = store_prepare(store, query, error);
     free(query);
     if (!table.row)
-        return LD_ERR_FILE;
+        return store_status(store);
     table.keys += data->swept_count > 0 ? 1 + data->swept_count : 0;
     table.columns = sqlite3_column_count(table.row);
     ld_status status = count_rows(store, &table.rows, error);

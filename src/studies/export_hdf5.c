@@ -171,9 +171,9 @@ ld_status export_hdf5(const export_table *table, const char *file, const char *n
     }
     if (!create_file(&self, file) || !create_columns(&self) || !write_rows(&self) ||
         (table->data->swept_count > 0 && !write_points(&self)))
-        status = hdf5_failed(error, "write", name);
+        status = hdf5_failed(error, LD_ERR_FILE, "write", name);
     if (!close_all(&self) && !status)
-        status = hdf5_failed(error, "write", name);
+        status = hdf5_failed(error, LD_ERR_FILE, "write", name);
     hdf5_quiet_end(&quiet);
     return status;
 }

@@ -23,8 +23,9 @@ static void stop(study_ledger *self, ld_status status, const ld_error *error)
 
 void ledger_stop(study_ledger *self, ld_status status, const ld_error *error)
 {
-#pragma omp critical(ledger)
+    pthread_mutex_lock(&self->at_work);
     stop(self, status, error);
+    pthread_mutex_unlock(&self->at_work);
 }
 
 // ---- handing out
@@ -82,8 +83,9 @@ static int64_t next_number(study_ledger *self)
 int64_t ledger_next(study_ledger *self)
 {
     int64_t number;
-#pragma omp critical(ledger)
+    pthread_mutex_lock(&self->at_work);
     number = next_number(self);
+    pthread_mutex_unlock(&self->at_work);
     return number;
 }
 
@@ -123,8 +125,9 @@ static void keep(study_ledger *self, const study_record *record)
 
 void ledger_keep(study_ledger *self, const study_record *record)
 {
-#pragma omp critical(ledger)
+    pthread_mutex_lock(&self->at_work);
     keep(self, record);
+    pthread_mutex_unlock(&self->at_work);
 }
 
 // ---- from begin to end
@@ -149,7 +152,8 @@ void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
                            .next = options->shards > 0 ? options->shard : 1,
                            .step = shards,
                            .last = study->samples,
-                           .error = error};
+                           .error = error,
+                           .at_work = PTHREAD_MUTEX_INITIALIZER};
     *counts = (ld_study_counts){0};
     ld_status status =
         store_open(&self->store, folder, options->shard, options->shards, study, journal, error);

@@ -4,6 +4,7 @@
 #ifndef LD_STUDIES_LEDGER_H
 #define LD_STUDIES_LEDGER_H
 
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "studies/record.h"
@@ -23,6 +24,7 @@ typedef struct study_ledger {
     ld_status status;         // why it stopped
     ld_error *error;
     atomic_bool stopped;
+    pthread_mutex_t at_work; // held by whom the ledger serves
 } study_ledger;
 
 // Opens the folder, which it may make; error and counts are written to until it is closed. Where

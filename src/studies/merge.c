@@ -65,7 +65,7 @@ static ld_status ask(study_store *self, const char *query, char **answer, ld_err
     sqlite3_stmt *select = store_prepare(self, query, error);
     *answer = NULL;
     if (!select)
-        return LD_ERR_FILE;
+        return store_status(self);
     int result = sqlite3_step(select);
     const char *text = result == SQLITE_ROW ? (const char *)sqlite3_column_text(select, 0) : NULL;
     if (text)
@@ -144,12 +144,12 @@ static ld_status merge_file(study_store *self, const char *path, ld_error *error
 {
     sqlite3_stmt *attach = store_prepare(self, "ATTACH DATABASE ? AS part", error);
     if (!attach)
-        return LD_ERR_FILE;
+        return store_status(self);
     sqlite3_bind_text(attach, 1, path, -1, SQLITE_STATIC);
     bool attached = sqlite3_step(attach) == SQLITE_DONE;
     sqlite3_finalize(attach);
     if (!attached)
-        return ld_fail(error, LD_ERR_FILE, "cannot read %s: %s", path,
+        return ld_fail(error, store_status(self), "cannot read %s: %s", path,
                        sqlite3_errmsg(self->database));
     ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
     if (!status)

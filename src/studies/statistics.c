@@ -1,6 +1,7 @@
 #include "studies/statistics.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -150,7 +151,8 @@ static const resample *draw_resamples(size_t count)
     static const uint64_t key[2] = {0x626f6f7473747261, 0x70}; // "bootstrap"
     static resample all[RESAMPLES];
     static size_t known = 0;
-#pragma omp critical(resamples)
+    static pthread_mutex_t drawing = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&drawing);
     for (; known < count; known += 8)
         for (uint64_t b = 0; b < RESAMPLES; b++) {
             uint64_t words[4];
@@ -158,6 +160,7 @@ static const resample *draw_resamples(size_t count)
             for (int i = 0; i < 8; i++)
                 all[b].drawn[known + (size_t)i] = (uint32_t)(words[i / 2] >> i % 2 * 32);
         }
+    pthread_mutex_unlock(&drawing);
     return all;
 }
 

@@ -13,9 +13,26 @@
 #include "launchdyn/version.h"
 #include "results/folder.h"
 
+ld_status store_status(const study_store *self)
+{
+    switch (self->database ? sqlite3_errcode(self->database) : SQLITE_NOMEM) {
+    case SQLITE_NOMEM:
+        return LD_ERR_MEMORY;
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+    case SQLITE_ERROR:
+    case SQLITE_SCHEMA:
+    case SQLITE_MISMATCH:
+    case SQLITE_CONSTRAINT:
+        return LD_ERR_INPUT;
+    default:
+        return LD_ERR_FILE;
+    }
+}
+
 ld_status store_fail(const study_store *self, const char *what, ld_error *error)
 {
-    return ld_fail(error, LD_ERR_FILE, "cannot %s %s: %s", what, self->path,
+    return ld_fail(error, store_status(self), "cannot %s %s: %s", what, self->path,
                    self->database ? sqlite3_errmsg(self->database) : "no memory");
 }
 
@@ -112,7 +129,7 @@ static ld_status prepare_all(study_store *self, ld_error *error)
     self->insert_rocket = store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
     self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
     bool all = self->insert_sample && self->insert_rocket && self->find;
-    return all ? LD_OK : LD_ERR_FILE;
+    return all ? LD_OK : store_status(self);
 }
 
 static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
@@ -141,7 +158,7 @@ ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *erro
         error);
     *counts = (ld_study_counts){0};
     if (!count)
-        return LD_ERR_FILE;
+        return store_status(self);
     bool read = sqlite3_step(count) == SQLITE_ROW;
     if (read) {
         counts->done = sqlite3_column_int64(count, 0);
@@ -280,7 +297,7 @@ static ld_status open_pending(study_store *self, ld_error *error)
     sqlite3_stmt *greatest =
         status ? NULL : store_prepare(self, "SELECT max(sample) FROM sample", error);
     if (!greatest)
-        return LD_ERR_FILE;
+        return store_status(self);
     sqlite3_step(greatest);
     self->greatest = sqlite3_column_int64(greatest, 0);
     sqlite3_finalize(greatest);
@@ -293,7 +310,7 @@ static ld_status open_locked(study_store *self, const char *folder, int shard, i
                              store_journal journal, ld_error *error)
 {
     if (strlen(folder) + 64 > sizeof self->path)
-        return ld_fail(error, LD_ERR_FILE, "the name of the folder is too long");
+        return ld_fail(error, LD_ERR_INPUT, "the name of the folder is too long");
     name_file(self->path, sizeof self->path, folder, shard, shards);
     ld_status status = store_lock(self->path, &self->lock, error);
     return status ? status : open_database(self, journal, error);

@@ -57,7 +57,9 @@ ld_status store_put(study_store *self, const study_record *record, ld_error *err
 // Commits what was put, where a tenth of a second has gone by since the last time, or now.
 ld_status store_settle(study_store *self, bool now, ld_error *error);
 
-// Fails with the database's own words.
+// What the database's latest failure is: LD_ERR_INPUT, what it holds; LD_ERR_MEMORY; LD_ERR_FILE.
+ld_status store_status(const study_store *self);
+// Fails so, with the database's own words.
 ld_status store_fail(const study_store *self, const char *what, ld_error *error);
 // A statement, NULL after an error.
 sqlite3_stmt *store_prepare(study_store *self, const char *text, ld_error *error);

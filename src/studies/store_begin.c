@@ -70,7 +70,7 @@ static ld_status set_text(study_store *self, const char *name, const char *value
     sqlite3_stmt *insert =
         store_prepare(self, "INSERT OR REPLACE INTO study (name, value) VALUES (?, ?)", error);
     if (!insert)
-        return LD_ERR_FILE;
+        return store_status(self);
     sqlite3_bind_text(insert, 1, name, -1, SQLITE_STATIC);
     sqlite3_bind_text(insert, 2, value, -1, SQLITE_STATIC);
     int result = sqlite3_step(insert);
@@ -136,7 +136,7 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
         status =
             ld_fail(error, LD_ERR_INPUT, "%s is of another format; use another folder", self->path);
     } else if (!before || !version || !format) {
-        status = ld_fail(error, LD_ERR_FILE, "%s holds no study", self->path);
+        status = ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->path);
     } else if (strcmp(before, identity) != 0) {
         first_difference(before, identity, line);
         status = ld_fail(error, LD_ERR_INPUT,
@@ -162,7 +162,7 @@ static ld_status insert_origin(study_store *self, const char *kind, const char *
     sqlite3_stmt *insert =
         store_prepare(self, "INSERT OR IGNORE INTO origin VALUES (?, ?, ?)", error);
     if (!insert)
-        return LD_ERR_FILE;
+        return store_status(self);
     sqlite3_bind_text(insert, 1, kind, -1, SQLITE_STATIC);
     sqlite3_bind_text(insert, 2, name, -1, SQLITE_STATIC);
     sqlite3_bind_blob(insert, 3, text, (int)length, SQLITE_STATIC);
@@ -222,7 +222,7 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
     sqlite3_stmt *tables =
         store_prepare(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", error);
     if (!tables)
-        return LD_ERR_FILE;
+        return store_status(self);
     bool there = sqlite3_step(tables) == SQLITE_ROW;
     sqlite3_finalize(tables);
     ld_status status = there ? compare(self, identity, error) : fill_new(self, identity, error);

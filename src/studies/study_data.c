@@ -69,7 +69,7 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
     snprintf(query, sizeof query, "PRAGMA table_info(%s)", table);
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
     if (!row)
-        return LD_ERR_FILE;
+        return store_status(&self->store);
     ld_status status = LD_OK;
     while (!status && sqlite3_step(row) == SQLITE_ROW) {
         const char *name = (const char *)sqlite3_column_text(row, 1);
@@ -166,12 +166,12 @@ static ld_status list_swept(study_data *data, ld_error *error)
     study_reader *self = data->reader;
     sqlite3_stmt *row = store_prepare(&self->store, "SELECT count(*) FROM point", error);
     if (!row)
-        return LD_ERR_FILE;
+        return store_status(&self->store);
     int points = sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int(row, 0) : 0;
     sqlite3_finalize(row);
     row = store_prepare(&self->store, "SELECT * FROM point ORDER BY point", error);
     if (!row)
-        return LD_ERR_FILE;
+        return store_status(&self->store);
     data->swept_count = sqlite3_column_count(row) - 1;
     ld_status status = make_points(data, points, error);
     for (int k = 0; k < data->swept_count && !status; k++)
@@ -200,7 +200,7 @@ static ld_status count_samples(study_data *data, ld_error *error)
              self->has_points ? "point" : "1");
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
     if (!row)
-        return LD_ERR_FILE;
+        return store_status(&self->store);
     while (sqlite3_step(row) == SQLITE_ROW)
         for (int i = 0; i < data->point_count; i++)
             if (self->point[i].number == sqlite3_column_int64(row, 0)) {
@@ -299,7 +299,7 @@ ld_status study_data_failures(const study_data *data, const study_point *point,
              self->has_points ? "point" : "1");
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
     if (!row)
-        return LD_ERR_FILE;
+        return store_status(&self->store);
     sqlite3_bind_int64(row, 1, point->number);
     while (*count < capacity && sqlite3_step(row) == SQLITE_ROW) {
         study_failure *f = &failure[(*count)++];
@@ -325,7 +325,7 @@ ld_status study_data_failed(const study_data *data, const study_point *point, st
              self->has_points ? "point" : "1");
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
     if (!row)
-        return LD_ERR_FILE;
+        return store_status(&self->store);
     sqlite3_bind_int64(row, 1, point->number);
     while (*count < capacity && (result = sqlite3_step(row)) == SQLITE_ROW) {
         study_failed *f = &failed[(*count)++];
@@ -424,7 +424,7 @@ static ld_status read_up_to(const study_data *data, const study_point *point, in
     int result = SQLITE_DONE;
     sqlite3_stmt *row = select_values(self, column, columns, error);
     if (!row)
-        return LD_ERR_FILE;
+        return store_status(&self->store);
     sqlite3_bind_int64(row, 1, point->number);
     sqlite3_bind_int64(row, 2, last);
     values->count = 0;

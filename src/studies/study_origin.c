@@ -83,9 +83,7 @@ ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *
     *origin = (ld_origin){0};
     ld_status status = store_open_to_read(&store, folder, error);
     if (status)
-        return status == LD_ERR_FILE ? ld_fail(error, LD_ERR_INPUT,
-                                               "%.300s/study.db is no study, or is damaged", folder)
-                                     : status;
+        return status;
     status = read_origin(&store, origin, error);
     store_close(&store);
     if (status)

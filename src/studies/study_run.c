@@ -33,7 +33,6 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
     study_calm_blas();
     ledger_open(&ledger, study, folder, options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD, options,
                 counts, error);
-#pragma omp parallel num_threads(options->threads > 1 ? options->threads : 1)
-    worker_run_all(study, &ledger);
+    worker_run_side_by_side(&ledger, options->threads);
     return ledger_close(&ledger);
 }

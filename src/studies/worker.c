@@ -1,8 +1,11 @@
 #include "studies/worker.h"
 
+#include <errno.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "simulation/simulation.h"
@@ -100,11 +103,11 @@ void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void 
     fill_values(self);
 }
 
-void worker_run_all(const ld_study *study, study_ledger *ledger)
+void worker_run_all(study_ledger *ledger)
 {
     study_worker worker;
     ld_error error;
-    ld_status status = worker_create(&worker, study, &error);
+    ld_status status = worker_create(&worker, ledger->study, &error);
     if (status) {
         ledger_stop(ledger, status, &error);
         return;
@@ -118,4 +121,46 @@ void worker_run_all(const ld_study *study, study_ledger *ledger)
         ledger_keep(ledger, worker.record);
     }
     worker_free(&worker);
+}
+
+static void *run_all(void *ledger)
+{
+    worker_run_all(ledger);
+    return NULL;
+}
+
+int worker_start(pthread_t *thread, study_ledger *ledger)
+{
+    enum { STACK = 8 << 20 }; // whatever the limit of this process, by which it would be chosen
+    pthread_attr_t attributes;
+    int problem = pthread_attr_init(&attributes);
+    if (problem)
+        return problem;
+    problem = pthread_attr_setstacksize(&attributes, STACK);
+    if (!problem)
+        problem = pthread_create(thread, &attributes, run_all, ledger);
+    pthread_attr_destroy(&attributes);
+    return problem;
+}
+
+void worker_run_side_by_side(study_ledger *ledger, int threads)
+{
+    ld_error error;
+    int others = threads > 1 ? threads - 1 : 0, started = 0, problem = 0;
+    pthread_t *thread = calloc((size_t)others + 1, sizeof *thread);
+    if (!thread)
+        problem = ENOMEM;
+    while (!problem && started < others) {
+        problem = worker_start(&thread[started], ledger);
+        started += !problem;
+    }
+    if (problem) {
+        ld_fail(&error, LD_ERR_MISSING, "cannot start thread %d of %d: %s", started + 2, threads,
+                strerror(problem));
+        ledger_stop(ledger, LD_ERR_MISSING, &error);
+    }
+    worker_run_all(ledger);
+    while (started > 0)
+        pthread_join(thread[--started], NULL);
+    free(thread);
 }

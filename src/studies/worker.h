@@ -23,6 +23,13 @@ void worker_free(study_worker *self);
 void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument);
 
 // Runs samples that the ledger hands out until there are no more: the work of one thread.
-void worker_run_all(const ld_study *study, study_ledger *ledger);
+void worker_run_all(study_ledger *ledger);
+
+// Starts a thread that does so; returns 0, or why there is none (an errno).
+int worker_start(pthread_t *thread, study_ledger *ledger);
+
+// The same on `threads` threads (fewer than 1 are one), of which the caller's is one. One that
+// cannot be had stops the ledger.
+void worker_run_side_by_side(study_ledger *ledger, int threads);
 
 #endif

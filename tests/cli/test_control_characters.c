@@ -124,9 +124,9 @@ static void test_names_of_files_and_arguments(void **state)
     expect_seen(WITH_EVIL "launchdyn run title.yaml -q -o run && launchdyn plot run -o x.svg -w "
                           "\"$evil\"",
                 2, SEEN);
-    expect_seen(WITH_EVIL "launchdyn plot run -o \"none/$evil.svg\"", 1, SEEN);
+    expect_seen(WITH_EVIL "launchdyn plot run -o \"none/$evil.svg\"", 3, SEEN);
     expect_seen(WITH_EVIL "launchdyn report run -o \"$evil.html\"", 0, SEEN ".html: ");
-    expect_seen(WITH_EVIL "launchdyn run title.yaml -q -o \"title.yaml/$evil\"", 1, SEEN);
+    expect_seen(WITH_EVIL "launchdyn run title.yaml -q -o \"title.yaml/$evil\"", 3, SEEN);
 }
 
 // Writes into the study's database what another could have written.

@@ -127,7 +127,7 @@ static char *script_of(const plot_figure *figure, const history_data *history)
     FILE *script = open_memstream(&text, &length);
     const char *name = "run";
     plot_page page = {history, &name, 1, &figure, 1, NAN, NAN};
-    assert_int_equal(plot_write_script(script, &page, PLOT_SVG, "x.svg", NULL), LD_OK);
+    assert_int_equal(plot_write_script(script, &page, PLOT_SVG, NULL), LD_OK);
     fclose(script);
     return text;
 }

@@ -309,7 +309,7 @@ static const char *script_of(const history_data *history, size_t runs, const cha
     static char text[1 << 18];
     memset(text, 0, sizeof text);
     FILE *script = fmemopen(text, sizeof text - 1, "w");
-    assert_int_equal(plot_write_script(script, &page, PLOT_SVG, "x", NULL), LD_OK);
+    assert_int_equal(plot_write_script(script, &page, PLOT_SVG, NULL), LD_OK);
     fclose(script);
     return text;
 }

@@ -508,12 +508,12 @@ static void test_unreadable_histories(void **state)
     place *here = *state;
     ld_error error = {0};
     history_data read;
-    assert_int_equal(history_read(in(here, "none.h5"), &read, &error), LD_ERR_FILE);
+    assert_int_equal(history_read(in(here, "none.h5"), &read, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "none.h5: No such file or directory"));
     FILE *file = fopen(in(here, "text.h5"), "w");
     fputs("no HDF5 at all", file);
     fclose(file);
-    assert_int_equal(history_read(in(here, "text.h5"), &read, &error), LD_ERR_FILE);
+    assert_int_equal(history_read(in(here, "text.h5"), &read, &error), LD_ERR_INPUT);
     printf("    %s\n", error.text);
 }
 

@@ -458,13 +458,13 @@ static void test_failures(void **state)
     memset(&model, 0x5a, sizeof model);
     memcpy(&untouched, &model, sizeof model);
     assert_int_equal(scenario_read("/nowhere/at/all.yaml", NULL, 0, &model, &messages),
-                     LD_ERR_FILE);
+                     LD_ERR_INPUT);
     assert_int_equal(messages.count, 1);
     assert_int_equal(messages.item[0].line, 0);
     assert_string_equal(messages.item[0].text,
                         "file \"/nowhere/at/all.yaml\" cannot be read: No such file or directory");
     ld_messages_free(&messages);
-    assert_int_equal(scenario_read("/dev/zero", NULL, 0, &model, &messages), LD_ERR_FILE);
+    assert_int_equal(scenario_read("/dev/zero", NULL, 0, &model, &messages), LD_ERR_INPUT);
     ld_messages_free(&messages);
     const char bad[] = "launchdyn: 1\ntitle: \xff\xfe\n";
     assert_int_equal(

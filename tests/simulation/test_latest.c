@@ -89,6 +89,9 @@ static void other_conditions_are_seen(void **state)
     bench b;
     reference_vehicle(&b.model, 8);
     b.model.platform.elevation.lock = (ld_hinge_lock){.present = true, .stiffness = 1e8};
+    b.model.base.vehicle.road.form = LD_ROAD_SUM;
+    b.model.base.vehicle.road.sine_count = 1;
+    b.model.base.vehicle.road.sine[0] = (ld_road_sine){0.01, 5, 1};
     b.model.rocket.contact.law = LD_CONTACT_LANKARANI_NIKRAVESH;
     b.model.rocket.contact.exponent = 1.5;
     b.model.firing_count = 2;
@@ -103,6 +106,7 @@ static void other_conditions_are_seen(void **state)
     assert_true(SEEN_AFTER(&b, self->phase.locked = false));
     assert_true(SEEN_AFTER(&b, self->rest.hinge[HINGE_ELEVATION].angle += 1e-4));
     assert_true(SEEN_AFTER(&b, self->rest.hinge[HINGE_ELEVATION].torque += 10));
+    assert_true(SEEN_AFTER(&b, self->launcher.base.level = true));
     assert_true(SEEN_AFTER(&b, self->piece = -1));
     assert_true(SEEN_AFTER(&b, self->piece = 0));
     assert_true(SEEN_AFTER(&b, self->t_ignition += 0.295));

@@ -67,8 +67,9 @@ static ld_status row(void *self, const double *values, size_t count, ld_error *e
     recorder *rows = self;
     (void)error;
     const recorded_run *expected = rows->expected;
-    rows->differ += rows->row >= expected->rows ||
-                    memcmp(values, expected->values + rows->row * count, count * sizeof *values);
+    rows->differ +=
+        rows->row >= expected->rows ||
+        memcmp(values, expected->values + rows->row * count, count * sizeof *values) != 0;
     rows->row++;
     return LD_OK;
 }
@@ -140,8 +141,9 @@ static void check_pieces(const char *what, const ld_model *model, bool saved)
     CHECK_WITHIN("times looked at", reads, 100, 2000);
     CHECK_WITHIN("rows that differ from those of a run in one go", rows.differ, 0, 0);
     CHECK_WITHIN("rows too few or too many", fabs((double)rows.row - (double)expected.rows), 0, 0);
-    CHECK_WITHIN("summaries that differ", memcmp(&summary, &expected.summary, sizeof summary) != 0,
-                 0, 0);
+    CHECK_WITHIN(
+        "summaries that differ",
+        memcmp((const char *)&summary, (const char *)&expected.summary, sizeof summary) != 0, 0, 0);
     if (saved)
         CHECK_WITHIN("bytes of the state, at most", (double)most, 1000, 65535);
     recorded_run_free(&expected);
@@ -343,7 +345,7 @@ static void ignition_is_an_input(void **state)
     model.firing[0].at = 0.02;
     ld_rocket_summary before = lit_at(&model, 0.0133, -0.02, false);
     CHECK_WITHIN("told at the start: bits that differ",
-                 memcmp(&before, &wanted, sizeof wanted) != 0, 0, 0);
+                 memcmp((const char *)&before, (const char *)&wanted, sizeof wanted) != 0, 0, 0);
     model.firing[0].at = 1;
     ld_rocket_summary between = lit_at(&model, 0.0133, 0.0007, false);
     ld_rocket_summary now = lit_at(&model, 0.0133, 0.0133, true);

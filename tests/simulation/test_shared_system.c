@@ -53,7 +53,8 @@ static void threads_get_the_bits_of_one(void **state)
     int differ = 0;
     for (int i = 0; i < THREADS; i++) {
         pthread_join(thread[i], NULL);
-        differ += memcmp(&beside[i].summary, &alone.summary, sizeof alone.summary) != 0;
+        differ += memcmp((const char *)&beside[i].summary, (const char *)&alone.summary,
+                         sizeof alone.summary) != 0;
     }
     CHECK_WITHIN("threads whose summary is another than that of a run alone", differ, 0, 0);
     CHECK_WITHIN("rockets that left, of the run alone", alone.summary.rocket_count, 2, 2);

@@ -65,7 +65,7 @@ static void expect_in(const char *text, const char *part)
 }
 
 // A line that ends with `code`, prints nothing on stdout and this on stderr.
-static void expect_complaint(const char *line, int code, const char *text)
+static inline void expect_complaint(const char *line, int code, const char *text)
 {
     run(line);
     if (shell.code != code || *shell.out)
