@@ -60,6 +60,7 @@ typedef struct ld_mstmm_beam {
     int elements;                ///< finite elements at least; 0: 40
     double damping;              ///< [-] ratio, of the modes clamped at x = 0
     ld_mode_span span;           ///< LD_SPAN_FREE_FREE, or clamped shapes
+    const void *reserved[4];     ///< NULL: room for what later versions may be asked
 } ld_mstmm_beam;
 
 /// One body and the hinge that carries it. All not mentioned may be zero.
@@ -80,6 +81,7 @@ typedef struct ld_mstmm_element {
     double center[3];    ///< [m] mass centre, body axes
     double inertia[6];   ///< [kg m2] matrix elements xx yy zz xy xz yz about the mass centre
     const ld_mstmm_beam *beam; ///< not NULL: the body is this beam (mass, center, inertia unused)
+    const void *reserved[4];   ///< NULL: room for what later versions may be asked
 } ld_mstmm_element;
 
 /// Builds a system in a uniform gravity field [m/s2]. Fails with a sentence that names the element:
@@ -185,6 +187,7 @@ typedef struct ld_mstmm_settings {
     ld_mstmm_drive drive; ///< NULL: no drive forces
     ld_mstmm_sink sink;   ///< NULL: none
     void *context;
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_mstmm_settings;
 
 typedef struct ld_mstmm_statistics {

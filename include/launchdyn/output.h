@@ -66,7 +66,8 @@ typedef struct ld_picture {
                                ///< columns for; none: tip, contact and relative, or of a flight
                                ///< alone trajectory and flight
     size_t figure_count;
-    double from, to; ///< [s] from ignition; NaN: what the figure shows by itself
+    double from, to;         ///< [s] from ignition; NaN: what the figure shows by itself
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_picture;
 
 /// Draws a page with gnuplot, which must be in PATH.

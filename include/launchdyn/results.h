@@ -41,6 +41,7 @@ typedef struct ld_sink {
                         ld_error *error);
     /// What is drawn of the launcher (docs/results.md); NULL: not wanted.
     ld_status (*geometry)(void *self, const ld_array *arrays, size_t count, ld_error *error);
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_sink;
 
 #pragma GCC visibility pop

@@ -66,6 +66,7 @@ typedef struct ld_run_options {
     /// keeps what it has.
     bool (*progress)(void *self, double share);
     const ld_base_frame *base; ///< of base.kind: external, which needs it, at the start of the run
+    const void *reserved[4];   ///< NULL: room for what later versions may be asked
 } ld_run_options;
 
 /// Runs from the start to the end that the model asks for. On failure the summary holds what was

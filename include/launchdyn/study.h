@@ -57,6 +57,7 @@ typedef struct ld_study_options {
     void (*progress)(void *self, const ld_study_counts *counts);
     /// Called often, from all threads at once; false stops the study, which keeps what it has.
     bool (*go_on)(void *self);
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_study_options;
 
 /// Runs the samples of `study` that the folder does not hold yet and keeps each as soon as it is
@@ -82,6 +83,7 @@ ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *
 typedef struct ld_study_view {
     const char *what; ///< names of results, with commas between; "all"; NULL: a choice
     bool sensitivity; ///< how much of the variance each factor explains, instead of statistics
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_study_view;
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs: point

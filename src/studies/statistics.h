@@ -8,24 +8,14 @@
 #include <stdint.h>
 
 #include "launchdyn/status.h"
+#include "launchdyn/study_data.h"
 
-typedef struct estimate {
-    double value;
-    double low, high; // 95 % interval; NaN where none can be stated
-} estimate;
+typedef ld_estimate estimate;
 
 enum { STATISTICS_QUANTILES = 3 };
 extern const double statistics_level[STATISTICS_QUANTILES]; // 5 %, 50 %, 95 %
 
-typedef struct group_statistics {
-    size_t count;       // values
-    size_t groups;      // independent ones
-    estimate mean;      // interval: Student's t over groups
-    estimate deviation; // of all values; interval: studentised bootstrap over groups
-    double skewness;
-    double least, greatest;
-    estimate quantile[STATISTICS_QUANTILES]; // interval: order statistics of the effective number
-} group_statistics;
+typedef ld_study_statistics group_statistics;
 
 // Of `count` values (no NaN) in the order of their groups, where `group` rises: the result does not
 // depend on how they came about, to the bit.

@@ -9,24 +9,11 @@
 #include <stdint.h>
 
 #include "launchdyn/status.h"
+#include "launchdyn/study_data.h"
 #include "model/model.h"
 
-// A number of each rocket, or of each sample.
-typedef struct study_column {
-    const char *name; // a result's name (studies/results.h) or a factor's path
-    const char *unit; // SI; "" without, or of a factor that this version does not know
-    bool factor;      // drawn; else a result
-    bool per_rocket;  // else one for all rockets of a sample
-    bool seed;        // a factor that is another seed in each sample
-} study_column;
-
-// A point of the sweep; a study without one has a single point.
-typedef struct study_point {
-    int64_t number;          // from 1
-    const char *const *text; // [swept_count] value of each swept key, as in the scenario
-    int64_t asked;           // samples; of all, `done` are kept, of which `failed`
-    int64_t done, failed;
-} study_point;
+typedef ld_study_column study_column;
+typedef ld_study_point study_point;
 
 typedef struct study_data {
     struct study_reader *reader;
