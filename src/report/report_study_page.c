@@ -214,7 +214,7 @@ static const study_column **list_results(const study_source *source, int *count)
     int most = 0;
     for (int i = 0; i < source->series_count; i++)
         most += source->series[i].data->result_count;
-    const study_column **list = calloc((size_t)most + 1, sizeof *list);
+    const study_column **list = calloc((size_t)most + 1, sizeof(void *));
     *count = 0;
     for (int i = 0; list && i < source->series_count; i++) {
         const study_data *data = source->series[i].data;

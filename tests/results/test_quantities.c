@@ -137,7 +137,7 @@ static void test_summary_json(void **state)
 
 static int look_in_table(const quantity_table *table, const char *text)
 {
-    const char *number = NULL;
+    const char *number = "";
     int index = 0, lines = 0;
     for (quantity_walk at = quantity_first(table, &made.things); at.row; quantity_next(&at)) {
         const quantity_line *line = &at.row->line;

@@ -1,6 +1,7 @@
 // A run that is saved and loaded goes on with the bits of one that was not interrupted: rows and
-// summary, at 1000 instants, among them 1 ns before and after each event; in another process too.
+// summary, at 1020 instants, among them 1 ns before and after each event; in another process too.
 // What is not its state is refused.
+// ctest: slow
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/wait.h>
