@@ -14,7 +14,7 @@
 static ld_status light_when_calm(ld_run *run, double from, ld_error *error)
 {
     const double step = 1e-3;
-    double before, now, t = from;
+    double before, now = 0, t = from;
     ld_status status = ld_run_ignite(run, INFINITY, error);
     if (!status)
         status = ld_run_advance(run, t, error);
