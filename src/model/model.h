@@ -386,7 +386,8 @@ typedef struct ld_adaptor {
 } ld_adaptor;
 
 /// The contact laws, the first by default: each with its word and its traits. Their forces stand in
-/// elements/contact.h.
+/// elements/contact.h; of one that holds on both sides (bilateral) that of an adaptor in
+/// elements/adaptor.h.
 #define LD_CONTACT_LAWS(LAW)                                                                       \
     LAW(LD_CONTACT_HUNT_CROSSLEY, "hunt-crossley", 0)                                              \
     LAW(LD_CONTACT_LANKARANI_NIKRAVESH, "lankarani-nikravesh", LD_CONTACT_BY_TOUCH)                \

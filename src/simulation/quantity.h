@@ -1,6 +1,8 @@
 // A quantity is written once, as a row of a table: how it is called, what it is, where its number
-// stands. From the rows follow columns, summary.json, the table after a run, what a study keeps of
-// a rocket, docs/quantities.md, and what a program finds by name.
+// stands. From the rows follow columns, the numbers of summary.json, the table after a run, what a
+// study keeps of a rocket (`studied`), docs/quantities.md, and what a program finds by name.
+// Tables: launch_quantities (history.c) and flight_history.c of an instant, summary_quantities.c of
+// a summary.
 #ifndef LD_SIMULATION_QUANTITY_H
 #define LD_SIMULATION_QUANTITY_H
 

@@ -1,6 +1,7 @@
 // What carries the tube: where the frame T of the undeformed tube is, how it moves, and what the
 // tube's wrench does to it (model.md, section 2). Each kind is a file base_*.c with a table of
-// functions, listed in base.c; nothing outside asks which kind it is.
+// functions, listed in base.c. The equations do not ask which kind it is; base_as_vehicle is there
+// for what a vehicle alone has: subsystems integrated apart, columns, geometry, figures at rest.
 //
 // Some kinds go where time or a caller says. Others have a motion of their own, with rates, works,
 // equilibrium and natural frequencies: they fill in `dynamics`.
