@@ -34,7 +34,7 @@ static uint32_t folded(uint32_t difference)
 
 // ---- the table ----
 
-// Rows from first to last of one phase of the run.
+// Rows from first to last of one phase of the run: before the ignition, in the tube, after it.
 typedef struct segment {
     const char *name;
     size_t first, last;
