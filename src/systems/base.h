@@ -8,6 +8,7 @@
 #define LD_SYSTEMS_BASE_H
 
 #include "elements/base_frame.h"
+#include "model/quantity.h"
 #include "systems/vehicle.h"
 
 enum {
@@ -43,6 +44,11 @@ typedef union base_found {
 typedef union base_report {
     vehicle_report vehicle;
 } base_report;
+
+// What its quantities stand in.
+typedef union base_instant {
+    vehicle_instant vehicle;
+} base_instant;
 
 // What keeps what it was in the equilibrium.
 typedef union base_rest {
@@ -121,6 +127,10 @@ struct base_interface {
     // before goes on. NULL: nobody tells it.
     void (*tell)(const base_system *self, double t, bool first, const base_frame *now,
                  double *state);
+    // Columns of its own, which stand in the base_instant that `find` fills; NULL: none.
+    const quantity_table *quantities;
+    void (*find)(const base_system *self, const base_found *found, const base_output *output,
+                 const double *state, base_instant *instant);
     const base_dynamics *dynamics; // NULL: it has no motion of its own
 };
 
@@ -138,6 +148,10 @@ void base_span(const base_system *self, double *first, double *last);
 
 // Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);
+
+// What its quantities are at an instant, where it has any of its own.
+void base_find(const base_system *self, const base_found *found, const base_output *output,
+               const double *state, base_instant *instant);
 
 // A base of kind vehicle; NULL: it is none.
 const vehicle_system *base_as_vehicle(const base_system *self);
