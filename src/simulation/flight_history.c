@@ -77,7 +77,8 @@ const quantity_table flight_quantities = {groups, sizeof groups / sizeof *groups
 ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error)
 {
     const quantity_things things = {.count = {[EACH_RUN] = 1, [EACH_EARTH] = !system->earth.flat}};
-    return quantity_columns_make(columns, &flight_quantities, &things, error);
+    return quantity_columns_make(columns, &(quantity_part){&flight_quantities, 0}, 1, &things,
+                                 error);
 }
 
 void flight_row(const flight_system *system, const quantity_columns *columns,

@@ -2,7 +2,7 @@
 #ifndef LD_SIMULATION_FREE_FLIGHT_H
 #define LD_SIMULATION_FREE_FLIGHT_H
 
-#include "simulation/quantity.h"
+#include "simulation/quantity_table.h"
 #include "simulation/summary.h"
 #include "systems/flight.h"
 

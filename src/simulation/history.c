@@ -1,10 +1,11 @@
 // The history of a launch: what is found at an instant, and the quantities that stand in it, each
 // of them a column.
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 #include "simulation/launch_state.h"
-#include "simulation/quantity.h"
+#include "simulation/quantity_table.h"
 
 // What belongs to one adaptor; nothing touches where it has passed the tip.
 typedef struct instant_contact {
@@ -31,13 +32,7 @@ typedef struct launch_instant {
     ld_tip_off tip_off;
     ld_aim aim;
     instant_contact contact[LD_MAX_ADAPTORS];
-    struct {
-        double r[3], u[6]; // of the state: place, velocity and rate
-        double angles[3];  // yaw, pitch, roll
-    } chassis;
-    struct {
-        double r[3];
-    } wheel[LD_MAX_WHEELS];
+    base_instant of_base;
     ld_energy energy;
 } launch_instant;
 
@@ -158,44 +153,6 @@ static const quantity guidance[] = {
     {"lock.force", "N", "force carried by the lock", AT(out.launching.lock_force)},
     {"breech.force", "N", "force of the breech on the rocket", AT(out.launching.breech_force)},
 };
-static const quantity chassis[] = {
-    {"chassis.x", "m", "chassis: mass centre in I", AT(chassis.r[0])},
-    {"chassis.y", "m", "chassis: mass centre in I", AT(chassis.r[1])},
-    {"chassis.z", "m", "chassis: mass centre in I", AT(chassis.r[2])},
-    {"chassis.yaw", "rad", "chassis: yaw of Ry(yaw) Rz(pitch) Rx(roll)", AT(chassis.angles[0])},
-    {"chassis.pitch", "rad", "chassis: pitch", AT(chassis.angles[1])},
-    {"chassis.roll", "rad", "chassis: roll", AT(chassis.angles[2])},
-    {"chassis.vx", "m/s", "chassis: velocity of its mass centre in I", AT(chassis.u[0])},
-    {"chassis.vy", "m/s", "chassis: velocity of its mass centre in I", AT(chassis.u[1])},
-    {"chassis.vz", "m/s", "chassis: velocity of its mass centre in I", AT(chassis.u[2])},
-    {"chassis.wx", "rad/s", "chassis: angular velocity in its own axes", AT(chassis.u[3])},
-    {"chassis.wy", "rad/s", "chassis: angular velocity in its own axes", AT(chassis.u[4])},
-    {"chassis.wz", "rad/s", "chassis: angular velocity in its own axes", AT(chassis.u[5])},
-};
-static const quantity hinges[] = {
-    {"%s.angle", "rad", "%s hinge: angle", EACH(out.base.report.vehicle.hinge, angle)},
-    {"%s.rate", "rad/s", "%s hinge: rate of the angle", EACH(out.base.report.vehicle.hinge, rate)},
-    {"%s.measured", "rad", "%s: yaw or pitch of the elevation platform in I", EACH(out.base.report.vehicle.hinge, measured)},
-    {"%s.command", "rad", "%s: commanded yaw or pitch", EACH(out.base.report.vehicle.hinge, command)},
-    {"%s.error", "rad", "%s: command less measured", EACH(out.base.report.vehicle.hinge, error)},
-    {"%s.torque", "N.m", "%s: torque of stabiliser or lock", EACH(out.base.report.vehicle.hinge, torque)},
-    {"%s.friction", "N.m", "%s: friction in the hinge", EACH(out.base.report.vehicle.hinge, friction)},
-};
-static const quantity drive[] = {
-    {"drive.speed", "m/s", "speed of the chassis along its heading", AT(out.base.report.vehicle.marching.speed)},
-    {"drive.force", "N", "drive force of all driven wheels", AT(out.base.report.vehicle.marching.drive_force)},
-};
-static const quantity wheels[] = {
-    {"wheel.%s.x", "m", "wheel %s: centre in I", EACH(wheel, r[0])},
-    {"wheel.%s.y", "m", "wheel %s: centre in I", EACH(wheel, r[1])},
-    {"wheel.%s.z", "m", "wheel %s: centre in I", EACH(wheel, r[2])},
-    {"wheel.%s.road", "m", "wheel %s: height of the road under it", EACH(out.base.report.vehicle.marching.wheel, height)},
-    {"wheel.%s.travel", "m", "wheel %s: suspension travel along the chassis' y, from unloaded", EACH(out.base.report.vehicle.marching.wheel, travel.y)},
-    {"wheel.%s.deflection", "m", "wheel %s: tyre deflection", EACH(out.base.report.vehicle.marching.wheel, deflection)},
-    {"wheel.%s.tyre_force", "N", "wheel %s: vertical tyre force", EACH(out.base.report.vehicle.marching.wheel, normal)},
-    {"wheel.%s.along", "N", "wheel %s: tyre force along the way", EACH(out.base.report.vehicle.marching.wheel, along)},
-    {"wheel.%s.side", "N", "wheel %s: tyre force across the way", EACH(out.base.report.vehicle.marching.wheel, side)},
-};
 static const quantity energies[] = {
     {"energy.kinetic", "J", "kinetic energy of tube, tail and rocket, and of the vehicle", AT(energy.kinetic)},
     {"energy.potential", "J", "potential energy of tube and tail in gravity", AT(energy.potential)},
@@ -221,10 +178,8 @@ static const quantity_group groups[] = {
     {.title = "mass and thrust", ROCKET, QUANTITY_ROWS(motor_now)},
     {.title = "each adaptor", .each = EACH_ADAPTOR, ROCKET, QUANTITY_ROWS(contacts)},
     {.title = "slot, lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
-    {.title = "chassis of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(chassis)},
-    {.title = "each hinge of a vehicle", .each = EACH_HINGE, QUANTITY_ROWS(hinges)},
-    {.title = "drive of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(drive)},
-    {.title = "each wheel of a vehicle", .each = EACH_WHEEL, QUANTITY_ROWS(wheels)},
+};
+static const quantity_group balances[] = {
     {.title = "energy", QUANTITY_ROWS(energies)},
     {.title = "works since the start", QUANTITY_ROWS(works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
@@ -232,16 +187,9 @@ static const quantity_group groups[] = {
 };
 // clang-format on
 
-#define COUNT(list) (sizeof(list) / sizeof(quantity))
-_Static_assert(COUNT(frames) + COUNT(tip) + 2 * LD_MAX_MODAL + COUNT(rocket) +
-                       COUNT(against_launcher) + COUNT(motor_now) +
-                       LD_MAX_ADAPTORS * COUNT(contacts) + COUNT(guidance) + COUNT(chassis) +
-                       HINGES * COUNT(hinges) + COUNT(drive) + LD_MAX_WHEELS * COUNT(wheels) +
-                       COUNT(energies) + COUNT(works) + COUNT(vehicle_works) + COUNT(balance) <=
-                   LD_MAX_COLUMNS,
-               "rows have no room");
-
+// Before and after those of the base.
 const quantity_table launch_quantities = {groups, sizeof groups / sizeof *groups};
+const quantity_table balance_quantities = {balances, sizeof balances / sizeof *balances};
 
 // ---- what is found at an instant ----
 
@@ -303,16 +251,6 @@ static void find_rocket(const launch_state *self, const double *y, launch_instan
     find_contacts(self, now);
 }
 
-static void find_vehicle(const launch_state *self, const double *y, launch_instant *now)
-{
-    const double *base = y + self->launcher.base_at, *wheel = base + VEHICLE_MARCHING;
-    memcpy(now->chassis.r, base + ORIENTATING_R, sizeof now->chassis.r);
-    memcpy(now->chassis.u, base + ORIENTATING_V, sizeof now->chassis.u);
-    m3_yaw_pitch_roll(&now->input.found.vehicle.chassis.A, now->chassis.angles);
-    for (int j = 0; j < self->model->base.vehicle.wheel_count; j++)
-        memcpy(now->wheel[j].r, wheel + j * WHEEL_STATES + WHEEL_R, sizeof now->wheel[j].r);
-}
-
 static void find(const launch_state *self, double t, const double *y, double energy_start,
                  launch_instant *now)
 {
@@ -326,8 +264,8 @@ static void find(const launch_state *self, double t, const double *y, double ene
     find_tube(self, y, now);
     if (now->rocket)
         find_rocket(self, y, now);
-    if (base_as_vehicle(&self->launcher.base))
-        find_vehicle(self, y, now);
+    base_find(&self->launcher.base, &now->input.found, &now->out.base, y + self->launcher.base_at,
+              &now->of_base);
     simulation_energy(self, &now->input, &now->out, y, energy_start, &now->energy);
 }
 
@@ -337,7 +275,14 @@ ld_status history_build(ld_simulation *self, ld_error *error)
 {
     quantity_things things = quantity_things_of(self->model);
     things.count[EACH_COORDINATE] = self->launcher.launching.layout.nq;
-    return quantity_columns_make(&self->columns, &launch_quantities, &things, error);
+    const quantity_table *of_base = self->launcher.base.kind->quantities;
+    const quantity_part parts[] = {{&launch_quantities, 0},
+                                   {of_base, offsetof(launch_instant, of_base)},
+                                   {&balance_quantities, 0}};
+    ld_status status =
+        quantity_columns_make(&self->columns, parts, sizeof parts / sizeof *parts, &things, error);
+    assert(status || self->columns.count <= LD_MAX_COLUMNS);
+    return status;
 }
 
 size_t ld_simulation_columns(const ld_simulation *simulation, const ld_column **columns)

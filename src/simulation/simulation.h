@@ -4,7 +4,7 @@
 #define LD_SIMULATION_SIMULATION_H
 
 #include "elements/motor.h"
-#include "simulation/quantity.h"
+#include "simulation/quantity_table.h"
 #include "simulation/summary.h"
 #include "systems/flight.h"
 #include "systems/launcher.h"
@@ -54,7 +54,8 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
 
 // Names the columns of the history, once.
 ld_status history_build(ld_simulation *self, ld_error *error);
-extern const quantity_table launch_quantities;
+// The columns' tables, before and after those of the base.
+extern const quantity_table launch_quantities, balance_quantities;
 
 // Refuses a vehicle's stabiliser that cannot hold its platform, by the equations linearised about
 // the equilibrium on a flat road. `growing`: the fastest growing eigenvalue of any part, zero where

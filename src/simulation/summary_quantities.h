@@ -3,7 +3,7 @@
 #ifndef LD_SIMULATION_SUMMARY_QUANTITIES_H
 #define LD_SIMULATION_SUMMARY_QUANTITIES_H
 
-#include "simulation/quantity.h"
+#include "simulation/quantity_table.h"
 #include "simulation/summary.h"
 
 extern const quantity_table rocket_quantities; // of ld_rocket_summary; paths below rockets.N

@@ -60,3 +60,10 @@ void base_angles(const base_system *self, double t, const base_frame *tube, doub
     else
         m3_yaw_pitch_roll(&tube->A, angles);
 }
+
+void base_find(const base_system *self, const base_found *found, const base_output *output,
+               const double *state, base_instant *instant)
+{
+    if (self->kind->find)
+        self->kind->find(self, found, output, state, instant);
+}

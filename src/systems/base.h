@@ -1,7 +1,7 @@
 // What carries the tube: where the frame T of the undeformed tube is, how it moves, and what the
 // tube's wrench does to it (model.md, section 2). Each kind is a file base_*.c with a table of
 // functions, listed in base.c. The equations do not ask which kind it is; base_as_vehicle is there
-// for what a vehicle alone has: subsystems integrated apart, columns, geometry, figures at rest.
+// for what a vehicle alone has: subsystems integrated apart, geometry, figures at rest.
 //
 // Some kinds go where time or a caller says. Others have a motion of their own, with rates, works,
 // equilibrium and natural frequencies: they fill in `dynamics`.
@@ -9,6 +9,7 @@
 #define LD_SYSTEMS_BASE_H
 
 #include "elements/base_frame.h"
+#include "model/quantity.h"
 #include "systems/vehicle.h"
 
 enum {
@@ -44,6 +45,11 @@ typedef union base_found {
 typedef union base_report {
     vehicle_report vehicle;
 } base_report;
+
+// What its quantities stand in.
+typedef union base_instant {
+    vehicle_instant vehicle;
+} base_instant;
 
 // What keeps what it was in the equilibrium.
 typedef union base_rest {
@@ -122,6 +128,10 @@ struct base_interface {
     // before goes on. NULL: nobody tells it.
     void (*tell)(const base_system *self, double t, bool first, const base_frame *now,
                  double *state);
+    // Columns of its own, which stand in the base_instant that `find` fills; NULL: none.
+    const quantity_table *quantities;
+    void (*find)(const base_system *self, const base_found *found, const base_output *output,
+                 const double *state, base_instant *instant);
     const base_dynamics *dynamics; // NULL: it has no motion of its own
 };
 
@@ -139,6 +149,10 @@ void base_span(const base_system *self, double *first, double *last);
 
 // Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);
+
+// What its quantities are at an instant, where it has any of its own.
+void base_find(const base_system *self, const base_found *found, const base_output *output,
+               const double *state, base_instant *instant);
 
 // A base of kind vehicle; NULL: it is none.
 const vehicle_system *base_as_vehicle(const base_system *self);

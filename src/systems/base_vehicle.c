@@ -440,6 +440,75 @@ static const base_dynamics dynamics = {
     .holder_of = holder_of,
 };
 
+// ---- quantities
+
+#define AT(member) .at = QUANTITY_AT(vehicle_instant, member)
+#define EACH(array, member) .at = QUANTITY_OF_EACH(vehicle_instant, array, member)
+
+// clang-format off
+static const quantity of_chassis[] = {
+    {"chassis.x", "m", "chassis: mass centre in I", AT(chassis.r[0])},
+    {"chassis.y", "m", "chassis: mass centre in I", AT(chassis.r[1])},
+    {"chassis.z", "m", "chassis: mass centre in I", AT(chassis.r[2])},
+    {"chassis.yaw", "rad", "chassis: yaw of Ry(yaw) Rz(pitch) Rx(roll)", AT(chassis.angles[0])},
+    {"chassis.pitch", "rad", "chassis: pitch", AT(chassis.angles[1])},
+    {"chassis.roll", "rad", "chassis: roll", AT(chassis.angles[2])},
+    {"chassis.vx", "m/s", "chassis: velocity of its mass centre in I", AT(chassis.u[0])},
+    {"chassis.vy", "m/s", "chassis: velocity of its mass centre in I", AT(chassis.u[1])},
+    {"chassis.vz", "m/s", "chassis: velocity of its mass centre in I", AT(chassis.u[2])},
+    {"chassis.wx", "rad/s", "chassis: angular velocity in its own axes", AT(chassis.u[3])},
+    {"chassis.wy", "rad/s", "chassis: angular velocity in its own axes", AT(chassis.u[4])},
+    {"chassis.wz", "rad/s", "chassis: angular velocity in its own axes", AT(chassis.u[5])},
+};
+static const quantity of_hinges[] = {
+    {"%s.angle", "rad", "%s hinge: angle", EACH(report.hinge, angle)},
+    {"%s.rate", "rad/s", "%s hinge: rate of the angle", EACH(report.hinge, rate)},
+    {"%s.measured", "rad", "%s: yaw or pitch of the elevation platform in I", EACH(report.hinge, measured)},
+    {"%s.command", "rad", "%s: commanded yaw or pitch", EACH(report.hinge, command)},
+    {"%s.error", "rad", "%s: command less measured", EACH(report.hinge, error)},
+    {"%s.torque", "N.m", "%s: torque of stabiliser or lock", EACH(report.hinge, torque)},
+    {"%s.friction", "N.m", "%s: friction in the hinge", EACH(report.hinge, friction)},
+};
+static const quantity of_drive[] = {
+    {"drive.speed", "m/s", "speed of the chassis along its heading", AT(report.marching.speed)},
+    {"drive.force", "N", "drive force of all driven wheels", AT(report.marching.drive_force)},
+};
+static const quantity of_wheels[] = {
+    {"wheel.%s.x", "m", "wheel %s: centre in I", EACH(wheel, r[0])},
+    {"wheel.%s.y", "m", "wheel %s: centre in I", EACH(wheel, r[1])},
+    {"wheel.%s.z", "m", "wheel %s: centre in I", EACH(wheel, r[2])},
+    {"wheel.%s.road", "m", "wheel %s: height of the road under it", EACH(report.marching.wheel, height)},
+    {"wheel.%s.travel", "m", "wheel %s: suspension travel along the chassis' y, from unloaded", EACH(report.marching.wheel, travel.y)},
+    {"wheel.%s.deflection", "m", "wheel %s: tyre deflection", EACH(report.marching.wheel, deflection)},
+    {"wheel.%s.tyre_force", "N", "wheel %s: vertical tyre force", EACH(report.marching.wheel, normal)},
+    {"wheel.%s.along", "N", "wheel %s: tyre force along the way", EACH(report.marching.wheel, along)},
+    {"wheel.%s.side", "N", "wheel %s: tyre force across the way", EACH(report.marching.wheel, side)},
+};
+static const quantity_group quantity_groups[] = {
+    {.title = "chassis of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_chassis)},
+    {.title = "each hinge of a vehicle", .each = EACH_HINGE, QUANTITY_ROWS(of_hinges)},
+    {.title = "drive of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_drive)},
+    {.title = "each wheel of a vehicle", .each = EACH_WHEEL, QUANTITY_ROWS(of_wheels)},
+};
+// clang-format on
+
+static const quantity_table quantities = {quantity_groups,
+                                          sizeof quantity_groups / sizeof *quantity_groups};
+
+static void find(const base_system *base, const base_found *found, const base_output *output,
+                 const double *state, base_instant *instant)
+{
+    const vehicle_system *self = base->own;
+    vehicle_instant *now = &instant->vehicle;
+    const double *wheel = state + VEHICLE_MARCHING;
+    memcpy(now->chassis.r, state + ORIENTATING_R, sizeof now->chassis.r);
+    memcpy(now->chassis.u, state + ORIENTATING_V, sizeof now->chassis.u);
+    m3_yaw_pitch_roll(&found->vehicle.chassis.A, now->chassis.angles);
+    for (int j = 0; j < self->marching.wheel_count; j++)
+        memcpy(now->wheel[j].r, wheel + j * WHEEL_STATES + WHEEL_R, sizeof now->wheel[j].r);
+    now->report = output->report.vehicle;
+}
+
 const base_interface base_vehicle = {
     .kind = LD_BASE_VEHICLE,
     .build = build,
@@ -447,5 +516,7 @@ const base_interface base_vehicle = {
     .share = share,
     .place = place,
     .next_corner = next_corner,
+    .quantities = &quantities,
+    .find = find,
     .dynamics = &dynamics,
 };

@@ -24,4 +24,16 @@ typedef struct vehicle_report {
     marching_output marching;
 } vehicle_report;
 
+// What its quantities are about: what stands in the state, and what was found with it.
+typedef struct vehicle_instant {
+    struct {
+        double r[3], u[6]; // place, velocity and rate
+        double angles[3];  // yaw, pitch, roll
+    } chassis;
+    struct {
+        double r[3];
+    } wheel[LD_MAX_WHEELS];
+    vehicle_report report;
+} vehicle_instant;
+
 #endif

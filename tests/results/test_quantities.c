@@ -269,10 +269,12 @@ static bool are_alike(const quantity *a, const quantity *b)
            strcmp(a->description, b->description) == 0;
 }
 
+// heading NULL: it goes on under that of before.
 static void write_table(FILE *stream, const char *heading, const quantity_table *table,
                         bool of_summary)
 {
-    fprintf(stream, "\n## %s\n", heading);
+    if (heading)
+        fprintf(stream, "\n## %s\n", heading);
     for (int i = 0; i < table->groups; i++) {
         const quantity_group *group = &table->group[i];
         fprintf(stream, "\n**%c%s**\n\n", group->title[0] - 'a' + 'A', group->title + 1);
@@ -325,6 +327,8 @@ static void write_document(FILE *stream)
     write_table(stream, "Of its computation", &cost_quantities, true);
     write_table(stream, "Of a natural mode (`modes` of summary.json)", &mode_quantities, true);
     write_table(stream, "Columns of a launch", &launch_quantities, false);
+    write_table(stream, NULL, base_vehicle.quantities, false);
+    write_table(stream, NULL, &balance_quantities, false);
     write_table(stream, "Columns of a flight", &flight_quantities, false);
 }
 

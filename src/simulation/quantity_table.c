@@ -1,4 +1,4 @@
-#include "simulation/quantity.h"
+#include "simulation/quantity_table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -174,16 +174,41 @@ static const char *say(const char *text, const quantity_walk *at, char **room)
     return written;
 }
 
-ld_status quantity_columns_make(quantity_columns *self, const quantity_table *table,
-                                const quantity_things *things, ld_error *error)
+// How many columns a table has; *several: of them, those that say of which.
+static size_t count_columns(const quantity_table *table, const quantity_things *things,
+                            size_t *several)
 {
-    size_t count = 0, several = 0;
+    size_t count = 0;
     for (int i = 0; i < table->groups; i++) {
         const quantity_group *group = &table->group[i];
         size_t columns = (size_t)(things->count[group->each] * group->rows);
         count += columns;
-        several += group->each > EACH_EARTH ? columns : 0;
+        *several += group->each > EACH_EARTH ? columns : 0;
     }
+    return count;
+}
+
+static void add_columns(quantity_columns *self, const quantity_part *part,
+                        const quantity_things *things, char **room)
+{
+    for (quantity_walk at = quantity_first(part->table, things); at.row; quantity_next(&at)) {
+        size_t where = at.group->where.offset;
+        size_t offset = at.row->at.offset + (size_t)at.item * at.row->at.stride;
+        self->cell[self->count] =
+            (quantity_cell){part->offset + offset, where ? part->offset + where : 0};
+        self->column[self->count++] =
+            (ld_column){.name = say(at.row->name, &at, room),
+                        .unit = at.row->unit,
+                        .description = say(at.row->description, &at, room)};
+    }
+}
+
+ld_status quantity_columns_make(quantity_columns *self, const quantity_part *parts, int part_count,
+                                const quantity_things *things, ld_error *error)
+{
+    size_t count = 0, several = 0;
+    for (int i = 0; i < part_count; i++)
+        count += parts[i].table ? count_columns(parts[i].table, things, &several) : 0;
     self->count = 0;
     self->column = calloc(count, sizeof *self->column);
     self->cell = calloc(count, sizeof *self->cell);
@@ -193,14 +218,9 @@ ld_status quantity_columns_make(quantity_columns *self, const quantity_table *ta
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the columns' names");
     }
     char *room = self->text;
-    for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at)) {
-        self->cell[self->count] = (quantity_cell){
-            at.row->at.offset + (size_t)at.item * at.row->at.stride, at.group->where.offset};
-        self->column[self->count++] =
-            (ld_column){.name = say(at.row->name, &at, &room),
-                        .unit = at.row->unit,
-                        .description = say(at.row->description, &at, &room)};
-    }
+    for (int i = 0; i < part_count; i++)
+        if (parts[i].table)
+            add_columns(self, &parts[i], things, &room);
     return LD_OK;
 }
 
