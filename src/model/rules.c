@@ -2,6 +2,8 @@
 // break no rule, but for keys that only other keys make necessary.
 #include "model/rules.h"
 
+#include <strings.h>
+
 // A station must lie on the tube.
 static void station_rule(const rule_set *rules, const char *path, int index, double at)
 {
@@ -287,10 +289,13 @@ static void adaptor_rules(const rule_set *rules)
             if (adaptor->at == rocket->adaptor[j].at)
                 broken(rules, "rocket.adaptors.#.at", i + 1, "%g m is where adaptor %d stands",
                        adaptor->at, j + 1);
-        for (int j = 0; j < i; j++)
-            if (adaptor->name[0] && strcmp(adaptor->name, rocket->adaptor[j].name) == 0)
+        for (int j = 0; j < i; j++) {
+            // a study's database does not tell capital letters from others in a column's name
+            const char *other = rocket->adaptor[j].name;
+            if (adaptor->name[0] && strcasecmp(adaptor->name, other) == 0)
                 broken(rules, "rocket.adaptors.#.name", i + 1, "\"%s\" is the name of adaptor %d",
-                       adaptor->name, j + 1);
+                       other, j + 1);
+        }
         if ((int)rocket->contact.law < 0 || contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
             continue;
         if (isnan(adaptor->clearance))

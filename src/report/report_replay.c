@@ -31,8 +31,11 @@ static bool is_one_of(const char *name, const char *const *list, size_t count)
 bool report_replay_shows(const char *name, bool flight)
 {
     static const char *const of_launcher[] = {
-        "base.x",    "base.y",    "base.z",      "base.yaw",      "base.pitch", "base.roll",
-        "chassis.x", "chassis.z", "chassis.yaw", "azimuth.angle", "thrust",     "phase"};
+        "base.x",        "base.y",       "base.z",        "base.yaw",   "base.pitch",
+        "base.roll",     "chassis.x",    "chassis.y",     "chassis.z",  "chassis.yaw",
+        "chassis.pitch", "chassis.roll", "azimuth.angle", "thrust",     "phase",
+        "rocket.s",      "rocket.y",     "rocket.z",      "rocket.psi", "rocket.theta",
+        "rocket.gamma"};
     static const char *const of_flight[] = {"center.x",   "center.y",    "center.z", "rocket.pitch",
                                             "rocket.yaw", "rocket.spin", "thrust"};
     if (flight)
