@@ -24,7 +24,7 @@ typedef enum ld_event_kind {
     LD_EVENT_NONE,     ///< nothing up to the time asked for
     LD_EVENT_IGNITION, ///< of the rocket
     LD_EVENT_RELEASE,  ///< the lock lets the rocket go
-    LD_EVENT_CORNER,   ///< of the thrust curve, or of a commanded angle (rocket 0)
+    LD_EVENT_CORNER,   ///< of the thrust curve, or of a commanded angle
     LD_EVENT_TOUCH,  ///< adaptor `part` comes to the tube's wall (contact law lankarani-nikravesh)
     LD_EVENT_BREECH, ///< the rocket comes to the breech (that law alone)
     LD_EVENT_LIFT,   ///< wheel `part` leaves the road (integrated together alone, as the next)
@@ -37,7 +37,7 @@ typedef enum ld_event_kind {
 typedef struct ld_event {
     ld_event_kind kind;
     double t;   ///< [s] on the run's clock
-    int rocket; ///< from 1, in the order of firing; 0: of none
+    int rocket; ///< from 1, in the order of firing: the one whose turn it is
     int part;   ///< adaptor or wheel, from 1, in the model's order; 0: of none
 } ld_event;
 

@@ -2,7 +2,7 @@
 ///
 /// A simulation holds what is computed once from the model (modes, inertia coefficients, tables)
 /// and then does not change: several threads may run it at a time. What a run changes is the run's
-/// own; nothing is allocated between its first and its last step.
+/// own; its steps allocate nothing.
 #ifndef LAUNCHDYN_SIMULATION_H
 #define LAUNCHDYN_SIMULATION_H
 
@@ -41,8 +41,7 @@ typedef struct ld_summary ld_summary;
 
 typedef struct ld_simulation ld_simulation;
 
-/// Builds a simulation from a model (kept by reference: it must outlive the simulation) that has
-/// been read from a scenario or has passed ld_model_check().
+/// Builds a simulation from a model, which is kept by reference: it must outlive the simulation.
 /// @return LD_OK; LD_ERR_INPUT (modes or sections that make no tube, ...), LD_ERR_NUMERIC or
 ///         LD_ERR_MEMORY
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **simulation, ld_error *error);

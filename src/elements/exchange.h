@@ -69,8 +69,8 @@ typedef struct launching_output {
     v3 a, w_dot;                 // inertial acceleration of R's origin, derivative of w, in R
     double q_ddot[LD_MAX_MODAL]; // [nq]
     v3 a_O1, alpha_B;            // of the rocket against I, in R
-    double x_dot[6];
-    double y[6];          // s_dot, y_S_dot, z_S_dot, w_SB (in S)
+    double x_dot[X_COUNT];
+    double y[6];          // the theory's relative speeds: s_dot, y_S_dot, z_S_dot, w_SB (in S)
     double N;             // [N] slot force
     double slot_friction; // [N] along tau on the rocket
     double lock_force;    // [N] carried, along +x (minus the force on the rocket)

@@ -51,12 +51,12 @@ LD_INLINE void rocket_load(const tube_system *guide, const launching_layout *lay
     v3 w = m3_apply_transposed(at->A, v3_sub(rocket->w_B, v3_add(tube->w, rocket->Om)));
     rocket->w_SB = w;
     double gamma_dot = (cp * w.x + sp * w.y) / ct;
-    out->x_dot[0] = out->y[0] = rocket->s_dot;
-    out->x_dot[1] = out->y[1] = rocket->y_dot;
-    out->x_dot[2] = out->y[2] = rocket->z_dot;
-    out->x_dot[3] = w.z + st * gamma_dot;
-    out->x_dot[4] = cp * w.y - sp * w.x;
-    out->x_dot[5] = gamma_dot;
+    out->x_dot[X_S] = out->y[0] = rocket->s_dot;
+    out->x_dot[X_Y] = out->y[1] = rocket->y_dot;
+    out->x_dot[X_Z] = out->y[2] = rocket->z_dot;
+    out->x_dot[X_PSI] = w.z + st * gamma_dot;
+    out->x_dot[X_THETA] = cp * w.y - sp * w.x;
+    out->x_dot[X_GAMMA] = gamma_dot;
     v3_store(out->y + 3, w);
 }
 

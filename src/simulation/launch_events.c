@@ -91,7 +91,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
         launching_output out;
         launching_pose unused;
         launching_rocket_pose(&self->launcher.launching, y, &unused, &out);
-        self->phase.breech_speed = touch_speed(self, -out.y[0]);
+        self->phase.breech_speed = touch_speed(self, -out.x_dot[X_S]);
         launch_tell(run, LD_EVENT_BREECH, t, -1);
         changed = true;
     }
