@@ -96,7 +96,7 @@ static int take_picture(int drawn, FILE *picture)
             problem = errno;
     if (count < 0 && !problem)
         problem = errno;
-    return !problem && fflush(picture) != 0 ? errno : problem;
+    return problem;
 }
 
 static ld_status run_gnuplot(FILE *script, FILE *printed, FILE *picture, const char *file,

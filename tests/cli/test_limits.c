@@ -91,6 +91,12 @@ static void test_pictures_on_a_full_disk(void **state)
         assert_string_equal(shell.out, "before\n");
     }
     expect_files("x.*", "x.pdf\nx.png\nx.svg\n");
+    // the last byte alone has no room
+    expect_sentence(
+        "launchdyn plot a -o y.svg && mv y.svg whole && prlimit --fsize=$(($(stat -c %s "
+        "whole) - 1)) ./launchdyn plot a -o y.svg",
+        SYSTEM, "cannot write y.svg: File too large");
+    expect_files("y.*", "");
     expect_sentence("ln -s /dev/full r.svg.part; launchdyn road examples/reference.yaml "
                     "--plot r.svg",
                     SYSTEM, "cannot write r.svg: No space left on device");
