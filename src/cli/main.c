@@ -6,8 +6,8 @@
 #include "cli/command.h"
 #include "launchdyn/version.h"
 
-static int command_help(const command *self, int argc, const char **argv);
-static int command_version(const command *self, int argc, const char **argv);
+static int command_help(const command *self, int argc, char **argv);
+static int command_version(const command *self, int argc, char **argv);
 
 static const command commands[] = {
     {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run},
@@ -68,20 +68,12 @@ static void print_commands(FILE *stream)
     fputs("\n\"launchdyn COMMAND --help\" lists the options of a command.\n", stream);
 }
 
-static int start(const command *chosen, int argc, const char **argv)
-{
-    char name[32];
-    snprintf(name, sizeof name, "launchdyn %s", chosen->name);
-    argv[0] = name;
-    return chosen->run(chosen, argc, argv);
-}
-
 static bool asks_for_help(const char *word)
 {
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
 }
 
-static int command_help(const command *self, int argc, const char **argv)
+static int command_help(const command *self, int argc, char **argv)
 {
     (void)self;
     if (argc < 2 || asks_for_help(argv[1])) {
@@ -95,11 +87,11 @@ static int command_help(const command *self, int argc, const char **argv)
         print_commands(stdout);
         return 0;
     }
-    const char *help[] = {argv[0], "--help", NULL};
-    return start(chosen, 2, help);
+    char option[] = "--help", *help[] = {argv[0], option, NULL};
+    return chosen->run(chosen, 2, help);
 }
 
-static int command_version(const command *self, int argc, const char **argv)
+static int command_version(const command *self, int argc, char **argv)
 {
     (void)self;
     if (argc > 1 && asks_for_help(argv[1]))
@@ -110,7 +102,7 @@ static int command_version(const command *self, int argc, const char **argv)
 }
 
 // The command that the first word names; the usual options stand for commands too.
-static int dispatch(int argc, const char **argv)
+static int dispatch(int argc, char **argv)
 {
     if (argc < 2) {
         print_commands(stderr);
@@ -122,14 +114,14 @@ static int dispatch(int argc, const char **argv)
     else if (strcmp(name, "--version") == 0)
         name = "version";
     const command *chosen = find(name);
-    return chosen ? start(chosen, argc - 1, argv + 1) : complain_unknown(name);
+    return chosen ? chosen->run(chosen, argc - 1, argv + 1) : complain_unknown(name);
 }
 
 int main(int argc, char **argv)
 {
     int code = command_begin();
     if (!code)
-        code = dispatch(argc, (const char **)argv);
+        code = dispatch(argc, argv);
     if (fflush(stdout) != 0 || ferror(stdout)) {
         command_complain("cannot print: %s", strerror(errno));
         return code ? code : EXIT_SYSTEM;
