@@ -1,5 +1,6 @@
 #include "cli/command.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -7,6 +8,7 @@
 #include <sys/resource.h>
 
 #include "cli/progress.h"
+#include "launchdyn/child.h"
 #include "launchdyn/scenario.h"
 
 void command_complain(const char *format, ...)
@@ -56,6 +58,22 @@ int command_begin(void)
     command_complain("the stack is limited to %llu kB, and %d kB are needed (ulimit -s %d)",
                      (unsigned long long)stack.rlim_cur / 1024, LEAST_STACK, LEAST_STACK);
     return EXIT_SYSTEM;
+}
+
+int command_end(int code)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return code;
+    command_complain("cannot print: %s", strerror(errno));
+    return code ? code : EXIT_SYSTEM;
+}
+
+int command_apart(int (*work)(void *data), void *data)
+{
+    int code = 0;
+    ld_error error;
+    ld_status status = ld_child_run(work, data, &code, &error);
+    return status ? command_fail(status, &error) : code;
 }
 
 static void print_help(const command *self, const command_option *options)

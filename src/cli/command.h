@@ -23,6 +23,12 @@ enum {
 // where the stack is limited to less than is needed.
 int command_begin(void);
 
+// The end of a command: what it printed is out, or the code says so.
+int command_end(int code);
+
+// Does `work` in a process of its own (launchdyn/child.h). Returns the exit code.
+int command_apart(int (*work)(void *data), void *data);
+
 // The exit code that belongs to a status.
 int command_code(ld_status status);
 
@@ -34,6 +40,7 @@ struct command {
     const char *summary;   // one line
     void (*help)(void);    // prints what --help adds; NULL: nothing
     int (*run)(const command *self, int argc, char **argv);
+    bool apart; // it reads or writes files by libraries that may crash on it
 };
 
 int command_run(const command *self, int argc, char **argv);

@@ -15,8 +15,8 @@
 #include "studies/study.h"
 
 static const command study_command = {
-    "study", "FILE", "Run the samples of a study on all processes that mpirun has started", NULL,
-    NULL};
+    "study", "FILE", "Run the samples of a study on all processes that mpirun has started",
+    NULL,    NULL,   false};
 
 // The lowest number that any process gives.
 static int lowest(int number)

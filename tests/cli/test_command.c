@@ -259,6 +259,23 @@ static bool catches(pid_t process, int number)
     return caught >> (number - 1) & 1;
 }
 
+// The process in which a run does its work, once it listens to the signal.
+static pid_t worker_of(pid_t process, int number)
+{
+    char path[64];
+    int worker = 0;
+    snprintf(path, sizeof path, "/proc/%d/task/%d/children", process, process);
+    while (worker == 0 || !catches(worker, number)) {
+        FILE *file = fopen(path, "r");
+        assert_non_null(file);
+        if (fscanf(file, "%d", &worker) != 1)
+            worker = 0;
+        fclose(file);
+        usleep(10000);
+    }
+    return worker;
+}
+
 // Starts a run of a thousand seconds.
 static pid_t start_endless(bool nohup)
 {
@@ -281,11 +298,10 @@ static pid_t start_endless(bool nohup)
 // It is asked to stop by the signal: it does not go to its end, which would be another exit code.
 static void stop_by(int number)
 {
-    pid_t child = start_endless(false);
-    while (!catches(child, number))
-        usleep(10000);
+    pid_t child = start_endless(false), worker = worker_of(child, number);
     int status = 0;
     kill(child, number);
+    kill(worker, number); // as by who asks all processes of a group: it counts once
     waitpid(child, &status, 0);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 128 + number);
@@ -301,12 +317,34 @@ static void test_interrupted(void **state)
     stop_by(SIGHUP);
     // nohup stays what it is
     pid_t child = start_endless(true);
-    while (!catches(child, SIGTERM))
-        usleep(10000);
-    bool caught = catches(child, SIGHUP);
+    bool caught = catches(worker_of(child, SIGTERM), SIGHUP);
     kill(child, SIGTERM);
     waitpid(child, NULL, 0);
     assert_false(caught);
+}
+
+// Its work is ended by what it cannot catch: one sentence, and no half a file.
+static void test_killed_at_work(void **state)
+{
+    (void)state;
+    int status = 0;
+    pid_t child = start_endless(false);
+    kill(worker_of(child, SIGTERM), SIGKILL);
+    waitpid(child, &status, 0);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 3);
+    read_back(".err", shell.err, sizeof shell.err);
+    assert_string_equal(shell.err, "launchdyn: ended by signal 9 (Killed) while writing "
+                                   "stopped/history.h5.part\n");
+    assert_int_equal(run("ls stopped"), 0);
+    assert_string_equal(shell.out, "");
+    // with the one that waits it ends, too
+    child = start_endless(false);
+    pid_t worker = worker_of(child, SIGTERM);
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    while (kill(worker, 0) == 0)
+        usleep(10000);
 }
 
 static void test_modes_table(void **state)
@@ -425,6 +463,7 @@ int main(void)
         TEST(test_places_that_cannot_be_written),
         TEST(test_a_launch_that_cannot_happen),
         TEST(test_interrupted),
+        TEST(test_killed_at_work),
         TEST(test_modes_table),
         TEST(test_road),
         TEST(test_wind),
