@@ -5,40 +5,17 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "fuzz/model_checks.h"
+#include "fuzz/true_scenarios.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { SCENARIOS = 4, SETS = 8 };
-
-static const ld_model *scenario(int which)
-{
-    static const char *const path[SCENARIOS] = {
-        LD_SOURCE_DIR "/examples/fixed.yaml", LD_SOURCE_DIR "/tests/fuzz/scenario/vehicle.yaml",
-        LD_SOURCE_DIR "/tests/fuzz/scenario/study.yaml", LD_SOURCE_DIR "/examples/flight.yaml"};
-    static ld_model model[SCENARIOS];
-    ld_messages messages;
-    if (!model[which].source)
-        must(scenario_read(path[which], NULL, 0, &model[which], &messages) == LD_OK);
-    return &model[which];
-}
+enum { SETS = 8 };
 
 // A model of its own, the same as the one that is kept.
 static void copy_scenario(int which, ld_model *copy)
 {
     ld_messages messages;
-    must(scenario_read_source(scenario(which)->source, 0, copy, &messages) == LD_OK);
-}
-
-// The same overrides as those of a file from the start.
-static ld_status read_with_sets(int which, const char *const *sets, size_t count, ld_model *model)
-{
-    ld_messages messages;
-    const ld_source_file *file = scenario(which)->source->file[0];
-    ld_status status = scenario_read_text(file->text, file->length, file->name,
-                                          LD_SOURCE_DIR "/examples", sets, count, model, &messages);
-    check_reading(status, &messages);
-    return status;
+    must(scenario_read_source(true_scenario(which)->source, 0, copy, &messages) == LD_OK);
 }
 
 // What is found by the path, and that setting it to the text that it has changes nothing.
@@ -71,7 +48,7 @@ static void run(int which, const char *const *sets, size_t count)
     copy_scenario(which, &given);
     ld_status status = ld_model_set_all(&given, sets, count, &messages);
     check_reading(status, &messages);
-    must(status == LD_OK || same_model(&given, scenario(which)));
+    must(status == LD_OK || same_model(&given, true_scenario(which)));
     must(read_with_sets(which, sets, count, &read) == status);
     if (status == LD_OK) {
         must(same_model(&given, &read));
@@ -80,7 +57,7 @@ static void run(int which, const char *const *sets, size_t count)
     for (size_t i = 0; i < count; i++) {
         char path[256];
         snprintf(path, sizeof path, "%.*s", (int)strcspn(sets[i], "="), sets[i]);
-        ask(&given, path, status ? scenario(which) : &read);
+        ask(&given, path, status ? true_scenario(which) : &read);
     }
     model_clear(&given);
     if (status == LD_OK)
@@ -103,6 +80,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             *end++ = '\0';
         line = end;
     }
-    run(data[0] % SCENARIOS, sets, count);
+    run(data[0] % TRUE_SCENARIOS, sets, count);
     return 0;
 }

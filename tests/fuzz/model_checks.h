@@ -5,14 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "fuzz/memory_folder.h"
 #include "scenario/scenario.h"
 #include "support/model_compare.h"
-
-static inline void must(bool so)
-{
-    if (!so)
-        abort();
-}
 
 // A reading ends with a model, or with messages, which can be printed and are freed here.
 static inline void check_reading(ld_status status, ld_messages *messages)
@@ -37,7 +32,7 @@ static inline void must_be(ld_status status, ld_model *read, ld_messages *messag
     model_clear(read);
 }
 
-// What was read survives printing.
+// What was read survives printing, where the files that a sweep names are.
 static inline void check_printed(const ld_model *model)
 {
     ld_model again;
@@ -47,7 +42,8 @@ static inline void check_printed(const ld_model *model)
     FILE *stream = open_memstream(&text, &length);
     ld_model_print(model, stream);
     fclose(stream);
-    ld_status status = scenario_read_text(text, length, "printed", "", NULL, 0, &again, &messages);
+    ld_status status = scenario_read_text(text, length, "printed", model->source->folder, NULL, 0,
+                                          &again, &messages);
     must_be(status, &again, &messages, model);
     free(text);
 }

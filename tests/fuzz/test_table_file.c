@@ -6,7 +6,7 @@
 static void test_corpus(void **state)
 {
     (void)state;
-    corpus_test("table_file", 3000);
+    corpus_test("table_file", 600);
 }
 
 int main(void)
