@@ -204,7 +204,7 @@ static void test_check_of_a_sweep(void **state)
     expect_complaint("{ echo 'include: examples/fixed.yaml'; "
                      "echo 'sweep: {rocket.start_at: [0.1 m, 2 m]}'; } >sweep.yaml; "
                      "launchdyn check sweep.yaml",
-                     1, "sweep.yaml:2:33: error: rocket.start_at: no static equilibrium");
+                     1, "sweep.yaml:2:34: error: rocket.start_at: no static equilibrium");
     expect_in(shell.err, "this is point 2 of the sweep: rocket.start_at 2 m\n");
 }
 
