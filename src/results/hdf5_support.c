@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/text_file.h"
+
 // Why calls have failed since hdf5_quiet_begin().
 static struct {
     bool memory;    // for want of it
@@ -74,8 +76,10 @@ ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const
 {
     if (why.memory)
         return ld_fail(error, LD_ERR_MEMORY, "cannot %s %s: HDF5 has no memory", what, path);
-    if (why.number) // the system's own refusal
-        return ld_fail(error, LD_ERR_FILE, "cannot %s %s: %s", what, path, strerror(why.number));
+    if (why.number && status == LD_ERR_INPUT)
+        status = text_file_status(why.number);
+    if (why.number)
+        return ld_fail(error, status, "cannot %s %s: %s", what, path, strerror(why.number));
     if (strcmp(why.text, "unable to open file") == 0)
         status = LD_ERR_FILE;
     return ld_fail(error, status, "cannot %s %s: %s", what, path,
