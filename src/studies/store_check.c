@@ -251,15 +251,14 @@ static ld_status ask(const store_view *self, const char *format, int64_t *number
 
 static ld_status damaged_samples(const store_walk *self, ld_error *error)
 {
-    const int64_t lost = self->kept.samples - self->intact;
-    char first[64] = "";
+    const int64_t gone = self->kept.samples - self->intact;
+    char first[48] = "";
     if (self->first_damaged)
-        snprintf(first, sizeof first, ", the first of them %" PRId64, self->first_damaged);
-    return ld_fail(error, LD_ERR_INPUT,
-                   "%s is damaged: %" PRId64 " of its %" PRId64
-                   " samples are %snot as they were kept%s",
-                   self->view.path, lost > self->damaged ? lost : self->damaged, self->kept.samples,
-                   lost > self->damaged ? "not there or " : "", first);
+        snprintf(first, sizeof first, " (the first: %" PRId64 ")", self->first_damaged);
+    return ld_fail(
+        error, LD_ERR_INPUT,
+        "%s is damaged: samples that are not as they were kept: %" PRId64 " of %" PRId64 "%s",
+        self->view.path, gone > self->damaged ? gone : self->damaged, self->kept.samples, first);
 }
 
 ld_status store_walk_verdict(const store_walk *self, ld_error *error)
