@@ -272,9 +272,11 @@ static void read_in_turn(scenario_reader *reader, int point, ld_model *model)
     pthread_mutex_unlock(&one_reader);
 }
 
-ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
+// With `complaint`, which is about a key of the model, there is a message.
+static ld_status read_source(ld_source *source, int point, const char *complaint, ld_model *model,
+                             ld_messages *messages)
 {
-    scenario_reader reader = {.messages = messages, .source = source};
+    scenario_reader reader = {.messages = messages, .source = source, .complaint = complaint};
     ld_model fresh;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
@@ -302,6 +304,23 @@ ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld
     if (plain)
         freelocale(plain);
     return status;
+}
+
+ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
+{
+    return read_source(source, point, NULL, model, messages);
+}
+
+bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages)
+{
+    ld_model unused;
+    *messages = (ld_messages){0};
+    if (!model->source || !scenario_complains_of_key(error->text))
+        return false;
+    if (read_source(model->source, model->point, error->text, &unused, messages) == LD_ERR_INPUT)
+        return true;
+    ld_messages_free(messages);
+    return false;
 }
 
 // ---- where the texts come from
