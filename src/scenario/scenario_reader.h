@@ -68,7 +68,6 @@ typedef struct scenario_reader {
     bool no_memory;
     bool cut; // more messages than are kept
     memory_pool pool;
-    unit_system *units;
     int nodes;
     ld_source *source; // what has been read so far
 } scenario_reader;
