@@ -24,9 +24,9 @@ static int check_points(const ld_model *model, void *data)
     return 0;
 }
 
-int command_check(const command *self, int argc, const char **argv)
+int command_check(const command *self, int argc, char **argv)
 {
     char **sets = NULL;
-    const struct poptOption options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
+    const command_option options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
     return command_on_model(self, argc, argv, options, &sets, check_points, NULL);
 }

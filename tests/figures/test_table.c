@@ -59,6 +59,8 @@ static void unit_of(const char *written, char unit[32])
     char *cube = strstr(unit, "³");
     if (cube)
         memcpy(cube, "3", 2);
+    for (char *blank = unit; (blank = strchr(blank, ' '));)
+        *blank = '.';
 }
 
 // The columns that the name or pattern fits; returns how many.
