@@ -102,7 +102,7 @@ static void test_every_unit_with_every_prefix(void **state)
     static const char *const targets[] = {"m", "kg", "s", "rad", "K",     "Hz",
                                           "N", "Pa", "J", "W",   "rad/s", ""};
     char text[32];
-    tally = (typeof(tally)){0};
+    memset(&tally, 0, sizeof tally);
     for (int i = 0; i < UNITS; i++)
         for (int p = -1; p < PREFIXES; p++) {
             // "%" has none in a scenario
@@ -174,7 +174,7 @@ static void test_products(void **state)
 {
     ut_system *system = *state;
     unsigned seed = 1;
-    tally = (typeof(tally)){0};
+    memset(&tally, 0, sizeof tally);
     for (int i = 0; i < 20000; i++) {
         char text[128], target[512];
         int power[BASES] = {0};
