@@ -47,6 +47,16 @@ int command_fail(ld_status status, const ld_error *error)
     return command_code(status);
 }
 
+int command_fail_on(const ld_model *model, ld_status status, const ld_error *error)
+{
+    ld_messages messages;
+    if (!ld_scenario_explain(model, error, &messages))
+        return command_fail(status, error);
+    ld_messages_print(&messages, stderr);
+    ld_messages_free(&messages);
+    return command_code(status);
+}
+
 int command_begin(void)
 {
     enum { LEAST_STACK = 512 }; // [kB]

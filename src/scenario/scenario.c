@@ -254,9 +254,11 @@ static void read_root(scenario_reader *reader, const text_source *source, int po
         check_values(reader, file, &sweep);
 }
 
-ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
+// With `complaint`, which is about a key of the model, there is a message.
+static ld_status read_source(ld_source *source, int point, const char *complaint, ld_model *model,
+                             ld_messages *messages)
 {
-    scenario_reader reader = {.messages = messages, .source = source};
+    scenario_reader reader = {.messages = messages, .source = source, .complaint = complaint};
     const ld_source_file *first = source->file[0];
     text_source root = {source->name, first->text, first->length, source->folder, 1, ""};
     ld_model fresh;
@@ -286,6 +288,23 @@ ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld
     if (plain)
         freelocale(plain);
     return status;
+}
+
+ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
+{
+    return read_source(source, point, NULL, model, messages);
+}
+
+bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages)
+{
+    ld_model unused;
+    *messages = (ld_messages){0};
+    if (!model->source || !scenario_complains_of_key(error->text))
+        return false;
+    if (read_source(model->source, model->point, error->text, &unused, messages) == LD_ERR_INPUT)
+        return true;
+    ld_messages_free(messages);
+    return false;
 }
 
 // ---- where the texts come from
