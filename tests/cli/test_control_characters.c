@@ -103,7 +103,7 @@ static void test_texts_of_a_scenario(void **state)
         "launchdyn check caret.yaml",
         2,
         "    {include: examples/fixed.yaml, title: \"a\\xe2\\x80\\xaeb\", x: 1}\n"
-        "                                                             ^\n");
+        "                                                            ^\n");
     // tables have none such either
     expect_seen(WITH_EVIL "echo \"t,$evil\" >bad.csv; launchdyn check examples/fixed.yaml --set "
                           "base.kind=prescribed --set base.motion.table=$PWD/bad.csv",
