@@ -5,8 +5,8 @@
 #include "cli/command.h"
 #include "launchdyn/version.h"
 
-static int command_help(const command *self, int argc, const char **argv);
-static int command_version(const command *self, int argc, const char **argv);
+static int command_help(const command *self, int argc, char **argv);
+static int command_version(const command *self, int argc, char **argv);
 
 static const command commands[] = {
     {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run, true},
@@ -72,7 +72,7 @@ static void print_commands(FILE *stream)
 typedef struct call {
     const command *chosen;
     int argc;
-    const char **argv;
+    char **argv;
 } call;
 
 static int do_call(void *data)
@@ -81,11 +81,8 @@ static int do_call(void *data)
     return command_end(self->chosen->run(self->chosen, self->argc, self->argv));
 }
 
-static int start(const command *chosen, int argc, const char **argv)
+static int start(const command *chosen, int argc, char **argv)
 {
-    char name[32];
-    snprintf(name, sizeof name, "launchdyn %s", chosen->name);
-    argv[0] = name;
     call words = {chosen, argc, argv};
     return chosen->apart ? command_apart(do_call, &words) : do_call(&words);
 }
@@ -95,7 +92,7 @@ static bool asks_for_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
 }
 
-static int command_help(const command *self, int argc, const char **argv)
+static int command_help(const command *self, int argc, char **argv)
 {
     (void)self;
     if (argc < 2 || asks_for_help(argv[1])) {
@@ -109,11 +106,11 @@ static int command_help(const command *self, int argc, const char **argv)
         print_commands(stdout);
         return 0;
     }
-    const char *help[] = {argv[0], "--help", NULL};
+    char option[] = "--help", *help[] = {argv[0], option, NULL};
     return start(chosen, 2, help);
 }
 
-static int command_version(const command *self, int argc, const char **argv)
+static int command_version(const command *self, int argc, char **argv)
 {
     (void)self;
     if (argc > 1 && asks_for_help(argv[1]))
@@ -124,7 +121,7 @@ static int command_version(const command *self, int argc, const char **argv)
 }
 
 // The command that the first word names; the usual options stand for commands too.
-static int dispatch(int argc, const char **argv)
+static int dispatch(int argc, char **argv)
 {
     if (argc < 2) {
         print_commands(stderr);
@@ -142,5 +139,5 @@ static int dispatch(int argc, const char **argv)
 int main(int argc, char **argv)
 {
     int code = command_begin();
-    return code ? code : dispatch(argc, (const char **)argv);
+    return code ? code : dispatch(argc, argv);
 }

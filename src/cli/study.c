@@ -9,14 +9,6 @@
 #include "cli/study.h"
 #include "launchdyn/origin.h"
 
-void study_wishes_free(study_wishes *wishes)
-{
-    command_free_sets(wishes->run.sets);
-    free(wishes->run.folder);
-    free(wishes->csv);
-    free(wishes->hdf5);
-}
-
 void command_study_help(void)
 {
     puts("\nlaunchdyn study FILE --out DIR runs what DIR does not hold yet: the same command goes "
@@ -193,26 +185,26 @@ static const char *wrong_to_run(const char *file, const char *again, const study
     return NULL;
 }
 
-int command_study(const command *self, int argc, const char **argv)
+int command_study(const command *self, int argc, char **argv)
 {
     study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
     char *shard = NULL, *what = NULL, *again = NULL;
     int sensitivity = 0;
-    const struct poptOption options[] = {
+    const command_option options[] = {
         STUDY_OPTIONS(&wishes),
-        {"again", '\0', POPT_ARG_STRING, &again, 0,
+        {"again", '\0', OPTION_TEXT, &again,
          "In place of FILE: run the study that is in this folder, from the texts that it keeps",
          "FOLDER"},
-        {"jobs", 'j', POPT_ARG_INT, &wishes.threads, 0, "Samples that run side by side (1)", "N"},
-        {"only", '\0', POPT_ARG_INT, &wishes.only, 0,
+        {"jobs", 'j', OPTION_INTEGER, &wishes.threads, "Samples that run side by side (1)", "N"},
+        {"only", '\0', OPTION_INTEGER, &wishes.only,
          "Run sample N alone, with its history in DIR/sample-N", "N"},
-        {"shard", '\0', POPT_ARG_STRING, &shard, 0,
+        {"shard", '\0', OPTION_TEXT, &shard,
          "Run only the I-th of N parts of the study, for merge DIR", "I/N"},
-        {"what", 'w', POPT_ARG_STRING, &what, 0, "Of show: these results, or all", "NAME,..."},
-        {"sensitivity", '\0', POPT_ARG_NONE, &sensitivity, 0,
+        {"what", 'w', OPTION_TEXT, &what, "Of show: these results, or all", "NAME,..."},
+        {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
          "Of show: the share of the variance that each factor explains", NULL},
-        {"csv", '\0', POPT_ARG_STRING, &wishes.csv, 0, "Of export: the table as CSV", "FILE"},
-        {"hdf5", '\0', POPT_ARG_STRING, &wishes.hdf5, 0, "Of export: the table as HDF5", "FILE"},
+        {"csv", '\0', OPTION_TEXT, &wishes.csv, "Of export: the table as CSV", "FILE"},
+        {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "Of export: the table as HDF5", "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -233,11 +225,7 @@ int command_study(const command *self, int argc, const char **argv)
         } else {
             code = again ? study_again(again, &wishes) : study_file(file, &wishes);
         }
-        command_line_end(&line);
+        options_end(&line);
     }
-    study_wishes_free(&wishes);
-    free(shard);
-    free(what);
-    free(again);
     return code;
 }

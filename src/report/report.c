@@ -81,20 +81,24 @@ static void take_summary(report_source *source, manifest *found)
             source->summary ? "Whether the files are whole is not known" : "No summary", doubt);
 }
 
-// Notes what is damaged. Returns how many of summary.json and the files beside it are, with the
-// first sentence; the history's is not to be read.
-static int find_damage(report_source *source, const char *folder, const manifest *found,
-                       bool *history, ld_error *first)
+// Notes which files are damaged, of which the history is not to be read. LD_ERR_INPUT with the
+// first sentence where summary.json or another is; LD_ERR_FILE, LD_ERR_MEMORY.
+static ld_status find_damage(report_source *source, const char *folder, const manifest *found,
+                             bool *history, ld_error *first)
 {
-    int damaged = 0;
-    ld_error error;
-    if (found->state == MANIFEST_DAMAGED && damaged++ == 0)
-        ld_fail(first, LD_ERR_INPUT, "%s", found->problem);
+    ld_status damaged = LD_OK;
+    if (found->state == MANIFEST_DAMAGED)
+        damaged = ld_fail(first, LD_ERR_INPUT, "%s", found->problem);
     for (int i = 0; i < MANIFEST_FILES; i++) {
-        if (!manifest_check(found, folder, i, &error))
+        ld_error error;
+        ld_status status = manifest_check(found, folder, i, &error);
+        if (!status)
             continue;
-        if (damaged++ == 0)
+        if (!damaged || status != LD_ERR_INPUT)
             *first = error;
+        if (status != LD_ERR_INPUT)
+            return status;
+        damaged = status;
         *history &= i != MANIFEST_HDF5;
         report_take_note(source->report, "%s%s.", i == MANIFEST_HDF5 ? "No plots: " : "",
                          error.text);
@@ -102,7 +106,8 @@ static int find_damage(report_source *source, const char *folder, const manifest
     return damaged;
 }
 
-// Reads what is whole. LD_ERR_INPUT, with what is damaged, where something is.
+// Reads what is whole. LD_ERR_INPUT, with what is damaged, where something is; LD_ERR_FILE,
+// LD_ERR_MEMORY.
 static ld_status read_folder(report_source *source, const char *folder, ld_error *error)
 {
     manifest found;
@@ -111,13 +116,14 @@ static ld_status read_folder(report_source *source, const char *folder, ld_error
     ld_status status = manifest_read(folder, &found, error);
     if (status)
         return status;
-    int damaged = find_damage(source, folder, &found, &history, &first);
+    status = find_damage(source, folder, &found, &history, &first);
     if (history)
         read_history(source, folder);
     take_summary(source, &found);
     manifest_free(&found);
-    return damaged ? ld_fail(error, LD_ERR_INPUT, "%.300s is damaged: %s", folder, first.text)
-                   : LD_OK;
+    if (status == LD_ERR_INPUT)
+        return ld_fail(error, status, "%.300s is damaged: %s", folder, first.text);
+    return status ? ld_fail(error, status, "%.300s/%s", folder, first.text) : LD_OK;
 }
 
 static void free_source(report_source *source)
@@ -214,8 +220,9 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     join(usual, folder, "report.html");
     ld_error damage;
     ld_status found = read_folder(source, folder, &damage);
-    ld_status status = found == LD_ERR_MEMORY ? ld_fail(error, found, "%s", damage.text)
-                                              : report_add_replay(&source->history, error);
+    bool broken = found && found != LD_ERR_INPUT; // the system, not the folder
+    ld_status status = broken ? ld_fail(error, found, "%s", damage.text)
+                              : report_add_replay(&source->history, error);
     if (!status && !source->has_history && !source->summary)
         status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
                          report->note[0], report->note[report->note_count - 1]);

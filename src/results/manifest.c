@@ -21,8 +21,7 @@ enum { LONGEST_PATH = 4096, MOST_TEXT = 1 << 28 };
 
 // ---- files
 
-static ld_status measure_stream(FILE *stream, const char *path, manifest_file *file,
-                                ld_error *error)
+static ld_status measure_stream(FILE *stream, manifest_file *file, ld_error *error)
 {
     unsigned char bytes[1 << 14];
     size_t count;
@@ -31,20 +30,16 @@ static ld_status measure_stream(FILE *stream, const char *path, manifest_file *f
         file->digest = digest_bytes(file->digest, bytes, count);
         file->size += (int64_t)count;
     }
-    return ferror(stream)
-               ? ld_fail(error, LD_ERR_FILE, "cannot read %.400s: %s", path, strerror(errno))
-               : LD_OK;
+    return ferror(stream) ? text_file_failed(error) : LD_OK;
 }
 
 ld_status manifest_measure(const char *path, manifest_file *file, ld_error *error)
 {
     *file = (manifest_file){0};
     FILE *stream = fopen(path, "rb");
-    if (!stream && errno == ENOENT)
-        return LD_OK;
     if (!stream)
-        return ld_fail(error, LD_ERR_FILE, "cannot read %.400s: %s", path, strerror(errno));
-    ld_status status = measure_stream(stream, path, file, error);
+        return errno == ENOENT ? LD_OK : text_file_failed(error);
+    ld_status status = measure_stream(stream, file, error);
     fclose(stream);
     return status;
 }
@@ -235,13 +230,15 @@ ld_status manifest_check(const manifest *self, const char *folder, int file, ld_
 {
     char path[LONGEST_PATH];
     manifest_file found;
+    ld_error problem;
     const manifest_file *known = &self->file[file];
     if (self->state != MANIFEST_WHOLE)
         return LD_OK;
     const char *name = manifest_name[file];
     snprintf(path, sizeof path, "%.4000s/%s", folder, name);
-    if (manifest_measure(path, &found, error))
-        return LD_ERR_INPUT;
+    ld_status status = manifest_measure(path, &found, &problem);
+    if (status)
+        return ld_fail(error, status, "%s %s", name, problem.text);
     if (found.there && !known->there)
         return ld_fail(error, LD_ERR_INPUT, "%s is not of this run: summary.json does not name it",
                        name);
@@ -269,9 +266,11 @@ ld_status manifest_check_history(const char *folder, char *doubt, size_t size, l
     if (doubt)
         snprintf(doubt, size, "%s", manifest_doubt(&self) ? manifest_doubt(&self) : "");
     if (self.state == MANIFEST_DAMAGED)
-        status = ld_fail(error, LD_ERR_INPUT, "%.300s/%s", folder, self.problem);
-    else if (manifest_check(&self, folder, MANIFEST_HDF5, &problem))
-        status = ld_fail(error, LD_ERR_INPUT, "%.300s/%s", folder, problem.text);
+        status = ld_fail(&problem, LD_ERR_INPUT, "%s", self.problem);
+    else
+        status = manifest_check(&self, folder, MANIFEST_HDF5, &problem);
+    if (status)
+        ld_fail(error, status, "%.300s/%.300s", folder, problem.text);
     manifest_free(&self);
     return status;
 }

@@ -38,14 +38,15 @@ typedef struct manifest {
 // The first member of summary.json, "format", since it keeps digests.
 #define MANIFEST_FORMAT "2"
 
-// Size and digest of the file at `path`; not `there` where it is not. LD_ERR_FILE: it cannot be
-// read.
+// Size and digest of the file at `path`; not `there` where it is not. Where it cannot be read the
+// status and sentence of text_file_failed().
 ld_status manifest_measure(const char *path, manifest_file *file, ld_error *error);
 
 // Writes the text of a JSON object up to its last member, then that: the digest of all before it.
 void manifest_seal(FILE *file, const char *text, size_t length);
 
-// Reads summary.json of a folder. LD_OK whatever it finds; LD_ERR_MEMORY.
+// Reads summary.json of a folder. LD_OK whatever it finds; LD_ERR_FILE or LD_ERR_MEMORY where the
+// system refuses.
 ld_status manifest_read(const char *folder, manifest *self, ld_error *error);
 void manifest_free(manifest *self);
 
@@ -53,7 +54,8 @@ void manifest_free(manifest *self);
 const char *manifest_doubt(const manifest *self);
 
 // Whether a file is the one that the manifest names, or is rightly not there; LD_OK too where there
-// are no digests. LD_ERR_INPUT with a sentence that begins with its name; LD_ERR_MEMORY.
+// are no digests. LD_ERR_INPUT, or what manifest_measure() returns, with a sentence that begins
+// with its name.
 ld_status manifest_check(const manifest *self, const char *folder, int file, ld_error *error);
 
 // The same of history.h5, before it is opened, of a folder whose summary.json is not damaged; the

@@ -257,11 +257,11 @@ static ld_status put_in_place(ld_output *output, ld_error *error)
 static ld_status write_summary(ld_output *output, const ld_summary *summary, ld_error *error)
 {
     manifest_file file[MANIFEST_FILES];
-    ld_status status = LD_OK;
-    for (int i = 0; i < MANIFEST_FILES && !status; i++)
-        status = manifest_measure(output->part[i], &file[i], error);
-    return status ? status
-                  : summary_write(output->part[SUMMARY], output->model, summary, file, error);
+    ld_error problem;
+    for (int i = 0; i < MANIFEST_FILES; i++)
+        if (manifest_measure(output->part[i], &file[i], &problem))
+            return ld_fail(error, LD_ERR_FILE, "%s %s", output->part[i], problem.text);
+    return summary_write(output->part[SUMMARY], output->model, summary, file, error);
 }
 
 ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error)

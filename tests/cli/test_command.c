@@ -57,6 +57,12 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn run --cvs x", 2, "unknown option --cvs (did you mean --csv?)\n");
     expect_complaint("launchdyn run -z x", 2, "launchdyn: -z: unknown option\n");
     expect_complaint("launchdyn run x --out", 2, "launchdyn: --out: missing argument\n");
+    expect_complaint("launchdyn run x -qo", 2, "launchdyn: -qo: missing argument\n");
+    expect_complaint("launchdyn run x --csv=1", 2, "launchdyn: --csv takes no value\n");
+    expect_complaint("launchdyn wind x --rocket 1.5", 2,
+                     "launchdyn: --rocket wants a whole number, not 1.5\n");
+    expect_complaint("launchdyn wind x --rocket 9999999999", 2, "--rocket wants a whole number");
+    expect_complaint("launchdyn wind x --top ''", 2, "launchdyn: --top wants a number, not \n");
     expect_complaint("launchdyn run", 2, "launchdyn: run wants FILE; see launchdyn run --help\n");
     expect_complaint("launchdyn run a b", 2, "launchdyn: run wants FILE");
     expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv needs --out DIR\n");
@@ -67,6 +73,22 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn plot x", 2, "plot wants -o FILE.svg");
     expect_complaint("launchdyn plot x --what tipp -o x.svg", 2, "did you mean tip?");
     expect_complaint("launchdyn plot x -o x.svg", 2, "no results in x");
+}
+
+// Before the words, after them and between; a value apart or not; no option after "--".
+static void test_ways_to_write_options(void **state)
+{
+    (void)state;
+    assert_int_equal(run("for words in '-qo a s.yaml' 's.yaml --out=a -q' '--quiet s.yaml --out a' "
+                         "'-oa --qui -- s.yaml'; do rm -rf a; cp examples/fixed.yaml s.yaml; "
+                         "launchdyn run --set run.end=tip $words && ls a; done"),
+                     0);
+    assert_string_equal(shell.out, "history.h5\nsummary.json\nhistory.h5\nsummary.json\n"
+                                   "history.h5\nsummary.json\nhistory.h5\nsummary.json\n");
+    expect_complaint("launchdyn run -- --csv", 2, "--csv: error: file \"--csv\" cannot be read");
+    expect_complaint("launchdyn check - --set rocket.mas=1 --set=rocket.empt=2 <s.yaml", 2,
+                     "--set:1:8: error: rocket.mas: unknown key");
+    expect_in(shell.err, "--set:2:8: error: rocket.empt: unknown key");
 }
 
 static void test_wrong_words_of_a_study(void **state)
@@ -178,6 +200,12 @@ static void test_check_of_a_sweep(void **state)
     expect_complaint(SWEEP("70") "launchdyn check - <sweep.yaml", 2,
                      "<stdin>:2:36: error: rocket.");
     expect_in(shell.err, "this is point 2 of the sweep: rocket.empty.mass 70 kg\n");
+    // whose run cannot start: the place is that of the value
+    expect_complaint("{ echo 'include: examples/fixed.yaml'; "
+                     "echo 'sweep: {rocket.start_at: [0.1 m, 2 m]}'; } >sweep.yaml; "
+                     "launchdyn check sweep.yaml",
+                     1, "sweep.yaml:2:34: error: rocket.start_at: no static equilibrium");
+    expect_in(shell.err, "this is point 2 of the sweep: rocket.start_at 2 m\n");
 }
 
 static void test_bad_input_leaves_nothing(void **state)
@@ -379,7 +407,7 @@ static void test_road(void **state)
     expect_complaint("launchdyn road examples/reference.yaml --step 0", 2,
                      "from -100 m to 100 m by 0 m has not");
     expect_complaint("launchdyn road examples/reference.yaml --to x", 2,
-                     "launchdyn: x: invalid numeric value\n");
+                     "launchdyn: --to wants a number, not x\n");
     expect_complaint("launchdyn road examples/reference.yaml --plot x.bmp", 2,
                      "a picture's name ends in .svg, .pdf or .png");
 }
@@ -430,6 +458,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_help_and_version),
         TEST(test_wrong_words),
+        TEST(test_ways_to_write_options),
         TEST(test_wrong_words_of_a_study),
         TEST(test_run_writes_results),
         TEST(test_report),
