@@ -18,6 +18,9 @@ ld_status text_file_read(const char *path, size_t limit, char **text, size_t *le
 // read; LD_ERR_FILE or LD_ERR_MEMORY, the system cannot for itself.
 ld_status text_file_status(int number);
 
+// "cannot be read: REASON", of errno.
+ld_status text_file_failed(ld_error *error);
+
 // Whether a file is to be written under a temporary name, which then becomes its own: not where
 // something else than a file is, as /dev/stdout.
 bool text_file_is_replaced(const char *path);
