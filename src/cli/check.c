@@ -7,7 +7,7 @@
 // Prints the model, or what is wrong with the first point of its sweep that is not good.
 static int check_points(const ld_model *model, void *data)
 {
-    (void)data;
+    const int *strict = data;
     int points = ld_scenario_axes(model) > 0 ? ld_scenario_points(model) : 0;
     for (int point = 1; point <= points; point++) {
         ld_model *one;
@@ -20,13 +20,17 @@ static int check_points(const ld_model *model, void *data)
         }
         ld_model_free(one);
     }
-    ld_model_print(model, stdout);
-    return 0;
+    int code = command_take_notes(ld_model_source(model), 0, points, false, *strict != 0);
+    if (!code)
+        ld_model_print(model, stdout);
+    return code;
 }
 
 int command_check(const command *self, int argc, const char **argv)
 {
     char **sets = NULL;
-    const struct poptOption options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
-    return command_on_model(self, argc, argv, options, &sets, check_points, NULL);
+    int strict = 0;
+    const struct poptOption options[] = {COMMAND_SETS(&sets), COMMAND_STRICT(&strict), COMMAND_HELP,
+                                         COMMAND_END};
+    return command_on_model(self, argc, argv, options, &sets, check_points, &strict);
 }

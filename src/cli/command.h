@@ -62,6 +62,12 @@ int command_wind(const command *self, int argc, const char **argv);
             "PATH=VALUE"                                                                           \
     }
 
+#define COMMAND_STRICT(strict)                                                                     \
+    {                                                                                              \
+        "strict", '\0', POPT_ARG_NONE, strict, 0,                                                  \
+            "Refuse values that are allowed but hardly meant", NULL                                \
+    }
+
 // What stands on the command line beside the options.
 typedef struct command_line {
     poptContext context;
@@ -105,5 +111,9 @@ ld_status command_read_source(ld_source *source, int point, ld_model **model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
 void command_free_sets(char **sets);
+
+// Prints notes on points `from` to `to` of the sweep of texts: as warnings, which `quiet` leaves
+// out, or where `strict` as errors. Returns 0, or the exit code to end with.
+int command_take_notes(ld_source *source, int from, int to, bool quiet, bool strict);
 
 #endif

@@ -23,11 +23,13 @@ typedef struct study_wishes {
     COMMAND_SETS(&(wishes)->run.sets),                                                             \
         {"out", 'o', POPT_ARG_STRING, &(wishes)->run.folder, 0, "The folder that keeps the study", \
          "DIR"},                                                                                   \
-    {                                                                                              \
-        "quiet", 'q', POPT_ARG_NONE, &(wishes)->run.quiet, 0, "Print nothing but errors", NULL     \
-    }
+        {"quiet", 'q', POPT_ARG_NONE, &(wishes)->run.quiet, 0, "Print nothing but errors", NULL},  \
+        COMMAND_STRICT(&(wishes)->run.strict)
 
 void study_wishes_free(study_wishes *wishes);
+
+// Prints notes on all points of the study (command_take_notes()).
+int study_take_notes(const ld_study *study, const study_wishes *wishes);
 
 // ld_study_run(), or another that does the same.
 typedef ld_status study_runner(const ld_study *study, const char *folder,
