@@ -44,7 +44,8 @@ void ld_notes_print(const ld_messages *notes, FILE *stream);
 /// @param sets     `count` texts "path=value" that override the file (as of --set)
 /// @param model    filled on success (free with ld_model_free()); NULL on failure
 /// @param messages filled on failure (free with ld_messages_free())
-/// @return LD_OK, LD_ERR_INPUT or LD_ERR_MEMORY
+/// @return LD_OK, LD_ERR_INPUT, LD_ERR_FILE (the system refused to read a file), LD_ERR_MEMORY
+///         (without messages)
 ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count,
                            ld_model **model, ld_messages *messages);
 

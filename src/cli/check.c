@@ -26,11 +26,11 @@ static int check_points(const ld_model *model, void *data)
     return code;
 }
 
-int command_check(const command *self, int argc, const char **argv)
+int command_check(const command *self, int argc, char **argv)
 {
     char **sets = NULL;
     int strict = 0;
-    const struct poptOption options[] = {COMMAND_SETS(&sets), COMMAND_STRICT(&strict), COMMAND_HELP,
-                                         COMMAND_END};
+    const command_option options[] = {COMMAND_SETS(&sets), COMMAND_STRICT(&strict), COMMAND_HELP,
+                                      COMMAND_END};
     return command_on_model(self, argc, argv, options, &sets, check_points, &strict);
 }

@@ -2,10 +2,10 @@
 #ifndef LD_CLI_COMMAND_H
 #define LD_CLI_COMMAND_H
 
-#include <popt.h>
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "cli/options.h"
 #include "launchdyn/model.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/status.h"
@@ -23,6 +23,12 @@ enum {
 // where the stack is limited to less than is needed.
 int command_begin(void);
 
+// The end of a command: what it printed is out, or the code says so.
+int command_end(int code);
+
+// Does `work` in a process of its own (launchdyn/child.h). Returns the exit code.
+int command_apart(int (*work)(void *data), void *data);
+
 // The exit code that belongs to a status.
 int command_code(ld_status status);
 
@@ -33,55 +39,48 @@ struct command {
     const char *arguments; // e.g. "FILE"
     const char *summary;   // one line
     void (*help)(void);    // prints what --help adds; NULL: nothing
-    int (*run)(const command *self, int argc, const char **argv);
+    int (*run)(const command *self, int argc, char **argv);
+    bool apart; // it reads or writes files by libraries that may crash on it
 };
 
-int command_run(const command *self, int argc, const char **argv);
-int command_study(const command *self, int argc, const char **argv);
+int command_run(const command *self, int argc, char **argv);
+int command_study(const command *self, int argc, char **argv);
 void command_study_help(void);
-int command_check(const command *self, int argc, const char **argv);
-int command_modes(const command *self, int argc, const char **argv);
-int command_plot(const command *self, int argc, const char **argv);
+int command_check(const command *self, int argc, char **argv);
+int command_modes(const command *self, int argc, char **argv);
+int command_plot(const command *self, int argc, char **argv);
 void command_plot_help(void);
-int command_report(const command *self, int argc, const char **argv);
-int command_road(const command *self, int argc, const char **argv);
-int command_wind(const command *self, int argc, const char **argv);
+int command_report(const command *self, int argc, char **argv);
+int command_road(const command *self, int argc, char **argv);
+int command_wind(const command *self, int argc, char **argv);
 
 // The options that a command knows end with these two.
 #define COMMAND_HELP                                                                               \
     {                                                                                              \
-        "help", 'h', POPT_ARG_NONE, NULL, 'h', "Show this help and stop", NULL                     \
+        "help", 'h', OPTION_HELP, NULL, "Show this help and stop", NULL                            \
     }
 #define COMMAND_END                                                                                \
     {                                                                                              \
-        NULL, '\0', 0, NULL, 0, NULL, NULL                                                         \
+        NULL, '\0', OPTION_FLAG, NULL, NULL, NULL                                                  \
     }
 #define COMMAND_SETS(sets)                                                                         \
     {                                                                                              \
-        "set", '\0', POPT_ARG_ARGV, sets, 0, "Set a key of the scenario; may be repeated",         \
+        "set", '\0', OPTION_TEXTS, sets, "Set a key of the scenario; may be repeated",             \
             "PATH=VALUE"                                                                           \
     }
 
 #define COMMAND_STRICT(strict)                                                                     \
     {                                                                                              \
-        "strict", '\0', POPT_ARG_NONE, strict, 0,                                                  \
-            "Refuse values that are allowed but hardly meant", NULL                                \
+        "strict", '\0', OPTION_FLAG, strict, "Refuse values that are allowed but hardly meant",    \
+            NULL                                                                                   \
     }
-
-// What stands on the command line beside the options.
-typedef struct command_line {
-    poptContext context;
-    const char *const *word;
-    size_t count;
-} command_line;
 
 enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 
-// Reads the options and `count` words; argv[0] is "launchdyn NAME". Returns true to go on, then
-// command_line_end() is due; false to end with *code.
-bool command_line_read(command_line *line, const command *self, int argc, const char **argv,
-                       const struct poptOption *options, int count, int *code);
-void command_line_end(command_line *line);
+// Reads the options and `count` words. Returns true to go on, then options_end() is due; false to
+// end with *code.
+bool command_line_read(command_line *line, const command *self, int argc, char **argv,
+                       const command_option *options, int count, int *code);
 
 // Prints "launchdyn: text" on stderr.
 void command_complain(const char *format, ...) LD_PRINTF(1, 2);
@@ -98,19 +97,16 @@ int command_write_report(const char *folder, const char *file, bool quiet);
 
 // A command on one scenario: reads the options and the file with its overrides, which `options` put
 // into *sets, and does `work` on the model. Returns the exit code.
-int command_on_model(const command *self, int argc, const char **argv,
-                     const struct poptOption *options, char ***sets,
-                     int (*work)(const ld_model *model, void *data), void *data);
+int command_on_model(const command *self, int argc, char **argv, const command_option *options,
+                     char ***sets, int (*work)(const ld_model *model, void *data), void *data);
 
 // The parts of it: `work` on the nominal model of the file with its overrides; the model of texts
-// at a point of its sweep (0: the nominal one), or a study, after messages LD_ERR_INPUT or another;
-// the end of the overrides.
+// at a point of its sweep (0: the nominal one), or a study, after messages LD_ERR_INPUT or another.
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
 ld_status command_read_source(ld_source *source, int point, ld_model **model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
-void command_free_sets(char **sets);
 
 // Prints notes on points `from` to `to` of the sweep of texts: as warnings, which `quiet` leaves
 // out, or where `strict` as errors. Returns 0, or the exit code to end with.

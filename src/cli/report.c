@@ -59,11 +59,11 @@ static bool holds_study(const char *folder)
     return access(path, F_OK) == 0;
 }
 
-int command_report(const command *self, int argc, const char **argv)
+int command_report(const command *self, int argc, char **argv)
 {
     char *file = NULL;
-    const struct poptOption options[] = {
-        {"output", 'o', POPT_ARG_STRING, &file, 0, "The report (DIR/report.html)", "FILE"},
+    const command_option options[] = {
+        {"output", 'o', OPTION_TEXT, &file, "The report (DIR/report.html)", "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -73,8 +73,7 @@ int command_report(const command *self, int argc, const char **argv)
             code = write_studies(line.word, line.count, file);
         else
             code = command_write_report(line.word[0], file, false);
-        command_line_end(&line);
+        options_end(&line);
     }
-    free(file);
     return code;
 }

@@ -20,13 +20,14 @@ typedef struct study_wishes {
 
 // The options that they share; overrides, folder and quiet are those of `wishes`.
 #define STUDY_OPTIONS(wishes)                                                                      \
-    COMMAND_SETS(&(wishes)->run.sets),                                                             \
-        {"out", 'o', POPT_ARG_STRING, &(wishes)->run.folder, 0, "The folder that keeps the study", \
-         "DIR"},                                                                                   \
-        {"quiet", 'q', POPT_ARG_NONE, &(wishes)->run.quiet, 0, "Print nothing but errors", NULL},  \
+    COMMAND_SETS(&(wishes)->run.sets), {"out",                                                     \
+                                        'o',                                                       \
+                                        OPTION_TEXT,                                               \
+                                        &(wishes)->run.folder,                                     \
+                                        "The folder that keeps the study",                         \
+                                        "DIR"},                                                    \
+        {"quiet", 'q', OPTION_FLAG, &(wishes)->run.quiet, "Print nothing but errors", NULL},       \
         COMMAND_STRICT(&(wishes)->run.strict)
-
-void study_wishes_free(study_wishes *wishes);
 
 // Prints notes on all points of the study (command_take_notes()).
 int study_take_notes(const ld_study *study, const study_wishes *wishes);

@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/child.h"
+
 enum { MOST_FIGURES = 32 };
 
 extern char **environ;
@@ -148,13 +150,9 @@ static ld_status draw(plot_writer *write, const void *page, plot_format format, 
     return status;
 }
 
-// Under a temporary name beside the picture, which then gets its own.
-ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
-                    ld_error *error)
+static ld_status draw_part(plot_writer *write, const void *page, plot_format format,
+                           const char *part, const char *file, ld_error *error)
 {
-    char part[4096];
-    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
-        return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
     FILE *picture = fopen(part, "wb");
     if (!picture)
         return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
@@ -164,6 +162,19 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
         status = ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
     if (status)
         unlink(part);
+    return status;
+}
+
+// Under a temporary name beside the picture, which then gets its own.
+ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
+                    ld_error *error)
+{
+    char part[4096];
+    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
+        return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
+    child_writes(part);
+    ld_status status = draw_part(write, page, format, part, file, error);
+    child_wrote(part);
     return status;
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "model/source.h"
 #include "results/hdf5_support.h"
 #include "results/origin.h"
@@ -187,7 +188,9 @@ ld_status ld_origin_read(const char *folder, ld_origin *origin, ld_error *error)
     if (access(path, F_OK) != 0)
         return ld_fail(error, LD_ERR_INPUT, "no results in %.300s: there is no history.h5", folder);
     hdf5_quiet quiet = hdf5_quiet_begin();
+    child_reads(path);
     ld_status status = read_history(path, origin, error);
+    child_reads(NULL);
     hdf5_quiet_end(&quiet);
     if (status)
         ld_origin_free(origin);

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "results/folder.h"
 #include "results/history.h"
 #include "results/kml.h"
@@ -137,6 +138,8 @@ static ld_status set_paths(ld_output *output, const char *folder, ld_error *erro
 static void free_output(ld_output *output)
 {
     for (int i = 0; i < FILES; i++) {
+        if (output->part[i])
+            child_wrote(output->part[i]);
         free(output->path[i]);
         free(output->part[i]);
     }
@@ -172,6 +175,8 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
     opened->sink = (ld_sink){
         .self = opened, .begin = begin, .row = row, .flight = flight, .geometry = geometry};
     ld_status status = set_paths(opened, folder, error);
+    for (int i = 0; i < FILES && !status; i++)
+        child_writes(opened->part[i]);
     if (!status)
         status = folder_make(opened->folder, &opened->made_from, error);
     if (!status)

@@ -49,8 +49,8 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
         return NULL;
     }
     ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
-    if (status == LD_ERR_MEMORY)
-        reader->no_memory = true;
+    reader->no_memory |= status == LD_ERR_MEMORY;
+    reader->no_file |= status == LD_ERR_FILE;
     if (status != LD_OK) {
         reader_refuse(reader, place, path, "file \"%s\" %s", file_name, error.text);
         return NULL;
@@ -349,11 +349,16 @@ static ld_status read_wanted(ld_source *source, const reading *wanted, ld_messag
     bool good = messages->count == 0;
     reader.messages = good && wanted->notes ? wanted->notes : messages;
     reader_finish_messages(&reader);
+    if (reader.no_memory) // what they say may come of that
+        ld_messages_free(messages);
     pool_free(&reader);
     uselocale(before);
     if (plain)
         freelocale(plain);
-    return reader.no_memory ? LD_ERR_MEMORY : good ? LD_OK : LD_ERR_INPUT;
+    return reader.no_memory ? LD_ERR_MEMORY
+           : reader.no_file ? LD_ERR_FILE
+           : good           ? LD_OK
+                            : LD_ERR_INPUT;
 }
 
 ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
@@ -416,7 +421,10 @@ static ld_status refuse_file(ld_messages *messages, const char *name, const char
     scenario_reader reader = {.messages = messages};
     text_source file = {.name = name};
     *messages = (ld_messages){0};
-    reader_refuse(&reader, (text_place){&file, 0, 0}, path, "%s", text);
+    if (status != LD_ERR_MEMORY)
+        reader_refuse(&reader, (text_place){&file, 0, 0}, path, "%s", text);
+    if (reader.no_memory)
+        ld_messages_free(messages);
     return reader.no_memory ? LD_ERR_MEMORY : status;
 }
 
@@ -447,7 +455,9 @@ ld_status scenario_read_point(const char *path, const char *const *sets, size_t 
         return refuse_file(messages, name, "", status, why);
     }
     char *folder = strndup(name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
-    ld_source *source = source_of(text, length, name, folder, sets, count);
+    ld_source *source = folder ? source_of(text, length, name, folder, sets, count) : NULL;
+    if (!folder)
+        free(text);
     free(folder);
     return read_and_release(source, point, model, messages);
 }

@@ -66,7 +66,8 @@ typedef struct memory_pool {
 typedef struct scenario_reader {
     ld_messages *messages;
     bool no_memory;
-    bool cut; // more messages than are kept
+    bool no_file; // one could not be read, for no fault of the scenario's
+    bool cut;     // more messages than are kept
     memory_pool pool;
     unit_system *units;
     int nodes;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/numeric_locale.h"
 #include "base/text_file.h"
 #include "launchdyn/study.h"
@@ -146,11 +147,13 @@ static ld_status write_file(export_table *table, table_writer *write, const char
         return write(table, file, file, error);
     if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
         return ld_fail(error, LD_ERR_INPUT, "the table's name is too long");
+    child_writes(part);
     ld_status status = write(table, part, file, error);
     if (!status && rename(part, file) != 0)
         status = cannot_write(file, errno, error);
     if (status)
         unlink(part);
+    child_wrote(part);
     return status;
 }
 
