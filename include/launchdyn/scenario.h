@@ -38,6 +38,12 @@ void ld_messages_print(const ld_messages *messages, FILE *stream);
 /// Prints notes as ld_messages_print() prints errors, with `warning` in place of `error`.
 void ld_notes_print(const ld_messages *notes, FILE *stream);
 
+/// What a simulation or a run of a model said, as a message at its place: an error that is about a
+/// key begins with the key's path ("base.wheels.3: ...").
+/// @param messages one message, to be freed (ld_messages_free()); none where it returns false
+/// @return whether the error is about a key, and the model was read from texts
+bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages);
+
 /// Reads and checks a scenario file: of one with a sweep the values that it gives besides, the
 /// nominal ones, and each swept value by itself. All errors of the file come in one pass.
 /// @param path     file name; "-" is standard input

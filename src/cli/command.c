@@ -47,6 +47,16 @@ int command_fail(ld_status status, const ld_error *error)
     return command_code(status);
 }
 
+int command_fail_on(const ld_model *model, ld_status status, const ld_error *error)
+{
+    ld_messages messages;
+    if (!ld_scenario_explain(model, error, &messages))
+        return command_fail(status, error);
+    ld_messages_print(&messages, stderr);
+    ld_messages_free(&messages);
+    return command_code(status);
+}
+
 int command_begin(void)
 {
     enum { LEAST_STACK = 512 }; // [kB]
@@ -166,9 +176,11 @@ void command_tell_difference(const char *folder, const ld_origin *origin)
 int command_take_notes(ld_source *source, int from, int to, bool quiet, bool strict)
 {
     ld_messages notes;
-    ld_status status = print_messages(ld_scenario_notes(source, from, to, &notes), &notes);
+    ld_status status = ld_scenario_notes(source, from, to, &notes);
+    if (status == LD_ERR_INPUT)
+        ld_messages_free(&notes);
     if (status)
-        return command_code(status);
+        return status == LD_ERR_INPUT ? 0 : command_code(print_messages(status, &notes));
     int code = strict && notes.count > 0 ? EXIT_INPUT : 0;
     if (strict)
         ld_messages_print(&notes, stderr);

@@ -18,6 +18,10 @@ enum {
     EXIT_SYSTEM = 3, // what is needed is not to be had: room on a disk, memory, threads, gnuplot
 };
 
+// Complains of an error of a simulation or a run of the model, at its place in the scenario where
+// it is about a key; its exit code.
+int command_fail_on(const ld_model *model, ld_status status, const ld_error *error);
+
 // Before all else, in every program: a pipe that was cut and a file that grows beyond its limit
 // become errors of the write and do not end the program. Returns 0, or EXIT_SYSTEM after a message
 // where the stack is limited to less than is needed.
@@ -109,7 +113,8 @@ ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
 
 // Prints notes on points `from` to `to` of the sweep of texts: as warnings, which `quiet` leaves
-// out, or where `strict` as errors. Returns 0, or the exit code to end with.
+// out, or where `strict` as errors; where one of the points is wrong, none. Returns 0, or the exit
+// code to end with.
 int command_take_notes(ld_source *source, int from, int to, bool quiet, bool strict);
 
 #endif

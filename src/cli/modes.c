@@ -63,7 +63,7 @@ static int print_all_modes(const ld_model *model, void *data)
     (void)data;
     ld_error error;
     ld_status status = list_modes(model, &error);
-    return status ? command_fail(status, &error) : 0;
+    return status ? command_fail_on(model, status, &error) : 0;
 }
 
 int command_modes(const command *self, int argc, char **argv)

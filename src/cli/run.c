@@ -79,7 +79,7 @@ int run_model(const ld_model *model, void *data)
     if (!status)
         return code;
     fflush(stdout);
-    int failed = command_fail(status, &error);
+    int failed = command_fail_on(model, status, &error);
     return code ? code : failed;
 }
 

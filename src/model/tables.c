@@ -559,7 +559,7 @@ static const field_word span_words[] = {{"supported", LD_SPAN_SUPPORTED},
                                         {"free-free", LD_SPAN_FREE_FREE},
                                         {NULL, 0}};
 static const field_row modes_fields[] = {
-    {"bending", INTEGER(ld_modes, bending, 0, LD_MAX_BENDING_MODES), DEFAULT(6),
+    {"bending", INTEGER(ld_modes, bending, 1, LD_MAX_BENDING_MODES), DEFAULT(6),
      .doc = "bending modes a plane"},
     {"torsion", INTEGER(ld_modes, torsion, 0, LD_MAX_TORSION_MODES), DEFAULT(2),
      .doc = "torsion modes"},

@@ -316,6 +316,7 @@ static pthread_mutex_t one_reader = PTHREAD_MUTEX_INITIALIZER;
 // What is to be read: point `from` into the model or, without one, notes on it up to point `to`.
 typedef struct reading {
     int from, to;
+    const char *complaint; // about a key of the model, for which there is a message; NULL: none
     ld_model *model;
     ld_messages *notes;
 } reading;
@@ -339,7 +340,8 @@ static void read_in_turn(scenario_reader *reader, const reading *wanted)
 // Reads, with points as decimal signs; `messages` is filled on failure.
 static ld_status read_wanted(ld_source *source, const reading *wanted, ld_messages *messages)
 {
-    scenario_reader reader = {.messages = messages, .source = source};
+    scenario_reader reader = {
+        .messages = messages, .source = source, .complaint = wanted->complaint};
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
     if (plain)
@@ -386,6 +388,22 @@ ld_status ld_scenario_notes(ld_source *source, int from, int to, ld_messages *no
     else
         ld_messages_free(&found);
     return status;
+}
+
+bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages)
+{
+    ld_model unused;
+    *messages = (ld_messages){0};
+    if (!model->source || !scenario_complains_of_key(error->text))
+        return false;
+    model_init(&unused);
+    const reading wanted = {.from = model->point, .complaint = error->text, .model = &unused};
+    ld_status status = read_wanted(model->source, &wanted, messages);
+    model_clear(&unused);
+    if (status == LD_ERR_INPUT)
+        return true;
+    ld_messages_free(messages);
+    return false;
 }
 
 // ---- where the texts come from

@@ -71,7 +71,8 @@ typedef struct scenario_reader {
     memory_pool pool;
     unit_system *units;
     int nodes;
-    ld_source *source; // what has been read so far
+    ld_source *source;     // what has been read so far
+    const char *complaint; // "path.of.a.key: ...", what a simulation of it said; NULL
 } scenario_reader;
 
 // Memory that lives as long as the reader; NULL (and no_memory) without.
@@ -147,6 +148,9 @@ void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *mod
 
 // Adds a message about each value of a good scenario that is allowed but hardly meant.
 void scenario_take_notes(scenario_reader *reader, const tree_node *root, const ld_model *model);
+
+// Whether a sentence begins with the path of a key and a colon.
+bool scenario_complains_of_key(const char *complaint);
 
 // Reads what scatter says about other keys, once the rest of the model is known.
 void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_model *model);

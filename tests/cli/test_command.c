@@ -200,6 +200,12 @@ static void test_check_of_a_sweep(void **state)
     expect_complaint(SWEEP("70") "launchdyn check - <sweep.yaml", 2,
                      "<stdin>:2:36: error: rocket.");
     expect_in(shell.err, "this is point 2 of the sweep: rocket.empty.mass 70 kg\n");
+    // whose run cannot start: the place is that of the value
+    expect_complaint("{ echo 'include: examples/fixed.yaml'; "
+                     "echo 'sweep: {rocket.start_at: [0.1 m, 2 m]}'; } >sweep.yaml; "
+                     "launchdyn check sweep.yaml",
+                     1, "sweep.yaml:2:34: error: rocket.start_at: no static equilibrium");
+    expect_in(shell.err, "this is point 2 of the sweep: rocket.start_at 2 m\n");
 }
 
 static void test_bad_input_leaves_nothing(void **state)

@@ -217,6 +217,9 @@ static void test_no_text_becomes_code(void **state)
     assert_non_null(strstr(page, "<title>&lt;/title&gt;&lt;/script&gt;&lt;script&gt;alert(1)"));
     assert_non_null(strstr(page, "\\u003csvg onload=alert(3)>"));
     assert_non_null(strstr(page, "content=\"default-src 'none'; script-src 'sha256-"));
+    assert_non_null(strstr(page, "; style-src 'sha256-"));
+    assert_non_null(strstr(page, "; base-uri 'none'; form-action 'none'\">"));
+    assert_null(strstr(page, "'unsafe-"));
     free(page);
 }
 
