@@ -1,6 +1,5 @@
 // Reading a scenario: files and what they include, overrides, then tree to model.
 #include <locale.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -310,9 +309,6 @@ static void note_points(scenario_reader *reader, const text_source *source, int 
     model_clear(&axes);
 }
 
-// udunits keeps the state of its parser in global variables.
-static pthread_mutex_t one_reader = PTHREAD_MUTEX_INITIALIZER;
-
 // What is to be read: point `from` into the model or, without one, notes on it up to point `to`.
 typedef struct reading {
     int from, to;
@@ -321,33 +317,21 @@ typedef struct reading {
     ld_messages *notes;
 } reading;
 
-static void read_in_turn(scenario_reader *reader, const reading *wanted)
-{
-    const ld_source *from = reader->source;
-    text_source root = {from->name, from->file[0]->text, from->file[0]->length, from->folder, 1,
-                        ""};
-    pthread_mutex_lock(&one_reader);
-    reader->units = units_open();
-    if (!reader->units)
-        reader->no_memory = true;
-    else if (wanted->model)
-        read_point(reader, &root, wanted->from, wanted->model);
-    else
-        note_points(reader, &root, wanted->from, wanted->to, wanted->notes);
-    pthread_mutex_unlock(&one_reader);
-}
-
 // Reads, with points as decimal signs; `messages` is filled on failure.
 static ld_status read_wanted(ld_source *source, const reading *wanted, ld_messages *messages)
 {
     scenario_reader reader = {
         .messages = messages, .source = source, .complaint = wanted->complaint};
+    const ld_source_file *first = source->file[0];
+    text_source root = {source->name, first->text, first->length, source->folder, 1, ""};
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
-    if (plain)
-        read_in_turn(&reader, wanted);
-    else
+    if (!plain)
         reader.no_memory = true;
+    else if (wanted->model)
+        read_point(&reader, &root, wanted->from, wanted->model);
+    else
+        note_points(&reader, &root, wanted->from, wanted->to, wanted->notes);
     bool good = messages->count == 0;
     reader.messages = good && wanted->notes ? wanted->notes : messages;
     reader_finish_messages(&reader);
