@@ -7,6 +7,7 @@
 #include "cli/run.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
+#include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
 #include "launchdyn/summary.h"
 
@@ -83,6 +84,15 @@ int run_model(const ld_model *model, void *data)
     return code ? code : failed;
 }
 
+// Runs what a scenario says, after notes on it.
+static int run_noted(const ld_model *model, void *data)
+{
+    const run_wishes *wishes = data;
+    int code =
+        command_take_notes(ld_model_source(model), 0, 0, wishes->quiet != 0, wishes->strict != 0);
+    return code ? code : run_model(model, data);
+}
+
 static int run_sample(const ld_model *point, int number, run_wishes *wishes)
 {
     ld_sample *sample = NULL;
@@ -111,8 +121,11 @@ static int run_again(const char *folder, run_wishes *wishes)
         code = command_code(status);
     } else {
         command_tell_difference(folder, &origin);
-        code =
-            origin.sample > 0 ? run_sample(model, origin.sample, wishes) : run_model(model, wishes);
+        code = command_take_notes(origin.source, origin.point, origin.point, wishes->quiet != 0,
+                                  wishes->strict != 0);
+        if (!code)
+            code = origin.sample > 0 ? run_sample(model, origin.sample, wishes)
+                                     : run_model(model, wishes);
         ld_model_free(model);
     }
     ld_origin_free(&origin);
@@ -130,7 +143,7 @@ static int run_words(const command *self, const command_line *line, const char *
     else if (line->count != 1)
         command_complain("run wants %s; see launchdyn run --help", self->arguments);
     else
-        return command_on_file(line->word[0], wishes->sets, run_model, wishes);
+        return command_on_file(line->word[0], wishes->sets, run_noted, wishes);
     return EXIT_INPUT;
 }
 
@@ -152,6 +165,7 @@ int command_run(const command *self, int argc, char **argv)
          "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
         {"report", '\0', OPTION_FLAG, &wishes.report, "Write report.html there too", NULL},
         {"quiet", 'q', OPTION_FLAG, &wishes.quiet, "Print nothing but errors", NULL},
+        COMMAND_STRICT(&wishes.strict),
         COMMAND_HELP,
         COMMAND_END};
     command_line line;

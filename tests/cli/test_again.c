@@ -60,7 +60,7 @@ static void make_files(void)
                "base:\n  road: {class: none, table: ../tables/road.csv}\n  speed: 10 km/h\n"
                "platform: {elevation: {stabiliser: {command: ../tables/command.csv}}}\n"
                "rocket: {motor: {thrust: nowhere.eng}}\n"
-               "run: {lead_in: 0.05 s, end: tip}\n");
+               "run: {lead_in: 0.5 s, end: tip}\n");
 }
 
 static const char *const sets =
