@@ -99,7 +99,7 @@ export async function leave(page) {
   check("no errors", page.errors.length === 0, page.errors.join("; ").slice(0, 300));
   check("nothing against the policy", violations.length === 0, violations.join("; ").slice(0, 300));
   const asked = page.requests.filter((url) => !/^(data|blob):/.test(url));
-  check("no request but the file", asked.every((url) => url === `file://${page.file}`), asked);
+  check("no request but the file", asked.every((url) => decodeURIComponent(url) === `file://${page.file}`), asked);
   await page.context().close();
 }
 
