@@ -1,6 +1,5 @@
 // Reading a scenario: files and what they include, overrides, then tree to model.
 #include <locale.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -255,34 +254,19 @@ static void read_root(scenario_reader *reader, const text_source *source, int po
         check_values(reader, file, &sweep);
 }
 
-// udunits keeps the state of its parser in global variables.
-static pthread_mutex_t one_reader = PTHREAD_MUTEX_INITIALIZER;
-
-static void read_in_turn(scenario_reader *reader, int point, ld_model *model)
-{
-    const ld_source *from = reader->source;
-    text_source root = {from->name, from->file[0]->text, from->file[0]->length, from->folder, 1,
-                        ""};
-    pthread_mutex_lock(&one_reader);
-    reader->units = units_open();
-    if (reader->units)
-        read_root(reader, &root, point, model);
-    else
-        reader->no_memory = true;
-    pthread_mutex_unlock(&one_reader);
-}
-
 // With `complaint`, which is about a key of the model, there is a message.
 static ld_status read_source(ld_source *source, int point, const char *complaint, ld_model *model,
                              ld_messages *messages)
 {
     scenario_reader reader = {.messages = messages, .source = source, .complaint = complaint};
+    const ld_source_file *first = source->file[0];
+    text_source root = {source->name, first->text, first->length, source->folder, 1, ""};
     ld_model fresh;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
     model_init(&fresh);
     if (plain)
-        read_in_turn(&reader, point, &fresh);
+        read_root(&reader, &root, point, &fresh);
     else
         reader.no_memory = true;
     reader_finish_messages(&reader);

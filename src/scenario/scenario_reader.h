@@ -69,7 +69,6 @@ typedef struct scenario_reader {
     bool no_file; // one could not be read, for no fault of the scenario's
     bool cut;     // more messages than are kept
     memory_pool pool;
-    unit_system *units;
     int nodes;
     ld_source *source;     // what has been read so far
     const char *complaint; // "path.of.a.key: ...", what a simulation of it said; NULL

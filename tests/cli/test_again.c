@@ -169,7 +169,7 @@ static void test_a_study(void **state)
     expect_complaint("launchdyn study --again none --out y", 2, "none holds no study");
     must("mkdir bad && echo text >bad/study.db");
     expect_complaint("launchdyn study --again bad --out y", 2,
-                     "bad/study.db: file is not a database\n");
+                     "bad/study.db is damaged: file is not a database\n");
     expect_complaint("launchdyn study --again t --out y --set gravity=1", 2,
                      "neither words nor --set");
     expect_complaint("launchdyn study show --again t", 2, "neither words nor --set");
