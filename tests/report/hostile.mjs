@@ -3,7 +3,7 @@
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync, symlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, example, folder, inBrowser, launchdyn, leave, open } from "./support.mjs";
+import { check, example, folder, inBrowser, launchdyn, launchdynEnding, leave, open } from "./support.mjs";
 
 const parts = [
   "</title></script></style><script>window.owned=1</script><!-- <script> --> ]]> <![CDATA[",
@@ -98,6 +98,28 @@ async function checkPicture(page, flight, out) {
     folders.includes(join(folder, "a\\xffb")), folders.length);
 }
 
+// Summaries that are not ours, without the digests that would tell: the page shows what it can and says so.
+async function checkSummaries(browser) {
+  console.log("summaries by hand");
+  const out = join(folder, "other"), file = join(out, "report.html"), code = parts[1];
+  const usual = { title: "by hand", version: "0", complete: false, t_end: 1, rockets: [] };
+  const summaries = { text: "{", list: "[]", number: "5", "null": "null", "wrong rockets": { ...usual, rockets: { length: 3 } },
+    "wrong notes": { ...usual, notes: 5 }, "wrong modes": { ...usual, modes: "x" },
+    texts: { ...usual, title: code, stopped: code, notes: [code], rockets: [{ tube: 1, [code]: 1 }],
+      modes: [{ shape: code, frequency: 1, damping: 0 }], equilibrium: { contact_force: { [code]: 1 } } } };
+  for (const [name, summary] of Object.entries(summaries)) {
+    writeFileSync(join(out, "summary.json"), typeof summary === "string" ? summary : JSON.stringify(summary));
+    launchdynEnding([0, 2], "report", out);
+    const page = await open(browser, file), text = await page.textContent("body");
+    if (name === "texts") check("texts are shown as texts", (await page.textContent("h1")) === code && text.includes(`ended early: ${code}`) &&
+      text.includes(`contact force, ${code}`), text.slice(0, 300));
+    else check(`${name}: a note says what is not there`, /No summary/.test(text), text.slice(0, 300));
+    check("the plots are there", (await page.locator(".plot canvas").count()) > 3);
+    check("nothing of it ran", await page.evaluate(() => window.owned === undefined && !document.querySelector("img:not(.photo)")));
+    await leave(page);
+  }
+}
+
 async function checkStudy(browser) {
   console.log("texts of a study");
   const cells = parts.map((part) => part.replace(/[\t\r\n]/g, " "));
@@ -121,6 +143,7 @@ async function checkStudy(browser) {
 
 await inBrowser(async (browser) => {
   await checkRun(browser);
+  await checkSummaries(browser);
   await checkStudy(browser);
   check("no file `owned` was made", !existsSync("owned") && !readdirSync(folder, { recursive: true }).includes("owned"));
 });
