@@ -72,7 +72,7 @@ int command_begin(void)
 
 int command_end(int code)
 {
-    if (fflush(stdout) == 0 && !ferror(stdout))
+    if ((fflush(stdout) == 0 && !ferror(stdout)) || code == EXIT_SYSTEM)
         return code;
     command_complain("cannot print: %s", strerror(errno));
     return code ? code : EXIT_SYSTEM;

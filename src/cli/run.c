@@ -69,12 +69,13 @@ int run_model(const ld_model *model, void *data)
     ld_summary *summary = ld_summary_new();
     ld_status status = summary ? ld_simulation_create(model, &simulation, &error)
                                : ld_fail(&error, LD_ERR_MEMORY, "no memory for a summary");
-    if (!status)
+    bool begun = !status;
+    if (begun)
         status = simulate(simulation, model, wishes, summary, &error);
     ld_simulation_free(simulation);
     ld_summary_free(summary);
     int code = 0;
-    if (wishes->report && leaves_results(status))
+    if (wishes->report && begun && leaves_results(status))
         code = command_write_report(wishes->folder, NULL, wishes->quiet != 0);
     if (!status)
         return code;
