@@ -38,7 +38,9 @@ static bool is_whole(const study_pending *self, int index)
     study_shape shape = record->shape;
     return record->number > 0 && shape.rockets >= 0 && shape.rockets <= self->shape.rockets &&
            shape.of_sample == self->shape.of_sample && shape.of_rocket == self->shape.of_rocket &&
-           shape.results == self->shape.results && *digest_in(self, index) == digest(self, record);
+           shape.results == self->shape.results &&
+           memchr(record->reason, '\0', sizeof record->reason) &&
+           *digest_in(self, index) == digest(self, record);
 }
 
 ld_status pending_open(study_pending *self, const char *path, uint64_t key,
@@ -62,6 +64,9 @@ ld_status pending_open(study_pending *self, const char *path, uint64_t key,
     self->slot = map;
     while (self->count < PENDING_MOST && is_whole(self, self->count))
         self->count++;
+    // what lies behind a damaged one does not come back behind those that are added
+    for (int i = self->count; i < PENDING_MOST; i++)
+        *digest_in(self, i) = 0;
     return LD_OK;
 }
 
