@@ -81,8 +81,8 @@ ld_status launch_check_base(ld_run *run, double t)
                    first, last, t);
 }
 
-// Steps of less than 50 ns on the average over a millisecond, or of less than a microsecond over all
-// of very many: the run would hardly go on.
+// Steps of less than 50 ns on the average over a millisecond, or of less than a microsecond over
+// all of very many: the run would hardly go on.
 static ld_status check_steps(ld_run *run, double t)
 {
     const int64_t most = 20000, very_many = 400000;
