@@ -29,6 +29,14 @@ static void add_record(study_pending *pending, int64_t number)
     free(record);
 }
 
+// Whether a digest of a record of this shape can be taken in its slot.
+static bool fits(const study_shape *of)
+{
+    return of->rockets >= 0 && of->rockets <= shape.rockets && of->of_sample >= 0 &&
+           of->of_sample <= shape.of_sample && of->of_rocket >= 0 &&
+           of->of_rocket <= shape.of_rocket && of->results >= 0 && of->results <= shape.results;
+}
+
 static void write_changed(const uint8_t *data, size_t size, bool sealed)
 {
     study_pending pending;
@@ -42,8 +50,7 @@ static void write_changed(const uint8_t *data, size_t size, bool sealed)
         memcpy(pending.slot + at, data + 3, room < 8 ? room : 8);
     }
     for (int i = 0; i < RECORDS && sealed; i++)
-        if (record_in(&pending, i)->shape.rockets >= 0 &&
-            record_size(&record_in(&pending, i)->shape) <= pending.slot_size - sizeof(uint64_t))
+        if (fits(&record_in(&pending, i)->shape))
             *digest_in(&pending, i) = digest(&pending, record_in(&pending, i));
     pending_close(&pending);
 }
