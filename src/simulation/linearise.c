@@ -225,8 +225,11 @@ static void name_shape(const launch_state *self, const linear_system *system,
         snprintf(shape, LD_SHAPE_TEXT, "%s; %s", group_name(base, best), group_name(base, second));
 }
 
-static ld_status eigenvalues_failed(ld_error *error)
+// What LAPACKE's `bad` means.
+static ld_status eigenvalues_failed(int bad, ld_error *error)
 {
+    if (bad == LAPACK_WORK_MEMORY_ERROR)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
     return ld_fail(error, LD_ERR_NUMERIC, "the eigenvalues of the linearised equations failed");
 }
 
@@ -307,8 +310,9 @@ static int modes_of_shapes(const launch_state *self, const linear_system *system
                            const undamped *shape, int count, ld_mode *modes, double *work)
 {
     double rate[LD_MAX_STATES], squares[LD_MAX_STATES], *mix = work + 3 * count * count, mean = 0;
-    if (damp_shapes(self, system, shape, count, rate, mix, work))
-        return -1;
+    int bad = damp_shapes(self, system, shape, count, rate, mix, work);
+    if (bad)
+        return bad;
     for (int i = 0; i < count; i++)
         mean += shape[i].square / count;
     for (int i = 0; i < count; i++) {
@@ -371,7 +375,7 @@ static ld_status undamped_modes(const launch_state *self, const linear_system *s
             modes[(*count)++] = some[k];
     }
     free(work);
-    return bad ? eigenvalues_failed(error) : LD_OK;
+    return bad ? eigenvalues_failed(bad, error) : LD_OK;
 }
 
 static int by_size(const void *a, const void *b)
@@ -407,7 +411,7 @@ static ld_status eigenvalues(const launch_state *self, const linear_system *syst
     }
     free(memory);
     qsort(poles, (size_t)*count, sizeof *poles, by_size);
-    return bad ? eigenvalues_failed(error) : LD_OK;
+    return bad ? eigenvalues_failed(bad, error) : LD_OK;
 }
 
 // Modes of a launcher whose base moves with it: its pairs of complex eigenvalues.
@@ -427,25 +431,35 @@ static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes,
     }
 }
 
-int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity)
+ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
+                                int *count, ld_error *error)
 {
     double y[LD_MAX_STATES];
-    int count = 0;
     launch_state state, *self = &state;
     linear_system system = {0};
     launching_phase phase = {.rocket = false};
+    *count = 0;
     if (!model_has_launcher(simulation->model))
-        return 0; // a flight alone has no tube
-    if (launch_state_begin(self, simulation, NULL))
-        return 0;
+        return LD_OK; // a flight alone has no tube
+    ld_status status = launch_state_begin(self, simulation, error);
+    if (status)
+        return status;
     // straight it rests without gravity alone, and no pose of the base counts
     launching_system weightless = self->launcher.launching;
     weightless.tube.gravity = 0;
     simulation_straight(self, &ORIGIN, y);
-    if (!linearise(self, &weightless, 0, &phase, y, &system, NULL))
-        undamped_modes(self, &system, modes, capacity, &count, NULL);
+    status = linearise(self, &weightless, 0, &phase, y, &system, error);
+    if (!status)
+        status = undamped_modes(self, &system, modes, capacity, count, error);
     free(system.J);
     launch_state_end(self);
+    return status;
+}
+
+int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity)
+{
+    int count = simulation->mode_count < capacity ? simulation->mode_count : capacity;
+    memcpy(modes, simulation->mode, (size_t)count * sizeof *modes);
     return count;
 }
 

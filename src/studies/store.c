@@ -439,8 +439,8 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
     ld_status status = LD_OK;
     if (open_to_read(self, folder) != SQLITE_OK ||
         sqlite3_busy_timeout(self->database, PATIENCE) != SQLITE_OK ||
-        sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM study", NULL,
-                     NULL, NULL) != SQLITE_OK)
+        sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM sqlite_master",
+                     NULL, NULL, NULL) != SQLITE_OK)
         status = store_fail(self, "read", error);
     const store_view view = store_main(self);
     if (!status)
