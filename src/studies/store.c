@@ -13,7 +13,6 @@
 #include "launchdyn/version.h"
 #include "results/folder.h"
 #include "studies/row_digest.h"
-#include "studies/store.h"
 
 ld_status store_status(const study_store *self)
 {
