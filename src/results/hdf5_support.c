@@ -86,6 +86,20 @@ ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const
                    why.text[0] ? why.text : "HDF5 gives no reason");
 }
 
+hid_t hdf5_create_file(const char *path)
+{
+    // this form of the file has checksums on its own structures, too; a later one cannot be read
+    // where the program was killed
+    hid_t properties = H5Pcreate(H5P_FILE_ACCESS), root = H5Pcreate(H5P_FILE_CREATE);
+    H5Pset_libver_bounds(properties, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_attr_phase_change(root, 0, 0); // a title may be longer than 64 kB
+    H5Pset_obj_track_times(root, false);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, root, properties);
+    H5Pclose(root);
+    H5Pclose(properties);
+    return file;
+}
+
 hid_t hdf5_create_group(hid_t parent, const char *name)
 {
     hid_t properties = H5Pcreate(H5P_GROUP_CREATE);
@@ -96,15 +110,30 @@ hid_t hdf5_create_group(hid_t parent, const char *name)
     return group;
 }
 
-hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size)
+static hid_t create_dataset(hid_t group, const char *name, hid_t type, int rank,
+                            const hsize_t *size, bool checked)
 {
-    hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
+    hid_t space = H5Screate_simple(rank, size, NULL);
     hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(properties, false);
+    if (checked && H5Sget_simple_extent_npoints(space) > 0) {
+        H5Pset_chunk(properties, rank, size);
+        H5Pset_fletcher32(properties);
+    }
     hid_t dataset = H5Dcreate2(group, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     H5Pclose(properties);
     H5Sclose(space);
     return dataset;
+}
+
+hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size)
+{
+    return create_dataset(group, name, type, rank, size, false);
+}
+
+hid_t hdf5_create_piece(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size)
+{
+    return create_dataset(group, name, type, rank, size, true);
 }
 
 hid_t hdf5_text_type(void)
@@ -156,18 +185,6 @@ static bool read_attribute(hid_t object, const char *name, hid_t type, void *val
     return fine;
 }
 
-char *hdf5_read_text(hid_t object, const char *name)
-{
-    char *text = NULL;
-    hid_t type = hdf5_text_type();
-    bool fine = read_attribute(object, name, type, &text);
-    H5Tclose(type);
-    char *copy = fine && text ? strdup(text) : NULL;
-    if (fine && text)
-        H5free_memory(text);
-    return copy;
-}
-
 double hdf5_read_number(hid_t object, const char *name)
 {
     double value = NAN;
@@ -195,8 +212,9 @@ bool hdf5_write_string(hid_t object, const char *name, const char *text)
 bool hdf5_write_document(hid_t group, const char *key, const char *name, const char *text,
                          size_t length)
 {
+    hsize_t one = 1;
     hid_t type = string_type(length);
-    hid_t dataset = hdf5_create_dataset(group, key, type, 0, NULL);
+    hid_t dataset = hdf5_create_piece(group, key, type, 1, &one);
     bool fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
                 (!name || hdf5_write_string(dataset, "name", name));
     fine = dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
@@ -206,7 +224,7 @@ bool hdf5_write_document(hid_t group, const char *key, const char *name, const c
 
 enum { LONGEST_STRING = 1 << 28 };
 
-// Room for a scalar of this type and a zero after it; NULL: it is no text of fixed length.
+// Room for one of this type and a zero after it; NULL: it is no text of fixed length.
 static char *room_for(hid_t type, hid_t space)
 {
     bool fine = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
@@ -215,12 +233,32 @@ static char *room_for(hid_t type, hid_t space)
     return fine ? calloc(H5Tget_size(type) + 1, 1) : NULL;
 }
 
+// A text of variable length, as earlier versions wrote attributes.
+static char *read_variable(hid_t attribute)
+{
+    char *text = NULL;
+    hid_t type = hdf5_text_type();
+    bool fine = H5Aread(attribute, type, &text) >= 0 && text;
+    H5Tclose(type);
+    char *copy = fine ? strdup(text) : NULL;
+    if (fine)
+        H5free_memory(text);
+    return copy;
+}
+
 char *hdf5_read_string(hid_t object, const char *name)
 {
     hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     if (attribute < 0)
         return NULL;
     hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+    if (type >= 0 && H5Tis_variable_str(type) > 0) {
+        char *variable = read_variable(attribute);
+        H5Sclose(space);
+        H5Tclose(type);
+        H5Aclose(attribute);
+        return variable;
+    }
     char *text = room_for(type, space);
     if (text && H5Aread(attribute, type, text) < 0) {
         free(text);

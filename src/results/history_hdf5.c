@@ -28,13 +28,13 @@ static ld_status failed(const history_hdf5 *history, ld_error *error)
 
 static bool create_file(history_hdf5 *history, const char *title)
 {
-    history->file = H5Fcreate(history->path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    history->file = hdf5_create_file(history->path);
     if (history->file < 0)
         return false;
     history->group = hdf5_create_group(history->file, "history");
-    return history->group >= 0 && hdf5_write_integer(history->file, "format", 1) &&
-           hdf5_write_text(history->file, "title", title) &&
-           hdf5_write_text(history->file, "version", LD_VERSION) &&
+    return history->group >= 0 && hdf5_write_integer(history->file, "format", HISTORY_FORMAT) &&
+           hdf5_write_string(history->file, "title", title) &&
+           hdf5_write_string(history->file, "version", LD_VERSION) &&
            hdf5_write_integer(history->file, "complete", 0);
 }
 
@@ -102,12 +102,12 @@ ld_status history_hdf5_origin(history_hdf5 *history, const ld_origin *origin, ld
 static bool write_array(hid_t group, const ld_array *array)
 {
     hsize_t size[2] = {array->rows, array->columns};
-    hid_t dataset = hdf5_create_dataset(group, array->name, H5T_NATIVE_DOUBLE, 2, size);
+    hid_t dataset = hdf5_create_piece(group, array->name, H5T_NATIVE_DOUBLE, 2, size);
     bool fine =
         dataset >= 0 &&
         H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->value) >= 0 &&
-        hdf5_write_text(dataset, "unit", array->unit) &&
-        hdf5_write_text(dataset, "description", array->description);
+        hdf5_write_string(dataset, "unit", array->unit) &&
+        hdf5_write_string(dataset, "description", array->description);
     return dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
 }
 
@@ -134,8 +134,8 @@ static hid_t create_column(hid_t group, const ld_column *column, hid_t space, hi
 {
     hid_t dataset = H5Dcreate2(group, column->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
                                properties, H5P_DEFAULT);
-    if (dataset >= 0 && hdf5_write_text(dataset, "unit", column->unit) &&
-        hdf5_write_text(dataset, "description", column->description))
+    if (dataset >= 0 && hdf5_write_string(dataset, "unit", column->unit) &&
+        hdf5_write_string(dataset, "description", column->description))
         return dataset;
     if (dataset >= 0)
         H5Dclose(dataset);
@@ -148,6 +148,7 @@ static bool create_columns(history_hdf5 *history, const ld_column *columns, size
     hid_t space = H5Screate_simple(1, &none, &unlimited);
     hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_chunk(properties, 1, &chunk);
+    H5Pset_fletcher32(properties);
     H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
     H5Pset_obj_track_times(properties, false);
     bool fine = true;
@@ -284,7 +285,7 @@ static bool write_end(history_hdf5 *history, const ld_summary *summary)
            (!summary ||
             (write_rockets(history->file, summary) && H5Adelete(history->file, "complete") >= 0 &&
              hdf5_write_integer(history->file, "complete", summary->complete) &&
-             hdf5_write_text(history->file, "stopped", summary->stopped))) &&
+             hdf5_write_string(history->file, "stopped", summary->stopped))) &&
            H5Fflush(history->file, H5F_SCOPE_LOCAL) >= 0;
 }
 
