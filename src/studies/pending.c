@@ -38,7 +38,9 @@ static bool is_whole(const study_pending *self, int index)
     study_shape shape = record->shape;
     return record->number > 0 && shape.rockets >= 0 && shape.rockets <= self->shape.rockets &&
            shape.of_sample == self->shape.of_sample && shape.of_rocket == self->shape.of_rocket &&
-           shape.results == self->shape.results && *digest_in(self, index) == digest(self, record);
+           shape.results == self->shape.results &&
+           memchr(record->reason, '\0', sizeof record->reason) &&
+           *digest_in(self, index) == digest(self, record);
 }
 
 // Puts a whole record behind those before it, where one between them is damaged.

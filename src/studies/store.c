@@ -132,10 +132,12 @@ static ld_status prepare_all(study_store *self, ld_error *error)
 {
     const study_shape *shape = &self->study->shape;
     self->insert_sample = store_prepare_insert(self, "sample", 5 + (int)shape->of_sample, error);
-    self->insert_rocket = store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
-    self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
-    bool all = self->insert_sample && self->insert_rocket && self->find;
-    return all ? LD_OK : store_status(self);
+    if (self->insert_sample)
+        self->insert_rocket =
+            store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
+    if (self->insert_rocket)
+        self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
+    return self->find ? LD_OK : store_status(self);
 }
 
 static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
