@@ -233,6 +233,8 @@ static ld_status solve_clamped(tube_line *line, double *F, double *M, ld_error *
         memcpy(&line->mode[k * n], &F[(n - 1 - k) * n], (size_t)n * sizeof *F);
     }
     free(value);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
     if (info > n)
         return ld_fail(error, LD_ERR_INPUT, "the tube has sections without %s",
                        inertia[line->kind]);

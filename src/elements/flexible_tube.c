@@ -110,6 +110,8 @@ static ld_status solve_free(const tube_line *line, const line_ties *ties, double
         B[i] += sigma * vector[i];
     int info = symmetric_eigen(EIGEN_GENERALISED, N, vector, B, lambda);
     free(B);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
     if (info || !(lambda[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "the modes of the tube on its supports cannot be found: is a stiffness or "
@@ -169,6 +171,8 @@ static ld_status diagonalise(const tube_line *line, const double *part, line_sha
                 mass[k * m + l] += part[k * n + i] * part[l * n + i] / line->om2[i];
         }
     int info = symmetric_eigen(EIGEN_STANDARD, m, mass, NULL, value);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", m);
     if (info || !(value[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC, "the tube's modes are not independent");
     for (int k = 0; k < m; k++) {

@@ -2,6 +2,8 @@
 
 #include <lapacke.h>
 
+_Static_assert(EIGEN_NO_MEMORY == LAPACK_WORK_MEMORY_ERROR, "it is LAPACKE's");
+
 // There only if the BLAS in use is OpenBLAS.
 extern void openblas_set_num_threads(int count) __attribute__((weak));
 
