@@ -18,6 +18,13 @@
 #include "launchdyn/summary.h"
 #include "results/history.h"
 
+// HDF5 itself loses memory on some damage.
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libhdf5\nleak:H5\n";
+}
+
 enum { FILES = 5, MOST = 1 << 24 };
 static const char *const names[FILES] = {"history.h5", "summary.json", "history.csv", "flights.csv",
                                          "trajectories.kml"};
@@ -200,7 +207,7 @@ static int read_alone(void *data)
 {
     history_data found;
     if (history_read(data, &found, NULL))
-        _exit(REFUSED); // HDF5 itself loses memory on some damage: no sanitizer looks at the end
+        return REFUSED;
     bool same = same_table(&found, &intact) && found.flights == intact.flights &&
                 found.arrays == intact.arrays && found.title &&
                 strcmp(found.title, intact.title) == 0;
@@ -211,7 +218,7 @@ static int read_alone(void *data)
                memcmp(found.geometry[i].value, intact.geometry[i].value,
                       found.geometry[i].rows * found.geometry[i].columns * sizeof(double)) == 0;
     history_free(&found);
-    _exit(same ? SAME : DIFFERENT);
+    return same ? SAME : DIFFERENT;
 }
 
 static void test_a_history_alone(void **state)
@@ -233,10 +240,11 @@ static void test_a_history_alone(void **state)
     at[2] ^= 1;
     write_bytes(path, whole.at, whole.count);
     at[2] ^= 1;
-    assert_int_equal(history_read(path, &(history_data){0}, NULL), LD_ERR_INPUT);
+    ld_error error;
+    int code = CRASHED;
+    assert_int_equal(ld_child_run(read_alone, path, &code, &error), LD_OK);
+    assert_int_equal(code, REFUSED);
     for (int i = 0; i < cases; i++) {
-        int code = CRASHED;
-        ld_error error;
         damage(path, whole, &random, what, sizeof what);
         if (ld_child_run(read_alone, path, &code, &error)) {
             assert_int_equal(error.status, LD_ERR_INPUT);
