@@ -89,6 +89,8 @@ static double beta_fraction(double a, double b, double x)
 
 double beta_cumulative(double a, double b, double x)
 {
+    if (!isfinite(a) || !isfinite(b) || isnan(x)) // on which the fraction would go to its last term
+        return NAN;
     if (x <= 0 || x >= 1)
         return x > 0;
     int sign;

@@ -7,7 +7,8 @@ double normal_cumulative(double z);
 // Its inverse for 0 < p < 1 (Wichura, Algorithm AS 241), relative error some 1e-16 in z.
 double normal_quantile(double p);
 
-// Regularised incomplete beta function I_x(a, b), by its continued fraction (Lentz).
+// Regularised incomplete beta function I_x(a, b), by its continued fraction (Lentz); NaN where an
+// argument is, or a or b is infinite.
 double beta_cumulative(double a, double b, double x);
 // Quantile of Student's t with `freedom` > 0 degrees of freedom.
 double student_quantile(double p, double freedom);

@@ -85,13 +85,22 @@ static void test_binomial(void **state)
     assert_true(binomial_cumulative(-1, 5, 0.5) == 0 && binomial_cumulative(5, 5, 0.5) == 1);
 }
 
+// At once: the fraction has no last term for them.
+static void test_no_numbers(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        assert_true(isnan(beta_cumulative(NAN, 1, 0.5)) && isnan(beta_cumulative(1, NAN, 0.5)));
+        assert_true(isnan(beta_cumulative(1, 1, NAN)) && isnan(beta_cumulative(INFINITY, 1, 0.5)));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normal_quantile),
-        cmocka_unit_test(test_normal_quantile_rises),
-        cmocka_unit_test(test_student_quantile),
-        cmocka_unit_test(test_binomial),
+        cmocka_unit_test(test_normal_quantile),  cmocka_unit_test(test_normal_quantile_rises),
+        cmocka_unit_test(test_student_quantile), cmocka_unit_test(test_binomial),
+        cmocka_unit_test(test_no_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
