@@ -6,16 +6,17 @@
 
 #include <sys/stat.h>
 
-// What the system refuses for itself is no matter of the file that was named.
-static ld_status cannot_read(ld_error *error)
+ld_status text_file_status(int number)
 {
-    ld_status status = LD_ERR_FILE;
-    if (errno == ENOENT || errno == ENOTDIR || errno == EISDIR || errno == EACCES ||
-        errno == EPERM || errno == ELOOP || errno == ENAMETOOLONG)
-        status = LD_ERR_INPUT;
-    else if (errno == ENOMEM)
-        status = LD_ERR_MEMORY;
-    return ld_fail(error, status, "cannot be read: %s", strerror(errno));
+    if (number == ENOENT || number == ENOTDIR || number == EISDIR || number == EACCES ||
+        number == EPERM || number == ELOOP || number == ENAMETOOLONG)
+        return LD_ERR_INPUT;
+    return number == ENOMEM ? LD_ERR_MEMORY : LD_ERR_FILE;
+}
+
+ld_status text_file_failed(ld_error *error)
+{
+    return ld_fail(error, text_file_status(errno), "cannot be read: %s", strerror(errno));
 }
 
 static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *length,
@@ -28,7 +29,7 @@ static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *le
         if (!larger) {
             free(buffer);
             errno = ENOMEM;
-            return cannot_read(error);
+            return text_file_failed(error);
         }
         buffer = larger;
         used += fread(buffer + used, 1, capacity - used, stream);
@@ -41,7 +42,7 @@ static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *le
         return ld_fail(error, LD_ERR_INPUT, "is larger than %zu kB", limit / 1024);
     }
     if (ferror(stream)) {
-        ld_status status = cannot_read(error);
+        ld_status status = text_file_failed(error);
         free(buffer);
         return status;
     }
@@ -58,14 +59,14 @@ ld_status text_file_read(const char *path, size_t limit, char **text, size_t *le
     if (strcmp(path, "-") == 0)
         return read_stream(stdin, limit, text, length, error);
     if (stat(path, &about) != 0)
-        return cannot_read(error);
+        return text_file_failed(error);
     if (!S_ISREG(about.st_mode))
         return ld_fail(error, LD_ERR_INPUT, "is not a regular file");
     if (about.st_size > (off_t)limit)
         return ld_fail(error, LD_ERR_INPUT, "is larger than %zu kB", limit / 1024);
     FILE *stream = fopen(path, "rb");
     if (!stream)
-        return cannot_read(error);
+        return text_file_failed(error);
     ld_status status = read_stream(stream, limit, text, length, error);
     fclose(stream);
     return status;

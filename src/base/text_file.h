@@ -14,6 +14,13 @@
 ld_status text_file_read(const char *path, size_t limit, char **text, size_t *length,
                          ld_error *error);
 
+// What an error number means where a file is read: LD_ERR_INPUT, it is not there or nothing to be
+// read; LD_ERR_FILE or LD_ERR_MEMORY, the system cannot for itself.
+ld_status text_file_status(int number);
+
+// "cannot be read: REASON", of errno.
+ld_status text_file_failed(ld_error *error);
+
 // Whether a file is to be written under a temporary name, which then becomes its own: not where
 // something else than a file is, as /dev/stdout.
 bool text_file_is_replaced(const char *path);

@@ -31,14 +31,18 @@ static size_t split(char *list, const char *names[MOST])
 static int draw(const command_line *line, char *what, double from, double to, const char *file)
 {
     const char *names[MOST];
+    char note[LD_ERROR_TEXT];
     ld_picture picture = {.folder = line->word,
                           .folder_count = line->count,
                           .figure = names,
                           .figure_count = split(what, names),
                           .from = from * 1e-3,
-                          .to = to * 1e-3};
+                          .to = to * 1e-3,
+                          .note = note};
     ld_error error;
     ld_status status = ld_plot(&picture, file, &error);
+    if (!status && *note)
+        command_complain("note: %s", note);
     return status ? command_fail(status, &error) : 0;
 }
 

@@ -9,10 +9,11 @@
 static int finish(ld_status status, const ld_error *error, const ld_report *report,
                   const char *file, bool quiet)
 {
+    bool written = !status || (status == LD_ERR_INPUT && report->bytes > 0);
+    for (int i = 0; written && i < report->note_count; i++)
+        command_complain("%s", report->note[i]);
     if (status)
         return command_fail(status, error);
-    for (int i = 0; i < report->note_count; i++)
-        command_complain("%s", report->note[i]);
     char visible[1024];
     if (!quiet)
         printf("%s: %.0f kB\n", ld_visible_text(file, visible, sizeof visible),

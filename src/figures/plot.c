@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/child.h"
+#include "results/manifest.h"
 
 enum { MOST_FIGURES = 32 };
 
@@ -180,13 +181,17 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
 
 // ---- the page ----
 
-static ld_status read_folder(const char *folder, history_data *history, ld_error *error)
+// `note` (NULL: not wanted) takes the first doubt.
+static ld_status read_folder(const char *folder, char *note, history_data *history, ld_error *error)
 {
-    char path[4096];
+    char path[4096], doubt[256];
     snprintf(path, sizeof path, "%s/history.h5", folder);
     if (access(path, F_OK) != 0)
         return ld_fail(error, LD_ERR_INPUT, "no results in %.400s: there is no history.h5", folder);
-    return history_read(path, history, error);
+    ld_status status = manifest_check_history(folder, doubt, sizeof doubt, error);
+    if (!status && note && *doubt && !*note)
+        snprintf(note, LD_ERROR_TEXT, "%.300s: %s", folder, doubt);
+    return status ? status : history_read(path, history, error);
 }
 
 // Runs are known by their titles where these differ, else by their folders.
@@ -292,8 +297,10 @@ ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
         status = plot_format_of(file, &format, error);
     history_data run[PLOT_RUNS];
     size_t read = 0;
+    if (picture->note)
+        *picture->note = '\0';
     while (!status && read < picture->folder_count) {
-        status = read_folder(picture->folder[read], &run[read], error);
+        status = read_folder(picture->folder[read], picture->note, &run[read], error);
         read += !status;
     }
     if (!status)

@@ -1,49 +1,89 @@
 #include "results/hdf5_support.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "base/text_file.h"
+
+// Why calls have failed since hdf5_quiet_begin().
+static struct {
+    bool memory;    // for want of it
+    int number;     // the system's error number, where one is named; the first
+    char text[128]; // of the latest: the innermost entry of the error stack
+} why;
+
+static herr_t see_entry(unsigned depth, const H5E_error2_t *entry, void *unused)
+{
+    (void)unused;
+    const char *number = entry->desc ? strstr(entry->desc, "errno = ") : NULL;
+    why.memory |= entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_CANTALLOC;
+    if (number && !why.number)
+        sscanf(number, "errno = %d", &why.number); // NOLINT(cert-err34-c): written by HDF5
+    if (depth == 0 && entry->desc)
+        snprintf(why.text, sizeof why.text, "%s", entry->desc);
+    return 0;
+}
+
+// Called by HDF5 where a call fails.
+static herr_t see_failure(hid_t stack, void *unused)
+{
+    return H5Ewalk2(stack, H5E_WALK_UPWARD, see_entry, unused);
+}
 
 hdf5_quiet hdf5_quiet_begin(void)
 {
-    hdf5_quiet quiet;
+    hdf5_quiet quiet = {0};
     // before its first work: what a full disk leaves open is not closed again at the program's end,
     // where the library crashes on it; what is to be kept has been closed by hand
     H5dont_atexit();
-    H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    memset(&why, 0, sizeof why);
+    why.memory = H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data) < 0; // it cannot begin
+    H5Eset_auto2(H5E_DEFAULT, see_failure, NULL);
     return quiet;
 }
 
-void hdf5_quiet_end(const hdf5_quiet *quiet)
+ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *error)
 {
     H5Eset_auto2(H5E_DEFAULT, quiet->function, quiet->data);
+    if (why.memory && status != LD_ERR_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "HDF5 has no memory");
+    return status;
 }
 
-// The innermost entry of the error stack, and the system's error number if one is named.
-typedef struct reason {
-    int number;
-    char text[128];
-} reason;
-
-static herr_t find_reason(unsigned depth, const H5E_error2_t *entry, void *data)
+hid_t hdf5_open(const char *path)
 {
-    reason *found = data;
-    const char *number = entry->desc ? strstr(entry->desc, "errno = ") : NULL;
-    if (number && !found->number)
-        sscanf(number, "errno = %d", &found->number); // NOLINT(cert-err34-c): written by HDF5
-    if (depth == 0 && entry->desc)
-        snprintf(found->text, sizeof found->text, "%s", entry->desc);
-    return 0;
+    enum { STEP = 1 << 20 };
+    // HDF5 does not tell why a file cannot be opened in this way
+    int there = open(path, O_RDONLY | O_CLOEXEC);
+    if (there < 0) {
+        why.number = errno;
+        return -1;
+    }
+    close(there);
+    hid_t properties = H5Pcreate(H5P_FILE_ACCESS);
+    bool fine = H5Pset_fapl_core(properties, STEP, false) >= 0;
+    hid_t file = fine ? H5Fopen(path, H5F_ACC_RDONLY, properties) : -1;
+    H5Pclose(properties);
+    return file;
 }
 
 ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path)
 {
-    reason found = {0, "HDF5 failed"};
-    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &found);
+    if (why.memory)
+        return ld_fail(error, LD_ERR_MEMORY, "cannot %s %s: HDF5 has no memory", what, path);
+    if (why.number && status == LD_ERR_INPUT)
+        status = text_file_status(why.number);
+    if (why.number)
+        return ld_fail(error, status, "cannot %s %s: %s", what, path, strerror(why.number));
+    if (strcmp(why.text, "unable to open file") == 0)
+        status = LD_ERR_FILE;
     return ld_fail(error, status, "cannot %s %s: %s", what, path,
-                   found.number ? strerror(found.number) : found.text);
+                   why.text[0] ? why.text : "HDF5 gives no reason");
 }
 
 hid_t hdf5_create_group(hid_t parent, const char *name)
@@ -80,8 +120,7 @@ static bool write_attribute(hid_t object, const char *name, hid_t type, const vo
     hid_t space = H5Screate(H5S_SCALAR);
     hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     bool fine = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
-    if (attribute >= 0)
-        H5Aclose(attribute);
+    fine = attribute >= 0 && H5Aclose(attribute) >= 0 && fine;
     H5Sclose(space);
     return fine;
 }
@@ -104,12 +143,15 @@ bool hdf5_write_number(hid_t object, const char *name, double value)
     return write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
 }
 
+// One value: there is room for no more.
 static bool read_attribute(hid_t object, const char *name, hid_t type, void *value)
 {
     hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     if (attribute < 0)
         return false;
-    bool fine = H5Aread(attribute, type, value) >= 0;
+    hid_t space = H5Aget_space(attribute);
+    bool fine = H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, type, value) >= 0;
+    H5Sclose(space);
     H5Aclose(attribute);
     return fine;
 }
@@ -157,8 +199,7 @@ bool hdf5_write_document(hid_t group, const char *key, const char *name, const c
     hid_t dataset = hdf5_create_dataset(group, key, type, 0, NULL);
     bool fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
                 (!name || hdf5_write_string(dataset, "name", name));
-    if (dataset >= 0)
-        H5Dclose(dataset);
+    fine = dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
     H5Tclose(type);
     return fine;
 }

@@ -7,14 +7,20 @@
 
 #include "launchdyn/status.h"
 
-// HDF5 prints its error stack unless told not to; the setting before is put back at the end.
+// HDF5 prints its error stack unless told not to; the setting before is put back at the end. What
+// has no memory meanwhile is seen wherever that was, for HDF5 takes what cannot be looked up for
+// what is not there: then the end returns LD_ERR_MEMORY in place of `status`.
 typedef struct hdf5_quiet {
     H5E_auto2_t function;
     void *data;
 } hdf5_quiet;
 
 hdf5_quiet hdf5_quiet_begin(void);
-void hdf5_quiet_end(const hdf5_quiet *quiet);
+ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *error);
+
+// Opens a file to be read: its bytes are read at once, so that what the system refuses is known
+// here.
+hid_t hdf5_open(const char *path);
 
 // `status` with "cannot `what` `path`: reason", the reason from HDF5's error stack.
 ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path);

@@ -239,7 +239,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
     memset(history, 0, sizeof *history);
     hdf5_quiet quiet = hdf5_quiet_begin();
     child_reads(path);
-    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t file = hdf5_open(path);
     ld_status status = LD_OK;
     if (file < 0) {
         status = hdf5_failed(error, LD_ERR_INPUT, "read", path);
@@ -248,7 +248,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
         H5Fclose(file);
     }
     child_reads(NULL);
-    hdf5_quiet_end(&quiet);
+    status = hdf5_quiet_end(&quiet, status, error);
     if (status)
         history_free(history);
     return status;

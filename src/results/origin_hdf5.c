@@ -6,6 +6,7 @@
 #include "base/child.h"
 #include "model/source.h"
 #include "results/hdf5_support.h"
+#include "results/manifest.h"
 #include "results/origin.h"
 
 // ---- writing
@@ -27,9 +28,7 @@ static bool write_program(hid_t file, const ld_origin *origin)
     bool fine = group >= 0;
     for (size_t i = 0; fine && i < origin->fact_count; i++)
         fine = hdf5_write_string(group, origin->fact[i].name, origin->fact[i].text);
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 // Texts by their numbers from 1.
@@ -46,9 +45,7 @@ static bool write_files(hid_t group, const ld_source *source)
     for (size_t i = 0; fine && i < source->file_count; i++)
         fine = hdf5_write_document(group, number_text(i + 1, number), source->file[i]->name,
                                    source->file[i]->text, source->file[i]->length);
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 static bool write_sets(hid_t group, const ld_source *source)
@@ -58,9 +55,7 @@ static bool write_sets(hid_t group, const ld_source *source)
     for (size_t i = 0; fine && i < source->set_count; i++)
         fine = hdf5_write_document(group, number_text(i + 1, number), NULL, source->set[i],
                                    strlen(source->set[i]));
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 static bool write_source(hid_t file, const ld_origin *origin)
@@ -70,9 +65,7 @@ static bool write_source(hid_t file, const ld_origin *origin)
                 hdf5_write_integer(group, "sample", origin->sample) &&
                 write_files(hdf5_create_group(group, "files"), origin->source) &&
                 write_sets(hdf5_create_group(group, "set"), origin->source);
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 bool origin_write_hdf5(hid_t file, const ld_origin *origin)
@@ -160,9 +153,9 @@ static bool read_source(hid_t file, ld_origin *origin)
 static ld_status read_history(const char *path, ld_origin *origin, ld_error *error)
 {
     size_t length;
-    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t file = hdf5_open(path);
     if (file < 0)
-        return ld_fail(error, LD_ERR_INPUT, "%.300s is no file of results, or is damaged", path);
+        return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     bool old = H5Lexists(file, "program", H5P_DEFAULT) <= 0;
     bool fine = !old && read_program(file, origin) &&
                 (origin->scenario = hdf5_read_document(file, "scenario", NULL, &length)) != NULL;
@@ -178,21 +171,30 @@ static ld_status read_history(const char *path, ld_origin *origin, ld_error *err
                           "%.300s is damaged: where it comes from cannot be read", path);
 }
 
+ld_status origin_read_history(const char *path, ld_origin *origin, ld_error *error)
+{
+    *origin = (ld_origin){0};
+    hdf5_quiet quiet = hdf5_quiet_begin();
+    child_reads(path);
+    ld_status status = read_history(path, origin, error);
+    child_reads(NULL);
+    status = hdf5_quiet_end(&quiet, status, error);
+    if (status)
+        ld_origin_free(origin);
+    return status;
+}
+
 ld_status ld_origin_read(const char *folder, ld_origin *origin, ld_error *error)
 {
     char path[4096];
     *origin = (ld_origin){0};
+    ld_status status = manifest_check_history(folder, NULL, 0, error);
+    if (status)
+        return status;
     snprintf(path, sizeof path, "%.4000s/history.h5", folder);
     if (access(path, F_OK) != 0)
         snprintf(path, sizeof path, "%.4000s/history.h5.part", folder);
     if (access(path, F_OK) != 0)
         return ld_fail(error, LD_ERR_INPUT, "no results in %.300s: there is no history.h5", folder);
-    hdf5_quiet quiet = hdf5_quiet_begin();
-    child_reads(path);
-    ld_status status = read_history(path, origin, error);
-    child_reads(NULL);
-    hdf5_quiet_end(&quiet);
-    if (status)
-        ld_origin_free(origin);
-    return status;
+    return origin_read_history(path, origin, error);
 }

@@ -2,6 +2,9 @@
 #include "results/program.h"
 #include "launchdyn/version.h"
 
+#if defined(__x86_64__) || defined(__i386__)
+#include <cpuid.h>
+#endif
 #include <gnu/libc-version.h>
 #include <hdf5.h>
 #include <sqlite3.h>
@@ -14,23 +17,19 @@
 
 extern void ilaver_(int *major, int *minor, int *patch);
 
-// "model name : ..." of the first processor, or the kind of machine.
+// The processor's name by its own word, or the kind of machine.
 static void processor_name(char *text, size_t size)
 {
     struct utsname machine;
-    char line[256];
-    FILE *file = fopen("/proc/cpuinfo", "r");
     snprintf(text, size, "%s", uname(&machine) == 0 ? machine.machine : "unknown");
-    while (file && fgets(line, sizeof line, file)) {
-        const char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", 10) != 0 || !colon)
-            continue;
-        snprintf(text, size, "%s", colon + 1 + strspn(colon + 1, " "));
-        text[strcspn(text, "\n")] = '\0';
-        break;
-    }
-    if (file)
-        fclose(file);
+#if defined(__x86_64__) || defined(__i386__)
+    unsigned word[13] = {0};
+    for (unsigned i = 0; i < 12; i += 4)
+        if (!__get_cpuid(0x80000002 + i / 4, word + i, word + i + 1, word + i + 2, word + i + 3))
+            return;
+    const char *name = (const char *)word;
+    snprintf(text, size, "%s", name + strspn(name, " "));
+#endif
 }
 
 void program_describe(program_fact *take, void *self)

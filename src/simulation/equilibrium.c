@@ -486,6 +486,10 @@ static double find_rest(const problem *the, const double *start, double accepted
     // an adaptor that hardly carries is found from where it is pressed in [m]
     for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
         best = fmin(best, try_pairs(the, start, extra, accepted, y));
+    // a hard contact is pressed in by less than the differences
+    problem fine = *the;
+    for (fine.h = 0.1 * the->h; fine.h > 1e-13 && best > accepted; fine.h *= 0.1)
+        best = fmin(best, try_pairs(&fine, start, 0, accepted, y));
     return best;
 }
 

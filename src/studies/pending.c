@@ -41,6 +41,17 @@ static bool is_whole(const study_pending *self, int index)
            shape.results == self->shape.results && *digest_in(self, index) == digest(self, record);
 }
 
+// Puts a whole record behind those before it, where one between them is damaged.
+static void move_up(study_pending *self, int index)
+{
+    if (index > self->count) {
+        memcpy(record_in(self, self->count), record_in(self, index), record_size(&self->shape));
+        *digest_in(self, self->count) = *digest_in(self, index);
+        *digest_in(self, index) = 0;
+    }
+    self->count++;
+}
+
 ld_status pending_open(study_pending *self, const char *path, uint64_t key,
                        const study_shape *shape, ld_error *error)
 {
@@ -60,8 +71,9 @@ ld_status pending_open(study_pending *self, const char *path, uint64_t key,
     if (problem)
         return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(problem));
     self->slot = map;
-    while (self->count < PENDING_MOST && is_whole(self, self->count))
-        self->count++;
+    for (int i = 0; i < PENDING_MOST; i++)
+        if (is_whole(self, i))
+            move_up(self, i);
     return LD_OK;
 }
 

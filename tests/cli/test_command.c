@@ -140,8 +140,8 @@ static void test_report(void **state)
     assert_int_equal(run("launchdyn report a -o b.html && cmp a/report.html b.html"), 0);
     expect_in(shell.out, "b.html: ");
     assert_int_equal(run("rm a/summary.json; launchdyn report a"), 0);
-    assert_string_equal(shell.err, "launchdyn: No summary: summary.json cannot be read: "
-                                   "No such file or directory.\n");
+    assert_string_equal(shell.err, "launchdyn: No summary: there is no summary.json, which would "
+                                   "tell whether the files are whole.\n");
     expect_complaint("launchdyn report a -o none/b.html", 3, "none/b.html: No such file");
 }
 
@@ -287,7 +287,7 @@ static pid_t start_endless(bool nohup)
 {
     char command[512];
     snprintf(command, sizeof command,
-             "cd %s && exec ./launchdyn run examples/fixed.yaml --out stopped "
+             "cd %s && exec ./launchdyn run examples/fixed.yaml -q --out stopped "
              "--set run.stuck_time='1000 s' --set rocket.lock.release_force='50 kN' "
              ">.out 2>.err",
              shell.folder);

@@ -1,12 +1,11 @@
 // Control characters, and those that turn others around or are not seen, never reach a terminal as
 // such: each way on which a text of a scenario, a file's name, an argument or a database comes to
 // be printed.
-#include "support/check.h"
+// link: -lsqlite3
+#include "support/sealed_study.h"
 #include "support/shell.h"
 
 #include <stdbool.h>
-
-#include <sqlite3.h>
 
 // ESC, CSI (U+009B), a change of direction (U+202E) and a space without width (U+200B) as the shell
 // writes them, and as they are to be seen.
@@ -142,14 +141,10 @@ static void test_names_of_files_and_arguments(void **state)
 // Writes into the study's database what another could have written.
 static void change_study(const char *text)
 {
-    char path[128], *problem = NULL;
-    sqlite3 *database;
+    char path[128];
     snprintf(path, sizeof path, "%s/study/study.db", shell.folder);
-    assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
-    sqlite3_exec(database, text, NULL, NULL, &problem);
-    if (problem)
-        fail_msg("%s", problem);
-    sqlite3_close(database);
+    run_sql(path, text);
+    seal_study(path);
 }
 
 static void test_texts_of_a_study(void **state)

@@ -67,6 +67,10 @@ STOPS(violent_base, 0.001, LD_ERR_NUMERIC,
       model.base.kind = LD_BASE_PRESCRIBED;
       model.base.pitch = (ld_sines){1, {{3, 50, 0}}})
 
+STOPS(contacts_like_tar, 0.0002, LD_ERR_NUMERIC,
+      "the steps became too short to go on: more than 20000 within a millisecond, up to t = # s",
+      model.rocket.contact.reference_speed = 1e-7)
+
 STOPS(thrust_not_a_number, 0.01, LD_ERR_NUMERIC,
       "the equations of motion gave no finite result at t = # s",
       model.rocket.motor.thrust.data[5] = NAN)
@@ -156,6 +160,8 @@ static void falls_out_of_the_tube(void **state)
     }
 
 HAPPENS(without_gravity, model.gravity = 0)
+// its equilibrium presses the contacts in by less than a nanometre
+HAPPENS(with_contacts_like_rock, model.rocket.contact.stiffness = 1e12)
 HAPPENS(straight_up, model.base.elevation = 90 * degree)
 HAPPENS(downwards, model.base.elevation = -30 * degree)
 HAPPENS(mass_centre_before_the_front_adaptor,
@@ -197,6 +203,7 @@ int main(void)
         cmocka_unit_test(tube_like_rubber),
         cmocka_unit_test(tube_like_rope),
         cmocka_unit_test(violent_base),
+        cmocka_unit_test(contacts_like_tar),
         cmocka_unit_test(thrust_not_a_number),
         cmocka_unit_test(base_table_too_short),
         cmocka_unit_test(caller_says_no),
@@ -207,6 +214,7 @@ int main(void)
         cmocka_unit_test(no_equilibrium_of_a_rope),
         cmocka_unit_test(falls_out_of_the_tube),
         cmocka_unit_test(without_gravity),
+        cmocka_unit_test(with_contacts_like_rock),
         cmocka_unit_test(straight_up),
         cmocka_unit_test(downwards),
         cmocka_unit_test(mass_centre_before_the_front_adaptor),

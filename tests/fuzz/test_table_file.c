@@ -6,7 +6,7 @@
 static void test_corpus(void **state)
 {
     (void)state;
-    corpus_test("table_file", 600);
+    corpus_test("table_file", 2000);
 }
 
 int main(void)
