@@ -109,6 +109,8 @@ static ld_status solve_free(const tube_line *line, const line_ties *ties, int wa
         B[i] += line->low * A[i];
     int info = symmetric_eigen(N, A, B, wanted, lambda, vector);
     free(A);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
     if (info || !(lambda[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "the modes of the tube on its supports cannot be found: is a stiffness or "
@@ -152,18 +154,24 @@ static int take_elastic_parts(const tube_line *line, const double *vector, int c
     return found;
 }
 
-// Elastic parts of the clamped modes.
-static int take_clamped(const tube_line *line, int m, double *part)
+// Elastic parts of the `m` lowest clamped modes.
+static ld_status take_clamped(const tube_line *line, int m, double *part, ld_error *error)
 {
     int n = line->n;
     size_t nn = (size_t)n * (size_t)n;
     double *mass = malloc((nn + (size_t)n) * sizeof *mass);
     if (!mass)
-        return 0;
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
     memcpy(mass, line->mass, nn * sizeof *mass);
     int info = symmetric_eigen(n, mass, NULL, m, mass + nn, part);
     free(mass);
-    return info ? 0 : m;
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
+    if (info)
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "the modes of the clamped tube cannot be found: is a stiffness or a mass "
+                       "not finite or out of all proportion?");
+    return LD_OK;
 }
 
 // Diagonalises the mass of the elastic parts, whose stiffness is E, and writes the tangent shapes:
@@ -180,6 +188,8 @@ static ld_status diagonalise(const tube_line *line, const double *part, line_sha
             mass[k * m + l] = dot(n, row, &part[l * n]);
     }
     int info = symmetric_eigen(m, mass, NULL, m, value, mixes);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", m);
     if (info || !(value[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC, "the tube's modes are not independent");
     for (int k = 0; k < m; k++) {
@@ -224,7 +234,10 @@ static ld_status choose_shapes(const tube_line *line, const ld_tubes *model, lin
         found = take_elastic_parts(line, vector, count, m, part);
         break;
     case LD_SPAN_CLAMPED:
-        found = take_clamped(line, m, part);
+        status = take_clamped(line, m, part, error);
+        if (status)
+            return status;
+        found = m;
         break;
     }
     if (found < m)

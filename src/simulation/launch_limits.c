@@ -85,7 +85,7 @@ ld_status launch_check_base(ld_run *run, double t)
 // all of very many: the run would hardly go on.
 static ld_status check_steps(ld_run *run, double t)
 {
-    const int64_t most = 20000, very_many = 400000;
+    const int64_t most = 20000, very_many = 1000000;
     int64_t steps = propagator_steps(run->propagator);
     if (steps > very_many && t - run->t_start < 1e-6 * (double)steps)
         return ld_fail(&run->error, LD_ERR_NUMERIC,
