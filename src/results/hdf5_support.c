@@ -115,7 +115,7 @@ ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const
     if (strcmp(why.text, "unable to open file") == 0)
         status = LD_ERR_FILE;
     return ld_fail(error, status, "cannot %s %s: %s", what, path,
-                   why.text[0] ? why.text : "HDF5 gives no reason");
+                   why.text[0] ? why.text : "HDF5 gives no reason, as where there is no memory");
 }
 
 hid_t hdf5_create_file(const char *path)
