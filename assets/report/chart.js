@@ -8,7 +8,9 @@ const HEIGHT = 240, LEAST = 170, MOST = 420, RIGHT = 14, TOP = 14, BOTTOM = 42;
 
 export function svg(tag, attributes = {}, ...children) {
   const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes))
+    if (name === "style") node.style = value; // the page's policy forbids the attribute
+    else node.setAttribute(name, value);
   node.append(...children);
   return node;
 }

@@ -37,8 +37,8 @@ ld_status ld_origin_of(const ld_model *model, ld_origin *origin, ld_error *error
 
 /// Reads it back from the run in `folder`: from history.h5, or the history.h5.part of a run that
 /// was killed. Its source has no folder: everything must be among its texts.
-/// @return LD_OK; LD_ERR_INPUT (no results there, or none that say where they come from),
-///         LD_ERR_MEMORY
+/// @return LD_OK; LD_ERR_INPUT (no results there, damaged ones, or none that say where they come
+///         from), LD_ERR_MEMORY
 ld_status ld_origin_read(const char *folder, ld_origin *origin, ld_error *error);
 
 /// Says in what of version, commit, compiler, processor and libraries this program is another one

@@ -67,13 +67,16 @@ typedef struct ld_picture {
                                ///< alone trajectory and flight
     size_t figure_count;
     double from, to;         ///< [s] from ignition; NaN: what the figure shows by itself
-    const void *reserved[4]; ///< NULL: room for what later versions may be asked
+    char *note;              ///< NULL, or [LD_ERROR_TEXT]: becomes "", or why it is not known
+                             ///< whether a history that was drawn is whole
+    const void *reserved[3]; ///< NULL: room for what later versions may be asked
 } ld_picture;
 
 /// Draws a page with gnuplot, which must be in PATH.
 /// @param file the picture; its ending says what it becomes: .svg, .pdf or .png
-/// @return LD_OK, LD_ERR_INPUT (unknown figure or ending, no history in a folder), LD_ERR_FILE,
-///         LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)
+/// @return LD_OK, LD_ERR_INPUT (unknown figure or ending, no history in a folder, or one that is
+/// not
+///         as it was written), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)
 ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error);
 
 #pragma GCC visibility pop

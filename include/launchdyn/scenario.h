@@ -35,13 +35,20 @@ void ld_messages_free(ld_messages *messages);
 /// a terminal may show it (ld_visible_text).
 void ld_messages_print(const ld_messages *messages, FILE *stream);
 
+/// What a simulation or a run of a model said, as a message at its place: an error that is about a
+/// key begins with the key's path ("base.wheels.3: ...").
+/// @param messages one message, to be freed (ld_messages_free()); none where it returns false
+/// @return whether the error is about a key, and the model was read from texts
+bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages);
+
 /// Reads and checks a scenario file: of one with a sweep the values that it gives besides, the
 /// nominal ones, and each swept value by itself. All errors of the file come in one pass.
 /// @param path     file name; "-" is standard input
 /// @param sets     `count` texts "path=value" that override the file (as of --set)
 /// @param model    filled on success (free with ld_model_free()); NULL on failure
 /// @param messages filled on failure (free with ld_messages_free())
-/// @return LD_OK, LD_ERR_INPUT or LD_ERR_MEMORY
+/// @return LD_OK, LD_ERR_INPUT, LD_ERR_FILE (the system refused to read a file), LD_ERR_MEMORY
+///         (without messages)
 ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count,
                            ld_model **model, ld_messages *messages);
 

@@ -70,11 +70,11 @@ typedef struct ld_run_options {
 
 /// Runs from the start to the end that the model asks for. On failure the summary holds what was
 /// reached and why it stopped. Running again starts afresh and gives the same bits.
-/// @return LD_OK; LD_ERR_INPUT (a start or a motion that the model cannot have: a wheel in the air,
-/// a
-///         stabiliser too weak or unstable, a base's table that ends too early), LD_ERR_LAUNCH
-///         (never released, stuck, jammed, not landed, beyond a table), LD_ERR_NUMERIC,
-///         LD_ERR_MEMORY, LD_ERR_INTERRUPTED, or what the sink returned.
+/// @return LD_OK; LD_ERR_INPUT (a start that the model cannot have: a wheel in the air, a
+///         stabiliser too weak or unstable), LD_ERR_LAUNCH (no equilibrium, never released, stuck,
+///         jammed, not landed, beyond a table), LD_ERR_NUMERIC, LD_ERR_MEMORY, LD_ERR_INTERRUPTED,
+///         or what the sink returned. An error about a key of the scenario begins with its path
+///         (ld_scenario_explain).
 ld_status ld_simulation_run(const ld_simulation *simulation, const ld_run_options *options,
                             ld_summary *summary, ld_error *error);
 

@@ -43,8 +43,9 @@ const char *ld_status_name(ld_status status);
 /// failing function can end with `return ld_fail(error, LD_ERR_INPUT, "...", ...);`.
 ld_status ld_fail(ld_error *error, ld_status status, const char *format, ...) LD_PRINTF(3, 4);
 
-/// Writes `text` as a terminal may show it: control characters, and bytes that are no UTF-8, as
-/// `\x1b`; what `size` has no room for as "...". The texts of errors are such already. Returns
+/// Writes `text` as a terminal may show it: control characters, those that are not seen or turn
+/// others around (U+200B, U+202E), and bytes that are no UTF-8, byte by byte as `\x1b`; what
+/// `size` has no room for as "...". The texts of errors are such already. Returns
 /// `visible`.
 char *ld_visible_text(const char *text, char *visible, size_t size);
 

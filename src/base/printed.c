@@ -5,8 +5,7 @@
 
 #include "launchdyn/status.h"
 
-// Bytes of the UTF-8 character at `c`, in its shortest form; 0: it is none.
-static size_t utf8_length(const unsigned char *c)
+int32_t printed_code(const char *text, size_t *length)
 {
     static const struct {
         unsigned char from, to, second_from, second_to; // the first byte and the second
@@ -15,28 +14,48 @@ static size_t utf8_length(const unsigned char *c)
                  {0xe1, 0xec, 0x80, 0xbf, 3}, {0xed, 0xed, 0x80, 0x9f, 3},
                  {0xee, 0xef, 0x80, 0xbf, 3}, {0xf0, 0xf0, 0x90, 0xbf, 4},
                  {0xf1, 0xf3, 0x80, 0xbf, 4}, {0xf4, 0xf4, 0x80, 0x8f, 4}};
+    const unsigned char *c = (const unsigned char *)text;
+    *length = 1;
     if (*c < 0x80)
-        return 1;
+        return *c;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
         if (*c < forms[i].from || *c > forms[i].to)
             continue;
         if (c[1] < forms[i].second_from || c[1] > forms[i].second_to)
-            return 0;
-        for (size_t k = 2; k < forms[i].length; k++)
+            return -1;
+        int32_t code = *c & (0x7f >> forms[i].length);
+        for (size_t k = 1; k < forms[i].length; k++) {
             if ((c[k] & 0xc0) != 0x80)
-                return 0;
-        return forms[i].length;
+                return -1;
+            code = code << 6 | (c[k] & 0x3f);
+        }
+        *length = forms[i].length;
+        return code;
     }
-    return 0;
+    return -1;
+}
+
+bool printed_is_hidden(int32_t code)
+{
+    static const struct {
+        int32_t from, to;
+    } hidden[] = {{0x0, 0x1f},      {0x7f, 0x9f},       {0xad, 0xad},       {0x34f, 0x34f},
+                  {0x61c, 0x61c},   {0x115f, 0x1160},   {0x17b4, 0x17b5},   {0x180b, 0x180f},
+                  {0x200b, 0x200f}, {0x2028, 0x202e},   {0x2060, 0x206f},   {0x3164, 0x3164},
+                  {0xfdd0, 0xfdef}, {0xfe00, 0xfe0f},   {0xfeff, 0xfeff},   {0xffa0, 0xffa0},
+                  {0xfff0, 0xfffb}, {0x1bca0, 0x1bca3}, {0x1d173, 0x1d17a}, {0xe0000, 0xe0fff}};
+    for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++)
+        if (code >= hidden[i].from && code <= hidden[i].to)
+            return true;
+    return (code & 0xfffe) == 0xfffe;
 }
 
 size_t printed_character(const char *text, char shown[5])
 {
-    const unsigned char *c = (const unsigned char *)text;
-    size_t length = utf8_length(c);
-    bool control = *c < 0x20 || *c == 0x7f || (*c == 0xc2 && c[1] < 0xa0);
-    if (length == 0 || control) {
-        snprintf(shown, 5, "\\x%02x", *c);
+    size_t length;
+    int32_t code = printed_code(text, &length);
+    if (code < 0 || printed_is_hidden(code)) {
+        snprintf(shown, 5, "\\x%02x", (unsigned char)*text);
         return 1;
     }
     memcpy(shown, text, length);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 // What to print with "%.*f" and so many decimals: the value, but 0 where a negative one would come
 // out as -0.000.
@@ -23,8 +24,17 @@ static inline int printed_digits(double value, double spread, int least)
     return (int)fmin(fmax(digits, least), 12);
 }
 
-// The character at the front of the text as a terminal may show it: a control character, or a byte
-// that is no UTF-8, as \x1b. Returns the bytes that it takes of the text.
+// The character at the front of the text and the bytes that it takes; -1 and one byte where it is
+// no UTF-8.
+int32_t printed_code(const char *text, size_t *length);
+
+// Whether a character is not seen as itself: a control, a mark of direction, the end of a line,
+// one without width, or what is none. Unicode's Default_Ignorable_Code_Point, with those of
+// categories Cc, Zl, Zp, the noncharacters and the marks of annotations (U+FFF9 to U+FFFB).
+bool printed_is_hidden(int32_t code);
+
+// The character at the front of the text as a terminal may show it: a byte of one that is hidden,
+// or that is no UTF-8, as \x1b. Returns the bytes that it takes of the text.
 size_t printed_character(const char *text, char shown[5]);
 
 // A text from outside as a terminal may show it, until the end of the block; see ld_visible_text.

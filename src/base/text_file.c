@@ -6,6 +6,17 @@
 
 #include <sys/stat.h>
 
+ld_status text_file_failed(ld_error *error)
+{
+    ld_status status = LD_ERR_FILE;
+    if (errno == ENOENT || errno == ENOTDIR || errno == EISDIR || errno == EACCES ||
+        errno == EPERM || errno == ELOOP || errno == ENAMETOOLONG)
+        status = LD_ERR_INPUT;
+    else if (errno == ENOMEM)
+        status = LD_ERR_MEMORY;
+    return ld_fail(error, status, "cannot be read: %s", strerror(errno));
+}
+
 static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *length,
                              ld_error *error)
 {
@@ -15,7 +26,8 @@ static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *le
         char *larger = realloc(buffer, capacity + 1);
         if (!larger) {
             free(buffer);
-            return ld_fail(error, LD_ERR_MEMORY, "no memory");
+            errno = ENOMEM;
+            return text_file_failed(error);
         }
         buffer = larger;
         used += fread(buffer + used, 1, capacity - used, stream);
@@ -23,11 +35,14 @@ static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *le
             break;
         capacity *= 2;
     }
-    if (ferror(stream) || used > limit) {
+    if (used > limit) {
         free(buffer);
-        if (used > limit)
-            return ld_fail(error, LD_ERR_INPUT, "is larger than %zu kB", limit / 1024);
-        return ld_fail(error, LD_ERR_INPUT, "cannot be read: %s", strerror(errno));
+        return ld_fail(error, LD_ERR_INPUT, "is larger than %zu kB", limit / 1024);
+    }
+    if (ferror(stream)) {
+        ld_status status = text_file_failed(error);
+        free(buffer);
+        return status;
     }
     buffer[used] = '\0';
     *text = buffer;
@@ -42,14 +57,14 @@ ld_status text_file_read(const char *path, size_t limit, char **text, size_t *le
     if (strcmp(path, "-") == 0)
         return read_stream(stdin, limit, text, length, error);
     if (stat(path, &about) != 0)
-        return ld_fail(error, LD_ERR_INPUT, "cannot be read: %s", strerror(errno));
+        return text_file_failed(error);
     if (!S_ISREG(about.st_mode))
         return ld_fail(error, LD_ERR_INPUT, "is not a regular file");
     if (about.st_size > (off_t)limit)
         return ld_fail(error, LD_ERR_INPUT, "is larger than %zu kB", limit / 1024);
     FILE *stream = fopen(path, "rb");
     if (!stream)
-        return ld_fail(error, LD_ERR_INPUT, "cannot be read: %s", strerror(errno));
+        return text_file_failed(error);
     ld_status status = read_stream(stream, limit, text, length, error);
     fclose(stream);
     return status;

@@ -14,6 +14,10 @@
 ld_status text_file_read(const char *path, size_t limit, char **text, size_t *length,
                          ld_error *error);
 
+// "cannot be read: REASON", of errno: LD_ERR_INPUT; what the system refuses for itself, which is no
+// matter of the file that was named, LD_ERR_FILE or LD_ERR_MEMORY.
+ld_status text_file_failed(ld_error *error);
+
 // Whether a file is to be written under a temporary name, which then becomes its own: not where
 // something else than a file is, as /dev/stdout.
 bool text_file_is_replaced(const char *path);

@@ -1,13 +1,14 @@
 #include "cli/command.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
 #include "cli/progress.h"
+#include "launchdyn/child.h"
 #include "launchdyn/scenario.h"
 
 void command_complain(const char *format, ...)
@@ -46,6 +47,16 @@ int command_fail(ld_status status, const ld_error *error)
     return command_code(status);
 }
 
+int command_fail_on(const ld_model *model, ld_status status, const ld_error *error)
+{
+    ld_messages messages;
+    if (!ld_scenario_explain(model, error, &messages))
+        return command_fail(status, error);
+    ld_messages_print(&messages, stderr);
+    ld_messages_free(&messages);
+    return command_code(status);
+}
+
 int command_begin(void)
 {
     enum { LEAST_STACK = 512 }; // [kB]
@@ -59,61 +70,52 @@ int command_begin(void)
     return EXIT_SYSTEM;
 }
 
-// "unknown option --cvs (did you mean --csv?)"
-static void complain_option(poptContext context, const struct poptOption *options, int problem)
+int command_end(int code)
 {
-    enum { MOST = 16 };
-    const char *names[MOST];
-    size_t count = 0;
-    for (; count < MOST && options[count].longName; count++)
-        names[count] = options[count].longName;
-    const char *option = poptBadOption(context, POPT_BADOPTION_NOALIAS);
-    const char *name = option + strspn(option, "-");
-    const char *nearest = problem == POPT_ERROR_BADOPT ? ld_nearest_name(name, names, count) : NULL;
-    if (nearest)
-        command_complain("unknown option %s (did you mean --%s?)", option, nearest);
-    else
-        command_complain("%s: %s", option, poptStrerror(problem));
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return code;
+    command_complain("cannot print: %s", strerror(errno));
+    return code ? code : EXIT_SYSTEM;
 }
 
-static void print_help(const command *self, poptContext context)
+int command_apart(int (*work)(void *data), void *data)
 {
-    printf("%s\n\n", self->summary);
-    fflush(stdout);
-    poptPrintHelp(context, stdout, 0);
+    int code = 0;
+    ld_error error;
+    ld_status status = ld_child_run(work, data, &code, &error);
+    return status ? command_fail(status, &error) : code;
+}
+
+static void print_help(const command *self, const command_option *options)
+{
+    printf("%s\n\nUsage: launchdyn %s %s\n", self->summary, self->name, self->arguments);
+    options_print(options);
     if (self->help)
         self->help();
 }
 
-bool command_line_read(command_line *line, const command *self, int argc, const char **argv,
-                       const struct poptOption *options, int count, int *code)
+// What is wrong with the number of words.
+static bool has_words(const command *self, const command_line *line, int count)
 {
-    line->context = poptGetContext("launchdyn", argc, argv, options, POPT_CONTEXT_NO_EXEC);
-    poptSetOtherOptionHelp(line->context, self->arguments);
-    int found = poptGetNextOpt(line->context);
-    line->word = poptGetArgs(line->context);
-    for (line->count = 0; line->word && line->word[line->count];)
-        line->count++;
-    *code = EXIT_INPUT;
-    if (found == 'h') {
-        print_help(self, line->context);
-        *code = 0;
-    } else if (found < -1) {
-        complain_option(line->context, options, found);
-    } else if (count == COMMAND_WORDS ? line->count == 0
-                                      : count >= 0 && line->count != (size_t)count) {
-        command_complain("%s wants %s; see launchdyn %s --help", self->name, self->arguments,
-                         self->name);
-    } else {
+    if (count == COMMAND_WORDS ? line->count > 0 : count < 0 || line->count == (size_t)count)
         return true;
-    }
-    command_line_end(line);
+    command_complain("%s wants %s; see launchdyn %s --help", self->name, self->arguments,
+                     self->name);
     return false;
 }
 
-void command_line_end(command_line *line)
+bool command_line_read(command_line *line, const command *self, int argc, char **argv,
+                       const command_option *options, int count, int *code)
 {
-    poptFreeContext(line->context);
+    ld_error error;
+    ld_status status = options_read(line, argc, argv, options, &error);
+    if (!status && !line->help && has_words(self, line, count))
+        return true;
+    if (!status && line->help)
+        print_help(self, options);
+    *code = status ? command_fail(status, &error) : line->help ? 0 : EXIT_INPUT;
+    options_end(line);
+    return false;
 }
 
 static size_t count_sets(char **sets)
@@ -126,6 +128,8 @@ static size_t count_sets(char **sets)
 
 static ld_status print_messages(ld_status status, ld_messages *messages)
 {
+    if (status == LD_ERR_MEMORY)
+        command_complain("no memory");
     if (status) {
         ld_messages_print(messages, stderr);
         ld_messages_free(messages);
@@ -181,23 +185,14 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
     return code;
 }
 
-void command_free_sets(char **sets)
-{
-    for (char **set = sets; set && *set; set++)
-        free(*set);
-    free(sets);
-}
-
-int command_on_model(const command *self, int argc, const char **argv,
-                     const struct poptOption *options, char ***sets,
-                     int (*work)(const ld_model *model, void *data), void *data)
+int command_on_model(const command *self, int argc, char **argv, const command_option *options,
+                     char ***sets, int (*work)(const ld_model *model, void *data), void *data)
 {
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, 1, &code)) {
         code = command_on_file(line.word[0], *sets, work, data);
-        command_line_end(&line);
+        options_end(&line);
     }
-    command_free_sets(*sets);
     return code;
 }

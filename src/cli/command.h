@@ -2,10 +2,10 @@
 #ifndef LD_CLI_COMMAND_H
 #define LD_CLI_COMMAND_H
 
-#include <popt.h>
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "cli/options.h"
 #include "launchdyn/model.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/status.h"
@@ -18,10 +18,20 @@ enum {
     EXIT_SYSTEM = 3, // what is needed is not to be had: room on a disk, memory, threads, gnuplot
 };
 
+// Complains of an error of a simulation or a run of the model, at its place in the scenario where
+// it is about a key; its exit code.
+int command_fail_on(const ld_model *model, ld_status status, const ld_error *error);
+
 // Before all else, in every program: a pipe that was cut and a file that grows beyond its limit
 // become errors of the write and do not end the program. Returns 0, or EXIT_SYSTEM after a message
 // where the stack is limited to less than is needed.
 int command_begin(void);
+
+// The end of a command: what it printed is out, or the code says so.
+int command_end(int code);
+
+// Does `work` in a process of its own (launchdyn/child.h). Returns the exit code.
+int command_apart(int (*work)(void *data), void *data);
 
 // The exit code that belongs to a status.
 int command_code(ld_status status);
@@ -33,49 +43,42 @@ struct command {
     const char *arguments; // e.g. "FILE"
     const char *summary;   // one line
     void (*help)(void);    // prints what --help adds; NULL: nothing
-    int (*run)(const command *self, int argc, const char **argv);
+    int (*run)(const command *self, int argc, char **argv);
+    bool apart; // it reads or writes files by libraries that may crash on it
 };
 
-int command_run(const command *self, int argc, const char **argv);
-int command_study(const command *self, int argc, const char **argv);
+int command_run(const command *self, int argc, char **argv);
+int command_study(const command *self, int argc, char **argv);
 void command_study_help(void);
-int command_check(const command *self, int argc, const char **argv);
-int command_modes(const command *self, int argc, const char **argv);
-int command_plot(const command *self, int argc, const char **argv);
+int command_check(const command *self, int argc, char **argv);
+int command_modes(const command *self, int argc, char **argv);
+int command_plot(const command *self, int argc, char **argv);
 void command_plot_help(void);
-int command_report(const command *self, int argc, const char **argv);
-int command_road(const command *self, int argc, const char **argv);
-int command_wind(const command *self, int argc, const char **argv);
+int command_report(const command *self, int argc, char **argv);
+int command_road(const command *self, int argc, char **argv);
+int command_wind(const command *self, int argc, char **argv);
 
 // The options that a command knows end with these two.
 #define COMMAND_HELP                                                                               \
     {                                                                                              \
-        "help", 'h', POPT_ARG_NONE, NULL, 'h', "Show this help and stop", NULL                     \
+        "help", 'h', OPTION_HELP, NULL, "Show this help and stop", NULL                            \
     }
 #define COMMAND_END                                                                                \
     {                                                                                              \
-        NULL, '\0', 0, NULL, 0, NULL, NULL                                                         \
+        NULL, '\0', OPTION_FLAG, NULL, NULL, NULL                                                  \
     }
 #define COMMAND_SETS(sets)                                                                         \
     {                                                                                              \
-        "set", '\0', POPT_ARG_ARGV, sets, 0, "Set a key of the scenario; may be repeated",         \
+        "set", '\0', OPTION_TEXTS, sets, "Set a key of the scenario; may be repeated",             \
             "PATH=VALUE"                                                                           \
     }
 
-// What stands on the command line beside the options.
-typedef struct command_line {
-    poptContext context;
-    const char *const *word;
-    size_t count;
-} command_line;
-
 enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 
-// Reads the options and `count` words; argv[0] is "launchdyn NAME". Returns true to go on, then
-// command_line_end() is due; false to end with *code.
-bool command_line_read(command_line *line, const command *self, int argc, const char **argv,
-                       const struct poptOption *options, int count, int *code);
-void command_line_end(command_line *line);
+// Reads the options and `count` words. Returns true to go on, then options_end() is due; false to
+// end with *code.
+bool command_line_read(command_line *line, const command *self, int argc, char **argv,
+                       const command_option *options, int count, int *code);
 
 // Prints "launchdyn: text" on stderr.
 void command_complain(const char *format, ...) LD_PRINTF(1, 2);
@@ -92,18 +95,15 @@ int command_write_report(const char *folder, const char *file, bool quiet);
 
 // A command on one scenario: reads the options and the file with its overrides, which `options` put
 // into *sets, and does `work` on the model. Returns the exit code.
-int command_on_model(const command *self, int argc, const char **argv,
-                     const struct poptOption *options, char ***sets,
-                     int (*work)(const ld_model *model, void *data), void *data);
+int command_on_model(const command *self, int argc, char **argv, const command_option *options,
+                     char ***sets, int (*work)(const ld_model *model, void *data), void *data);
 
 // The parts of it: `work` on the nominal model of the file with its overrides; the model of texts
-// at a point of its sweep (0: the nominal one), or a study, after messages LD_ERR_INPUT or another;
-// the end of the overrides.
+// at a point of its sweep (0: the nominal one), or a study, after messages LD_ERR_INPUT or another.
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),
                     void *data);
 ld_status command_read_source(ld_source *source, int point, ld_model **model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
-void command_free_sets(char **sets);
 
 #endif

@@ -1,31 +1,31 @@
 // The command launchdyn: a table of commands, and which of them is meant.
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/command.h"
 #include "launchdyn/version.h"
 
-static int command_help(const command *self, int argc, const char **argv);
-static int command_version(const command *self, int argc, const char **argv);
+static int command_help(const command *self, int argc, char **argv);
+static int command_version(const command *self, int argc, char **argv);
 
 static const command commands[] = {
-    {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run},
+    {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run, true},
     {"study", "FILE | show DIR | export DIR | merge DIR",
      "Run the samples of a scattered scenario, or show what a study has found", command_study_help,
-     command_study},
+     command_study, false},
     {"check", "FILE", "Check a scenario file and print what was understood, in SI", NULL,
-     command_check},
-    {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes},
+     command_check, false},
+    {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes, false},
     {"plot", "DIR...", "Draw figures of one run, or of several laid one over the other",
-     command_plot_help, command_plot},
+     command_plot_help, command_plot, true},
     {"report", "DIR...",
      "Write one HTML file that shows a run or studies, offline and in any browser", NULL,
-     command_report},
-    {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road},
-    {"wind", "FILE", "Show profile, gusts and turbulence of the wind", NULL, command_wind},
-    {"version", "", "Print the version", NULL, command_version},
-    {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help},
+     command_report, true},
+    {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road,
+     true},
+    {"wind", "FILE", "Show profile, gusts and turbulence of the wind", NULL, command_wind, true},
+    {"version", "", "Print the version", NULL, command_version, false},
+    {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help, false},
 };
 
 enum { COMMANDS = sizeof commands / sizeof *commands };
@@ -68,12 +68,23 @@ static void print_commands(FILE *stream)
     fputs("\n\"launchdyn COMMAND --help\" lists the options of a command.\n", stream);
 }
 
-static int start(const command *chosen, int argc, const char **argv)
+// A command with its words.
+typedef struct call {
+    const command *chosen;
+    int argc;
+    char **argv;
+} call;
+
+static int do_call(void *data)
 {
-    char name[32];
-    snprintf(name, sizeof name, "launchdyn %s", chosen->name);
-    argv[0] = name;
-    return chosen->run(chosen, argc, argv);
+    const call *self = data;
+    return command_end(self->chosen->run(self->chosen, self->argc, self->argv));
+}
+
+static int start(const command *chosen, int argc, char **argv)
+{
+    call words = {chosen, argc, argv};
+    return chosen->apart ? command_apart(do_call, &words) : do_call(&words);
 }
 
 static bool asks_for_help(const char *word)
@@ -81,7 +92,7 @@ static bool asks_for_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
 }
 
-static int command_help(const command *self, int argc, const char **argv)
+static int command_help(const command *self, int argc, char **argv)
 {
     (void)self;
     if (argc < 2 || asks_for_help(argv[1])) {
@@ -95,11 +106,11 @@ static int command_help(const command *self, int argc, const char **argv)
         print_commands(stdout);
         return 0;
     }
-    const char *help[] = {argv[0], "--help", NULL};
+    char option[] = "--help", *help[] = {argv[0], option, NULL};
     return start(chosen, 2, help);
 }
 
-static int command_version(const command *self, int argc, const char **argv)
+static int command_version(const command *self, int argc, char **argv)
 {
     (void)self;
     if (argc > 1 && asks_for_help(argv[1]))
@@ -110,7 +121,7 @@ static int command_version(const command *self, int argc, const char **argv)
 }
 
 // The command that the first word names; the usual options stand for commands too.
-static int dispatch(int argc, const char **argv)
+static int dispatch(int argc, char **argv)
 {
     if (argc < 2) {
         print_commands(stderr);
@@ -128,11 +139,5 @@ static int dispatch(int argc, const char **argv)
 int main(int argc, char **argv)
 {
     int code = command_begin();
-    if (!code)
-        code = dispatch(argc, (const char **)argv);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        command_complain("cannot print: %s", strerror(errno));
-        return code ? code : EXIT_SYSTEM;
-    }
-    return code;
+    return code ? code : dispatch(argc, argv);
 }

@@ -63,12 +63,12 @@ static int print_all_modes(const ld_model *model, void *data)
     (void)data;
     ld_error error;
     ld_status status = list_modes(model, &error);
-    return status ? command_fail(status, &error) : 0;
+    return status ? command_fail_on(model, status, &error) : 0;
 }
 
-int command_modes(const command *self, int argc, const char **argv)
+int command_modes(const command *self, int argc, char **argv)
 {
     char **sets = NULL;
-    const struct poptOption options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
+    const command_option options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
     return command_on_model(self, argc, argv, options, &sets, print_all_modes, NULL);
 }

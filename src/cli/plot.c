@@ -31,29 +31,31 @@ static size_t split(char *list, const char *names[MOST])
 static int draw(const command_line *line, char *what, double from, double to, const char *file)
 {
     const char *names[MOST];
+    char note[LD_ERROR_TEXT];
     ld_picture picture = {.folder = line->word,
                           .folder_count = line->count,
                           .figure = names,
                           .figure_count = split(what, names),
                           .from = from * 1e-3,
-                          .to = to * 1e-3};
+                          .to = to * 1e-3,
+                          .note = note};
     ld_error error;
     ld_status status = ld_plot(&picture, file, &error);
+    if (!status && *note)
+        command_complain("note: %s", note);
     return status ? command_fail(status, &error) : 0;
 }
 
-int command_plot(const command *self, int argc, const char **argv)
+int command_plot(const command *self, int argc, char **argv)
 {
     char *what = NULL, *file = NULL;
     double from = NAN, to = NAN;
-    const struct poptOption options[] = {
-        {"what", 'w', POPT_ARG_STRING, &what, 0,
+    const command_option options[] = {
+        {"what", 'w', OPTION_TEXT, &what,
          "Figures to draw (tip,contact,relative; of a flight alone trajectory,flight)", "NAME,..."},
-        {"output", 'o', POPT_ARG_STRING, &file, 0, "The picture: FILE.svg, FILE.pdf or FILE.png",
-         "FILE"},
-        {"from", '\0', POPT_ARG_DOUBLE, &from, 0, "Draw from this time after ignition [ms] on",
-         "MS"},
-        {"to", '\0', POPT_ARG_DOUBLE, &to, 0, "Draw up to this time after ignition [ms]", "MS"},
+        {"output", 'o', OPTION_TEXT, &file, "The picture: FILE.svg, FILE.pdf or FILE.png", "FILE"},
+        {"from", '\0', OPTION_NUMBER, &from, "Draw from this time after ignition [ms] on", "MS"},
+        {"to", '\0', OPTION_NUMBER, &to, "Draw up to this time after ignition [ms]", "MS"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -65,9 +67,7 @@ int command_plot(const command *self, int argc, const char **argv)
         } else {
             code = draw(&line, what, from, to, file);
         }
-        command_line_end(&line);
+        options_end(&line);
     }
-    free(what);
-    free(file);
     return code;
 }

@@ -7,8 +7,19 @@
 
 static volatile sig_atomic_t stop_signal;
 
-static void ask_to_stop(int number)
+// What a terminal sends comes from there and is not handed on; what another process sends may come
+// both ways.
+static void ask_to_stop(int number, siginfo_t *about, void *context)
 {
+    static volatile sig_atomic_t asked; // other than by being handed on
+    (void)context;
+    bool handed_on = about->si_code == SI_QUEUE && about->si_pid == getppid();
+    if (!handed_on && asked == number) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
+    if (!handed_on)
+        asked = number;
     stop_signal = number;
 }
 
@@ -21,7 +32,7 @@ static double now(void)
 
 void progress_start(run_progress *progress, bool quiet)
 {
-    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = SA_RESETHAND}, hangup;
+    struct sigaction action = {.sa_sigaction = ask_to_stop, .sa_flags = SA_SIGINFO}, hangup;
     sigaction(SIGHUP, NULL, &hangup);
     if (hangup.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL);

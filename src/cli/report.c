@@ -9,10 +9,11 @@
 static int finish(ld_status status, const ld_error *error, const ld_report *report,
                   const char *file, bool quiet)
 {
+    bool written = !status || (status == LD_ERR_INPUT && report->bytes > 0);
+    for (int i = 0; written && i < report->note_count; i++)
+        command_complain("%s", report->note[i]);
     if (status)
         return command_fail(status, error);
-    for (int i = 0; i < report->note_count; i++)
-        command_complain("%s", report->note[i]);
     char visible[1024];
     if (!quiet)
         printf("%s: %.0f kB\n", ld_visible_text(file, visible, sizeof visible),
@@ -59,11 +60,11 @@ static bool holds_study(const char *folder)
     return access(path, F_OK) == 0;
 }
 
-int command_report(const command *self, int argc, const char **argv)
+int command_report(const command *self, int argc, char **argv)
 {
     char *file = NULL;
-    const struct poptOption options[] = {
-        {"output", 'o', POPT_ARG_STRING, &file, 0, "The report (DIR/report.html)", "FILE"},
+    const command_option options[] = {
+        {"output", 'o', OPTION_TEXT, &file, "The report (DIR/report.html)", "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -73,8 +74,7 @@ int command_report(const command *self, int argc, const char **argv)
             code = write_studies(line.word, line.count, file);
         else
             code = command_write_report(line.word[0], file, false);
-        command_line_end(&line);
+        options_end(&line);
     }
-    free(file);
     return code;
 }

@@ -28,24 +28,22 @@ static int show_road(const ld_model *model, void *data)
     return status ? command_fail(status, &error) : 0;
 }
 
-int command_road(const command *self, int argc, const char **argv)
+int command_road(const command *self, int argc, char **argv)
 {
     road_wishes wishes = {.stretch = {NAN, NAN, NAN}};
-    const struct poptOption options[] = {
+    const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
-        {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
+        {"out", 'o', OPTION_TEXT, &wishes.folder,
          "Write road.csv and road-spectrum.csv into this folder", "DIR"},
-        {"plot", 'p', POPT_ARG_STRING, &wishes.picture, 0,
+        {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw both with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
-        {"from", '\0', POPT_ARG_DOUBLE, &wishes.stretch.from, 0,
+        {"from", '\0', OPTION_NUMBER, &wishes.stretch.from,
          "Where the stretch begins, x in metres (-100)", "X"},
-        {"to", '\0', POPT_ARG_DOUBLE, &wishes.stretch.to, 0, "Where it ends, in metres (100)", "X"},
-        {"step", '\0', POPT_ARG_DOUBLE, &wishes.stretch.step, 0,
-         "From place to place, in metres (0.02)", "DX"},
+        {"to", '\0', OPTION_NUMBER, &wishes.stretch.to, "Where it ends, in metres (100)", "X"},
+        {"step", '\0', OPTION_NUMBER, &wishes.stretch.step, "From place to place, in metres (0.02)",
+         "DX"},
         COMMAND_HELP,
         COMMAND_END};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_road, &wishes);
-    free(wishes.folder);
-    free(wishes.picture);
     return code;
 }

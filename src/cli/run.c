@@ -78,7 +78,7 @@ int run_model(const ld_model *model, void *data)
     if (!status)
         return code;
     fflush(stdout);
-    int failed = command_fail(status, &error);
+    int failed = command_fail_on(model, status, &error);
     return code ? code : failed;
 }
 
@@ -133,34 +133,31 @@ static int run_words(const command *self, const command_line *line, const char *
     return EXIT_INPUT;
 }
 
-int command_run(const command *self, int argc, const char **argv)
+int command_run(const command *self, int argc, char **argv)
 {
     run_wishes wishes = {0};
     char *again = NULL;
-    const struct poptOption options[] = {
+    const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
-        {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
+        {"out", 'o', OPTION_TEXT, &wishes.folder,
          "Write summary.json, history.h5 and, where the place on the Earth is given, "
          "trajectories.kml into this folder",
          "DIR"},
-        {"again", '\0', POPT_ARG_STRING, &again, 0,
+        {"again", '\0', OPTION_TEXT, &again,
          "In place of FILE: run what the results in this folder are of, from the texts that they "
          "keep",
          "FOLDER"},
-        {"csv", '\0', POPT_ARG_NONE, &wishes.csv, 0,
+        {"csv", '\0', OPTION_FLAG, &wishes.csv,
          "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
-        {"report", '\0', POPT_ARG_NONE, &wishes.report, 0, "Write report.html there too", NULL},
-        {"quiet", 'q', POPT_ARG_NONE, &wishes.quiet, 0, "Print nothing but errors", NULL},
+        {"report", '\0', OPTION_FLAG, &wishes.report, "Write report.html there too", NULL},
+        {"quiet", 'q', OPTION_FLAG, &wishes.quiet, "Print nothing but errors", NULL},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {
         code = run_words(self, &line, again, &wishes);
-        command_line_end(&line);
+        options_end(&line);
     }
-    command_free_sets(wishes.sets);
-    free(wishes.folder);
-    free(again);
     return code;
 }

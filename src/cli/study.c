@@ -9,14 +9,6 @@
 #include "cli/study.h"
 #include "launchdyn/origin.h"
 
-void study_wishes_free(study_wishes *wishes)
-{
-    command_free_sets(wishes->run.sets);
-    free(wishes->run.folder);
-    free(wishes->csv);
-    free(wishes->hdf5);
-}
-
 void command_study_help(void)
 {
     puts("\nlaunchdyn study FILE --out DIR runs what DIR does not hold yet: the same command goes "
@@ -57,9 +49,17 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
     return status ? command_fail(status, &error) : 0;
 }
 
-// One sample with its whole history, in a folder of its own.
-static int run_one(const ld_study *study, study_wishes *wishes)
+// One sample of a study.
+typedef struct chosen_sample {
+    const ld_study *study;
+    const study_wishes *wishes;
+} chosen_sample;
+
+// With its whole history, in a folder of its own.
+static int run_one(void *data)
 {
+    const ld_study *study = ((const chosen_sample *)data)->study;
+    const study_wishes *wishes = ((const chosen_sample *)data)->wishes;
     ld_sample *sample = NULL;
     ld_error error;
     char folder[4096];
@@ -69,7 +69,7 @@ static int run_one(const ld_study *study, study_wishes *wishes)
     run_wishes run = wishes->run;
     snprintf(folder, sizeof folder, "%s/sample-%d", run.folder ? run.folder : "", wishes->only);
     run.folder = run.folder ? folder : NULL;
-    int code = run_model(ld_sample_model(sample), &run);
+    int code = command_end(run_model(ld_sample_model(sample), &run));
     ld_sample_free(sample);
     return code;
 }
@@ -79,7 +79,7 @@ static int study_do(ld_study *study, study_wishes *wishes)
 {
     int code = EXIT_INPUT;
     if (wishes->only != ALL_SAMPLES)
-        code = run_one(study, wishes);
+        code = command_apart(run_one, &(chosen_sample){study, wishes});
     else if (wishes->run.folder)
         code = study_run_all(study, wishes, ld_study_run);
     else
@@ -122,6 +122,18 @@ static int finish(ld_status status, const ld_error *error)
     return status ? command_fail(status, error) : 0;
 }
 
+// A study's table to be written.
+typedef struct study_table {
+    const char *folder, *csv, *hdf5;
+} study_table;
+
+static int write_table(void *data)
+{
+    const study_table *table = data;
+    ld_error error;
+    return finish(ld_study_export(table->folder, table->csv, table->hdf5, &error), &error);
+}
+
 static int study_folder(const char *verb, const char *folder, const study_wishes *wishes)
 {
     ld_error error;
@@ -131,7 +143,7 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
         return finish(ld_study_merge(folder, stdout, &error), &error);
     bool same = wishes->csv && wishes->hdf5 && strcmp(wishes->csv, wishes->hdf5) == 0;
     if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5) && !same)
-        return finish(ld_study_export(folder, wishes->csv, wishes->hdf5, &error), &error);
+        return command_apart(write_table, &(study_table){folder, wishes->csv, wishes->hdf5});
     if (strcmp(verb, "export") == 0)
         command_complain(same ? "study export wants a file each for --csv and --hdf5"
                               : "study export wants --csv FILE or --hdf5 FILE");
@@ -173,26 +185,26 @@ static const char *wrong_to_run(const char *file, const char *again, const study
     return NULL;
 }
 
-int command_study(const command *self, int argc, const char **argv)
+int command_study(const command *self, int argc, char **argv)
 {
     study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
     char *shard = NULL, *what = NULL, *again = NULL;
     int sensitivity = 0;
-    const struct poptOption options[] = {
+    const command_option options[] = {
         STUDY_OPTIONS(&wishes),
-        {"again", '\0', POPT_ARG_STRING, &again, 0,
+        {"again", '\0', OPTION_TEXT, &again,
          "In place of FILE: run the study that is in this folder, from the texts that it keeps",
          "FOLDER"},
-        {"jobs", 'j', POPT_ARG_INT, &wishes.threads, 0, "Samples that run side by side (1)", "N"},
-        {"only", '\0', POPT_ARG_INT, &wishes.only, 0,
+        {"jobs", 'j', OPTION_INTEGER, &wishes.threads, "Samples that run side by side (1)", "N"},
+        {"only", '\0', OPTION_INTEGER, &wishes.only,
          "Run sample N alone, with its history in DIR/sample-N", "N"},
-        {"shard", '\0', POPT_ARG_STRING, &shard, 0,
+        {"shard", '\0', OPTION_TEXT, &shard,
          "Run only the I-th of N parts of the study, for merge DIR", "I/N"},
-        {"what", 'w', POPT_ARG_STRING, &what, 0, "Of show: these results, or all", "NAME,..."},
-        {"sensitivity", '\0', POPT_ARG_NONE, &sensitivity, 0,
+        {"what", 'w', OPTION_TEXT, &what, "Of show: these results, or all", "NAME,..."},
+        {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
          "Of show: the share of the variance that each factor explains", NULL},
-        {"csv", '\0', POPT_ARG_STRING, &wishes.csv, 0, "Of export: the table as CSV", "FILE"},
-        {"hdf5", '\0', POPT_ARG_STRING, &wishes.hdf5, 0, "Of export: the table as HDF5", "FILE"},
+        {"csv", '\0', OPTION_TEXT, &wishes.csv, "Of export: the table as CSV", "FILE"},
+        {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "Of export: the table as HDF5", "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -213,11 +225,7 @@ int command_study(const command *self, int argc, const char **argv)
         } else {
             code = again ? study_again(again, &wishes) : study_file(file, &wishes);
         }
-        command_line_end(&line);
+        options_end(&line);
     }
-    study_wishes_free(&wishes);
-    free(shard);
-    free(what);
-    free(again);
     return code;
 }

@@ -20,14 +20,15 @@ typedef struct study_wishes {
 
 // The options that they share; overrides, folder and quiet are those of `wishes`.
 #define STUDY_OPTIONS(wishes)                                                                      \
-    COMMAND_SETS(&(wishes)->run.sets),                                                             \
-        {"out", 'o', POPT_ARG_STRING, &(wishes)->run.folder, 0, "The folder that keeps the study", \
-         "DIR"},                                                                                   \
+    COMMAND_SETS(&(wishes)->run.sets), {"out",                                                     \
+                                        'o',                                                       \
+                                        OPTION_TEXT,                                               \
+                                        &(wishes)->run.folder,                                     \
+                                        "The folder that keeps the study",                         \
+                                        "DIR"},                                                    \
     {                                                                                              \
-        "quiet", 'q', POPT_ARG_NONE, &(wishes)->run.quiet, 0, "Print nothing but errors", NULL     \
+        "quiet", 'q', OPTION_FLAG, &(wishes)->run.quiet, "Print nothing but errors", NULL          \
     }
-
-void study_wishes_free(study_wishes *wishes);
 
 // ld_study_run(), or another that does the same.
 typedef ld_status study_runner(const ld_study *study, const char *folder,

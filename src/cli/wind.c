@@ -28,31 +28,29 @@ static int show_wind(const ld_model *model, void *data)
     return status ? command_fail(status, &error) : 0;
 }
 
-int command_wind(const command *self, int argc, const char **argv)
+int command_wind(const command *self, int argc, char **argv)
 {
     wind_wishes wishes = {.section = {100, 2000, NAN, NAN, 1}};
-    const struct poptOption options[] = {
+    const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
-        {"out", 'o', POPT_ARG_STRING, &wishes.folder, 0,
+        {"out", 'o', OPTION_TEXT, &wishes.folder,
          "Write wind-profile.csv and, where there are such, wind-gusts.csv, wind-turbulence.csv, "
          "wind-spectrum.csv into this folder",
          "DIR"},
-        {"plot", 'p', POPT_ARG_STRING, &wishes.picture, 0,
+        {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw them with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
-        {"height", '\0', POPT_ARG_DOUBLE, &wishes.section.height, 0,
+        {"height", '\0', OPTION_NUMBER, &wishes.section.height,
          "Height of gusts and turbulence above ground, in metres (100)", "H"},
-        {"top", '\0', POPT_ARG_DOUBLE, &wishes.section.top, 0,
+        {"top", '\0', OPTION_NUMBER, &wishes.section.top,
          "Height up to which the profile goes, in metres (2000)", "H"},
-        {"length", '\0', POPT_ARG_DOUBLE, &wishes.section.length, 0,
+        {"length", '\0', OPTION_NUMBER, &wishes.section.length,
          "Length of the line through the turbulence, in metres (100 L_u)", "S"},
-        {"step", '\0', POPT_ARG_DOUBLE, &wishes.section.step, 0,
+        {"step", '\0', OPTION_NUMBER, &wishes.section.step,
          "From place to place on it, in metres (0.03 of the smaller length scale)", "DS"},
-        {"rocket", '\0', POPT_ARG_INT, &wishes.section.rocket, 0,
+        {"rocket", '\0', OPTION_INTEGER, &wishes.section.rocket,
          "Whose turbulence, by its place in the firing sequence (1)", "N"},
         COMMAND_HELP,
         COMMAND_END};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_wind, &wishes);
-    free(wishes.folder);
-    free(wishes.picture);
     return code;
 }

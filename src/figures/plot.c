@@ -11,6 +11,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/child.h"
+#include "results/manifest.h"
+
 enum { MOST_FIGURES = 32 };
 
 extern char **environ;
@@ -148,13 +151,9 @@ static ld_status draw(plot_writer *write, const void *page, plot_format format, 
     return status;
 }
 
-// Under a temporary name beside the picture, which then gets its own.
-ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
-                    ld_error *error)
+static ld_status draw_part(plot_writer *write, const void *page, plot_format format,
+                           const char *part, const char *file, ld_error *error)
 {
-    char part[4096];
-    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
-        return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
     FILE *picture = fopen(part, "wb");
     if (!picture)
         return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
@@ -167,15 +166,32 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
     return status;
 }
 
+// Under a temporary name beside the picture, which then gets its own.
+ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
+                    ld_error *error)
+{
+    char part[4096];
+    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
+        return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
+    child_writes(part);
+    ld_status status = draw_part(write, page, format, part, file, error);
+    child_wrote(part);
+    return status;
+}
+
 // ---- the page ----
 
-static ld_status read_folder(const char *folder, history_data *history, ld_error *error)
+// `note` (NULL: not wanted) takes the first doubt.
+static ld_status read_folder(const char *folder, char *note, history_data *history, ld_error *error)
 {
-    char path[4096];
+    char path[4096], doubt[256];
     snprintf(path, sizeof path, "%s/history.h5", folder);
     if (access(path, F_OK) != 0)
         return ld_fail(error, LD_ERR_INPUT, "no results in %.400s: there is no history.h5", folder);
-    return history_read(path, history, error);
+    ld_status status = manifest_check_history(folder, doubt, sizeof doubt, error);
+    if (!status && note && *doubt && !*note)
+        snprintf(note, LD_ERROR_TEXT, "%.300s: %s", folder, doubt);
+    return status ? status : history_read(path, history, error);
 }
 
 // Runs are known by their titles where these differ, else by their folders.
@@ -281,8 +297,10 @@ ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
         status = plot_format_of(file, &format, error);
     history_data run[PLOT_RUNS];
     size_t read = 0;
+    if (picture->note)
+        *picture->note = '\0';
     while (!status && read < picture->folder_count) {
-        status = read_folder(picture->folder[read], &run[read], error);
+        status = read_folder(picture->folder[read], picture->note, &run[read], error);
         read += !status;
     }
     if (!status)

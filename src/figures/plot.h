@@ -101,7 +101,7 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
 // svg 1000 wide, points of a pdf, half pixels of a png.
 void plot_begin(FILE *script, plot_format format, double height);
 
-// Text between the single quotes of gnuplot.
+// Text between the single quotes of gnuplot, as a terminal may show it.
 void plot_write_quoted(FILE *script, const char *text);
 
 // Marks in `keep` the points from first to last that a curve needs to be within 1/3000 of a panel

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/numeric_locale.h"
+#include "base/printed.h"
 #include "figures/plot.h"
 
 // Lengths of the page in pixels of the svg; pdf takes one for a point, png makes two of it.
@@ -297,11 +298,12 @@ static void write_curve(plot_drawing *drawing, int curve)
 
 void plot_write_quoted(FILE *script, const char *text)
 {
+    char shown[5];
     fputc('\'', script);
-    for (; *text; text++) {
-        if (*text == '\'')
-            fputc('\'', script);
-        fputc((unsigned char)*text < 0x20 ? ' ' : *text, script);
+    while (*text) {
+        fputs(*text == '\'' ? "'" : "", script);
+        text += printed_character(text, shown);
+        fputs(shown, script);
     }
     fputc('\'', script);
 }

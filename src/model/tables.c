@@ -418,7 +418,7 @@ static const field_block chassis_block = {.fields = chassis_fields};
 
 static const field_row command_columns[] = {
     {"t", .unit = "s", ANY},
-    {"angle", .unit = "rad", ANY},
+    {"angle", .unit = "rad", FROM_TO(-200 * PI, 200 * PI)},
 };
 static const table_format command_table = {TABLE_CONSTANT | TABLE_CSV, 2, command_columns, NULL};
 #define UNLESS_LOCKED NO_DEFAULT("needed unless the hinge has a lock")
@@ -543,13 +543,13 @@ static const field_row point_mass_fields[] = {
 static const field_block point_mass_block = {.fields = point_mass_fields};
 
 static const field_row material_fields[] = {
-    {"youngs_modulus", NUMBER(ld_material, youngs_modulus, "Pa"), POSITIVE,
+    {"youngs_modulus", NUMBER(ld_material, youngs_modulus, "Pa"), FROM_TO(1e3, 1e15),
      NO_DEFAULT("needed unless sections give stiffnesses"), .doc = "E"},
     {"poisson_ratio", NUMBER(ld_material, poisson_ratio, ""), INSIDE(-1, 0.5),
      NO_DEFAULT("this or shear_modulus"), .doc = "nu, for G = E/(2 (1 + nu))"},
-    {"shear_modulus", NUMBER(ld_material, shear_modulus, "Pa"), POSITIVE,
+    {"shear_modulus", NUMBER(ld_material, shear_modulus, "Pa"), FROM_TO(1e3, 1e15),
      NO_DEFAULT("this or poisson_ratio"), .doc = "G"},
-    {"density", NUMBER(ld_material, density, "kg/m3"), POSITIVE,
+    {"density", NUMBER(ld_material, density, "kg/m3"), FROM_TO(1e-3, 1e6),
      NO_DEFAULT("needed by sections given by radii"), .doc = "density"},
     {0}};
 static const field_block material_block = {.fields = material_fields};
@@ -559,7 +559,7 @@ static const field_word span_words[] = {{"supported", LD_SPAN_SUPPORTED},
                                         {"free-free", LD_SPAN_FREE_FREE},
                                         {NULL, 0}};
 static const field_row modes_fields[] = {
-    {"bending", INTEGER(ld_modes, bending, 0, LD_MAX_BENDING_MODES), DEFAULT(6),
+    {"bending", INTEGER(ld_modes, bending, 1, LD_MAX_BENDING_MODES), DEFAULT(6),
      .doc = "bending modes a plane"},
     {"torsion", INTEGER(ld_modes, torsion, 0, LD_MAX_TORSION_MODES), DEFAULT(2),
      .doc = "torsion modes"},

@@ -15,8 +15,8 @@
 #include "studies/study.h"
 
 static const command study_command = {
-    "study", "FILE", "Run the samples of a study on all processes that mpirun has started", NULL,
-    NULL};
+    "study", "FILE", "Run the samples of a study on all processes that mpirun has started",
+    NULL,    NULL,   false};
 
 // The lowest number that any process gives.
 static int lowest(int number)
@@ -100,10 +100,10 @@ static int run_study(const char *file, const study_wishes *wishes, int process)
     return code;
 }
 
-static int run_command(int argc, const char **argv, int process)
+static int run_command(int argc, char **argv, int process)
 {
     study_wishes wishes = {0};
-    const struct poptOption options[] = {STUDY_OPTIONS(&wishes), COMMAND_HELP, COMMAND_END};
+    const command_option options[] = {STUDY_OPTIONS(&wishes), COMMAND_HELP, COMMAND_END};
     command_line line;
     int code = EXIT_INPUT;
     if (argc < 2 || strcmp(argv[1], "study") != 0) {
@@ -112,9 +112,8 @@ static int run_command(int argc, const char **argv, int process)
     }
     if (command_line_read(&line, &study_command, argc - 1, argv + 1, options, 1, &code)) {
         code = run_study(line.word[0], &wishes, process);
-        command_line_end(&line);
+        options_end(&line);
     }
-    study_wishes_free(&wishes);
     return code;
 }
 
@@ -128,7 +127,7 @@ int main(int argc, char **argv)
         MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
     int code = command_begin();
     if (!code && given >= MPI_THREAD_FUNNELED) {
-        code = run_command(argc, (const char **)argv, process);
+        code = run_command(argc, argv, process);
     } else if (!code) {
         command_complain("this MPI is made for programs without threads");
         code = EXIT_SYSTEM;

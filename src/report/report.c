@@ -7,10 +7,9 @@
 #include <unistd.h>
 
 #include "base/numeric_locale.h"
-#include "base/text_file.h"
 #include "report/report_parts.h"
-
-enum { MOST_SUMMARY = 1 << 28 };
+#include "results/manifest.h"
+#include "results/origin.h"
 
 // ---- the results ----
 
@@ -29,6 +28,7 @@ static void read_rockets(report_source *source, const char *path)
     }
 }
 
+// Reads the history, of a folder in which it is not damaged.
 static void read_history(report_source *source, const char *folder)
 {
     char path[REPORT_PATH_SIZE];
@@ -49,6 +49,8 @@ static void read_history(report_source *source, const char *folder)
     }
     read_rockets(source, path);
     source->has_history = true;
+    // results of an earlier version keep none
+    source->has_origin = origin_read_history(path, &source->origin, NULL) == LD_OK;
     if (source->history.rows == 0 && source->history.flights == 0)
         report_take_note(source->report, "The history has no rows.");
 }
@@ -64,15 +66,64 @@ static void cut_texts(report_source *source)
     source->summary_length = strlen(source->summary);
 }
 
-static void read_summary(report_source *source, const char *folder)
+// Takes the summary over, or says why there is none; also where it does not say what is whole.
+static void take_summary(report_source *source, manifest *found)
 {
-    char path[REPORT_PATH_SIZE];
-    ld_error error;
-    join(path, folder, "summary.json");
-    if (text_file_read(path, MOST_SUMMARY, &source->summary, &source->summary_length, &error))
-        report_take_note(source->report, "No summary: summary.json %s.", error.text);
-    else
+    source->summary = found->text;
+    source->summary_length = found->length;
+    found->text = NULL;
+    if (source->summary)
         cut_texts(source);
+    const char *doubt = manifest_doubt(found);
+    if (doubt)
+        report_take_note(
+            source->report, "%s: %s.",
+            source->summary ? "Whether the files are whole is not known" : "No summary", doubt);
+}
+
+// Notes which files are damaged, of which the history is not to be read. LD_ERR_INPUT with the
+// first sentence where summary.json or another is; LD_ERR_FILE, LD_ERR_MEMORY.
+static ld_status find_damage(report_source *source, const char *folder, const manifest *found,
+                             bool *history, ld_error *first)
+{
+    ld_status damaged = LD_OK;
+    if (found->state == MANIFEST_DAMAGED)
+        damaged = ld_fail(first, LD_ERR_INPUT, "%s", found->problem);
+    for (int i = 0; i < MANIFEST_FILES; i++) {
+        ld_error error;
+        ld_status status = manifest_check(found, folder, i, &error);
+        if (!status)
+            continue;
+        if (!damaged || status != LD_ERR_INPUT)
+            *first = error;
+        if (status != LD_ERR_INPUT)
+            return status;
+        damaged = status;
+        *history &= i != MANIFEST_HDF5;
+        report_take_note(source->report, "%s%s.", i == MANIFEST_HDF5 ? "No plots: " : "",
+                         error.text);
+    }
+    return damaged;
+}
+
+// Reads what is whole. LD_ERR_INPUT, with what is damaged, where something is; LD_ERR_FILE,
+// LD_ERR_MEMORY.
+static ld_status read_folder(report_source *source, const char *folder, ld_error *error)
+{
+    manifest found;
+    ld_error first;
+    bool history = true;
+    ld_status status = manifest_read(folder, &found, error);
+    if (status)
+        return status;
+    status = find_damage(source, folder, &found, &history, &first);
+    if (history)
+        read_history(source, folder);
+    take_summary(source, &found);
+    manifest_free(&found);
+    if (status == LD_ERR_INPUT)
+        return ld_fail(error, status, "%.300s is damaged: %s", folder, first.text);
+    return status ? ld_fail(error, status, "%.300s/%s", folder, first.text) : LD_OK;
 }
 
 static void free_source(report_source *source)
@@ -166,17 +217,19 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     if (!source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     source->report = report;
-    read_history(source, folder);
-    read_summary(source, folder);
-    // results of an earlier version keep none
-    source->has_origin = ld_origin_read(folder, &source->origin, error) == LD_OK;
     join(usual, folder, "report.html");
-    ld_status status = report_add_replay(&source->history, error);
+    ld_error damage;
+    ld_status found = read_folder(source, folder, &damage);
+    bool broken = found && found != LD_ERR_INPUT; // the system, not the folder
+    ld_status status = broken ? ld_fail(error, found, "%s", damage.text)
+                              : report_add_replay(&source->history, error);
     if (!status && !source->has_history && !source->summary)
         status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
                          report->note[0], report->note[report->note_count - 1]);
     if (!status)
         status = write_report(source, file ? file : usual, error);
+    if (!status && found)
+        status = ld_fail(error, found, "%s; the report shows the rest", damage.text);
     free_source(source);
     free(source);
     return status;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/text_file.h"
 
 // Text between tags.
@@ -69,6 +70,8 @@ ld_status report_write_file(const char *file, const char *text, size_t length, l
     char part[REPORT_PATH_SIZE + 8];
     bool replaced = text_file_is_replaced(file);
     snprintf(part, sizeof part, "%s%s", file, replaced ? ".part" : "");
+    if (replaced)
+        child_writes(part);
     FILE *stream = fopen(part, "wb");
     bool fine = stream && fwrite(text, 1, length, stream) == length;
     int number = errno;
@@ -76,11 +79,15 @@ ld_status report_write_file(const char *file, const char *text, size_t length, l
         number = errno;
         fine = false;
     }
-    if (fine && (!replaced || rename(part, file) == 0))
-        return LD_OK;
-    number = fine ? errno : number;
-    if (stream && replaced)
+    if (fine && replaced && rename(part, file) != 0) {
+        number = errno;
+        fine = false;
+    }
+    if (!fine && stream && replaced)
         unlink(part);
+    child_wrote(part);
+    if (fine)
+        return LD_OK;
     return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
 }
 

@@ -14,10 +14,25 @@ enum { DERIVED = 6 };
 static const char *const derived[DERIVED] = {"replay.x",  "replay.y",  "replay.z",
                                              "replay.rx", "replay.ry", "replay.rz"};
 
+// Columns that the place of the tube's frame is computed from.
+enum { BASE = 6, TUBE = 7 };
+static const char *const base_columns[BASE] = {"base.x",   "base.y",     "base.z",
+                                               "base.yaw", "base.pitch", "base.roll"};
+static const char *const tube_columns[TUBE] = {"tube.x",  "tube.y",  "tube.z", "tube.q0",
+                                               "tube.q1", "tube.q2", "tube.q3"};
+
+static bool has_all(const history_data *history, const char *const *names, size_t count)
+{
+    bool all = true;
+    for (size_t i = 0; i < count; i++)
+        all = all && history_column(history, names[i]);
+    return all;
+}
+
 bool report_has_replay(const history_data *history)
 {
     return history->rows > 0 && history_array_named(history, "tube.station") &&
-           history_column(history, "tube.q0") && history_column(history, "base.roll");
+           has_all(history, base_columns, BASE) && has_all(history, tube_columns, TUBE);
 }
 
 static bool is_one_of(const char *name, const char *const *list, size_t count)
@@ -47,9 +62,9 @@ bool report_replay_shows(const char *name, bool flight)
 
 // ---- columns ----
 
-// Columns that a row is computed from.
+// The values of these columns.
 typedef struct pose_columns {
-    const double *base[6], *tube[7];
+    const double *base[BASE], *tube[TUBE];
 } pose_columns;
 
 // Place of the tube's frame R and rotation vector of R, both against the undeformed tube and in its
@@ -68,15 +83,11 @@ static void find_pose(const pose_columns *from, const m3 *mount, size_t row, dou
 
 static void fill(const history_data *history, double *value)
 {
-    static const char *const base[] = {"base.x",   "base.y",     "base.z",
-                                       "base.yaw", "base.pitch", "base.roll"};
-    static const char *const tube[] = {"tube.x",  "tube.y",  "tube.z", "tube.q0",
-                                       "tube.q1", "tube.q2", "tube.q3"};
     pose_columns from;
-    for (int i = 0; i < 6; i++)
-        from.base[i] = history_column(history, base[i]);
-    for (int i = 0; i < 7; i++)
-        from.tube[i] = history_column(history, tube[i]);
+    for (int i = 0; i < BASE; i++)
+        from.base[i] = history_column(history, base_columns[i]);
+    for (int i = 0; i < TUBE; i++)
+        from.tube[i] = history_column(history, tube_columns[i]);
     const history_array *angles = history_array_named(history, "base.mount");
     m3 mount = m3_identity();
     if (angles && angles->rows * angles->columns == 2)

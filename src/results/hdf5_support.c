@@ -104,12 +104,15 @@ bool hdf5_write_number(hid_t object, const char *name, double value)
     return write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
 }
 
+// One value: there is room for no more.
 static bool read_attribute(hid_t object, const char *name, hid_t type, void *value)
 {
     hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     if (attribute < 0)
         return false;
-    bool fine = H5Aread(attribute, type, value) >= 0;
+    hid_t space = H5Aget_space(attribute);
+    bool fine = H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, type, value) >= 0;
+    H5Sclose(space);
     H5Aclose(attribute);
     return fine;
 }

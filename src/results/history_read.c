@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "results/hdf5_support.h"
 #include "results/history.h"
 
@@ -237,6 +238,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
 {
     memset(history, 0, sizeof *history);
     hdf5_quiet quiet = hdf5_quiet_begin();
+    child_reads(path);
     hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     ld_status status = LD_OK;
     if (file < 0) {
@@ -245,6 +247,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
         status = read(file, path, rocket, history, error);
         H5Fclose(file);
     }
+    child_reads(NULL);
     hdf5_quiet_end(&quiet);
     if (status)
         history_free(history);

@@ -38,17 +38,30 @@ static ld_status state_of(const kml_file *file, ld_error *error)
     return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", file->path, strerror(errno));
 }
 
+// Whether a text of XML 1.0 may hold a character.
+static bool is_in_xml(int32_t code)
+{
+    return code == '\t' || code == '\n' || (code >= 0x20 && (code < 0xfffe || code > 0xffff));
+}
+
+// What XML cannot hold becomes U+FFFD.
 static void write_text(FILE *stream, const char *text)
 {
-    for (; *text; text++)
-        if (*text == '&')
+    while (*text) {
+        size_t length;
+        int32_t code = printed_code(text, &length);
+        if (code == '&')
             fputs("&amp;", stream);
-        else if (*text == '<')
+        else if (code == '<')
             fputs("&lt;", stream);
-        else if (*text == '>')
+        else if (code == '>')
             fputs("&gt;", stream);
+        else if (is_in_xml(code))
+            fwrite(text, 1, length, stream);
         else
-            fputc((unsigned char)*text < 0x20 ? ' ' : *text, stream);
+            fputs("\xef\xbf\xbd", stream);
+        text += length;
+    }
 }
 
 static bool build_ellipsoid(kml_file *file)

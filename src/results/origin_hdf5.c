@@ -3,8 +3,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "model/source.h"
 #include "results/hdf5_support.h"
+#include "results/manifest.h"
 #include "results/origin.h"
 
 // ---- writing
@@ -177,19 +179,30 @@ static ld_status read_history(const char *path, ld_origin *origin, ld_error *err
                           "%.300s is damaged: where it comes from cannot be read", path);
 }
 
+ld_status origin_read_history(const char *path, ld_origin *origin, ld_error *error)
+{
+    *origin = (ld_origin){0};
+    hdf5_quiet quiet = hdf5_quiet_begin();
+    child_reads(path);
+    ld_status status = read_history(path, origin, error);
+    child_reads(NULL);
+    hdf5_quiet_end(&quiet);
+    if (status)
+        ld_origin_free(origin);
+    return status;
+}
+
 ld_status ld_origin_read(const char *folder, ld_origin *origin, ld_error *error)
 {
     char path[4096];
     *origin = (ld_origin){0};
+    ld_status status = manifest_check_history(folder, NULL, 0, error);
+    if (status)
+        return status;
     snprintf(path, sizeof path, "%.4000s/history.h5", folder);
     if (access(path, F_OK) != 0)
         snprintf(path, sizeof path, "%.4000s/history.h5.part", folder);
     if (access(path, F_OK) != 0)
         return ld_fail(error, LD_ERR_INPUT, "no results in %.300s: there is no history.h5", folder);
-    hdf5_quiet quiet = hdf5_quiet_begin();
-    ld_status status = read_history(path, origin, error);
-    hdf5_quiet_end(&quiet);
-    if (status)
-        ld_origin_free(origin);
-    return status;
+    return origin_read_history(path, origin, error);
 }

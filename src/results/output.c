@@ -5,17 +5,17 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "results/folder.h"
 #include "results/history.h"
 #include "results/kml.h"
+#include "results/manifest.h"
+#include "results/summary_json.h"
 
 // Files of a results folder, in the order in which they get their names: summary.json comes last,
 // so that where it stands the others belong to it.
 enum { MOST_FLIGHT_COLUMNS = 256 };
-enum { HDF5, CSV, FLIGHTS, MAP, SUMMARY, FILES };
-
-static const char *const file_name[FILES] = {"history.h5", "history.csv", "flights.csv",
-                                             "trajectories.kml", "summary.json"};
+enum { SUMMARY = MANIFEST_FILES, FILES };
 
 struct ld_output {
     const ld_model *model;
@@ -39,7 +39,7 @@ static ld_status begin_line(ld_output *output, int rocket, const ld_column *colu
         return LD_OK;
     ld_status status = LD_OK;
     if (!output->map)
-        status = kml_create(output->part[MAP], output->model, &output->map, error);
+        status = kml_create(output->part[MANIFEST_MAP], output->model, &output->map, error);
     return status ? status : kml_flight(output->map, rocket, columns, count, error);
 }
 
@@ -69,7 +69,7 @@ static ld_status begin_flights(ld_output *output, const ld_column *columns, size
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
     with_number[0] = (ld_column){"rocket", "1", "number in the order of firing"};
     memcpy(with_number + 1, columns, count * sizeof *columns);
-    ld_status status = history_csv_create(output->part[FLIGHTS], &output->flights, error);
+    ld_status status = history_csv_create(output->part[MANIFEST_FLIGHTS], &output->flights, error);
     if (!status)
         status = history_csv_begin(output->flights, with_number, count + 1, error);
     free(with_number);
@@ -124,8 +124,9 @@ static ld_status set_paths(ld_output *output, const char *folder, ld_error *erro
 {
     bool fine = (output->folder = strdup(folder)) != NULL;
     for (int i = 0; fine && i < FILES; i++) {
-        output->path[i] = join(folder, file_name[i], "");
-        output->part[i] = join(folder, file_name[i], ".part");
+        const char *name = i == SUMMARY ? "summary.json" : manifest_name[i];
+        output->path[i] = join(folder, name, "");
+        output->part[i] = join(folder, name, ".part");
         fine = output->path[i] && output->part[i];
     }
     fine = fine && (output->report = join(folder, "report.html", "")) != NULL;
@@ -134,9 +135,27 @@ static ld_status set_paths(ld_output *output, const char *folder, ld_error *erro
     return LD_OK;
 }
 
+static ld_status take_away(const char *path, ld_error *error)
+{
+    if (unlink(path) != 0 && errno != ENOENT)
+        return ld_fail(error, LD_ERR_FILE, "cannot replace %s: %s", path, strerror(errno));
+    return LD_OK;
+}
+
+// Of an earlier run that was killed: they are not this one's.
+static ld_status take_parts_away(ld_output *output, ld_error *error)
+{
+    ld_status status = LD_OK;
+    for (int i = 0; i < FILES && !status; i++)
+        status = take_away(output->part[i], error);
+    return status;
+}
+
 static void free_output(ld_output *output)
 {
     for (int i = 0; i < FILES; i++) {
+        if (output->part[i])
+            child_wrote(output->part[i]);
         free(output->path[i]);
         free(output->part[i]);
     }
@@ -150,7 +169,7 @@ static ld_status create_hdf5(ld_output *output, ld_error *error)
     const char *title = output->model->title;
     ld_origin origin;
     ld_status status =
-        history_hdf5_create(output->part[HDF5], title ? title : "", &output->hdf5, error);
+        history_hdf5_create(output->part[MANIFEST_HDF5], title ? title : "", &output->hdf5, error);
     if (!status)
         status = ld_origin_of(output->model, &origin, error);
     if (status)
@@ -172,12 +191,16 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
     opened->sink = (ld_sink){
         .self = opened, .begin = begin, .row = row, .flight = flight, .geometry = geometry};
     ld_status status = set_paths(opened, folder, error);
+    for (int i = 0; i < FILES && !status; i++)
+        child_writes(opened->part[i]);
     if (!status)
         status = folder_make(opened->folder, &opened->made_from, error);
     if (!status)
+        status = take_parts_away(opened, error);
+    if (!status)
         status = create_hdf5(opened, error);
     if (!status && csv)
-        status = history_csv_create(opened->part[CSV], &opened->csv, error);
+        status = history_csv_create(opened->part[MANIFEST_CSV], &opened->csv, error);
     if (status)
         ld_output_discard(opened);
     else
@@ -214,13 +237,6 @@ static ld_status close_histories(ld_output *output, const ld_summary *summary, l
     return status;
 }
 
-static ld_status take_away(const char *path, ld_error *error)
-{
-    if (unlink(path) != 0 && errno != ENOENT)
-        return ld_fail(error, LD_ERR_FILE, "cannot replace %s: %s", path, strerror(errno));
-    return LD_OK;
-}
-
 // Takes an earlier run's summary and report away, then gives every file its name.
 static ld_status put_in_place(ld_output *output, ld_error *error)
 {
@@ -237,11 +253,22 @@ static ld_status put_in_place(ld_output *output, ld_error *error)
     return LD_OK;
 }
 
+// The summary, with sizes and digests of the others, which are whole.
+static ld_status write_summary(ld_output *output, const ld_summary *summary, ld_error *error)
+{
+    manifest_file file[MANIFEST_FILES];
+    ld_error problem;
+    for (int i = 0; i < MANIFEST_FILES; i++)
+        if (manifest_measure(output->part[i], &file[i], &problem))
+            return ld_fail(error, LD_ERR_FILE, "%s %s", output->part[i], problem.text);
+    return summary_write(output->part[SUMMARY], output->model, summary, file, error);
+}
+
 ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error)
 {
     ld_status status = close_histories(output, summary, error);
     if (!status)
-        status = ld_summary_write(output->part[SUMMARY], output->model, summary, error);
+        status = write_summary(output, summary, error);
     if (!status)
         status = put_in_place(output, error);
     if (status)

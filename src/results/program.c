@@ -56,6 +56,5 @@ void program_describe(program_fact *take, void *self)
     take(self, "HDF5", text);
     take(self, "SQLite", sqlite3_libversion());
     take(self, "libyaml", yaml_get_version_string());
-    take(self, "UDUNITS", LD_UDUNITS_VERSION);
     take(self, "zlib", zlibVersion());
 }

@@ -1,5 +1,9 @@
+#include "results/summary_json.h"
+
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -187,11 +191,31 @@ static void write_texts(json_writer *json, const ld_origin *origin)
     origin_write_source(json->file, origin);
 }
 
+static void write_files(json_writer *json, const manifest_file *file)
+{
+    char digest[24];
+    json_open(json, "files", '[');
+    for (int i = 0; i < MANIFEST_FILES; i++) {
+        if (!file[i].there)
+            continue;
+        snprintf(digest, sizeof digest, "%016" PRIx64, file[i].digest);
+        json_open(json, NULL, '{');
+        json_text(json, "name", manifest_name[i]);
+        json_integer(json, "size", file[i].size);
+        json_text(json, "digest", digest);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
+// Up to the last member, the digest.
 static void write_summary(json_writer *json, const ld_model *model, const ld_summary *summary,
-                          const ld_origin *origin)
+                          const ld_origin *origin, const manifest_file *file)
 {
     const quantity_things things = quantity_things_of(model);
     json_open(json, NULL, '{');
+    json_key(json, "format");
+    fputs(MANIFEST_FORMAT, json->file);
     json_text(json, "title", model->title ? model->title : "");
     json_text(json, "version", LD_VERSION);
     json_key(json, "program");
@@ -203,29 +227,53 @@ static void write_summary(json_writer *json, const ld_model *model, const ld_sum
         write_modes(json, summary, &things);
     write_numbers(json, &cost_quantities, &things, summary);
     write_texts(json, origin);
-    json_close(json, '}');
-    fputc('\n', json->file);
+    write_files(json, file);
+    fputs(",\n", json->file);
 }
 
-ld_status ld_summary_write(const char *path, const ld_model *model, const ld_summary *summary,
-                           ld_error *error)
+// The text before the digest, to be freed.
+static ld_status make_text(const ld_model *model, const ld_summary *summary,
+                           const manifest_file *file, char **text, size_t *length, ld_error *error)
 {
-    json_writer json = {.file = fopen(path, "w")};
     ld_origin origin;
-    if (!json.file)
-        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
     ld_status status = ld_origin_of(model, &origin, error);
+    if (status)
+        return status;
+    json_writer json = {.file = open_memstream(text, length)};
     locale_t before = numeric_locale_enter();
-    if (!status)
-        write_summary(&json, model, summary, &origin);
+    if (json.file)
+        write_summary(&json, model, summary, &origin, file);
     numeric_locale_leave(before);
     ld_origin_free(&origin);
-    bool wrong = fflush(json.file) != 0 || ferror(json.file);
+    return json.file && fclose(json.file) == 0
+               ? LD_OK
+               : ld_fail(error, LD_ERR_MEMORY, "no memory for the summary");
+}
+
+ld_status summary_write(const char *path, const ld_model *model, const ld_summary *summary,
+                        const manifest_file file[MANIFEST_FILES], ld_error *error)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *stream = fopen(path, "w");
+    if (!stream)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    ld_status status = make_text(model, summary, file, &text, &length, error);
+    if (!status)
+        manifest_seal(stream, text, length);
+    free(text);
+    bool wrong = fflush(stream) != 0 || ferror(stream);
     int number = errno;
-    wrong |= fclose(json.file) != 0;
+    wrong |= fclose(stream) != 0;
     if (!status && !wrong)
         return LD_OK;
     unlink(path);
     return status ? status
                   : ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(number));
+}
+
+ld_status ld_summary_write(const char *path, const ld_model *model, const ld_summary *summary,
+                           ld_error *error)
+{
+    return summary_write(path, model, summary, (manifest_file[MANIFEST_FILES]){{0}}, error);
 }

@@ -1,6 +1,7 @@
 // A model as a scenario in SI units: every key, in the order of the tables.
 #include <locale.h>
 
+#include "base/printed.h"
 #include "model/field.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/scenario_text.h"
@@ -18,39 +19,22 @@ static void print_number(FILE *stream, const double *values, int count, const ch
     fprintf(stream, "%s%s", unit[0] ? " " : "", unit);
 }
 
-// The UTF-8 character of two or three bytes at `c` that YAML wants escaped, with its length; 0:
-// none.
-static unsigned long special_character(const unsigned char *c, int *length)
-{
-    unsigned long code = 0;
-    *length = 1;
-    if ((*c & 0xe0) == 0xc0 && c[1]) {
-        code = (*c & 0x1fUL) << 6 | (c[1] & 0x3fUL);
-        *length = 2;
-    } else if ((*c & 0xf0) == 0xe0 && c[1] && c[2]) {
-        code = (*c & 0x0fUL) << 12 | (c[1] & 0x3fUL) << 6 | (c[2] & 0x3fUL);
-        *length = 3;
-    }
-    bool special = (code >= 0x80 && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
-                   code == 0xfeff || code >= 0xfffe;
-    return special ? code : 0;
-}
-
+// In quotes; what is not seen is escaped.
 void scenario_print_text(FILE *stream, const char *text)
 {
     fputc('"', stream);
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        int length;
-        unsigned long special = special_character(c, &length);
-        if (*c == '"' || *c == '\\')
-            fprintf(stream, "\\%c", *c);
-        else if (*c < 0x20 || *c == 0x7f)
-            fprintf(stream, "\\x%02X", *c);
-        else if (special)
-            fprintf(stream, "\\u%04lX", special);
+    while (*text) {
+        size_t length;
+        int32_t code = printed_code(text, &length);
+        if (code == '"' || code == '\\')
+            fprintf(stream, "\\%c", (int)code);
+        else if (code < 0 || !printed_is_hidden(code))
+            fwrite(text, 1, length, stream);
+        else if (code < 0x80)
+            fprintf(stream, "\\x%02X", (unsigned)code);
         else
-            fputc(*c, stream);
-        c += special ? length - 1 : 0;
+            fprintf(stream, code < 0x10000 ? "\\u%04X" : "\\U%08X", (unsigned)code);
+        text += length;
     }
     fputc('"', stream);
 }

@@ -1,6 +1,5 @@
 // Reading a scenario: files and what they include, overrides, then tree to model.
 #include <locale.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,8 +48,8 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
         return NULL;
     }
     ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
-    if (status == LD_ERR_MEMORY)
-        reader->no_memory = true;
+    reader->no_memory |= status == LD_ERR_MEMORY;
+    reader->no_file |= status == LD_ERR_FILE;
     if (status != LD_OK) {
         reader_refuse(reader, place, path, "file \"%s\" %s", file_name, error.text);
         return NULL;
@@ -255,38 +254,28 @@ static void read_root(scenario_reader *reader, const text_source *source, int po
         check_values(reader, file, &sweep);
 }
 
-// udunits keeps the state of its parser in global variables.
-static pthread_mutex_t one_reader = PTHREAD_MUTEX_INITIALIZER;
-
-static void read_in_turn(scenario_reader *reader, int point, ld_model *model)
+// With `complaint`, which is about a key of the model, there is a message.
+static ld_status read_source(ld_source *source, int point, const char *complaint, ld_model *model,
+                             ld_messages *messages)
 {
-    const ld_source *from = reader->source;
-    text_source root = {from->name, from->file[0]->text, from->file[0]->length, from->folder, 1,
-                        ""};
-    pthread_mutex_lock(&one_reader);
-    reader->units = units_open();
-    if (reader->units)
-        read_root(reader, &root, point, model);
-    else
-        reader->no_memory = true;
-    pthread_mutex_unlock(&one_reader);
-}
-
-ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
-{
-    scenario_reader reader = {.messages = messages, .source = source};
+    scenario_reader reader = {.messages = messages, .source = source, .complaint = complaint};
+    const ld_source_file *first = source->file[0];
+    text_source root = {source->name, first->text, first->length, source->folder, 1, ""};
     ld_model fresh;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
     model_init(&fresh);
     if (plain)
-        read_in_turn(&reader, point, &fresh);
+        read_root(&reader, &root, point, &fresh);
     else
         reader.no_memory = true;
     reader_finish_messages(&reader);
     ld_status status = reader.no_memory      ? LD_ERR_MEMORY
+                       : reader.no_file      ? LD_ERR_FILE
                        : messages->count > 0 ? LD_ERR_INPUT
                                              : LD_OK;
+    if (reader.no_memory) // what they say may come of that
+        ld_messages_free(messages);
     if (status == LD_OK) {
         fresh.source = source_hold(source);
         fresh.point = point;
@@ -299,6 +288,23 @@ ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld
     if (plain)
         freelocale(plain);
     return status;
+}
+
+ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
+{
+    return read_source(source, point, NULL, model, messages);
+}
+
+bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages)
+{
+    ld_model unused;
+    *messages = (ld_messages){0};
+    if (!model->source || !scenario_complains_of_key(error->text))
+        return false;
+    if (read_source(model->source, model->point, error->text, &unused, messages) == LD_ERR_INPUT)
+        return true;
+    ld_messages_free(messages);
+    return false;
 }
 
 // ---- where the texts come from
@@ -334,7 +340,10 @@ static ld_status refuse_file(ld_messages *messages, const char *name, const char
     scenario_reader reader = {.messages = messages};
     text_source file = {.name = name};
     *messages = (ld_messages){0};
-    reader_refuse(&reader, (text_place){&file, 0, 0}, path, "%s", text);
+    if (status != LD_ERR_MEMORY)
+        reader_refuse(&reader, (text_place){&file, 0, 0}, path, "%s", text);
+    if (reader.no_memory)
+        ld_messages_free(messages);
     return reader.no_memory ? LD_ERR_MEMORY : status;
 }
 
@@ -365,7 +374,9 @@ ld_status scenario_read_point(const char *path, const char *const *sets, size_t 
         return refuse_file(messages, name, "", status, why);
     }
     char *folder = strndup(name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
-    ld_source *source = source_of(text, length, name, folder, sets, count);
+    ld_source *source = folder ? source_of(text, length, name, folder, sets, count) : NULL;
+    if (!folder)
+        free(text);
     free(folder);
     return read_and_release(source, point, model, messages);
 }

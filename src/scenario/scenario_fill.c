@@ -691,6 +691,26 @@ void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_mod
     scenario_fill_scatter(reader, root, model);
 }
 
+// Of the path of a key: what it is written with.
+#define PATH_CHARACTERS "abcdefghijklmnopqrstuvwxyz0123456789_-."
+
+bool scenario_complains_of_key(const char *complaint)
+{
+    char first[LD_MAX_NAME];
+    size_t length = strcspn(complaint, ".: "), path = strspn(complaint, PATH_CHARACTERS);
+    snprintf(first, sizeof first, "%.*s", (int)(length < LD_MAX_NAME ? length : 0), complaint);
+    return field_find(&scenario_block, first) && strncmp(complaint + path, ": ", 2) == 0;
+}
+
+// Reports what a simulation said of a key.
+static void refuse_complaint(rule_context *context, const char *complaint)
+{
+    char path[PATH];
+    size_t length = strspn(complaint, PATH_CHARACTERS);
+    snprintf(path, sizeof path, "%.*s", (int)length, complaint);
+    refuse_rule(context, path, complaint + length + strlen(": "));
+}
+
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model)
 {
     rule_context context = {.reader = reader, .root = root};
@@ -699,4 +719,6 @@ void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *mod
         return;
     context.messages = reader->messages->count;
     model_check_rules(model, refuse_rule, &context);
+    if (reader->complaint)
+        refuse_complaint(&context, reader->complaint);
 }

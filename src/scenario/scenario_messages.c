@@ -26,10 +26,10 @@ void ld_messages_free(ld_messages *messages)
 static void print_excerpt(const ld_message *m, FILE *stream)
 {
     enum { BEFORE = 80, WIDTH = 120 };
-    char shown[5], below[4 * BEFORE + 1] = "";
+    char shown[5], below[16 * BEFORE + 1] = "";
     int from = m->column > BEFORE ? m->column - BEFORE : 1, column = 1;
     fprintf(stream, "    ");
-    for (const char *c = m->source; *c && column < from + WIDTH; column++) {
+    for (const char *c = m->source; *c && column < from + WIDTH;) {
         bool tab = *c == '\t', plain = *c == '\\';
         c += printed_character(c, shown);
         int width = shown[0] == '\\' && !plain && !tab ? (int)strlen(shown) : 1;
@@ -38,6 +38,7 @@ static void print_excerpt(const ld_message *m, FILE *stream)
         if (column >= from && column < m->column)
             snprintf(below + strlen(below), sizeof below - strlen(below), "%*s", width,
                      tab ? "\t" : " ");
+        column += (*c & 0xc0) != 0x80; // of a character that is shown byte by byte, after its last
     }
     fprintf(stream, "\n    %s^\n", below);
 }

@@ -134,11 +134,9 @@ static double unit_factor(scenario_reader *reader, const field_row *f, text_plac
         return 1;
     snprintf(unit, sizeof unit, "%.*s", length < 63 ? (int)length : 63, rest);
     units_result result =
-        length > 60 ? UNITS_SYNTAX : units_factor(reader->units, unit, f->unit, &factor, unknown);
+        length > 60 ? UNITS_SYNTAX : units_factor(unit, f->unit, &factor, unknown);
     if (result == UNITS_OK && (f->unit[0] || strcmp(unit, "%") == 0))
         return factor;
-    if (result == UNITS_MEMORY)
-        reader->no_memory = true;
     refuse_unit(reader, f, place, path, text, unit, result, unknown);
     return NAN;
 }

@@ -66,11 +66,12 @@ typedef struct memory_pool {
 typedef struct scenario_reader {
     ld_messages *messages;
     bool no_memory;
-    bool cut; // more messages than are kept
+    bool no_file; // one could not be read, for no fault of the scenario's
+    bool cut;     // more messages than are kept
     memory_pool pool;
-    unit_system *units;
     int nodes;
-    ld_source *source; // what has been read so far
+    ld_source *source;     // what has been read so far
+    const char *complaint; // "path.of.a.key: ...", what a simulation of it said; NULL
 } scenario_reader;
 
 // Memory that lives as long as the reader; NULL (and no_memory) without.
@@ -143,6 +144,9 @@ const char *scenario_key_meant(const struct field_block *block, const char *key)
 // Reads the tree into `model` (initialised), each value against its table; then checks the rules.
 void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model);
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
+
+// Whether a sentence begins with the path of a key and a colon.
+bool scenario_complains_of_key(const char *complaint);
 
 // Reads what scatter says about other keys, once the rest of the model is known.
 void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_model *model);

@@ -200,7 +200,7 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
     if (column->unit[0] && i < lines->count &&
         sscanf(lines->field[i], "%31[a-z_] [%31[^]]]%n", name, unit, &end) == 2 && end > 0 &&
         lines->field[i][end] == '\0' && strcmp(name, column->name) == 0 &&
-        units_factor(lines->reader->units, unit, column->unit, &factor, unknown) == UNITS_OK)
+        units_factor(unit, column->unit, &factor, unknown) == UNITS_OK)
         return factor;
     if (column->unit[0])
         snprintf(text, sizeof text,

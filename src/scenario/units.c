@@ -2,34 +2,51 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
-
-#include <udunits2.h>
 
 #include "base/suggestion.h"
 
-struct unit_system {
-    ut_system *system;
-    ut_unit *base[5];
-};
+// Powers of the base units m, kg, s, rad and K.
+enum { METRE, KILOGRAM, SECOND, RADIAN, KELVIN, BASES };
 
-// Derived units in terms of those above them; "%" is a hundredth.
-static const struct {
-    const char *symbol, *definition;
-} derived[] = {
-    {"g", "0.001 kg"},  {"t", "1000 kg"},     {"min", "60 s"},
-    {"h", "3600 s"},    {"Hz", "s-1"},        {"deg", "0.017453292519943295 rad"},
-    {"N", "kg.m.s-2"},  {"Pa", "N.m-2"},      {"J", "N.m"},
-    {"W", "J.s-1"},     {"bar", "100000 Pa"}, {"rev", "6.283185307179586 rad"},
-    {"rpm", "rev/min"}, {"%", "0.01"},
-};
+// A product of powers of units: its size in base units, and their powers.
+typedef struct measure {
+    double factor;
+    int power[BASES];
+} measure;
 
 static const struct {
     const char *symbol;
+    measure is;
+} units[] = {
+    {"m", {1, {[METRE] = 1}}},
+    {"kg", {1, {[KILOGRAM] = 1}}},
+    {"s", {1, {[SECOND] = 1}}},
+    {"rad", {1, {[RADIAN] = 1}}},
+    {"K", {1, {[KELVIN] = 1}}},
+    {"g", {1e-3, {[KILOGRAM] = 1}}},
+    {"t", {1e3, {[KILOGRAM] = 1}}},
+    {"min", {60, {[SECOND] = 1}}},
+    {"h", {3600, {[SECOND] = 1}}},
+    {"Hz", {1, {[SECOND] = -1}}},
+    {"deg", {0.017453292519943295, {[RADIAN] = 1}}},
+    {"rev", {6.283185307179586, {[RADIAN] = 1}}},
+    {"rpm", {6.283185307179586 * (1.0 / 60), {[RADIAN] = 1, [SECOND] = -1}}},
+    {"N", {1, {[KILOGRAM] = 1, [METRE] = 1, [SECOND] = -2}}},
+    {"Pa", {1, {[KILOGRAM] = 1, [METRE] = -1, [SECOND] = -2}}},
+    {"bar", {1e5, {[KILOGRAM] = 1, [METRE] = -1, [SECOND] = -2}}},
+    {"J", {1, {[KILOGRAM] = 1, [METRE] = 2, [SECOND] = -2}}},
+    {"W", {1, {[KILOGRAM] = 1, [METRE] = 2, [SECOND] = -3}}},
+    {"%", {1e-2, {0}}},
+};
+
+static const struct {
+    char symbol;
     double factor;
-} prefixes[] = {{"n", 1e-9}, {"u", 1e-6}, {"m", 1e-3}, {"c", 1e-2},
-                {"k", 1e3},  {"M", 1e6},  {"G", 1e9}};
+} prefixes[] = {{'n', 1e-9}, {'u', 1e-6}, {'m', 1e-3}, {'c', 1e-2},
+                {'k', 1e3},  {'M', 1e6},  {'G', 1e9}};
 
 // Common units, for suggestions, and slips that are no matter of spelling.
 static const char *const common[] = {"m",   "mm", "cm",  "um", "km",  "kg",   "g",   "t",   "s",
@@ -44,43 +61,32 @@ static const struct {
              {"msec", "ms"},  {"hour", "h"},     {"newton", "N"},   {"meter", "m"},
              {"metre", "m"},  {"radian", "rad"}, {"percent", "%"}};
 
-static bool map_symbol(ut_system *system, const char *symbol, const char *definition)
+static bool find_symbol(const char *name, size_t length, measure *out)
 {
-    ut_unit *unit = ut_parse(system, definition, UT_ASCII);
-    bool good = unit && ut_map_symbol_to_unit(symbol, UT_ASCII, unit) == UT_SUCCESS;
-    ut_free(unit);
-    return good;
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
+        if (strlen(units[i].symbol) == length && memcmp(units[i].symbol, name, length) == 0) {
+            *out = units[i].is;
+            return true;
+        }
+    return false;
 }
 
-static bool build(unit_system *units)
+// A unit, or one with a prefix.
+static bool find_unit(const char *name, size_t length, measure *out)
 {
-    static const char *const base[] = {"m", "kg", "s", "rad", "K"};
-    ut_set_error_message_handler(ut_ignore);
-    units->system = ut_new_system();
-    bool good = units->system != NULL;
-    for (int i = 0; good && i < 5; i++) {
-        ut_unit *unit = units->base[i] = ut_new_base_unit(units->system);
-        good = unit && ut_map_symbol_to_unit(base[i], UT_ASCII, unit) == UT_SUCCESS;
-    }
-    for (size_t i = 0; good && i < sizeof prefixes / sizeof prefixes[0]; i++)
-        good = ut_add_symbol_prefix(units->system, prefixes[i].symbol, prefixes[i].factor) ==
-               UT_SUCCESS;
-    for (size_t i = 0; good && i < sizeof derived / sizeof derived[0]; i++)
-        good = map_symbol(units->system, derived[i].symbol, derived[i].definition);
-    return good;
-}
-
-unit_system *units_open(void)
-{
-    static unit_system units;
-    static bool built;
-    built = built || build(&units);
-    return built ? &units : NULL;
+    if (find_symbol(name, length, out))
+        return true;
+    for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++)
+        if (prefixes[i].symbol == name[0] && find_symbol(name + 1, length - 1, out)) {
+            out->factor *= prefixes[i].factor;
+            return true;
+        }
+    return false;
 }
 
 // Takes one factor, "m", "m2", "s-2", "m^2" or "%", from the front of `text`; returns its end (NULL
-// if it is none) and the length of its name.
-static const char *take_factor(const char *text, size_t *name)
+// if it is none), the length of its name and its power.
+static const char *take_factor(const char *text, size_t *name, int *power)
 {
     const char *end = text;
     if (*end == '%')
@@ -89,87 +95,74 @@ static const char *take_factor(const char *text, size_t *name)
         while (isalpha((unsigned char)*end) && (unsigned char)*end < 128)
             end++;
     *name = (size_t)(end - text);
+    *power = 1;
     if (end == text)
         return NULL;
-    const char *power = end;
-    if (*power == '^')
-        power++;
-    if (*power == '-' || *power == '+')
-        power++;
-    if (*power >= '1' && *power <= '9')
-        return power + 1;
-    return power == end ? end : NULL;
+    const char *digit = end;
+    if (*digit == '^')
+        digit++;
+    if (*digit == '-' || *digit == '+')
+        digit++;
+    if (*digit >= '1' && *digit <= '9') {
+        *power = (digit[-1] == '-' ? -1 : 1) * (*digit - '0');
+        return digit + 1;
+    }
+    return digit == end ? end : NULL;
 }
 
-// Checks the form (factors joined by . * or /, maybe after "1/") and that each name is known.
-static units_result check_form(const unit_system *units, const char *text, char unknown[32])
+static void multiply(measure *product, const measure *unit, int power, bool below)
+{
+    double factor = pow(unit->factor, power);
+    product->factor *= below ? 1 / factor : factor;
+    for (int i = 0; i < BASES; i++)
+        product->power[i] += (below ? -power : power) * unit->power[i];
+}
+
+// Reads factors joined by . * or /, maybe after "1/"; `unknown` names the first that is no unit.
+static units_result read_product(const char *text, measure *product, char unknown[32])
 {
     units_result result = UNITS_OK;
+    *product = (measure){.factor = 1};
     unknown[0] = '\0';
     if (strlen(text) > 60)
         return UNITS_SYNTAX;
-    if (strncmp(text, "1/", 2) == 0)
-        text += 2;
-    for (;;) {
+    bool below = strncmp(text, "1/", 2) == 0;
+    for (text += below ? 2 : 0;; text++) {
         size_t length;
-        char name[64];
-        const char *end = take_factor(text, &length);
+        int power;
+        measure unit;
+        const char *end = take_factor(text, &length, &power);
         if (!end)
             return UNITS_SYNTAX;
-        memcpy(name, text, length);
-        name[length] = '\0';
-        ut_unit *unit = ut_parse(units->system, name, UT_ASCII);
-        ut_free(unit);
-        if (!unit && result == UNITS_OK) {
+        if (find_unit(text, length, &unit)) {
+            multiply(product, &unit, power, below);
+        } else if (result == UNITS_OK) {
             result = UNITS_UNKNOWN;
-            memcpy(unknown, name, length < 31 ? length : 31);
-            unknown[length < 31 ? length : 31] = '\0';
+            snprintf(unknown, 32, "%.*s", (int)length, text);
         }
+        text = end;
+        below = *end == '/';
         if (*end == '\0')
             return result;
         if (*end != '.' && *end != '*' && *end != '/')
             return UNITS_SYNTAX;
-        text = end + 1;
     }
 }
 
-// The quotient must be a plain number: ut_are_convertible would also take s for Hz.
-static units_result quotient(const unit_system *units, ut_unit *from, ut_unit *to, double *factor)
+units_result units_factor(const char *text, const char *target, double *factor, char unknown[32])
 {
-    units_result result = UNITS_MEMORY;
-    ut_unit *ratio = from && to ? ut_divide(from, to) : NULL;
-    ut_unit *one = ut_get_dimensionless_unit_one(units->system);
-    if (ratio && one) {
-        result = UNITS_DIMENSION;
-        if (ut_is_dimensionless(ratio)) {
-            cv_converter *converter = ut_get_converter(ratio, one);
-            result = converter ? UNITS_OK : UNITS_MEMORY;
-            *factor = converter ? cv_convert_double(converter, 1.0) : NAN;
-            cv_free(converter);
-        }
-    }
-    ut_free(ratio);
-    ut_free(one);
-    return result;
-}
-
-units_result units_factor(unit_system *units, const char *text, const char *target, double *factor,
-                          char unknown[32])
-{
+    measure from, to = {.factor = 1};
+    char ours[32];
     *factor = NAN;
-    units_result result = check_form(units, text, unknown);
+    units_result result = read_product(text, &from, unknown);
     if (result != UNITS_OK)
         return result;
-    if (strcmp(text, target) == 0) {
-        *factor = 1;
-        return UNITS_OK;
-    }
-    ut_unit *from = ut_parse(units->system, text, UT_ASCII);
-    ut_unit *to = ut_parse(units->system, target[0] ? target : "1", UT_ASCII);
-    result = quotient(units, from, to, factor);
-    ut_free(from);
-    ut_free(to);
-    return result;
+    if (target[0] && read_product(target, &to, ours) != UNITS_OK)
+        return UNITS_DIMENSION;
+    if (memcmp(from.power, to.power, sizeof from.power) != 0)
+        return UNITS_DIMENSION;
+    *factor = strcmp(text, target) == 0 ? 1 : from.factor / to.factor;
+    return UNITS_OK;
 }
 
 double units_scale(double value, double factor)

@@ -486,6 +486,10 @@ static double find_rest(const problem *the, const double *start, double accepted
     // an adaptor that hardly carries is found from where it is pressed in [m]
     for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
         best = fmin(best, try_pairs(the, start, extra, accepted, y));
+    // a hard contact is pressed in by less than the differences
+    problem fine = *the;
+    for (fine.h = 0.1 * the->h; fine.h > 1e-13 && best > accepted; fine.h *= 0.1)
+        best = fmin(best, try_pairs(&fine, start, 0, accepted, y));
     return best;
 }
 
@@ -585,9 +589,10 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
     for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
         inside += !phase.passed[i];
     if (inside < 2)
-        return ld_fail(error, LD_ERR_LAUNCH,
-                       "no static equilibrium at the start: only the rear adaptor is in the tube; "
-                       "\"run.start: undeformed\" starts without it");
+        return ld_fail(
+            error, LD_ERR_LAUNCH,
+            "rocket.start_at: no static equilibrium at the start: only the rear adaptor is "
+            "in the tube; \"run.start: undeformed\" starts without it");
     double accepted = accepted_residual(self), start[LD_MAX_STATES];
     self->on_breech = false;
     ld_status status = settle_base(self, t, &phase, accepted, start, error);
@@ -603,9 +608,8 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
     if (!(best <= accepted))
         return ld_fail(
             error, LD_ERR_NUMERIC,
-            "no static equilibrium was found for the start (smallest residual %.3g m/s2): "
-            "is the rocket held by gravity on two adaptors? \"run.start: undeformed\" "
-            "starts without it",
+            "run.start: no static equilibrium was found (smallest residual %.3g m/s2): is the "
+            "rocket held by gravity on two adaptors? \"run.start: undeformed\" starts without it",
             best);
     status = keep_rest(self, t, y, error);
     if (status)

@@ -1,5 +1,6 @@
 // A run without launcher: the state that the scenario gives, flown to its end.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "simulation/free_flight.h"
@@ -32,30 +33,50 @@ ld_status flight_alone_create(ld_simulation *self, ld_error *error)
     return status;
 }
 
-static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *summary,
-                     ld_error *error)
+// The flight, and its start in `state`.
+static free_flight flight_of(const ld_simulation *self, double state[FLIGHT_STATES])
 {
-    const ld_simulation *self = run->self;
     const ld_model *model = self->model;
-    double state[FLIGHT_STATES], ignition = model->flight.ignition;
+    double ignition = model->flight.ignition;
     flight_phase phase = free_flight_phase(&self->flight, ignition, 0);
     flight_pose pose;
     flight_start(&self->flight, &phase, &model->flight, state);
     flight_leave(&self->flight, &phase, 0, state, &pose);
-    free_flight job = {
+    return (free_flight){
         .system = &self->flight,
         .model = model,
         .t_ignition = ignition,
         .t_end = model->run.end == LD_END_TIME ? ignition + model->run.end_time : INFINITY,
         .launch_x = pose.r_O1.x,
         .launch_z = pose.r_O1.z,
-        .options = options,
-        .row = run->sink ? write_row : NULL,
-        .self = run,
     };
+}
+
+ld_status flight_alone_begin(const ld_simulation *self, ld_error *error)
+{
+    double state[FLIGHT_STATES];
+    free_flight job = flight_of(self, state);
+    job.t_end = job.t_start; // not a step
+    ld_summary *summary = calloc(1, sizeof *summary);
+    if (!summary)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a summary");
+    ld_status status = free_flight_run(&job, state, &summary->rocket[0], summary, error);
+    free(summary);
+    return status;
+}
+
+static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *summary,
+                     ld_error *error)
+{
+    const ld_simulation *self = run->self;
+    double state[FLIGHT_STATES];
+    free_flight job = flight_of(self, state);
+    job.options = options;
+    job.row = run->sink ? write_row : NULL;
+    job.self = run;
     summary->rocket_count = 1;
     rocket_clear(&summary->rocket[0], false);
-    summary->rocket[0].t_ignition = ignition;
+    summary->rocket[0].t_ignition = job.t_ignition;
     double start = simulation_cpu_now();
     ld_status status = LD_OK;
     if (run->sink)

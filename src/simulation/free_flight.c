@@ -430,11 +430,11 @@ static ld_status begin(flight_run *run, const double *y)
     run->t_limit = job->t_start + job->model->run.flight_limit;
     watch(run, job->t_start, y);
     if (job->system->has_ground && height < job->system->ground)
-        return ld_fail(run->error, LD_ERR_LAUNCH,
-                       "the flight begins below the ground: the mass centre is at %s %.6g m, the "
-                       "ground at %.6g m",
-                       job->system->earth.flat ? "y =" : "an altitude of", height,
-                       job->system->ground);
+        return ld_fail(
+            run->error, LD_ERR_LAUNCH,
+            "environment.ground: the flight begins below the ground: the mass centre is at "
+            "%s %.6g m, the ground at %.6g m",
+            job->system->earth.flat ? "y =" : "an altitude of", height, job->system->ground);
     ld_status status = check_table(run);
     return status ? status : write_row(run, job->t_start, y);
 }

@@ -75,9 +75,9 @@ ld_status launch_check_base(ld_run *run, double t)
     base_span(&run->launch.launcher.base, &first, &last);
     if (t >= first && t < last)
         return LD_OK;
-    return ld_fail(&run->error, LD_ERR_INPUT,
-                   "the table of the base's motion goes from %.6g s to %.6g s, which does not "
-                   "cover the launch (now at t = %.6g s)",
+    return ld_fail(&run->error, LD_ERR_LAUNCH,
+                   "base.motion.table: goes from %.6g s to %.6g s, which does not cover the launch "
+                   "(now at t = %.6g s)",
                    first, last, t);
 }
 

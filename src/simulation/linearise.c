@@ -541,10 +541,11 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
         if (poles[i].real > fmax(growing->real, 1e-3 * poles[i].imaginary))
             *growing = poles[i];
         if (holder)
-            status = ld_fail(error, LD_ERR_INPUT,
-                             "%s is unstable: about its equilibrium a motion of %.3g Hz grows by "
-                             "%.3g 1/s (launchdyn modes lists all)",
-                             holder, poles[i].imaginary / TWO_PI, poles[i].real);
+            status =
+                ld_fail(error, LD_ERR_INPUT,
+                        "%s: unstable: about its equilibrium a motion of %.3g Hz grows by %.3g "
+                        "1/s (launchdyn modes lists all)",
+                        holder, poles[i].imaginary / TWO_PI, poles[i].real);
     }
     free(poles);
     free(system.J);

@@ -55,8 +55,9 @@ ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *op
     ld_run *run = *out = run_create(simulation, options);
     if (!run)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
-    if (!run->status && has_launch(run))
-        run->status = launch_begin(run);
+    if (!run->status)
+        run->status =
+            has_launch(run) ? launch_begin(run) : flight_alone_begin(simulation, &run->error);
     run->cpu += simulation_cpu_now() - start;
     return told(run, error);
 }

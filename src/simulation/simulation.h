@@ -44,8 +44,10 @@ const motor *simulation_motor(const ld_simulation *self, int i);
 // Adds a remark that the user should see.
 void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
 
-// Set-up and run of a model without launcher.
+// Set-up, start and run of a model without launcher.
 ld_status flight_alone_create(ld_simulation *self, ld_error *error);
+// Whether the flight can begin.
+ld_status flight_alone_begin(const ld_simulation *self, ld_error *error);
 ld_status flight_alone_run(const ld_simulation *self, const ld_run_options *options,
                            ld_summary *summary, ld_error *error);
 

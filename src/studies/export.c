@@ -2,14 +2,15 @@
 #include "studies/export.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/numeric_locale.h"
 #include "base/text_file.h"
 #include "launchdyn/study.h"
-#include "studies/store.h"
 
 static ld_status no_memory(ld_error *error)
 {
@@ -51,21 +52,34 @@ static char *select_rows(const study_data *data)
         const study_column *column = column_at(data, i);
         fprintf(text, ", %s.\"%s\"", column->per_rocket ? "rocket" : "sample", column->name);
     }
-    fprintf(text, " FROM sample JOIN rocket USING (sample)%s ORDER BY sample.sample, rocket.rocket",
+    fprintf(text,
+            " FROM sample JOIN rocket USING (sample)%s WHERE sample.sample = ? ORDER BY "
+            "rocket.rocket",
             data->swept_count > 0 ? " JOIN point USING (point)" : "");
     return fclose(text) == 0 ? query : NULL;
 }
 
-static ld_status count_rows(study_store *store, int64_t *rows, ld_error *error)
+ld_status export_next(export_table *self, bool *there, ld_error *error)
 {
-    sqlite3_stmt *count =
-        store_prepare(store, "SELECT count(*) FROM sample JOIN rocket USING (sample)", error);
-    if (!count)
-        return store_status(store);
-    bool read = sqlite3_step(count) == SQLITE_ROW;
-    *rows = read ? sqlite3_column_int64(count, 0) : 0;
-    sqlite3_finalize(count);
-    return read ? LD_OK : store_fail(store, "read", error);
+    int result = self->walk.number > 0 ? sqlite3_step(self->row) : SQLITE_DONE;
+    ld_status status = LD_OK;
+    while (result == SQLITE_DONE && store_walk_next(&self->walk, error)) {
+        sqlite3_reset(self->row);
+        sqlite3_bind_int64(self->row, 1, self->walk.number);
+        result = sqlite3_step(self->row);
+    }
+    *there = result == SQLITE_ROW;
+    if (result == SQLITE_DONE)
+        status = self->walk.status;
+    else if (!*there)
+        status = store_fail(self->walk.view.store, "read", error);
+    return status;
+}
+
+void export_begin(export_table *self)
+{
+    sqlite3_reset(self->row);
+    store_walk_again(&self->walk);
 }
 
 // ---- CSV
@@ -94,27 +108,27 @@ static void print_cell(FILE *stream, sqlite3_stmt *row, int column)
         print_text(stream, (const char *)sqlite3_column_text(row, column));
 }
 
-static ld_status write_csv(const export_table *table, FILE *stream, ld_error *error)
+static ld_status write_csv(export_table *table, FILE *stream, ld_error *error)
 {
-    int result;
+    bool there;
+    ld_status status;
+    export_begin(table);
     for (int i = 0; i < table->columns; i++) {
         fputs(i ? "," : "", stream);
         print_text(stream, sqlite3_column_name(table->row, i));
     }
     fputc('\n', stream);
-    while ((result = sqlite3_step(table->row)) == SQLITE_ROW) {
+    while (!(status = export_next(table, &there, error)) && there) {
         for (int i = 0; i < table->columns; i++) {
             fputs(i ? "," : "", stream);
             print_cell(stream, table->row, i);
         }
         fputc('\n', stream);
     }
-    if (result != SQLITE_DONE)
-        return ld_fail(error, LD_ERR_INPUT, "cannot read %s", table->path);
-    return LD_OK;
+    return status;
 }
 
-static ld_status export_csv(const export_table *table, const char *file, const char *name,
+static ld_status export_csv(export_table *table, const char *file, const char *name,
                             ld_error *error)
 {
     errno = 0;
@@ -133,7 +147,7 @@ static ld_status export_csv(const export_table *table, const char *file, const c
 
 // ---- both
 
-typedef ld_status table_writer(const export_table *table, const char *file, const char *name,
+typedef ld_status table_writer(export_table *table, const char *file, const char *name,
                                ld_error *error);
 
 // Under a temporary name beside the file, which then gets its own, where it is a file.
@@ -141,23 +155,26 @@ static ld_status write_file(export_table *table, table_writer *write, const char
                             ld_error *error)
 {
     char part[4096];
-    sqlite3_reset(table->row);
     if (!text_file_is_replaced(file))
         return write(table, file, file, error);
     if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
         return ld_fail(error, LD_ERR_INPUT, "the table's name is too long");
+    child_writes(part);
     ld_status status = write(table, part, file, error);
     if (!status && rename(part, file) != 0)
         status = cannot_write(file, errno, error);
     if (status)
         unlink(part);
+    child_wrote(part);
     return status;
 }
 
-static ld_status export_rows(const study_data *data, study_store *store, const char *csv,
-                             const char *hdf5, ld_error *error)
+static ld_status export_rows(const study_data *data, const char *csv, const char *hdf5,
+                             ld_error *error)
 {
-    export_table table = {.data = data, .path = store->path, .keys = EXPORT_KEYS};
+    study_store *store = study_data_store(data);
+    const store_view view = store_main(store);
+    export_table table = {.data = data, .keys = EXPORT_KEYS};
     char *query = select_rows(data);
     if (!query)
         return no_memory(error);
@@ -167,11 +184,12 @@ static ld_status export_rows(const study_data *data, study_store *store, const c
         return store_status(store);
     table.keys += data->swept_count > 0 ? 1 + data->swept_count : 0;
     table.columns = sqlite3_column_count(table.row);
-    ld_status status = count_rows(store, &table.rows, error);
+    ld_status status = store_walk_begin(&table.walk, &view, &store->kept, error);
     if (!status && csv)
         status = write_file(&table, export_csv, csv, error);
     if (!status && hdf5)
         status = write_file(&table, export_hdf5, hdf5, error);
+    store_walk_end(&table.walk);
     sqlite3_finalize(table.row);
     return status;
 }
@@ -179,17 +197,16 @@ static ld_status export_rows(const study_data *data, study_store *store, const c
 ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5, ld_error *error)
 {
     study_data data;
-    study_store store;
-    ld_status status = study_data_open(folder, &data, error);
+    ld_status status = study_data_open_damaged(folder, &data, error);
     if (status)
         return status;
-    status = store_open_to_read(&store, folder, error);
-    if (!status) {
-        locale_t before = numeric_locale_enter();
-        status = export_rows(&data, &store, csv, hdf5, error);
-        numeric_locale_leave(before);
-        store_close(&store);
-    }
+    locale_t before = numeric_locale_enter();
+    status = export_rows(&data, csv, hdf5, error);
+    numeric_locale_leave(before);
+    if (!status && data.damage.status)
+        status =
+            ld_fail(error, LD_ERR_INPUT, "%s; the table holds what is intact, %" PRId64 " rockets",
+                    data.damage.text, data.rockets);
     study_data_close(&data);
     return status;
 }

@@ -4,24 +4,28 @@
 
 #include <sqlite3.h>
 
+#include "studies/store.h"
 #include "studies/study_data.h"
 
 enum { EXPORT_KEYS = 4 }; // sample, rocket, tube, status: the first columns
 
 typedef struct export_table {
     const study_data *data;
-    const char *path; // of the database, for messages
-    int keys;         // columns before the factors: EXPORT_KEYS, of a sweep its points too
+    int keys; // columns before the factors: EXPORT_KEYS, of a sweep its points too
     int columns;
-    sqlite3_stmt *row;
-    int64_t rows;
+    sqlite3_stmt *row; // of the sample at which the walk stands
+    store_walk walk;
 } export_table;
+
+// Before the first row.
+void export_begin(export_table *table);
+// The next row of a sample that is as it was kept, in table->row; *there: there is one.
+ld_status export_next(export_table *table, bool *there, ld_error *error);
 
 // The unit of a column, "" without.
 const char *export_unit(const export_table *table, int column);
 
 // Writes the table, from its first row, as an HDF5 file, in messages by its name.
-ld_status export_hdf5(const export_table *table, const char *file, const char *name,
-                      ld_error *error);
+ld_status export_hdf5(export_table *table, const char *file, const char *name, ld_error *error);
 
 #endif

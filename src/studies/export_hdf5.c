@@ -16,9 +16,11 @@ typedef struct hdf5_column {
 } hdf5_column;
 
 typedef struct hdf5_writer {
-    const export_table *table;
+    export_table *table;
     hid_t file, group, status; // status: text of fixed size
     hdf5_column *column;       // [columns]; swept keys have none: see the group `points`
+    ld_status read;            // what came of reading the rows
+    ld_error *error;           // of that
 } hdf5_writer;
 
 static bool is_text_of_point(const export_table *table, int column)
@@ -43,7 +45,7 @@ static bool create_file(hdf5_writer *self, const char *file)
 static bool create_columns(hdf5_writer *self)
 {
     const export_table *table = self->table;
-    hsize_t rows = (hsize_t)table->rows;
+    hsize_t rows = (hsize_t)table->data->rockets;
     for (int i = 0; i < table->columns; i++) {
         hdf5_column *column = &self->column[i];
         if (is_text_of_point(table, i))
@@ -98,12 +100,12 @@ static bool write_block(const hdf5_writer *self, hsize_t start, hsize_t rows)
     return fine;
 }
 
-static bool write_rows(const hdf5_writer *self)
+static bool write_rows(hdf5_writer *self)
 {
     hsize_t written = 0, used = 0;
-    bool fine = true;
-    int result = SQLITE_ROW;
-    while (fine && (result = sqlite3_step(self->table->row)) == SQLITE_ROW) {
+    bool fine = true, there = true;
+    export_begin(self->table);
+    while (fine && !(self->read = export_next(self->table, &there, self->error)) && there) {
         for (int i = 0; i < self->table->columns; i++)
             if (self->column[i].block)
                 fill_cell(self, i, used);
@@ -113,7 +115,7 @@ static bool write_rows(const hdf5_writer *self)
             used = 0;
         }
     }
-    return fine && result == SQLITE_DONE && (used == 0 || write_block(self, written, used));
+    return fine && !self->read && (used == 0 || write_block(self, written, used));
 }
 
 // A dataset of texts for each swept key.
@@ -157,11 +159,10 @@ static bool close_all(hdf5_writer *self)
     return fine;
 }
 
-ld_status export_hdf5(const export_table *table, const char *file, const char *name,
-                      ld_error *error)
+ld_status export_hdf5(export_table *table, const char *file, const char *name, ld_error *error)
 {
     hdf5_quiet quiet = hdf5_quiet_begin();
-    hdf5_writer self = {.table = table, .status = H5Tcopy(H5T_C_S1)};
+    hdf5_writer self = {.table = table, .status = H5Tcopy(H5T_C_S1), .error = error};
     H5Tset_size(self.status, STATUS);
     self.column = calloc((size_t)table->columns, sizeof *self.column);
     ld_status status = LD_OK;
@@ -171,7 +172,7 @@ ld_status export_hdf5(const export_table *table, const char *file, const char *n
     }
     if (!create_file(&self, file) || !create_columns(&self) || !write_rows(&self) ||
         (table->data->swept_count > 0 && !write_points(&self)))
-        status = hdf5_failed(error, LD_ERR_FILE, "write", name);
+        status = self.read ? self.read : hdf5_failed(error, LD_ERR_FILE, "write", name);
     if (!close_all(&self) && !status)
         status = hdf5_failed(error, LD_ERR_FILE, "write", name);
     hdf5_quiet_end(&quiet);

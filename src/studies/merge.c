@@ -92,56 +92,94 @@ static ld_status begin_as(study_store *self, ld_error *error)
     return status;
 }
 
-// Adds the programs that have worked on the attached database; one of an earlier version names
-// none.
-static ld_status add_programs(study_store *self, ld_error *error)
+// Adds the samples of the attached database that are as they were kept; *damage: what of the
+// others.
+static ld_status add_samples(const store_view *part, const store_kept *kept, ld_error *damage,
+                             ld_error *error)
 {
-    char *named;
+    study_store *self = part->store;
+    store_walk walk = {0};
+    sqlite3_stmt *sample = store_prepare(
+        self, "INSERT OR IGNORE INTO main.sample SELECT * FROM part.sample WHERE sample = ?",
+        error);
+    sqlite3_stmt *rockets = store_prepare(
+        self, "INSERT INTO main.rocket SELECT * FROM part.rocket WHERE sample = ?", error);
     ld_status status =
-        ask(self, "SELECT 1 FROM part.sqlite_master WHERE name = 'origin'", &named, error);
-    if (!status && named)
-        status = store_execute(self, "INSERT OR IGNORE INTO main.origin SELECT * FROM part.origin",
-                               error);
-    free(named);
+        sample && rockets ? store_walk_begin(&walk, part, kept, error) : store_status(self);
+    while (!status && store_walk_next(&walk, error)) {
+        sqlite3_bind_int64(sample, 1, walk.number);
+        sqlite3_bind_int64(rockets, 1, walk.number);
+        if (!store_step(sample))
+            status = store_fail(self, "write", error);
+        if (status || sqlite3_changes(self->database) == 0)
+            continue;
+        store_kept_add(&self->kept, walk.number, walk.digest);
+        if (!store_step(rockets))
+            status = store_fail(self, "write", error);
+    }
+    if (!status && walk.status)
+        status = walk.status;
+    else if (!status && store_walk_verdict(&walk, damage) != LD_ERR_INPUT)
+        status = ld_fail(error, damage->status, "%s", damage->text);
+    store_walk_end(&walk);
+    sqlite3_finalize(sample);
+    sqlite3_finalize(rockets);
     return status;
 }
 
-static ld_status add_part(study_store *self, const char *path, ld_error *error)
+// Refuses what is of another study than the attached database.
+static ld_status expect_same(const store_view *part, ld_error *error)
 {
-    char *begun = NULL, *here = NULL, *differs = NULL;
+    study_store *self = part->store;
+    char *differs = NULL;
     ld_status status =
-        ask(self, "SELECT 1 FROM part.sqlite_master WHERE name = 'study'", &begun, error);
-    if (!status)
-        status = ask(self, "SELECT 1 FROM main.sqlite_master WHERE name = 'study'", &here, error);
-    if (!status && begun && !here)
-        status = begin_as(self, error);
-    if (!status && begun)
-        status = ask(self,
-                     "SELECT name FROM part.study AS p JOIN main.study AS m USING (name) WHERE "
-                     "p.value != m.value AND name IN ('format', 'version', 'scenario')",
-                     &differs, error);
+        ask(self,
+            "SELECT name FROM part.study AS p JOIN main.study AS m USING (name) WHERE "
+            "p.value != m.value AND name IN ('version', 'scenario')",
+            &differs, error);
     if (differs)
         status = ld_fail(error, LD_ERR_INPUT, "%s and %s are of different studies: in their %s",
-                         path, self->path, differs);
-    if (!status && begun)
-        status = store_execute(
-            self,
-            "INSERT OR IGNORE INTO main.sample SELECT * FROM part.sample ORDER BY sample;"
-            "INSERT OR IGNORE INTO main.rocket SELECT * FROM part.rocket ORDER BY sample, rocket;"
-            "UPDATE main.study SET value = (SELECT max(CAST(value AS INTEGER)) FROM (SELECT value "
-            "FROM main.study WHERE name = 'samples' UNION SELECT value FROM part.study WHERE name "
-            "= 'samples')) WHERE name = 'samples'",
-            error);
-    if (!status && begun)
-        status = add_programs(self, error);
-    free(begun);
-    free(here);
+                         part->path, self->path, differs);
     free(differs);
     return status;
 }
 
-static ld_status merge_file(study_store *self, const char *path, ld_error *error)
+// Adds the attached database, which may have nothing yet.
+static ld_status add_part(const store_view *part, ld_error *damage, ld_error *error)
 {
+    study_store *self = part->store;
+    store_kept kept;
+    char *begun = NULL, *here = NULL;
+    ld_status status = ask(self, "SELECT 1 FROM part.sqlite_master", &begun, error);
+    if (!status && begun)
+        status = ask(self, "SELECT 1 FROM main.sqlite_master", &here, error);
+    bool there = begun, first = !here;
+    free(begun);
+    free(here);
+    if (status || !there)
+        return status;
+    status = store_read_kept(part, &kept, error);
+    if (!status)
+        status = first ? begin_as(self, error) : expect_same(part, error);
+    if (!status)
+        status = add_samples(part, &kept, damage, error);
+    if (!status)
+        status = store_execute(
+            self,
+            "UPDATE main.study SET value = (SELECT max(CAST(value AS INTEGER)) FROM (SELECT value "
+            "FROM main.study WHERE name = 'samples' UNION SELECT value FROM part.study WHERE name "
+            "= 'samples')) WHERE name = 'samples';"
+            "INSERT INTO main.origin SELECT * FROM part.origin WHERE (kind, name, text) NOT IN "
+            "(SELECT kind, name, text FROM main.origin) ORDER BY rowid",
+            error);
+    return status ? status : store_seal(self, error);
+}
+
+// *damage: of a shard that is damaged, whose intact samples are added all the same.
+static ld_status merge_file(study_store *self, const char *path, ld_error *damage, ld_error *error)
+{
+    const store_view part = {self, "part", path};
+    const store_kept before = self->kept;
     sqlite3_stmt *attach = store_prepare(self, "ATTACH DATABASE ? AS part", error);
     if (!attach)
         return store_status(self);
@@ -149,16 +187,14 @@ static ld_status merge_file(study_store *self, const char *path, ld_error *error
     bool attached = sqlite3_step(attach) == SQLITE_DONE;
     sqlite3_finalize(attach);
     if (!attached)
-        return ld_fail(error, store_status(self), "cannot read %s: %s", path,
-                       sqlite3_errmsg(self->database));
+        return store_fail_at(self, path, "read", error);
     ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
     if (!status)
-        status = add_part(self, path, error);
-    if (!status)
-        status = store_execute(self, "COMMIT", error);
-    else if (!sqlite3_get_autocommit(self->database))
-        sqlite3_exec(self->database, "ROLLBACK", NULL, NULL, NULL);
-    if (!status)
+        status = add_part(&part, damage, error);
+    status = store_commit(self, status, error);
+    if (status)
+        self->kept = before;
+    else
         status = store_execute(self, "DETACH part", error);
     return status;
 }
@@ -218,7 +254,7 @@ static ld_status print_state(study_store *self, const shard_list *list, FILE *st
 {
     ld_study_counts counts;
     char *begun;
-    ld_status status = ask(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", &begun, error);
+    ld_status status = ask(self, "SELECT 1 FROM main.sqlite_master", &begun, error);
     if (!status && !begun)
         status = ld_fail(error, LD_ERR_INPUT, "no shard beside %s has begun", self->path);
     free(begun);
@@ -240,22 +276,39 @@ static ld_status print_state(study_store *self, const shard_list *list, FILE *st
     return status;
 }
 
+// Adds all of them; *damage: of the first that is damaged.
+static ld_status merge_all(study_store *self, const shard_list *list, ld_error *damage,
+                           ld_error *error)
+{
+    ld_status status = LD_OK;
+    for (size_t i = 0; i < list->found.gl_pathc && !status; i++) {
+        int shard, shards;
+        ld_error this = {0};
+        if (!read_name(list->found.gl_pathv[i], &shard, &shards))
+            continue;
+        status = merge_file(self, list->found.gl_pathv[i], &this, error);
+        if (this.status && !damage->status)
+            *damage = this;
+    }
+    return status;
+}
+
 ld_status ld_study_merge(const char *folder, FILE *stream, ld_error *error)
 {
     study_store store;
     shard_list list;
-    int shard, shards;
+    ld_error damage = {0};
     ld_status status = list_shards(&list, folder, error);
     if (!status)
         status = store_open_to_merge(&store, folder, error);
     if (!status) {
-        for (size_t i = 0; i < list.found.gl_pathc && !status; i++)
-            if (read_name(list.found.gl_pathv[i], &shard, &shards))
-                status = merge_file(&store, list.found.gl_pathv[i], error);
+        status = merge_all(&store, &list, &damage, error);
         if (!status)
             status = print_state(&store, &list, stream, error);
         store_close(&store);
     }
+    if (!status && damage.status)
+        status = ld_fail(error, LD_ERR_INPUT, "%s; what is intact of it was joined", damage.text);
     globfree(&list.found);
     free(list.there);
     return status;

@@ -12,6 +12,8 @@
 #include "base/random.h"
 #include "launchdyn/version.h"
 #include "results/folder.h"
+#include "studies/row_digest.h"
+#include "studies/store.h"
 
 ld_status store_status(const study_store *self)
 {
@@ -30,10 +32,19 @@ ld_status store_status(const study_store *self)
     }
 }
 
+ld_status store_fail_at(const study_store *self, const char *path, const char *what,
+                        ld_error *error)
+{
+    const int code = self->database ? sqlite3_errcode(self->database) : SQLITE_NOMEM;
+    const char *why = self->database ? sqlite3_errmsg(self->database) : "no memory";
+    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB)
+        return ld_fail(error, store_status(self), "%s is damaged: %s", path, why);
+    return ld_fail(error, store_status(self), "cannot %s %s: %s", what, path, why);
+}
+
 ld_status store_fail(const study_store *self, const char *what, ld_error *error)
 {
-    return ld_fail(error, store_status(self), "cannot %s %s: %s", what, self->path,
-                   self->database ? sqlite3_errmsg(self->database) : "no memory");
+    return store_fail_at(self, self->path, what, error);
 }
 
 sqlite3_stmt *store_prepare(study_store *self, const char *text, ld_error *error)
@@ -49,6 +60,15 @@ ld_status store_execute(study_store *self, const char *text, ld_error *error)
     if (sqlite3_exec(self->database, text, NULL, NULL, NULL) != SQLITE_OK)
         return store_fail(self, "write", error);
     return LD_OK;
+}
+
+ld_status store_commit(study_store *self, ld_status status, ld_error *error)
+{
+    if (!status)
+        status = store_execute(self, "COMMIT", error);
+    if (status && !sqlite3_get_autocommit(self->database))
+        sqlite3_exec(self->database, "ROLLBACK", NULL, NULL, NULL);
+    return status;
 }
 
 // "INSERT INTO table VALUES (?, ?, ...)"
@@ -75,19 +95,6 @@ bool store_step(sqlite3_stmt *statement)
     int result = sqlite3_step(statement);
     sqlite3_reset(statement);
     return result == SQLITE_DONE;
-}
-
-char *store_text(study_store *self, const char *name)
-{
-    sqlite3_stmt *select = store_prepare(self, "SELECT value FROM study WHERE name = ?", NULL);
-    char *value = NULL;
-    if (!select)
-        return NULL;
-    sqlite3_bind_text(select, 1, name, -1, SQLITE_STATIC);
-    if (sqlite3_step(select) == SQLITE_ROW && sqlite3_column_text(select, 0))
-        value = strdup((const char *)sqlite3_column_text(select, 0));
-    sqlite3_finalize(select);
-    return value;
 }
 
 // ---- opening
@@ -125,7 +132,7 @@ static void name_file(char *path, size_t size, const char *folder, int shard, in
 static ld_status prepare_all(study_store *self, ld_error *error)
 {
     const study_shape *shape = &self->study->shape;
-    self->insert_sample = store_prepare_insert(self, "sample", 4 + (int)shape->of_sample, error);
+    self->insert_sample = store_prepare_insert(self, "sample", 5 + (int)shape->of_sample, error);
     self->insert_rocket = store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
     self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
     bool all = self->insert_sample && self->insert_rocket && self->find;
@@ -171,13 +178,18 @@ ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *erro
 
 ld_status store_set_samples(study_store *self, int64_t samples, ld_error *error)
 {
-    return store_set_number(self, "samples", samples, error);
+    ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
+    if (!status)
+        status = store_set_number(self, "samples", samples, error);
+    if (!status)
+        status = store_seal(self, error);
+    return store_commit(self, status, error);
 }
 
 ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error)
 {
     *there = false;
-    if (number > self->greatest)
+    if (number > self->opened)
         return LD_OK;
     sqlite3_bind_int64(self->find, 1, number);
     int result = sqlite3_step(self->find);
@@ -186,43 +198,63 @@ ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *er
     return result == SQLITE_ROW || result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
 }
 
-static void bind_number(sqlite3_stmt *statement, int column, double value)
+// A row on its way into the database, and the digest of what was bound so far.
+typedef struct bound_row {
+    sqlite3_stmt *insert;
+    int columns;
+    uint32_t digest;
+} bound_row;
+
+static void bind_integer(bound_row *row, int64_t value)
 {
-    if (isnan(value))
-        sqlite3_bind_null(statement, column);
-    else
-        sqlite3_bind_double(statement, column, value);
+    sqlite3_bind_int64(row->insert, ++row->columns, value);
+    row->digest = digest_integer(row->digest, value);
 }
 
-static void bind_numbers(sqlite3_stmt *statement, int column, const double *value, int64_t count)
+// A text that lasts until the step; NULL: none.
+static void bind_text(bound_row *row, const char *text)
 {
-    for (int64_t i = 0; i < count; i++)
-        bind_number(statement, column++, value[i]);
+    sqlite3_bind_text(row->insert, ++row->columns, text, -1, SQLITE_STATIC);
+    row->digest = text ? digest_text(row->digest, text, strlen(text)) : digest_null(row->digest);
 }
 
-static bool put_sample(study_store *self, const study_record *record)
+static void bind_numbers(bound_row *row, const double *value, int64_t count)
 {
-    sqlite3_stmt *insert = self->insert_sample;
-    sqlite3_bind_int64(insert, 1, record->number);
-    sqlite3_bind_int(insert, 2, study_point_of(self->study, record->number) + 1);
-    sqlite3_bind_text(insert, 3, ld_status_name((ld_status)record->outcome), -1, SQLITE_STATIC);
-    if (record->outcome)
-        sqlite3_bind_text(insert, 4, record->reason, -1, SQLITE_TRANSIENT);
-    else
-        sqlite3_bind_null(insert, 4);
-    bind_numbers(insert, 5, record->value, record->shape.of_sample);
-    return store_step(insert);
+    for (int64_t i = 0; i < count; i++) {
+        row->columns++;
+        if (isnan(value[i])) {
+            sqlite3_bind_null(row->insert, row->columns);
+            row->digest = digest_null(row->digest);
+        } else {
+            sqlite3_bind_double(row->insert, row->columns, value[i]);
+            row->digest = digest_real(row->digest, value[i]);
+        }
+    }
 }
 
-static bool put_rocket(study_store *self, const study_record *record, int rocket)
+static bool put_rocket(study_store *self, const study_record *record, int rocket, uint32_t *digest)
 {
-    sqlite3_stmt *insert = self->insert_rocket;
+    bound_row row = {.insert = self->insert_rocket, .digest = *digest};
     const double *value = record->value + record_rocket(&record->shape, rocket - 1);
-    sqlite3_bind_int64(insert, 1, record->number);
-    sqlite3_bind_int(insert, 2, rocket);
-    sqlite3_bind_int64(insert, 3, (int64_t)value[0]);
-    bind_numbers(insert, 4, value + 1, record_width(&record->shape) - 1);
-    return store_step(insert);
+    bind_integer(&row, record->number);
+    bind_integer(&row, rocket);
+    bind_integer(&row, (int64_t)value[0]);
+    bind_numbers(&row, value + 1, record_width(&record->shape) - 1);
+    *digest = row.digest;
+    return store_step(row.insert);
+}
+
+static bool put_sample(study_store *self, const study_record *record, uint32_t *digest)
+{
+    bound_row row = {.insert = self->insert_sample, .digest = *digest};
+    bind_integer(&row, record->number);
+    bind_integer(&row, study_point_of(self->study, record->number) + 1);
+    bind_text(&row, ld_status_name((ld_status)record->outcome));
+    bind_text(&row, record->outcome ? record->reason : NULL);
+    bind_numbers(&row, record->value, record->shape.of_sample);
+    *digest = row.digest;
+    bind_integer(&row, (int32_t)*digest);
+    return store_step(row.insert);
 }
 
 static double now(void)
@@ -234,10 +266,14 @@ static double now(void)
 
 static bool insert_record(study_store *self, const study_record *record)
 {
-    bool good = put_sample(self, record);
+    bool good = true;
+    uint32_t digest = 0;
     for (int i = 1; i <= record->shape.rockets && good; i++)
-        good = put_rocket(self, record, i);
-    return good;
+        good = put_rocket(self, record, i, &digest);
+    if (!good || !put_sample(self, record, &digest))
+        return false;
+    store_kept_add(&self->kept, record->number, digest);
+    return true;
 }
 
 // Inserts what is pending; an earlier run may have committed some of it.
@@ -259,15 +295,17 @@ ld_status store_settle(study_store *self, bool at_once, ld_error *error)
     const double often = 0.1; // [s]
     if (self->pending.count == 0 || (!at_once && now() - self->settled < often))
         return LD_OK;
+    const store_kept before = self->kept;
     ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
     if (!status)
         status = insert_pending(self, error);
     if (!status)
-        status = store_execute(self, "COMMIT", error);
+        status = store_write_kept(self, error);
+    status = store_commit(self, status, error);
     if (!status)
         pending_clear(&self->pending);
-    else if (!sqlite3_get_autocommit(self->database))
-        sqlite3_exec(self->database, "ROLLBACK", NULL, NULL, NULL);
+    else
+        self->kept = before;
     self->settled = now();
     return status;
 }
@@ -287,21 +325,16 @@ static ld_status open_pending(study_store *self, ld_error *error)
     char path[4096];
     snprintf(path, sizeof path, "%.*s.pending", (int)(strlen(self->path) - strlen(".db")),
              self->path);
-    char *hash = store_text(self, "hash");
+    const store_view view = store_main(self);
+    char *hash = store_view_text(&view, "hash");
     uint64_t key = random_stream(hash ? hash : "") ^ random_stream(LD_VERSION);
     free(hash);
     ld_status status = pending_open(&self->pending, path, key, &self->study->shape, error);
-    self->greatest = INT64_MAX;
+    self->opened = INT64_MAX; // what an earlier run has left may be there
     if (!status)
         status = store_settle(self, true, error);
-    sqlite3_stmt *greatest =
-        status ? NULL : store_prepare(self, "SELECT max(sample) FROM sample", error);
-    if (!greatest)
-        return store_status(self);
-    sqlite3_step(greatest);
-    self->greatest = sqlite3_column_int64(greatest, 0);
-    sqlite3_finalize(greatest);
-    return LD_OK;
+    self->opened = self->kept.greatest;
+    return status;
 }
 
 // ---- the whole of it
@@ -337,10 +370,27 @@ ld_status store_open(study_store *self, const char *folder, int shard, int shard
     return status;
 }
 
+// Checks a database that is not new.
+static ld_status check_begun(study_store *self, ld_error *error)
+{
+    const store_view view = store_main(self);
+    sqlite3_stmt *tables = store_prepare(self, "SELECT 1 FROM sqlite_master", error);
+    if (!tables)
+        return store_status(self);
+    int result = sqlite3_step(tables);
+    sqlite3_finalize(tables);
+    if (result == SQLITE_DONE)
+        return LD_OK;
+    return result == SQLITE_ROW ? store_check(&view, &self->kept, error)
+                                : store_fail(self, "read", error);
+}
+
 ld_status store_open_to_merge(study_store *self, const char *folder, ld_error *error)
 {
     *self = (study_store){.lock = -1};
     ld_status status = open_locked(self, folder, 0, 0, STORE_ROLLBACK, error);
+    if (!status)
+        status = check_begun(self, error);
     if (status)
         store_close(self);
     return status;
@@ -392,6 +442,9 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
         sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM study", NULL,
                      NULL, NULL) != SQLITE_OK)
         status = store_fail(self, "read", error);
+    const store_view view = store_main(self);
+    if (!status)
+        status = store_read_kept(&view, &self->kept, error);
     if (status)
         store_close(self);
     return status;

@@ -11,8 +11,6 @@
 #include "simulation/study_results.h"
 #include "studies/store.h"
 
-#define FORMAT "4"
-
 // The scenario as text in which nothing is left out but when to stop: the rule, and the number of
 // samples where more may be added.
 static char *identity_of(const ld_model *model)
@@ -45,7 +43,7 @@ static ld_status make_tables(study_store *self, ld_error *error)
     for (int i = 0; i < scatter->factor_count; i++)
         if (!store_is_of_rocket(self, i))
             fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
-    fputs("); CREATE TABLE point (point INTEGER PRIMARY KEY", stream);
+    fputs(", digest INTEGER NOT NULL); CREATE TABLE point (point INTEGER PRIMARY KEY", stream);
     for (int i = 0; i < self->study->nominal->sweep_count; i++)
         fprintf(stream, ", \"%s\" TEXT NOT NULL", self->study->nominal->sweep[i].path);
     fputs("); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER",
@@ -59,13 +57,15 @@ static ld_status make_tables(study_store *self, ld_error *error)
         study_result_name(&at, name);
         fprintf(stream, ", \"%s\" REAL", name);
     }
-    fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID;", stream);
+    fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID; CREATE TABLE origin (kind TEXT NOT NULL, "
+          "name TEXT NOT NULL, text BLOB NOT NULL)",
+          stream);
     ld_status status = fclose(stream) == 0 ? store_execute(self, text, error) : LD_ERR_MEMORY;
     free(text);
     return status;
 }
 
-static ld_status set_text(study_store *self, const char *name, const char *value, ld_error *error)
+ld_status store_set_text(study_store *self, const char *name, const char *value, ld_error *error)
 {
     sqlite3_stmt *insert =
         store_prepare(self, "INSERT OR REPLACE INTO study (name, value) VALUES (?, ?)", error);
@@ -103,13 +103,13 @@ static ld_status fill_new(study_store *self, const char *identity, ld_error *err
     if (!status)
         status = put_points(self, error);
     if (!status)
-        status = set_text(self, "format", FORMAT, error);
+        status = store_set_text(self, "format", STORE_FORMAT, error);
     if (!status)
-        status = set_text(self, "version", LD_VERSION, error);
+        status = store_set_text(self, "version", LD_VERSION, error);
     if (!status)
-        status = set_text(self, "hash", hash, error);
+        status = store_set_text(self, "hash", hash, error);
     if (!status)
-        status = set_text(self, "scenario", identity, error);
+        status = store_set_text(self, "scenario", identity, error);
     return status;
 }
 
@@ -126,16 +126,16 @@ static void first_difference(const char *before, const char *now, char line[96])
     snprintf(line, 96, "%.*s", (int)(length < 95 ? length : 95), text);
 }
 
-// Refuses a folder that holds something else.
+// Refuses a folder that holds something else, or is damaged.
 static ld_status compare(study_store *self, const char *identity, ld_error *error)
 {
-    char *before = store_text(self, "scenario"), *version = store_text(self, "version"), line[96];
-    char *format = store_text(self, "format");
-    ld_status status = LD_OK;
-    if (format && strcmp(format, FORMAT) != 0) {
-        status =
-            ld_fail(error, LD_ERR_INPUT, "%s is of another format; use another folder", self->path);
-    } else if (!before || !version || !format) {
+    const store_view view = store_main(self);
+    ld_status status = store_check(&view, &self->kept, error);
+    if (status)
+        return status;
+    char *before = store_view_text(&view, "scenario"), line[96];
+    char *version = store_view_text(&view, "version");
+    if (!before || !version) {
         status = ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->path);
     } else if (strcmp(before, identity) != 0) {
         first_difference(before, identity, line);
@@ -150,7 +150,6 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
     }
     free(before);
     free(version);
-    free(format);
     return status;
 }
 
@@ -159,8 +158,11 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
 static ld_status insert_origin(study_store *self, const char *kind, const char *name,
                                const char *text, size_t length, ld_error *error)
 {
-    sqlite3_stmt *insert =
-        store_prepare(self, "INSERT OR IGNORE INTO origin VALUES (?, ?, ?)", error);
+    sqlite3_stmt *insert = store_prepare(
+        self,
+        "INSERT INTO origin SELECT ?1, ?2, ?3 WHERE (?1, ?2, ?3) NOT IN (SELECT kind, "
+        "name, text FROM origin)",
+        error);
     if (!insert)
         return store_status(self);
     sqlite3_bind_text(insert, 1, kind, -1, SQLITE_STATIC);
@@ -194,17 +196,13 @@ static ld_status put_origin(study_store *self, ld_error *error)
     ld_status status = ld_origin_of(self->study->nominal, &origin, error);
     if (status)
         return status;
-    status = store_execute(self,
-                           "CREATE TABLE IF NOT EXISTS origin (kind TEXT NOT NULL, name TEXT NOT "
-                           "NULL, text BLOB NOT NULL, UNIQUE (kind, name, text))",
-                           error);
     for (size_t i = 0; i < origin.fact_count && !status; i++)
         status = insert_origin(self, "program", origin.fact[i].name, origin.fact[i].text,
                                strlen(origin.fact[i].text), error);
     if (!status)
         status = put_source(self, origin.source, error);
     if (!status)
-        status = set_text(self, "resolved", origin.scenario, error);
+        status = store_set_text(self, "resolved", origin.scenario, error);
     ld_origin_free(&origin);
     return status;
 }
@@ -213,14 +211,13 @@ ld_status store_set_number(study_store *self, const char *name, int64_t value, l
 {
     char text[32];
     snprintf(text, sizeof text, "%" PRId64, value);
-    return set_text(self, name, text, error);
+    return store_set_text(self, name, text, error);
 }
 
 static ld_status begin_or_compare(study_store *self, const char *identity, ld_error *error)
 {
     const ld_scatter *scatter = &self->study->nominal->scatter;
-    sqlite3_stmt *tables =
-        store_prepare(self, "SELECT 1 FROM sqlite_master WHERE name = 'study'", error);
+    sqlite3_stmt *tables = store_prepare(self, "SELECT 1 FROM sqlite_master", error);
     if (!tables)
         return store_status(self);
     bool there = sqlite3_step(tables) == SQLITE_ROW;
@@ -233,7 +230,7 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
         status = store_set_number(self, "strata", strata, error);
     if (!status)
         status = put_origin(self, error);
-    return status;
+    return status ? status : store_seal(self, error);
 }
 
 ld_status store_begin(study_store *self, ld_error *error)
@@ -244,8 +241,7 @@ ld_status store_begin(study_store *self, ld_error *error)
     ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
     if (!status)
         status = begin_or_compare(self, identity, error);
-    if (!status)
-        status = store_execute(self, "COMMIT", error);
+    status = store_commit(self, status, error);
     free(identity);
     return status;
 }

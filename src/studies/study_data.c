@@ -12,7 +12,6 @@
 
 typedef struct study_reader {
     study_store store;
-    bool has_points; // samples belong to points of a sweep
     study_column *column;
     const char **swept;
     study_point *point;
@@ -54,7 +53,8 @@ static const char *column_text(study_reader *self, sqlite3_stmt *row, int column
 // Columns of bookkeeping, of the tables `sample` and `rocket`.
 static bool is_key(const char *name)
 {
-    static const char *const keys[] = {"sample", "point", "status", "reason", "rocket", "tube"};
+    static const char *const keys[] = {"sample", "point", "status", "reason",
+                                       "rocket", "tube",  "digest"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (strcmp(name, keys[i]) == 0)
             return true;
@@ -71,10 +71,10 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
     if (!row)
         return store_status(&self->store);
     ld_status status = LD_OK;
-    while (!status && sqlite3_step(row) == SQLITE_ROW) {
+    int stepped;
+    while ((stepped = sqlite3_step(row)) == SQLITE_ROW && !status) {
         const char *name = (const char *)sqlite3_column_text(row, 1);
         const quantity *result = study_result_like(name);
-        self->has_points |= strcmp(name, "point") == 0;
         if (is_key(name) || factors != !result)
             continue;
         size_t size = ((size_t)data->column_count + 1) * sizeof *self->column;
@@ -89,7 +89,7 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
     }
     sqlite3_finalize(row);
     data->column = self->column;
-    return status;
+    return status || stepped == SQLITE_DONE ? status : store_fail(&self->store, "read", error);
 }
 
 // The factor with the name of that column, or NULL.
@@ -160,24 +160,40 @@ static ld_status make_points(study_data *data, int points, ld_error *error)
     return LD_OK;
 }
 
+static ld_status count_points(study_store *store, int *points, ld_error *error)
+{
+    sqlite3_stmt *row = store_prepare(store, "SELECT count(*) FROM point", error);
+    if (!row)
+        return store_status(store);
+    bool read = sqlite3_step(row) == SQLITE_ROW;
+    *points = read ? sqlite3_column_int(row, 0) : 0;
+    sqlite3_finalize(row);
+    if (!read)
+        return store_fail(store, "read", error);
+    return *points > 0
+               ? LD_OK
+               : ld_fail(error, LD_ERR_INPUT, "%s holds no study: it has no points", store->path);
+}
+
 // The points as the table `point` has them: a number and a text for each swept key.
-static ld_status list_swept(study_data *data, ld_error *error)
+static ld_status list_points(study_data *data, ld_error *error)
 {
     study_reader *self = data->reader;
-    sqlite3_stmt *row = store_prepare(&self->store, "SELECT count(*) FROM point", error);
-    if (!row)
-        return store_status(&self->store);
-    int points = sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int(row, 0) : 0;
-    sqlite3_finalize(row);
-    row = store_prepare(&self->store, "SELECT * FROM point ORDER BY point", error);
+    int points = 0;
+    ld_status status = count_points(&self->store, &points, error);
+    if (status)
+        return status;
+    sqlite3_stmt *row = store_prepare(&self->store, "SELECT * FROM point ORDER BY point", error);
     if (!row)
         return store_status(&self->store);
     data->swept_count = sqlite3_column_count(row) - 1;
-    ld_status status = make_points(data, points, error);
+    status = make_points(data, points, error);
     for (int k = 0; k < data->swept_count && !status; k++)
         if (!(self->swept[k] = keep(self, strdup(sqlite3_column_name(row, k + 1)))))
             status = no_memory(error);
-    for (int i = 0; i < data->point_count && !status && sqlite3_step(row) == SQLITE_ROW; i++) {
+    for (int i = 0; i < data->point_count && !status; i++) {
+        if (sqlite3_step(row) != SQLITE_ROW)
+            status = store_fail(&self->store, "read", error);
         self->point[i].number = sqlite3_column_int64(row, 0);
         for (int k = 0; k < data->swept_count && !status; k++)
             if (!(self->point_text[i * data->swept_count + k] = column_text(self, row, k + 1)))
@@ -187,55 +203,55 @@ static ld_status list_swept(study_data *data, ld_error *error)
     return status;
 }
 
+// Counts the samples of each point, all of which are looked at; what is damaged stands in
+// data->damage.
 static ld_status count_samples(study_data *data, ld_error *error)
 {
     study_reader *self = data->reader;
-    char query[160], *samples = store_text(&self->store, "samples");
-    int64_t asked = samples ? atoll(samples) : 0;
-    free(samples);
-    for (int i = 0; i < data->point_count; i++)
-        self->point[i].asked = asked / data->point_count;
-    snprintf(query, sizeof query,
-             "SELECT %s, count(*), count(*) FILTER (WHERE status != 'ok') FROM sample GROUP BY 1",
-             self->has_points ? "point" : "1");
-    sqlite3_stmt *row = store_prepare(&self->store, query, error);
-    if (!row)
-        return store_status(&self->store);
-    while (sqlite3_step(row) == SQLITE_ROW)
-        for (int i = 0; i < data->point_count; i++)
-            if (self->point[i].number == sqlite3_column_int64(row, 0)) {
-                self->point[i].done = sqlite3_column_int64(row, 1);
-                self->point[i].failed = sqlite3_column_int64(row, 2);
-            }
-    sqlite3_finalize(row);
-    return LD_OK;
-}
-
-static ld_status list_points(study_data *data, ld_error *error)
-{
-    ld_status status =
-        data->reader->has_points ? list_swept(data, error) : make_points(data, 1, error);
-    return status ? status : count_samples(data, error);
+    const store_view view = store_main(&self->store);
+    store_walk walk;
+    ld_status status = store_walk_begin(&walk, &view, &self->store.kept, error);
+    while (!status && store_walk_next(&walk, error))
+        if (walk.point >= 1 && walk.point <= data->point_count) {
+            self->point[walk.point - 1].done++;
+            self->point[walk.point - 1].failed += walk.failed;
+        }
+    if (!status)
+        status = store_walk_verdict(&walk, &data->damage);
+    data->rockets = walk.all_rockets;
+    store_walk_end(&walk);
+    if (status == LD_ERR_INPUT)
+        return LD_OK;
+    if (status && !walk.status)
+        *error = data->damage;
+    return status;
 }
 
 // ---- opening
 
+// A whole number from a text, at least `least`.
+static int64_t number_of(char *text, int64_t least)
+{
+    int64_t number = text ? atoll(text) : least;
+    free(text);
+    return number > least ? number : least;
+}
+
 static ld_status read_texts(study_data *data, ld_error *error)
 {
     study_reader *self = data->reader;
-    char *strata = store_text(&self->store, "strata");
-    data->strata = strata ? atoll(strata) : 1;
-    data->strata = data->strata > 0 ? data->strata : 1;
-    free(strata);
+    const store_view view = store_main(&self->store);
+    data->strata = number_of(store_view_text(&view, "strata"), 1);
+    data->asked = number_of(store_view_text(&view, "samples"), 0);
     data->title = "";
-    data->scenario = keep(self, store_text(&self->store, "scenario"));
-    data->version = keep(self, store_text(&self->store, "version"));
+    data->scenario = keep(self, store_view_text(&view, "scenario"));
+    data->version = keep(self, store_view_text(&view, "version"));
     if (!data->scenario || !data->version)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->store.path);
     return LD_OK;
 }
 
-ld_status study_data_open(const char *folder, study_data *data, ld_error *error)
+ld_status study_data_open_damaged(const char *folder, study_data *data, ld_error *error)
 {
     *data = (study_data){.reader = calloc(1, sizeof(study_reader))};
     if (!data->reader)
@@ -251,9 +267,29 @@ ld_status study_data_open(const char *folder, study_data *data, ld_error *error)
         status = list_columns(data, error);
     if (!status)
         status = list_points(data, error);
+    for (int i = 0; i < data->point_count; i++)
+        data->reader->point[i].asked = data->asked / data->point_count;
+    if (!status)
+        status = count_samples(data, error);
     if (status)
         study_data_close(data);
     return status;
+}
+
+ld_status study_data_open(const char *folder, study_data *data, ld_error *error)
+{
+    ld_status status = study_data_open_damaged(folder, data, error);
+    if (status || !data->damage.status)
+        return status;
+    ld_fail(error, LD_ERR_INPUT, "%s; launchdyn study export writes what is intact",
+            data->damage.text);
+    study_data_close(data);
+    return LD_ERR_INPUT;
+}
+
+study_store *study_data_store(const study_data *data)
+{
+    return &data->reader->store;
 }
 
 void study_data_close(study_data *data)
@@ -287,42 +323,47 @@ const study_column *study_data_find(const study_data *data, const char *name, co
 
 // ---- failures
 
+// What the column holds as a text, "" where it is NULL, cut to its room.
+static void copy_text(sqlite3_stmt *row, int column, char *text, size_t size)
+{
+    const char *found = (const char *)sqlite3_column_text(row, column);
+    snprintf(text, size, "%s", found ? found : "");
+}
+
 ld_status study_data_failures(const study_data *data, const study_point *point,
                               study_failure *failure, int capacity, int *count, ld_error *error)
 {
     study_reader *self = data->reader;
-    char query[320];
+    static const char query[] =
+        "SELECT count(*), min(sample), status, reason FROM sample WHERE status != 'ok' AND point "
+        "= ? GROUP BY status, substr(reason, 1, 40) ORDER BY count(*) DESC, min(sample)";
+    int result = SQLITE_DONE;
     *count = 0;
-    snprintf(query, sizeof query,
-             "SELECT count(*), min(sample), status, reason FROM sample WHERE status != 'ok' AND %s "
-             "= ? GROUP BY status, substr(reason, 1, 40) ORDER BY count(*) DESC, min(sample)",
-             self->has_points ? "point" : "1");
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
     if (!row)
         return store_status(&self->store);
     sqlite3_bind_int64(row, 1, point->number);
-    while (*count < capacity && sqlite3_step(row) == SQLITE_ROW) {
+    while (*count < capacity && (result = sqlite3_step(row)) == SQLITE_ROW) {
         study_failure *f = &failure[(*count)++];
         f->count = sqlite3_column_int64(row, 0);
         f->first = sqlite3_column_int64(row, 1);
-        snprintf(f->status, sizeof f->status, "%s", sqlite3_column_text(row, 2));
-        snprintf(f->reason, sizeof f->reason, "%s", sqlite3_column_text(row, 3));
+        copy_text(row, 2, f->status, sizeof f->status);
+        copy_text(row, 3, f->reason, sizeof f->reason);
     }
     sqlite3_finalize(row);
-    return LD_OK;
+    return *count < capacity && result != SQLITE_DONE ? store_fail(&self->store, "read", error)
+                                                      : LD_OK;
 }
 
 ld_status study_data_failed(const study_data *data, const study_point *point, study_failed *failed,
                             int capacity, int *count, ld_error *error)
 {
     study_reader *self = data->reader;
-    char query[160];
+    static const char query[] =
+        "SELECT sample, status, reason FROM sample WHERE status != 'ok' AND "
+        "point = ? ORDER BY sample";
     int result = SQLITE_DONE;
     *count = 0;
-    snprintf(query, sizeof query,
-             "SELECT sample, status, reason FROM sample WHERE status != 'ok' AND %s = ? ORDER BY "
-             "sample",
-             self->has_points ? "point" : "1");
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
     if (!row)
         return store_status(&self->store);
@@ -330,8 +371,8 @@ ld_status study_data_failed(const study_data *data, const study_point *point, st
     while (*count < capacity && (result = sqlite3_step(row)) == SQLITE_ROW) {
         study_failed *f = &failed[(*count)++];
         f->sample = sqlite3_column_int64(row, 0);
-        snprintf(f->status, sizeof f->status, "%s", sqlite3_column_text(row, 1));
-        snprintf(f->reason, sizeof f->reason, "%s", sqlite3_column_text(row, 2));
+        copy_text(row, 1, f->status, sizeof f->status);
+        copy_text(row, 2, f->reason, sizeof f->reason);
     }
     sqlite3_finalize(row);
     return *count < capacity && result != SQLITE_DONE ? store_fail(&self->store, "read", error)
@@ -406,9 +447,8 @@ static sqlite3_stmt *select_values(study_reader *self, const study_column *const
     for (int i = 0; i < columns; i++)
         fprintf(text, ", %s.\"%s\"", column[i]->per_rocket ? "rocket" : "sample", column[i]->name);
     fprintf(text,
-            " FROM sample JOIN rocket USING (sample) WHERE sample.status = 'ok' AND %s = ? "
-            "AND sample.sample <= ? ORDER BY sample.sample, rocket.rocket",
-            self->has_points ? "sample.point" : "1");
+            " FROM sample JOIN rocket USING (sample) WHERE sample.status = 'ok' AND sample.point = "
+            "? AND sample.sample <= ? ORDER BY sample.sample, rocket.rocket");
     fclose(text);
     sqlite3_stmt *row = store_prepare(&self->store, query, error);
     free(query);

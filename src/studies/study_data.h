@@ -23,11 +23,18 @@ typedef struct study_data {
     const study_column *column; // [column_count] results first, then factors
     const char *const *swept;   // [swept_count] paths of the swept keys
     const study_point *point;   // [point_count]
+    int64_t asked;              // samples, of all points
+    int64_t rockets;            // of all samples that are as they were kept
+    ld_error damage;            // what is wrong with the others; LD_OK: nothing
 } study_data;
 
-// @return LD_OK, LD_ERR_INPUT (no study there), LD_ERR_FILE, LD_ERR_MEMORY
+// @return LD_OK, LD_ERR_INPUT (no study there, or it is damaged), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status study_data_open(const char *folder, study_data *data, ld_error *error);
+// The same where samples are damaged; of those that are not, counts alone are good.
+ld_status study_data_open_damaged(const char *folder, study_data *data, ld_error *error);
 void study_data_close(study_data *data);
+// The database that it reads.
+struct study_store *study_data_store(const study_data *data);
 
 // The column of that name; else NULL, with *nearest the name that may be meant, or NULL.
 const study_column *study_data_find(const study_data *data, const char *name, const char **nearest);

@@ -39,11 +39,10 @@ static ld_status read_rows(study_store *store, ld_origin *origin, ld_error *erro
     bool fine = true;
     sqlite3_stmt *row =
         store_prepare(store, "SELECT kind, name, text FROM origin ORDER BY rowid", error);
+    int result = SQLITE_DONE;
     if (!row)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "%.300s does not say where it comes from: it is of an earlier version",
-                       store->path);
-    while (fine && sqlite3_step(row) == SQLITE_ROW) {
+        return store_status(store);
+    while (fine && (result = sqlite3_step(row)) == SQLITE_ROW) {
         const char *kind = (const char *)sqlite3_column_text(row, 0);
         const char *name = (const char *)sqlite3_column_text(row, 1);
         const char *text = sqlite3_column_blob(row, 2);
@@ -51,13 +50,16 @@ static ld_status read_rows(study_store *store, ld_origin *origin, ld_error *erro
                take(origin, kind, name, text ? text : "", (size_t)sqlite3_column_bytes(row, 2));
     }
     sqlite3_finalize(row);
-    return fine ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the texts of the study");
+    if (!fine)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the texts of the study");
+    return result == SQLITE_DONE ? LD_OK : store_fail(store, "read", error);
 }
 
 static ld_status read_origin(study_store *store, ld_origin *origin, ld_error *error)
 {
     origin->source = source_new("", NULL);
-    origin->scenario = store_text(store, "resolved");
+    const store_view view = store_main(store);
+    origin->scenario = store_view_text(&view, "resolved");
     if (!origin->source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the texts of the study");
     ld_status status = read_rows(store, origin, error);

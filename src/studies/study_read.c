@@ -19,7 +19,7 @@ static void name_point(ld_message *message, const ld_model *model, int point)
         fprintf(stream, ", %s: %s", model->sweep[i].path,
                 model->sweep[i].value[ld_scenario_value(model, point, i)]);
     fputc(')', stream);
-    if (fclose(stream) == 0) {
+    if (fclose(stream) == 0 && text) {
         free(message->text);
         message->text = text;
     } else {
@@ -33,13 +33,17 @@ static ld_status add_message(ld_messages *messages, const char *file, ld_status 
 {
     messages->item = calloc(1, sizeof *messages->item);
     if (!messages->item)
-        return status;
+        return LD_ERR_MEMORY;
     messages->count = 1;
-    *messages->item = (ld_message){.file = strdup(file),
-                                   .path = strdup("scatter"),
-                                   .text = strdup(text),
-                                   .source = strdup("")};
-    return status;
+    ld_message *message = messages->item;
+    *message = (ld_message){.file = strdup(file),
+                            .path = strdup("scatter"),
+                            .text = strdup(text),
+                            .source = strdup("")};
+    if (message->file && message->path && message->text && message->source)
+        return status;
+    ld_messages_free(messages);
+    return LD_ERR_MEMORY;
 }
 
 static ld_status read_points(ld_study *self, ld_messages *messages)
@@ -111,7 +115,8 @@ static ld_status make_study(ld_status status, ld_model *nominal, const char *nam
         return LD_OK;
     }
     ld_study_free(self);
-    return messages->count > 0 ? status : add_message(messages, name, status, error.text);
+    bool told = messages->count > 0 || status == LD_ERR_MEMORY;
+    return told ? status : add_message(messages, name, status, error.text);
 }
 
 ld_status ld_study_read(const char *path, const char *const *sets, size_t count, ld_study **study,

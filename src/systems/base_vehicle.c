@@ -289,8 +289,9 @@ static void residual(const base_system *self, const base_output *output, double 
 static ld_status no_rest(double smallest, ld_error *error)
 {
     return ld_fail(error, LD_ERR_NUMERIC,
-                   "the vehicle finds no static equilibrium on its wheels (smallest residual %.3g "
-                   "m/s2): do all wheels reach the road, and is the mass centre between them?",
+                   "base.wheels: the vehicle finds no static equilibrium on its wheels (smallest "
+                   "residual %.3g m/s2): do all wheels reach the road, and is the mass centre "
+                   "between them?",
                    smallest);
 }
 
@@ -306,11 +307,12 @@ static ld_status check_rest(const base_system *self, const base_found *found, co
                       unused, &marching);
     for (int j = 0; j < marching_of(self)->wheel_count; j++)
         if (!(marching.wheel[j].normal > 0))
-            return ld_fail(error, LD_ERR_INPUT,
-                           "wheel \"%s\" does not reach the ground at the start: in equilibrium it "
-                           "hangs %.3g m above the road",
-                           self->model->base.vehicle.wheel[j].name,
-                           fmax(0, -marching.wheel[j].deflection));
+            return ld_fail(
+                error, LD_ERR_INPUT,
+                "base.wheels.%d: wheel \"%s\" does not reach the ground at the start: in "
+                "equilibrium it hangs %.3g m above the road",
+                j + 1, self->model->base.vehicle.wheel[j].name,
+                fmax(0, -marching.wheel[j].deflection));
     for (int i = 0; i < HINGES; i++) {
         double torque = state[ORIENTATING_Z + i];
         double limit = turret[i]->stabiliser.torque_limit;

@@ -73,9 +73,14 @@ static void use_tube(launching_system *self, launching_tube *kept)
 static ld_status build_tube(launching_system *self, ld_error *error)
 {
     tube_system *tube = &self->tube;
-    ld_status status = flexible_tube_build(&tube->flexible, &self->tubes, error);
+    ld_error reason = {0};
+    ld_status status = flexible_tube_build(&tube->flexible, &self->tubes, &reason);
     if (status)
-        return status;
+        return ld_fail(error, status == LD_ERR_MEMORY ? status : LD_ERR_INPUT, "%s%s",
+                       status == LD_ERR_MEMORY    ? ""
+                       : status == LD_ERR_NUMERIC ? "tubes.sections: "
+                                                  : "tubes.modes: ",
+                       reason.text);
     size_t count = (size_t)tube->flexible.element_count;
     tube->packed = aligned_alloc(64, (count * sizeof(packed_element) + 63) / 64 * 64);
     if (!tube->packed) {

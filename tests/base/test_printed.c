@@ -19,6 +19,31 @@ static void test_control_characters_come_out_as_text(void **state)
     assert_string_equal(VISIBLE(fine), fine);
 }
 
+// Against the ranges of DerivedCoreProperties.txt and PropList.txt (Unicode 15), from their ends.
+static void test_characters_that_are_not_seen(void **state)
+{
+    (void)state;
+    static const struct {
+        int32_t code;
+        bool hidden;
+    } at[] = {{0x1f, 1},    {0x20, 0},    {0x7e, 0},    {0x7f, 1},    {0x9f, 1},    {0xa0, 0},
+              {0xad, 1},    {0xae, 0},    {0x34f, 1},   {0x61c, 1},   {0x200a, 0},  {0x200b, 1},
+              {0x200f, 1},  {0x2010, 0},  {0x2027, 0},  {0x2028, 1},  {0x202e, 1},  {0x202f, 0},
+              {0x205f, 0},  {0x2060, 1},  {0x2069, 1},  {0x2070, 0},  {0x3164, 1},  {0xfe0f, 1},
+              {0xfeff, 1},  {0xfffb, 1},  {0xfffc, 0},  {0xfffd, 0},  {0xfffe, 1},  {0xffff, 1},
+              {0xe0041, 1}, {0xe1000, 0}, {0x1f680, 0}, {0x2fffe, 1}, {0x10ffff, 1}};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++)
+        if (printed_is_hidden(at[i].code) != at[i].hidden)
+            fail_msg("U+%04X", (unsigned)at[i].code);
+    assert_string_equal(VISIBLE("a\xe2\x80\xae|\xe2\x81\xa6|\xf3\xa0\x81\x81|\xef\xbf\xbf"),
+                        "a\\xe2\\x80\\xae|\\xe2\\x81\\xa6|\\xf3\\xa0\\x81\\x81|\\xef\\xbf\\xbf");
+    size_t length;
+    assert_int_equal(printed_code("\xf0\x9f\x9a\x80", &length), 0x1f680);
+    assert_int_equal(length, 4);
+    assert_int_equal(printed_code("\xe2\x82", &length), -1);
+    assert_int_equal(length, 1);
+}
+
 static void test_what_does_not_fit_is_cut(void **state)
 {
     (void)state;
@@ -48,6 +73,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_control_characters_come_out_as_text),
+        cmocka_unit_test(test_characters_that_are_not_seen),
         cmocka_unit_test(test_what_does_not_fit_is_cut),
         cmocka_unit_test(test_errors_are_visible),
     };

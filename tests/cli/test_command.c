@@ -57,6 +57,12 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn run --cvs x", 2, "unknown option --cvs (did you mean --csv?)\n");
     expect_complaint("launchdyn run -z x", 2, "launchdyn: -z: unknown option\n");
     expect_complaint("launchdyn run x --out", 2, "launchdyn: --out: missing argument\n");
+    expect_complaint("launchdyn run x -qo", 2, "launchdyn: -qo: missing argument\n");
+    expect_complaint("launchdyn run x --csv=1", 2, "launchdyn: --csv takes no value\n");
+    expect_complaint("launchdyn wind x --rocket 1.5", 2,
+                     "launchdyn: --rocket wants a whole number, not 1.5\n");
+    expect_complaint("launchdyn wind x --rocket 9999999999", 2, "--rocket wants a whole number");
+    expect_complaint("launchdyn wind x --top ''", 2, "launchdyn: --top wants a number, not \n");
     expect_complaint("launchdyn run", 2, "launchdyn: run wants FILE; see launchdyn run --help\n");
     expect_complaint("launchdyn run a b", 2, "launchdyn: run wants FILE");
     expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv needs --out DIR\n");
@@ -67,6 +73,22 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn plot x", 2, "plot wants -o FILE.svg");
     expect_complaint("launchdyn plot x --what tipp -o x.svg", 2, "did you mean tip?");
     expect_complaint("launchdyn plot x -o x.svg", 2, "no results in x");
+}
+
+// Before the words, after them and between; a value apart or not; no option after "--".
+static void test_ways_to_write_options(void **state)
+{
+    (void)state;
+    assert_int_equal(run("for words in '-qo a s.yaml' 's.yaml --out=a -q' '--quiet s.yaml --out a' "
+                         "'-oa --qui -- s.yaml'; do rm -rf a; cp examples/fixed.yaml s.yaml; "
+                         "launchdyn run --set run.end=tip $words && ls a; done"),
+                     0);
+    assert_string_equal(shell.out, "history.h5\nsummary.json\nhistory.h5\nsummary.json\n"
+                                   "history.h5\nsummary.json\nhistory.h5\nsummary.json\n");
+    expect_complaint("launchdyn run -- --csv", 2, "--csv: error: file \"--csv\" cannot be read");
+    expect_complaint("launchdyn check - --set rocket.mas=1 --set=rocket.empt=2 <s.yaml", 2,
+                     "--set:1:8: error: rocket.mas: unknown key");
+    expect_in(shell.err, "--set:2:8: error: rocket.empt: unknown key");
 }
 
 static void test_wrong_words_of_a_study(void **state)
@@ -118,8 +140,8 @@ static void test_report(void **state)
     assert_int_equal(run("launchdyn report a -o b.html && cmp a/report.html b.html"), 0);
     expect_in(shell.out, "b.html: ");
     assert_int_equal(run("rm a/summary.json; launchdyn report a"), 0);
-    assert_string_equal(shell.err, "launchdyn: No summary: summary.json cannot be read: "
-                                   "No such file or directory.\n");
+    assert_string_equal(shell.err, "launchdyn: No summary: there is no summary.json, which would "
+                                   "tell whether the files are whole.\n");
     expect_complaint("launchdyn report a -o none/b.html", 3, "none/b.html: No such file");
 }
 
@@ -178,6 +200,12 @@ static void test_check_of_a_sweep(void **state)
     expect_complaint(SWEEP("70") "launchdyn check - <sweep.yaml", 2,
                      "<stdin>:2:36: error: rocket.");
     expect_in(shell.err, "this is point 2 of the sweep: rocket.empty.mass 70 kg\n");
+    // whose run cannot start: the place is that of the value
+    expect_complaint("{ echo 'include: examples/fixed.yaml'; "
+                     "echo 'sweep: {rocket.start_at: [0.1 m, 2 m]}'; } >sweep.yaml; "
+                     "launchdyn check sweep.yaml",
+                     1, "sweep.yaml:2:34: error: rocket.start_at: no static equilibrium");
+    expect_in(shell.err, "this is point 2 of the sweep: rocket.start_at 2 m\n");
 }
 
 static void test_bad_input_leaves_nothing(void **state)
@@ -237,6 +265,23 @@ static bool catches(pid_t process, int number)
     return caught >> (number - 1) & 1;
 }
 
+// The process in which a run does its work, once it listens to the signal.
+static pid_t worker_of(pid_t process, int number)
+{
+    char path[64];
+    int worker = 0;
+    snprintf(path, sizeof path, "/proc/%d/task/%d/children", process, process);
+    while (worker == 0 || !catches(worker, number)) {
+        FILE *file = fopen(path, "r");
+        assert_non_null(file);
+        if (fscanf(file, "%d", &worker) != 1)
+            worker = 0;
+        fclose(file);
+        usleep(10000);
+    }
+    return worker;
+}
+
 // Starts a run of a thousand seconds.
 static pid_t start_endless(bool nohup)
 {
@@ -259,11 +304,10 @@ static pid_t start_endless(bool nohup)
 // It is asked to stop by the signal: it does not go to its end, which would be another exit code.
 static void stop_by(int number)
 {
-    pid_t child = start_endless(false);
-    while (!catches(child, number))
-        usleep(10000);
+    pid_t child = start_endless(false), worker = worker_of(child, number);
     int status = 0;
     kill(child, number);
+    kill(worker, number); // as by who asks all processes of a group: it counts once
     waitpid(child, &status, 0);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 128 + number);
@@ -279,12 +323,34 @@ static void test_interrupted(void **state)
     stop_by(SIGHUP);
     // nohup stays what it is
     pid_t child = start_endless(true);
-    while (!catches(child, SIGTERM))
-        usleep(10000);
-    bool caught = catches(child, SIGHUP);
+    bool caught = catches(worker_of(child, SIGTERM), SIGHUP);
     kill(child, SIGTERM);
     waitpid(child, NULL, 0);
     assert_false(caught);
+}
+
+// Its work is ended by what it cannot catch: one sentence, and no half a file.
+static void test_killed_at_work(void **state)
+{
+    (void)state;
+    int status = 0;
+    pid_t child = start_endless(false);
+    kill(worker_of(child, SIGTERM), SIGKILL);
+    waitpid(child, &status, 0);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 3);
+    read_back(".err", shell.err, sizeof shell.err);
+    assert_string_equal(shell.err, "launchdyn: ended by signal 9 (Killed) while writing "
+                                   "stopped/history.h5.part\n");
+    assert_int_equal(run("ls stopped"), 0);
+    assert_string_equal(shell.out, "");
+    // with the one that waits it ends, too
+    child = start_endless(false);
+    pid_t worker = worker_of(child, SIGTERM);
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    while (kill(worker, 0) == 0)
+        usleep(10000);
 }
 
 static void test_modes_table(void **state)
@@ -341,7 +407,7 @@ static void test_road(void **state)
     expect_complaint("launchdyn road examples/reference.yaml --step 0", 2,
                      "from -100 m to 100 m by 0 m has not");
     expect_complaint("launchdyn road examples/reference.yaml --to x", 2,
-                     "launchdyn: x: invalid numeric value\n");
+                     "launchdyn: --to wants a number, not x\n");
     expect_complaint("launchdyn road examples/reference.yaml --plot x.bmp", 2,
                      "a picture's name ends in .svg, .pdf or .png");
 }
@@ -392,6 +458,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_help_and_version),
         TEST(test_wrong_words),
+        TEST(test_ways_to_write_options),
         TEST(test_wrong_words_of_a_study),
         TEST(test_run_writes_results),
         TEST(test_report),
@@ -402,6 +469,7 @@ int main(void)
         TEST(test_places_that_cannot_be_written),
         TEST(test_a_launch_that_cannot_happen),
         TEST(test_interrupted),
+        TEST(test_killed_at_work),
         TEST(test_modes_table),
         TEST(test_road),
         TEST(test_wind),

@@ -51,7 +51,8 @@ static void test_codes(void **state)
     expect_sentence("launchdyn plot bad -o x.svg", INPUT, "cannot read bad/history.h5: ");
     expect_sentence("launchdyn run --again bad", INPUT, "bad/history.h5 ");
     run("echo x >bad/study.db");
-    expect_sentence("launchdyn study show bad", INPUT, "bad/study.db: file is not a database");
+    expect_sentence("launchdyn study show bad", INPUT,
+                    "bad/study.db is damaged: file is not a database");
     expect_sentence("launchdyn study export bad --csv x.csv", INPUT, "file is not a database");
     expect_sentence("launchdyn study --again bad --out o", INPUT, "file is not a database");
     run(STUDY "launchdyn study study.yaml --out bad --quiet");

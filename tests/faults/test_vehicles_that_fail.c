@@ -16,8 +16,8 @@ static const double degree = 3.14159265358979323846 / 180;
     }
 
 DOES_NOT_START(wheel_in_the_air, LD_ERR_INPUT,
-               "wheel \"middle-left\" does not reach the ground at the start: in "
-               "equilibrium it hangs # m above the road",
+               "base.wheels.3: wheel \"middle-left\" does not reach the ground at the start: "
+               "in equilibrium it hangs # m above the road",
                vehicle->wheel[2].mount[1] += 0.3)
 
 DOES_NOT_START(weak_stabiliser, LD_ERR_INPUT,
@@ -25,14 +25,15 @@ DOES_NOT_START(weak_stabiliser, LD_ERR_INPUT,
                "start takes # N m, more than the limit of 10000 N m",
                model.platform.elevation.stabiliser.torque_limit = 1e4)
 
-DOES_NOT_START(mass_centre_before_the_wheels, LD_ERR_NUMERIC,
-               "the vehicle finds no static equilibrium on its wheels (smallest residual # "
-               "m/s2): do all wheels reach the road, and is the mass centre between them?",
-               for (int i = 0; i < 6; i++) vehicle->wheel[i].mount[0] += 4)
+DOES_NOT_START(
+    mass_centre_before_the_wheels, LD_ERR_NUMERIC,
+    "base.wheels: the vehicle finds no static equilibrium on its wheels (smallest "
+    "residual # m/s2): do all wheels reach the road, and is the mass centre between them?",
+    for (int i = 0; i < 6; i++) vehicle->wheel[i].mount[0] += 4)
 
 DOES_NOT_START(weightless, LD_ERR_INPUT,
-               "wheel \"front-left\" does not reach the ground at the start: in "
-               "equilibrium it hangs # m above the road",
+               "base.wheels.1: wheel \"front-left\" does not reach the ground at the start: "
+               "in equilibrium it hangs # m above the road",
                model.gravity = 0)
 
 // The lock lets go when the wheels hit a wall, and the rocket, thrown back by the breech, leaves.

@@ -52,13 +52,15 @@ static const shown_columns *columns_of(const plot_figure *figure)
 
 // ---- columns and units ----
 
-// The unit as UDUNITS reads it; "" of plain numbers.
+// The unit as scenarios have it; "" of plain numbers.
 static void unit_of(const char *written, char unit[32])
 {
     snprintf(unit, 32, "%s", strcmp(written, "1") == 0 ? "" : written);
     char *cube = strstr(unit, "³");
     if (cube)
         memcpy(cube, "3", 2);
+    for (char *blank = unit; (blank = strchr(blank, ' '));)
+        *blank = '.';
 }
 
 // The columns that the name or pattern fits; returns how many.
@@ -74,8 +76,7 @@ static int check_axis(const shown_columns *columns, const char *figure, const ch
         if (!plot_column_matches(name, pattern, text, sizeof text))
             continue;
         unit_of(columns->column[i].unit, own);
-        if (strcmp(own, unit) != 0 &&
-            units_factor(units_open(), own, unit, &into, unknown) != UNITS_OK)
+        if (strcmp(own, unit) != 0 && units_factor(own, unit, &into, unknown) != UNITS_OK)
             fail_msg("%s: %s [%s] at an axis in %s", figure, name, own, axis->unit.name);
         if (!(fabs(axis->unit.factor / into - 1) < 1e-13))
             fail_msg("%s: factor %g of %s, not %g", figure, axis->unit.factor, name, into);

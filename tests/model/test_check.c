@@ -48,7 +48,7 @@ static void test_values(void **state)
             "environment.gravity: inf m/s2 is not allowed; expected from 0 to 100 m/s2");
     REFUSED(m.tubes.support[1].stiffness[2] = -5,
             "tubes.supports.2.stiffness: -5 N/m is not allowed; expected >= 0 N/m");
-    REFUSED(m.tubes.modes.bending = 25, "tubes.modes.bending: 25 is not from 0 to 24");
+    REFUSED(m.tubes.modes.bending = 25, "tubes.modes.bending: 25 is not from 1 to 24");
     REFUSED(m.rocket.contact.law = (ld_contact_law)9,
             "rocket.contact.law: no value of this choice");
     REFUSED(m.tubes.slot.kind = (ld_slot_kind)7, "tubes.slot: no value of this choice");

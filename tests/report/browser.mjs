@@ -1,7 +1,7 @@
 // The report of a run in a real browser.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, checkFits, checkNoneEmpty, checkSilence, drawn, inBrowser, launchdyn, near, open, paper, picture,
+import { check, checkFits, checkInjected, checkNoneEmpty, drawn, inBrowser, launchdyn, leave, near, open, paper, picture,
   rowNear, runOf } from "./support.mjs";
 
 // The numbers below a plot, the time first.
@@ -60,7 +60,6 @@ async function checkLaunch(browser) {
   const run = runOf("fixed.yaml");
   console.log("fixed.yaml");
   const page = await open(browser, run.file);
-  checkSilence(page, run.file);
   const counts = await page.evaluate(() =>
     [".panel", ".plot canvas"].map((selector) => document.querySelectorAll(selector).length));
   check("plots, each with a canvas", counts[0] >= 30 && counts[0] === counts[1], counts);
@@ -75,7 +74,7 @@ async function checkLaunch(browser) {
   check("all plots show the same instant", shared.length === 1, shared);
   await picture(page, "launch.png");
   await checkKeys(page);
-  await page.context().close();
+  await leave(page);
 }
 
 async function checkKeys(page) {
@@ -243,8 +242,7 @@ async function checkReplay(browser) {
   await checkPicture(page);
   await checkDrawn(page, run, ["rear", "middle", "front"]);
   await checkControls(page, run);
-  checkSilence(page, run.file);
-  await page.context().close();
+  await leave(page);
   await checkFallbacks(browser, run);
 }
 
@@ -261,14 +259,12 @@ async function checkFallbacks(browser, run) {
   });
   check("without WebGL a note says so", (await note(without)).includes("no WebGL"), await note(without));
   await checkNoneEmpty(without);
-  checkSilence(without, run.file);
-  await without.context().close();
+  await leave(without);
   const old = join(run.out, "old.html");
   writeFileSync(old, readFileSync(run.file, "utf8").replace(/<script type="text\/plain" id="replay">[^<]*<\/script>/, ""));
   const page = await open(browser, old);
   check("so it does without geometry", (await note(page)).includes("geometry"), await note(page));
-  checkSilence(page, old);
-  await page.context().close();
+  await leave(page);
 }
 
 // Keeps the numbers along the upright axis of each plot and the names in it as they are drawn; code
@@ -293,7 +289,6 @@ async function checkLooks(browser) {
   const run = runOf("reference.yaml");
   console.log("reference.yaml, dark, 400 pixels wide");
   const page = await open(browser, run.file, { width: 400, dark: true, before: keepLabels });
-  checkSilence(page, run.file);
   await checkNoneEmpty(page);
   await checkFits(page);
   const labels = await page.$$eval(".uplot canvas", (canvases) => canvases.map(({ labels }) => labels));
@@ -323,7 +318,7 @@ async function checkLooks(browser) {
   const said = await page.textContent(".replay .reading");
   check("in flight nothing is said of the tube, on the ground the height is none",
     !/travel|tip/.test(said) && said.includes("height 0 m"), said);
-  await page.context().close();
+  await leave(page);
 }
 
 async function checkHostile(browser) {
@@ -331,16 +326,16 @@ async function checkHostile(browser) {
   const title = "</title></script><script>window.owned=1</script><img src=x onerror=window.owned=1>";
   const run = runOf("straight.yaml", "--set", `title='${title}'`);
   const page = await open(browser, run.file);
-  checkSilence(page, run.file);
   check("the title is text", (await page.textContent("h1")) === title);
   check("nothing of it ran", await page.evaluate(() => window.owned === undefined && !document.querySelector("img:not(.photo)")));
+  await checkInjected(browser, run.file);
   writeFileSync(join(run.out, "summary.json"), "{\"title\": ");
   launchdyn("report", run.out);
-  await page.context().close();
+  await leave(page);
   const broken = await open(browser, run.file);
   check("a broken summary is said",
     (await broken.textContent("body")).includes("summary.json is not complete"));
-  await broken.context().close();
+  await leave(broken);
 }
 
 await inBrowser(async (browser) => {

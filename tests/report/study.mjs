@@ -1,7 +1,7 @@
 // The report of studies in a real browser.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, checkFits, checkSilence, drawn, example, folder, inBrowser, launchdyn, near, open, paper, picture,
+import { check, checkFits, checkInjected, drawn, example, folder, inBrowser, launchdyn, leave, near, open, paper, picture,
   readCsv } from "./support.mjs";
 
 // A scattered flight, with other values for some keys.
@@ -136,7 +136,6 @@ async function checkDownload(page, study) {
 async function checkOne(browser, study) {
   console.log("one study");
   const file = reportOf("one.html", study), page = await open(browser, file);
-  checkSilence(page, file);
   await checkNoneEmpty(page, 25);
   await checkCursor(page, study);
   await checkTable(page);
@@ -144,13 +143,13 @@ async function checkOne(browser, study) {
   await checkKeys(page);
   await checkDownload(page, study);
   await picture(page, "study.png");
-  await page.context().close();
+  await leave(page);
+  await checkInjected(browser, file);
 }
 
 async function checkSideBySide(browser, studies) {
   console.log("three studies beside each other, dark, 400 pixels wide");
   const file = reportOf("three.html", ...studies), page = await open(browser, file, { width: 400, dark: true });
-  checkSilence(page, file);
   await checkNoneEmpty(page, 25);
   await checkFits(page);
   check("dark as the system says", (await paper(page)) === "rgb(20, 24, 28)");
@@ -169,19 +168,18 @@ async function checkSideBySide(browser, studies) {
   check("the switch makes it light", (await paper(page)) === "rgb(255, 255, 255)");
   await page.emulateMedia({ media: "print" });
   check("on paper without buttons", !(await page.locator(".csv").first().isVisible()));
-  await page.context().close();
+  await leave(page);
 }
 
 // More than can be laid over each other stand in columns.
 async function checkColumns(browser, studies) {
   console.log("six studies");
   const file = reportOf("six.html", ...studies, ...studies), page = await open(browser, file);
-  checkSilence(page, file);
   await checkNoneEmpty(page, 25);
   const columns = await page.locator(`${panel("Downrange: distribution")} rect.area`).count();
   check("a column for each", columns === 6, columns);
   await picture(page, "studies-columns.png");
-  await page.context().close();
+  await leave(page);
 }
 
 async function checkHostile(browser) {
@@ -194,11 +192,10 @@ async function checkHostile(browser) {
   check("some samples failed", failed.test(text));
   writeFileSync(file, text.replace(failed, (found) => found + code.replaceAll("<", "\\u003c")));
   const page = await open(browser, file);
-  checkSilence(page, file);
   check("the title is text", (await page.locator("h1").textContent()) === title);
   check("so is a reason", (await page.locator("#failures").textContent()).includes(code));
   check("nothing of it ran", await page.evaluate(() => window.owned === undefined && !document.querySelector("img")));
-  await page.context().close();
+  await leave(page);
 }
 
 await inBrowser(async (browser) => {

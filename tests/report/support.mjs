@@ -1,7 +1,7 @@
 // What the tests of reports in a browser share: runs, Chromium led by playwright-core, checks. Run by
 // the script `browser` beside it, which says where everything is.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -75,23 +75,73 @@ export async function open(browser, file, { width = 1200, dark = false, before }
     { viewport: { width, height: 900 }, colorScheme: dark ? "dark" : "light" });
   const page = await context.newPage();
   page.setDefaultTimeout(0); // a busy machine is no failure
-  page.errors = [];
-  page.requests = [];
+  Object.assign(page, { file, errors: [], requests: [] });
   page.on("pageerror", (error) => page.errors.push(error.message));
   page.on("console", (message) => {
     if (["error", "assert"].includes(message.type())) page.errors.push(message.text());
   });
   page.on("request", (request) => page.requests.push(request.url()));
+  await page.addInitScript(() => {
+    window.violations = [];
+    document.addEventListener("securitypolicyviolation", ({ effectiveDirective, blockedURI }) =>
+      window.violations.push(`${effectiveDirective} ${blockedURI}`));
+  });
   if (before) await page.addInitScript(before);
   await page.goto(`file://${file}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready === "yes");
   return page;
 }
 
-// No errors so far, and no request but that for the file itself.
-export function checkSilence(page, file) {
+// Closes a report: whatever was done in it, there was no error, nothing against its policy, and no
+// request but that for the file itself.
+export async function leave(page) {
+  const violations = await page.evaluate(() => window.violations);
   check("no errors", page.errors.length === 0, page.errors.join("; ").slice(0, 300));
-  check("no request but the file", page.requests.every((url) => url === `file://${file}`), page.requests);
+  check("nothing against the policy", violations.length === 0, violations.join("; ").slice(0, 300));
+  const asked = page.requests.filter((url) => !/^(data|blob):/.test(url));
+  check("no request but the file", asked.every((url) => url === `file://${page.file}`), asked);
+  await page.context().close();
+}
+
+// What would run, style or lead away if it stood in the page, each by what it does; the policy lets none.
+const injected = {
+  script: "<script>window.owned = 'script'</script>",
+  "script from data": "<script src=\"data:text/javascript,window.owned='data'\"></script>",
+  handler: "<img src=\"data:,\" onerror=\"window.owned = 'handler'\">",
+  link: "<a id=\"injected-link\" href=\"javascript:window.owned='link'\">link</a>",
+  frame: "<iframe srcdoc=\"<script>parent.owned = 'frame'</script>\"></iframe>",
+  style: "<style>#injected-link { position: fixed }</style>",
+  attribute: "<p id=\"injected-text\" style=\"position: fixed\">text</p>",
+  base: "<base href=\"file:///elsewhere/\">",
+  object: "<object data=\"data:text/html,x\"></object>",
+  form: "<form id=\"injected-form\" action=\"file:///elsewhere/\"></form>",
+};
+
+// A report with code in it that no escaping has stopped: the page's policy does.
+export async function checkInjected(browser, file) {
+  const text = readFileSync(file, "utf8"), name = file.replace(/\.html$/, "-injected.html");
+  const place = text.indexOf("<main ");
+  writeFileSync(name, text.slice(0, place) + Object.values(injected).join("\n") + text.slice(place));
+  const page = await open(browser, name);
+  await page.evaluate(() => {
+    document.getElementById("injected-link").click();
+    document.getElementById("injected-form").submit();
+  });
+  const sent = await page.evaluate(() => fetch("data:,x").then(() => "sent", () => "refused"));
+  const found = await page.evaluate(() => ({
+    owned: window.owned, base: document.baseURI, violations: window.violations,
+    styled: ["injected-link", "injected-text"].filter((id) =>
+      getComputedStyle(document.getElementById(id)).position === "fixed"),
+  }));
+  check("injected code does not run", found.owned === undefined, found.owned);
+  check("an injected style has no effect", found.styled.length === 0, found.styled);
+  check("nor has a base, or a form", ![found.base, page.url()].some((url) => url.includes("elsewhere")), found.base);
+  check("nothing can be fetched", sent === "refused", sent);
+  for (const directive of ["script-src-elem", "script-src-attr", "style-src-elem", "style-src-attr", "base-uri",
+    "form-action", "connect-src", "object-src"])
+    check(`the policy has stopped it: ${directive}`,
+      found.violations.some((violation) => violation.startsWith(directive)), found.violations.join("; "));
+  await page.context().close();
 }
 
 // Waits until what was asked for is drawn.

@@ -217,6 +217,9 @@ static void test_no_text_becomes_code(void **state)
     assert_non_null(strstr(page, "<title>&lt;/title&gt;&lt;/script&gt;&lt;script&gt;alert(1)"));
     assert_non_null(strstr(page, "\\u003csvg onload=alert(3)>"));
     assert_non_null(strstr(page, "content=\"default-src 'none'; script-src 'sha256-"));
+    assert_non_null(strstr(page, "; style-src 'sha256-"));
+    assert_non_null(strstr(page, "; base-uri 'none'; form-action 'none'\">"));
+    assert_null(strstr(page, "'unsafe-"));
     free(page);
 }
 
@@ -444,21 +447,22 @@ static void test_what_is_missing_is_said(void **state)
     make_results(1605, "Whole", "front");
     assert_int_equal(run("cd %s && mv summary.json away"), 0);
     char *page = write_report(&report);
-    expect_note(&report, "No summary: summary.json cannot be read: No such file");
-    assert_non_null(strstr(page, "No summary: summary.json cannot be read"));
+    expect_note(&report, "No summary: there is no summary.json");
+    assert_non_null(strstr(page, "No summary: there is no summary.json"));
     assert_non_null(strstr(page, "\"tip.y\""));
     free(page);
 
     assert_int_equal(run("cd %s && mv away summary.json && truncate -s 100000 history.h5"), 0);
-    page = write_report(&report);
-    expect_note(&report, "No plots: cannot read ");
+    assert_int_equal(ld_report_write(folder, NULL, &report, &error), LD_ERR_INPUT);
+    page = read_all(in("report.html"));
+    expect_note(&report, "No plots: history.h5 is damaged: it has 100000 bytes");
     assert_non_null(strstr(page, "\"tables\":[]"));
     assert_non_null(strstr(page, "\"muzzle_speed\""));
     free(page);
 
     assert_int_equal(run("cd %s && rm history.h5"), 0);
-    free(write_report(&report));
-    expect_note(&report, "There is no history.h5");
+    assert_int_equal(ld_report_write(folder, NULL, &report, &error), LD_ERR_INPUT);
+    expect_note(&report, "No plots: history.h5 is missing");
     assert_int_equal(ld_report_write(folder, in("none/x.html"), &report, &error), LD_ERR_FILE);
     assert_non_null(strstr(error.text, "No such file or directory"));
     assert_int_equal(ld_report_write(folder, "/dev/full", &report, &error), LD_ERR_FILE);

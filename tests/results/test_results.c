@@ -169,8 +169,10 @@ static void test_decimal_comma_stays_out(void **state)
     write_launch(here, "comma", true, 20);
     setlocale(LC_ALL, "C");
     unsetenv("LOCPATH");
+    // the made columns' descriptions in history.h5 have commas
     printed_by("cd %s && cmp point/history.csv comma/history.csv && "
-               "cmp point/summary.json comma/summary.json",
+               "for i in point comma; do grep -v '\"digest\"' $i/summary.json >$i.json; done && "
+               "cmp point.json comma.json",
                here->folder);
 }
 
@@ -229,12 +231,12 @@ static void test_summary_is_json(void **state)
         const char *filter, *printed;
     } expected[] = {
         {"keys_unsorted|join(\",\")",
-         "title,version,program,t_end,complete,stopped,notes,"
-         "rockets,equilibrium,energy,modes,statistics,scenario,source"},
+         "format,title,version,program,t_end,complete,stopped,notes,"
+         "rockets,equilibrium,energy,modes,statistics,scenario,source,files,digest"},
         {".program|[.version, .commit]|tostring", "[\"0.1.0\",\"unknown\"]"},
         {".program|keys_unsorted|join(\",\")",
          "version,commit,compiler,processor,C library,SUNDIALS,"
-         "LAPACK,BLAS,HDF5,SQLite,libyaml,UDUNITS,zlib"},
+         "LAPACK,BLAS,HDF5,SQLite,libyaml,zlib"},
         {".source|tostring", "null"}, // filled by hand
         {".rockets[0]|keys_unsorted|join(\",\")",
          "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,muzzle_speed,inertial_speed,"

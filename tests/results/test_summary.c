@@ -8,6 +8,7 @@
 #include "math/mat3.h"
 #include "math/quaternion.h"
 #include "results/history.h"
+#include "results/manifest.h"
 #include "scenario/scenario.h"
 #include "simulation/study_results.h"
 #include "support/column_book.h"
@@ -473,6 +474,18 @@ static void say_machine(finished_run *run)
 {
     column_book *book = &run->json;
     const ld_statistics *statistics = &run->summary.statistics;
+    expect(book, "format", 2);
+    int files = 0;
+    for (int i = 0; i < MANIFEST_FILES; i++) {
+        struct stat about;
+        char path[64], name[32];
+        snprintf(path, sizeof path, "run/%s", manifest_name[i]);
+        snprintf(name, sizeof name, "files.%d.size", files);
+        if (stat(in(path), &about) == 0) {
+            expect(book, name, (double)about.st_size);
+            files++;
+        }
+    }
     expect(book, "source.point", 0); // of no study
     expect(book, "source.sample", 0);
     expect(book, "t_end", last_of(&run->tube, "t"));

@@ -322,13 +322,13 @@ static void test_motion_file(void **state)
                                 "/deck.csv}}"};
     ld_model m = read_with_file("deck.csv",
                                 "# a deck\nt [ms], x [m], y [mm], z [m], yaw [deg], pitch [mrad], "
-                                "roll [rad]\n-500, 1, 20, 0, 90, 5, 0.1\n0, 2,-3,4,5,6,7\n",
+                                "roll [rad]\n-500, 1, 20, 0, 90, 5, 0.1\n250, 2,-3,4,5,6,7\n",
                                 sets, 1);
     const ld_table *motion = &m.base.motion;
     assert_true(motion->rows == 2 && motion->columns == 7);
     assert_true(motion->data[0] == -0.5 && motion->data[2] == 0.02 && motion->data[5] == 0.005);
     CHECK_BELOW("yaw, 90 deg", motion->data[4] - pi / 2, 1e-16);
-    assert_true(motion->data[7] == 0 && motion->data[13] == 7);
+    assert_true(motion->data[7] == 0.25 && motion->data[13] == 7);
     model_clear(&m);
 }
 

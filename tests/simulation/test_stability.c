@@ -25,11 +25,11 @@ static void unstable_stabiliser(void **state)
     model.platform.elevation.stabiliser.ki = 1e9;
     assert_int_equal(start(&model, &error), LD_ERR_INPUT);
     printf("    %s\n", error.text);
-    assert_non_null(strstr(error.text, "platform.elevation.stabiliser is unstable"));
+    assert_non_null(strstr(error.text, "platform.elevation.stabiliser: unstable"));
     model.platform.elevation.stabiliser.ki = 6e6;
     model.platform.azimuth.stabiliser.ki = 1e9;
     assert_int_equal(start(&model, &error), LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "platform.azimuth.stabiliser is unstable"));
+    assert_non_null(strstr(error.text, "platform.azimuth.stabiliser: unstable"));
     reference_model_free(&model);
 }
 

@@ -266,7 +266,7 @@ static void test_shards(void **state)
     snprintf(command, sizeof command, "echo text, not a database >'%s/shard-2-of-3.db'",
              in("new[1]*"));
     assert_int_equal(system(command), 0);
-    expect_merge("new[1]*", LD_ERR_INPUT, "shard-2-of-3.db: file is not a database");
+    expect_merge("new[1]*", LD_ERR_INPUT, "shard-2-of-3.db is damaged: file is not a database");
     ld_study_free(study);
     ld_study_free(other);
 }

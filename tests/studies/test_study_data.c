@@ -28,15 +28,14 @@ static const study_column *column(const study_data *data, const char *name)
 static void test_values(void **state)
 {
     (void)state;
-    write_database("values",
-                   STUDY("2") //
-                   "CREATE TABLE sample (sample INTEGER PRIMARY KEY, status TEXT, reason TEXT,"
-                   "  \"base.elevation\" REAL);"
+    write_database("values", STUDY("2") ONE_POINT
+                   "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT,"
+                   "  reason TEXT, \"base.elevation\" REAL);"
                    "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
                    "  \"rocket.mass_error\" REAL, t_rear REAL, muzzle_speed REAL,"
                    "  PRIMARY KEY (sample, rocket)) WITHOUT ROWID;"
-                   "INSERT INTO sample VALUES (4, 'ok', NULL, 0.4), (1, 'ok', NULL, 0.1),"
-                   "  (3, 'launch', 'the lock held', 0.3), (2, 'ok', NULL, 0.2);"
+                   "INSERT INTO sample VALUES (4, 1, 'ok', NULL, 0.4), (1, 1, 'ok', NULL, 0.1),"
+                   "  (3, 1, 'launch', 'the lock held', 0.3), (2, 1, 'ok', NULL, 0.2);"
                    "INSERT INTO rocket VALUES (4, 2, 8, 42, 1.42, 36), (4, 1, 7, 41, 1.41, 37),"
                    "  (1, 1, 7, 11, 1.11, 38), (1, 2, 8, 12, 1.12, 39),"
                    "  (2, 1, 7, 21, NULL, 40), (2, 2, 8, 22, 1.22, 41),"
@@ -131,16 +130,18 @@ static void write_permuted(const char *name, uint64_t permutation)
     size_t length;
     FILE *stream = open_memstream(&text, &length);
     assert_non_null(stream);
-    fputs(STUDY("1") "CREATE TABLE sample (sample INTEGER PRIMARY KEY, status TEXT, reason TEXT);"
-                     "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
-                     "  t_rear REAL, PRIMARY KEY (sample, rocket)) WITHOUT ROWID;",
-          stream);
+    fputs(
+        STUDY("1") ONE_POINT
+        "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT, reason TEXT);"
+        "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
+        "  t_rear REAL, PRIMARY KEY (sample, rocket)) WITHOUT ROWID;",
+        stream);
     for (int64_t i = 0; i < SAMPLES * ROCKETS; i++) {
         uint64_t key[] = {permutation, 1};
         int64_t j = draw_permuted(key, 0, 0, SAMPLES * ROCKETS, i), sample = j / ROCKETS + 1;
         double value =
             random_uniform(7, 1, (uint64_t)j, 0, 0) + random_uniform(7, 2, (uint64_t)sample, 0, 0);
-        fprintf(stream, "INSERT OR IGNORE INTO sample VALUES (%d, 'ok', NULL);", (int)sample);
+        fprintf(stream, "INSERT OR IGNORE INTO sample VALUES (%d, 1, 'ok', NULL);", (int)sample);
         fprintf(stream, "INSERT INTO rocket VALUES (%d, %d, 1, %.17g);", (int)sample,
                 (int)(j % ROCKETS) + 1, value);
     }
@@ -222,7 +223,8 @@ static void test_refusals(void **state)
     ld_error error;
     assert_int_equal(study_data_open(in("nothing"), &data, &error), LD_ERR_INPUT);
     study_data_close(&data);
-    write_database("empty", "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT);");
+    mkdir(in("empty"), 0777);
+    run_sql(in("empty/study.db"), "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT);");
     assert_int_equal(study_data_open(in("empty"), &data, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "holds no study"));
 }

@@ -1,0 +1,151 @@
+#include "base/child.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { LONGEST = 4096, MOST_WRITTEN = 16 };
+
+// In memory that parent and child share.
+typedef struct child_work {
+    char read[LONGEST];
+    char written[MOST_WRITTEN][LONGEST]; // "": free
+} child_work;
+
+static child_work *at_work; // of the child that this process is; NULL: it is none
+
+// ---- in the child ----
+
+void child_reads(const char *path)
+{
+    if (at_work)
+        snprintf(at_work->read, LONGEST, "%s", path ? path : "");
+}
+
+static void replace(const char *path, const char *by)
+{
+    for (int i = 0; at_work && i < MOST_WRITTEN; i++)
+        if (strcmp(at_work->written[i], path) == 0) {
+            snprintf(at_work->written[i], LONGEST, "%s", by);
+            return;
+        }
+}
+
+void child_writes(const char *path)
+{
+    replace("", path);
+}
+
+void child_wrote(const char *path)
+{
+    replace(path, "");
+}
+
+// ---- in the parent ----
+
+static bool is_ignored(int number)
+{
+    struct sigaction action;
+    return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+static bool asks_to_end(int number)
+{
+    return number == SIGHUP || number == SIGINT || number == SIGTERM;
+}
+
+// The signals that are waited for: the child's end, and those to be handed on.
+static void fill_waited(sigset_t *set)
+{
+    static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
+    sigemptyset(set);
+    sigaddset(set, SIGCHLD);
+    for (int i = 0; i < 3; i++)
+        if (!is_ignored(numbers[i]))
+            sigaddset(set, numbers[i]);
+}
+
+// Returns the child's status for wait(). What a terminal sends has reached the child, too.
+static int wait_for(pid_t child, const sigset_t *waited)
+{
+    int status = 0;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        siginfo_t about;
+        int number = sigwaitinfo(waited, &about);
+        if (number > 0 && asks_to_end(number) && about.si_code <= 0)
+            sigqueue(child, number, (union sigval){0});
+    }
+    return status;
+}
+
+static ld_status died(const child_work *work, int number, ld_error *error)
+{
+    const char *written = work->written[0];
+    if (*work->read) // what it writes beside is not foreign
+        return ld_fail(error, LD_ERR_INPUT,
+                       "ended by signal %d (%s) while reading %.400s, which may be damaged", number,
+                       strsignal(number), work->read);
+    return ld_fail(error, LD_ERR_FILE, "ended by signal %d (%s)%s%.400s", number, strsignal(number),
+                   *written ? " while writing " : "", written);
+}
+
+static ld_status judge(const child_work *work, int status, int *code, ld_error *error)
+{
+    if (WIFEXITED(status)) {
+        *code = WEXITSTATUS(status);
+        return LD_OK;
+    }
+    for (int i = 0; i < MOST_WRITTEN; i++)
+        if (*work->written[i])
+            unlink(work->written[i]);
+    *code = 128 + WTERMSIG(status);
+    return asks_to_end(WTERMSIG(status)) ? LD_OK : died(work, WTERMSIG(status), error);
+}
+
+// ---- both ----
+
+// Starts the child, which does not come back from here.
+static pid_t start(int (*work)(void *data), void *data, child_work *shared, const sigset_t *before)
+{
+    fflush(NULL);
+    pid_t parent = getpid(), child = fork();
+    if (child != 0)
+        return child;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(0);
+    at_work = shared;
+    sigprocmask(SIG_SETMASK, before, NULL);
+    exit(work(data));
+}
+
+ld_status ld_child_run(int (*work)(void *data), void *data, int *code, ld_error *error)
+{
+    sigset_t waited, before;
+    struct sigaction usual = {.sa_handler = SIG_DFL}, of_children;
+    child_work *shared =
+        mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (shared == MAP_FAILED)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory to start a process");
+    fill_waited(&waited);
+    sigprocmask(SIG_BLOCK, &waited, &before);
+    sigaction(SIGCHLD, &usual, &of_children);
+    pid_t child = start(work, data, shared, &before);
+    int number = errno;
+    ld_status status =
+        child > 0 ? judge(shared, wait_for(child, &waited), code, error)
+                  : ld_fail(error, LD_ERR_MISSING, "cannot start a process: %s", strerror(number));
+    while (sigtimedwait(&waited, NULL, &(struct timespec){0}) > 0)
+        ; // what the child has had, too
+    sigaction(SIGCHLD, &of_children, NULL);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    munmap(shared, sizeof *shared);
+    return status;
+}

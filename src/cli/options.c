@@ -1,0 +1,194 @@
+#include "cli/options.h"
+
+#include <assert.h>
+#include <errno.h>
+#include <getopt.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- reading
+
+// "unknown option --cvs (did you mean --csv?)"
+static ld_status refuse_unknown(const char *word, const command_option *options, ld_error *error)
+{
+    const char *names[MOST_OPTIONS], *name = word + strspn(word, "-");
+    size_t count = 0;
+    for (; options[count].name; count++)
+        names[count] = options[count].name;
+    const char *nearest = ld_nearest_name(name, names, count);
+    if (nearest)
+        return ld_fail(error, LD_ERR_INPUT, "unknown option %s (did you mean --%s?)", word,
+                       nearest);
+    return ld_fail(error, LD_ERR_INPUT, "unknown option %s", word);
+}
+
+static bool read_number(const char *text, double *value)
+{
+    char *end;
+    errno = 0;
+    *value = strtod(text, &end);
+    return errno == 0 && end != text && !*end;
+}
+
+static bool read_integer(const char *text, int *value)
+{
+    char *end;
+    errno = 0;
+    long number = strtol(text, &end, 10);
+    *value = (int)number;
+    return errno == 0 && end != text && !*end && number >= INT_MIN && number <= INT_MAX;
+}
+
+// One more of the texts, which there are not more of than words.
+static ld_status add_text(command_line *line, int argc, char ***texts, ld_error *error)
+{
+    size_t count = 0;
+    if (!line->texts)
+        line->texts = calloc((size_t)argc, sizeof *line->texts);
+    if (!line->texts)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory");
+    while (line->texts[count])
+        count++;
+    line->texts[count] = optarg;
+    *texts = line->texts;
+    return LD_OK;
+}
+
+// Takes what stands after an option.
+static ld_status take(command_line *line, int argc, const command_option *option, ld_error *error)
+{
+    switch (option->kind) {
+    case OPTION_FLAG:
+        *(int *)option->value = 1;
+        break;
+    case OPTION_TEXT:
+        *(char **)option->value = optarg;
+        break;
+    case OPTION_TEXTS:
+        return add_text(line, argc, option->value, error);
+    case OPTION_INTEGER:
+        if (!read_integer(optarg, option->value))
+            return ld_fail(error, LD_ERR_INPUT, "--%s wants a whole number, not %s", option->name,
+                           optarg);
+        break;
+    case OPTION_NUMBER:
+        if (!read_number(optarg, option->value))
+            return ld_fail(error, LD_ERR_INPUT, "--%s wants a number, not %s", option->name,
+                           optarg);
+        break;
+    case OPTION_HELP:
+        line->help = true;
+        break;
+    }
+    return LD_OK;
+}
+
+enum { LONG = 256 }; // what getopt returns for the first option by its name
+
+// The tables of getopt: words in their order, and no messages of its own.
+static void make_tables(const command_option *options, struct option *by_name, char *letters)
+{
+    int count = 0;
+    letters += sprintf(letters, "-:");
+    for (; options[count].name; count++) {
+        const command_option *o = &options[count];
+        assert(count < MOST_OPTIONS);
+        by_name[count] = (struct option){o->name, o->argument ? required_argument : no_argument,
+                                         NULL, LONG + count};
+        if (o->letter)
+            letters += sprintf(letters, o->argument ? "%c:" : "%c", o->letter);
+    }
+    by_name[count] = (struct option){0};
+}
+
+static const command_option *find(const command_option *options, int found)
+{
+    if (found >= LONG)
+        return &options[found - LONG];
+    while (options->name && (!options->letter || options->letter != found))
+        options++;
+    return options->name ? options : NULL;
+}
+
+// What is wrong with the word that getopt stopped at.
+static ld_status refuse(const command_option *options, int found, const char *word, ld_error *error)
+{
+    const command_option *option = optopt ? find(options, optopt) : NULL;
+    if (found == ':')
+        return ld_fail(error, LD_ERR_INPUT, "%s: missing argument", word);
+    if (option)
+        return ld_fail(error, LD_ERR_INPUT, "--%s takes no value", option->name);
+    if (optopt)
+        return ld_fail(error, LD_ERR_INPUT, "-%c: unknown option", optopt);
+    return refuse_unknown(word, options, error);
+}
+
+ld_status options_read(command_line *line, int argc, char **argv, const command_option *options,
+                       ld_error *error)
+{
+    struct option by_name[MOST_OPTIONS + 1];
+    char letters[2 * MOST_OPTIONS + 3];
+    ld_status status = LD_OK;
+    int found;
+    *line = (command_line){.word = (const char *const *)argv + 1};
+    make_tables(options, by_name, letters);
+    opterr = 0;
+    while (!status && !line->help &&
+           (found = getopt_long(argc, argv, letters, by_name, NULL)) != -1)
+        if (found == 1) // a word, kept among those that have been read
+            argv[++line->count] = optarg;
+        else if (found == '?' || found == ':')
+            status = refuse(options, found, argv[optind - 1], error);
+        else
+            status = take(line, argc, find(options, found), error);
+    for (; !status && !line->help && optind < argc; optind++) // after "--"
+        argv[++line->count] = argv[optind];
+    return status;
+}
+
+void options_end(command_line *line)
+{
+    free(line->texts);
+    line->texts = NULL;
+}
+
+// ---- help
+
+// "  -o, --out=DIR"; returns its length.
+static int option_text(const command_option *o, char *text, size_t size)
+{
+    char letter[4] = "   ";
+    if (o->letter)
+        snprintf(letter, sizeof letter, "-%c,", o->letter);
+    return snprintf(text, size, "  %s --%s%s%s", letter, o->name,
+                    !o->argument              ? ""
+                    : o->kind == OPTION_TEXTS ? " "
+                                              : "=",
+                    o->argument ? o->argument : "");
+}
+
+void options_print(const command_option *options)
+{
+    enum { WIDTH = 79, BETWEEN = 5 };
+    char text[64];
+    int column = 0;
+    for (const command_option *o = options; o->name; o++) {
+        int length = option_text(o, text, sizeof text) + BETWEEN;
+        column = length > column ? length : column;
+    }
+    for (const command_option *o = options; o->name; o++) {
+        const char *rest = o->help;
+        option_text(o, text, sizeof text);
+        printf("%-*s", column, text);
+        for (int room = WIDTH - column; (int)strlen(rest) > room;) {
+            int end = room - 1;
+            while (end > 0 && rest[end] != ' ')
+                end--;
+            printf("%.*s\n%*s", end, rest, column, "");
+            rest += end + 1;
+        }
+        puts(rest);
+    }
+}

@@ -1,0 +1,48 @@
+// The options of a command: a table of them, what it reads, what --help says of it.
+#ifndef LD_CLI_OPTIONS_H
+#define LD_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "launchdyn/status.h"
+
+typedef enum option_kind {
+    OPTION_FLAG,    // an int, which becomes 1
+    OPTION_TEXT,    // a char *
+    OPTION_TEXTS,   // a char **, one more each time it is given, and then NULL
+    OPTION_INTEGER, // an int
+    OPTION_NUMBER,  // a double
+    OPTION_HELP     // nothing: what is asked for is help
+} option_kind;
+
+// A row of the table; one without a name ends it.
+typedef struct command_option {
+    const char *name;
+    char letter; // '\0': none
+    option_kind kind;
+    void *value;
+    const char *help, *argument; // argument NULL: it has none
+} command_option;
+
+enum { MOST_OPTIONS = 24 }; // of a table
+
+// What stands on the command line beside the options.
+typedef struct command_line {
+    const char *const *word;
+    size_t count;
+    bool help;    // it was asked for: what stands after that was not read
+    char **texts; // of OPTION_TEXTS
+} command_line;
+
+// Reads the words after the first one: options into their values, the others in their order into
+// `line`, which keeps them in argv. Values are parts of argv. options_end() is due in any case.
+// Returns LD_OK, LD_ERR_INPUT, LD_ERR_MEMORY.
+ld_status options_read(command_line *line, int argc, char **argv, const command_option *options,
+                       ld_error *error);
+void options_end(command_line *line);
+
+// Prints a line or more for each option.
+void options_print(const command_option *options);
+
+#endif

@@ -1,0 +1,284 @@
+// A folder of results that is not as it was written: files that were flipped, cut, lengthened,
+// taken away, exchanged. None of it is taken for whole, and nothing crashes. LD_DAMAGES cases (of
+// scripts/prove) in place of a sample.
+#include "support/check.h"
+#include "support/draw.h"
+#include "support/scratch.h"
+
+#include <stdbool.h>
+#include <unistd.h>
+
+#include "base/text_file.h"
+#include "launchdyn/child.h"
+#include "launchdyn/origin.h"
+#include "launchdyn/output.h"
+#include "launchdyn/report.h"
+#include "launchdyn/scenario.h"
+#include "launchdyn/simulation.h"
+#include "launchdyn/summary.h"
+
+enum { FILES = 5, MOST = 1 << 24 };
+static const char *const names[FILES] = {"history.h5", "summary.json", "history.csv", "flights.csv",
+                                         "trajectories.kml"};
+
+static int shell(const char *line)
+{
+    char command[1024];
+    snprintf(command, sizeof command, "cd %s && { %s; }", folder, line);
+    return system(command);
+}
+
+// Runs a small launch with a flight into a folder that has all five files.
+static void make_run(const char *where, const char *mass)
+{
+    char key[64];
+    snprintf(key, sizeof key, "rocket.mass=%s", mass);
+    const char *const sets[] = {"run.end=landing", "environment.site.latitude=40 deg",
+                                "run.output_step={tube: 2 ms, lead_in: 2 ms, flight: 1 s}", key};
+    ld_model *model;
+    ld_messages messages;
+    ld_output *output;
+    ld_simulation *simulation;
+    ld_summary *summary = ld_summary_new();
+    ld_error error = {.text = ""};
+    if (ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", sets, 4, &model, &messages)) {
+        ld_messages_print(&messages, stderr);
+        fail();
+    }
+    if (ld_simulation_create(model, &simulation, &error) ||
+        ld_output_open(where, model, true, &output, &error) ||
+        ld_simulation_run(simulation, &(ld_run_options){.sink = ld_output_sink(output)}, summary,
+                          &error) ||
+        ld_output_finish(output, summary, &error))
+        fail_msg("%s", error.text);
+    ld_simulation_free(simulation);
+    ld_summary_free(summary);
+    ld_model_free(model);
+}
+
+static int make_runs(void **state)
+{
+    if (scratch_make(state))
+        return -1;
+    make_run(in("run"), "60 kg");
+    make_run(in("other"), "61 kg");
+    return 0;
+}
+
+// ---- readers of a folder, each in a process of its own
+
+static int report(void *data)
+{
+    ld_error error;
+    return (int)ld_report_write(data, in("report.html"), NULL, &error);
+}
+
+static int plot(void *data)
+{
+    const char *const from[] = {data};
+    ld_picture picture = {.folder = from, .folder_count = 1, .from = NAN, .to = NAN};
+    return (int)ld_plot(&picture, in("x.svg"), NULL);
+}
+
+static int read_origin(void *data)
+{
+    ld_origin origin;
+    ld_status status = ld_origin_read(data, &origin, NULL);
+    if (!status)
+        ld_origin_free(&origin);
+    return (int)status;
+}
+
+// The status that a reader of the folder "run" ends with.
+static int look(int (*reader)(void *data))
+{
+    char where[128];
+    ld_error error = {.text = ""};
+    int code = -1;
+    snprintf(where, sizeof where, "%s", in("run"));
+    if (ld_child_run(reader, where, &code, &error))
+        fail_msg("%s", error.text);
+    return code;
+}
+
+// ---- files
+
+typedef struct bytes {
+    unsigned char *at;
+    size_t count;
+} bytes;
+
+static bytes read_bytes(const char *path)
+{
+    char *text;
+    bytes found;
+    assert_int_equal(text_file_read(path, MOST, &text, &found.count, NULL), LD_OK);
+    found.at = (unsigned char *)text;
+    return found;
+}
+
+static void write_bytes(const char *path, const unsigned char *at, size_t count)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(at, 1, count, file), count);
+    assert_int_equal(fclose(file), 0);
+}
+
+// A number from 0 to below `most`.
+static size_t draw_below(uint64_t *random, size_t most)
+{
+    return (size_t)((draw(random) + 1) / 2 * (double)most) % most;
+}
+
+// Writes the file with one of its bits turned, cut, or with a byte more. Half of the turned bits
+// are in the first 8 kB, where HDF5 keeps most of what it could stumble over.
+static void damage(const char *path, bytes whole, uint64_t *random, char *what, size_t size)
+{
+    size_t kind = draw_below(random, 8), at = draw_below(random, whole.count);
+    if (kind < 3 && whole.count > 8192)
+        at %= 8192;
+    if (kind == 7) {
+        snprintf(what, size, "cut to %zu bytes", at);
+        write_bytes(path, whole.at, at);
+    } else if (kind == 6 && at % 8 == 0) {
+        snprintf(what, size, "a byte more");
+        write_bytes(path, whole.at, whole.count + 1); // the zero after its end
+    } else {
+        unsigned char flip = (unsigned char)(1u << draw_below(random, 8));
+        snprintf(what, size, "byte %zu xor 0x%02x", at, flip);
+        whole.at[at] ^= flip;
+        write_bytes(path, whole.at, whole.count);
+        whole.at[at] ^= flip;
+    }
+}
+
+static void test_flips_and_cuts(void **state)
+{
+    (void)state;
+    const char *wanted = getenv("LD_DAMAGES");
+    int cases = wanted ? atoi(wanted) : 25;
+    uint64_t random = 14;
+    for (int file = 0; file < FILES; file++) {
+        char path[128], name[32], what[64];
+        snprintf(name, sizeof name, "run/%s", names[file]);
+        snprintf(path, sizeof path, "%s", in(name));
+        bytes whole = read_bytes(path);
+        for (int i = 0; i < (cases + FILES - 1) / FILES; i++) {
+            damage(path, whole, &random, what, sizeof what);
+            if (look(report) != LD_ERR_INPUT)
+                fail_msg("report: %s, %s", names[file], what);
+            if (file < 2 && (look(plot) != LD_ERR_INPUT || look(read_origin) != LD_ERR_INPUT))
+                fail_msg("plot or origin: %s, %s", names[file], what);
+        }
+        write_bytes(path, whole.at, whole.count);
+        free(whole.at);
+    }
+    assert_int_equal(look(report), LD_OK);
+    assert_int_equal(look(read_origin), LD_OK);
+}
+
+// ---- what is said
+
+static void expect_report(const char *line, ld_status status, const char *text, const char *note)
+{
+    ld_report made;
+    ld_error error = {.text = ""};
+    assert_int_equal(shell("rm -rf kept && cp -r run kept"), 0);
+    assert_int_equal(shell(line), 0);
+    ld_status found = ld_report_write(in("run"), in("report.html"), &made, &error);
+    if (found != status || !strstr(error.text, text))
+        fail_msg("%s: %d, %s", line, found, error.text);
+    bool noted = false;
+    for (int i = 0; i < made.note_count; i++)
+        noted |= strstr(made.note[i], note) != NULL;
+    if (!noted)
+        fail_msg("%s: %d notes, \"%s\"", line, made.note_count, made.note[0]);
+    // the page says so, too, and shows the rest
+    char command[256];
+    snprintf(command, sizeof command, "grep -qF '%s' report.html", note);
+    if (made.bytes > 0)
+        assert_int_equal(shell(command), 0);
+    assert_int_equal(shell("rm -rf run && mv kept run"), 0);
+}
+
+static void test_what_is_said(void **state)
+{
+    (void)state;
+    static const char *const broken[] = {"{", "", "[]", "null", "{}"};
+    for (int i = 0; i < 5; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "printf '%s' >run/summary.json", broken[i]);
+        expect_report(line, LD_ERR_INPUT, "run is damaged: summary.json is damaged: ",
+                      "No summary: summary.json is damaged: ");
+    }
+    expect_report("rm run/history.csv", LD_ERR_INPUT, "history.csv is missing; the report shows",
+                  "history.csv is missing.");
+    expect_report("rm run/history.h5", LD_ERR_INPUT, "history.h5 is missing; the report shows",
+                  "No plots: history.h5 is missing.");
+    expect_report("truncate -s 70000 run/history.h5", LD_ERR_INPUT,
+                  "history.h5 is damaged: it has 70000 bytes, and had ",
+                  "No plots: history.h5 is damaged: it has 70000 bytes");
+    expect_report("cp other/history.h5 run", LD_ERR_INPUT, "history.h5 is damaged, or of another",
+                  "history.h5 is damaged, or of another run: its digest is not that in summary");
+    expect_report("cp other/summary.json run", LD_ERR_INPUT, "history.h5 is damaged",
+                  "trajectories.kml is damaged");
+    expect_report("sed -i 's/\"tube\": 8/\"tube\": 7/' run/summary.json", LD_ERR_INPUT,
+                  "summary.json is damaged: its text has not the digest of its last line",
+                  "No summary");
+    expect_report("rm run/*", LD_ERR_INPUT, "no results in ", "There is no history.h5");
+    // what is beside it is not looked at
+    expect_report("rm run/summary.json; touch run/my.txt", LD_OK, "", "No summary: there is no");
+}
+
+// A summary of a version without digests: its members are looked at, no more.
+#define EARLIER                                                                                    \
+    "jq 'del(.format, .files, .digest)' run/summary.json >earlier && mv earlier run/summary.json"
+
+static void test_earlier_version(void **state)
+{
+    (void)state;
+    expect_report(EARLIER, LD_OK, "",
+                  "Whether the files are whole is not known: summary.json is of an earlier");
+    expect_report(EARLIER " && sed -i 's/\"muzzle_speed\": [0-9]/\"muzzle_speed\": \"/; "
+                          "s/\\(\"muzzle_speed\": \"[^,]*\\),/\\1\",/' run/summary.json",
+                  LD_ERR_INPUT, "\"rockets[0].muzzle_speed\" is no number", "No summary");
+    expect_report(EARLIER " && jq 'del(.rockets)' run/summary.json >x && mv x run/summary.json",
+                  LD_ERR_INPUT, "\"rockets\" is missing, or something else", "No summary");
+    expect_report(EARLIER " && printf 'x' >>run/summary.json", LD_ERR_INPUT, "it is no JSON",
+                  "No summary");
+    expect_report(EARLIER " && printf '\\0' >>run/summary.json", LD_ERR_INPUT, "it is no text",
+                  "No summary");
+}
+
+// What a killed run left goes to no other one.
+static void test_parts_of_a_killed_run(void **state)
+{
+    (void)state;
+    assert_int_equal(shell("mkdir again && echo old | tee again/history.csv.part "
+                           "again/flights.csv.part again/trajectories.kml.part >/dev/null"),
+                     0);
+    ld_model *model;
+    ld_output *output;
+    ld_summary *summary = ld_summary_new();
+    ld_messages messages;
+    ld_error error;
+    assert_int_equal(
+        ld_scenario_read(LD_SOURCE_DIR "/examples/fixed.yaml", NULL, 0, &model, &messages), LD_OK);
+    assert_int_equal(ld_output_open(in("again"), model, false, &output, &error), LD_OK);
+    assert_int_equal(ld_output_finish(output, summary, &error), LD_OK);
+    ld_summary_free(summary);
+    ld_model_free(model);
+    assert_int_equal(shell("[ \"$(echo $(ls again))\" = 'history.h5 summary.json' ]"), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_flips_and_cuts),
+        cmocka_unit_test(test_what_is_said),
+        cmocka_unit_test(test_earlier_version),
+        cmocka_unit_test(test_parts_of_a_killed_run),
+    };
+    return cmocka_run_group_tests(tests, make_runs, scratch_remove);
+}
