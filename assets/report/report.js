@@ -10,14 +10,16 @@ import { timePlot } from "./time_plot.js";
 const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent);
 
+// The summary and its tables; neither where there is none, or one that makes no sense: then a note says so.
 function readSummary() {
   const node = document.getElementById("summary");
-  if (!node) return null;
+  if (!node) return {};
   try {
-    return JSON.parse(node.textContent);
+    const summary = JSON.parse(node.textContent);
+    return { summary, tables: showSummary(summary), notes: (summary.notes ?? []).map(String) };
   } catch {
-    data.notes.push("No summary: summary.json is not complete.");
-    return null;
+    data.notes.push("No summary: summary.json is not one of a run.");
+    return {};
   }
 }
 
@@ -183,14 +185,13 @@ function state(summary) {
   return element("p", { className: "state warning" }, `The run ended early: ${why}`);
 }
 
-const summary = readSummary();
+const { summary, tables: summaryTables, notes: summaryNotes = [] } = readSummary();
 const nav = element("nav", {}, element("a", { href: "#summary-tables" }, "Summary"));
 host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
   themeSwitch()));
 host.append(element("h2", { id: "summary-tables" }, "Summary"), state(summary),
-  ...[...data.notes, ...(summary?.notes ?? [])].map((note) =>
-    element("p", { className: "warning" }, String(note))));
-if (summary) host.append(showSummary(summary));
+  ...[...data.notes, ...summaryNotes].map((note) => element("p", { className: "warning" }, note)));
+if (summary) host.append(summaryTables);
 
 const tables = data.tables.map(decodeTable);
 const launch = tables.find((table) => table.kind === "launch" && table.t.length > 0);

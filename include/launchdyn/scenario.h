@@ -35,6 +35,9 @@ void ld_messages_free(ld_messages *messages);
 /// a terminal may show it (ld_visible_text).
 void ld_messages_print(const ld_messages *messages, FILE *stream);
 
+/// Prints notes as ld_messages_print() prints errors, with `warning` in place of `error`.
+void ld_notes_print(const ld_messages *notes, FILE *stream);
+
 /// What a simulation or a run of a model said, as a message at its place: an error that is about a
 /// key begins with the key's path ("base.wheels.3: ...").
 /// @param messages one message, to be freed (ld_messages_free()); none where it returns false
@@ -128,6 +131,15 @@ void ld_scenario_point_name(const ld_model *model, int point, char *text, size_t
 /// @param source the model gets a share of it
 ld_status ld_scenario_read_source(ld_source *source, int point, ld_model **model,
                                   ld_messages *messages);
+
+/// Notes on values that are allowed but hardly meant, each beside what makes it so: rules over
+/// several keys, docs/scenario.md. They change nothing.
+/// @param source of a scenario that has been read (ld_model_source())
+/// @param from   first point of its sweep that is looked at, from 0 (the nominal values)
+/// @param to     last one; what is the same at several points is noted once
+/// @param notes  in any case to be freed with ld_messages_free(); of a failure what is wrong
+/// @return LD_OK, LD_ERR_INPUT (the scenario has errors, or no such point), LD_ERR_MEMORY
+ld_status ld_scenario_notes(ld_source *source, int from, int to, ld_messages *notes);
 
 /// The texts that a model was read from, as long as the model is there.
 ld_source *ld_model_source(const ld_model *model);

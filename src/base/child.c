@@ -15,6 +15,7 @@ enum { LONGEST = 4096, MOST_WRITTEN = 16 };
 
 // In memory that parent and child share.
 typedef struct child_work {
+    bool done; // the work has come to its end
     char read[LONGEST];
     char written[MOST_WRITTEN][LONGEST]; // "": free
 } child_work;
@@ -98,14 +99,15 @@ static ld_status died(const child_work *work, int number, ld_error *error)
 
 static ld_status judge(const child_work *work, int status, int *code, ld_error *error)
 {
-    if (WIFEXITED(status)) {
-        *code = WEXITSTATUS(status);
+    *code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (WIFEXITED(status) && work->done)
         return LD_OK;
-    }
     for (int i = 0; i < MOST_WRITTEN; i++)
         if (*work->written[i])
             unlink(work->written[i]);
-    *code = 128 + WTERMSIG(status);
+    if (WIFEXITED(status))
+        return ld_fail(error, LD_ERR_FILE,
+                       "ended by a library (code %d), as where there is no memory", *code);
     return asks_to_end(WTERMSIG(status)) ? LD_OK : died(work, WTERMSIG(status), error);
 }
 
@@ -123,7 +125,9 @@ static pid_t start(int (*work)(void *data), void *data, child_work *shared, cons
         _exit(0);
     at_work = shared;
     sigprocmask(SIG_SETMASK, before, NULL);
-    exit(work(data));
+    int code = work(data);
+    shared->done = true;
+    exit(code);
 }
 
 ld_status ld_child_run(int (*work)(void *data), void *data, int *code, ld_error *error)

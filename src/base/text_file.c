@@ -6,15 +6,17 @@
 
 #include <sys/stat.h>
 
+ld_status text_file_status(int number)
+{
+    if (number == ENOENT || number == ENOTDIR || number == EISDIR || number == EACCES ||
+        number == EPERM || number == ELOOP || number == ENAMETOOLONG)
+        return LD_ERR_INPUT;
+    return number == ENOMEM ? LD_ERR_MEMORY : LD_ERR_FILE;
+}
+
 ld_status text_file_failed(ld_error *error)
 {
-    ld_status status = LD_ERR_FILE;
-    if (errno == ENOENT || errno == ENOTDIR || errno == EISDIR || errno == EACCES ||
-        errno == EPERM || errno == ELOOP || errno == ENAMETOOLONG)
-        status = LD_ERR_INPUT;
-    else if (errno == ENOMEM)
-        status = LD_ERR_MEMORY;
-    return ld_fail(error, status, "cannot be read: %s", strerror(errno));
+    return ld_fail(error, text_file_status(errno), "cannot be read: %s", strerror(errno));
 }
 
 static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *length,

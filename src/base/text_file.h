@@ -14,8 +14,11 @@
 ld_status text_file_read(const char *path, size_t limit, char **text, size_t *length,
                          ld_error *error);
 
-// "cannot be read: REASON", of errno: LD_ERR_INPUT; what the system refuses for itself, which is no
-// matter of the file that was named, LD_ERR_FILE or LD_ERR_MEMORY.
+// What an error number means where a file is read: LD_ERR_INPUT, it is not there or nothing to be
+// read; LD_ERR_FILE or LD_ERR_MEMORY, the system cannot for itself.
+ld_status text_file_status(int number);
+
+// "cannot be read: REASON", of errno.
 ld_status text_file_failed(ld_error *error);
 
 // Whether a file is to be written under a temporary name, which then becomes its own: not where

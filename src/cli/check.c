@@ -58,9 +58,11 @@ static int check_point(const ld_model *model, int point, bool start)
 // Prints the model, or what is wrong with the first point of its sweep that is not good.
 static int check_points(const ld_model *model, void *data)
 {
-    (void)data;
+    const int *strict = data;
     int points = ld_scenario_axes(model) > 0 ? ld_scenario_points(model) : 0;
-    int code = check_start(model);
+    int code = command_take_notes(ld_model_source(model), 0, points, false, *strict != 0);
+    if (!code)
+        code = check_start(model);
     for (int point = 1, starts = 0; point <= points && !code; point++) {
         bool start = starts < MOST_STARTS && is_corner(model, point);
         starts += start;
@@ -74,6 +76,8 @@ static int check_points(const ld_model *model, void *data)
 int command_check(const command *self, int argc, char **argv)
 {
     char **sets = NULL;
-    const command_option options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
-    return command_on_model(self, argc, argv, options, &sets, check_points, NULL);
+    int strict = 0;
+    const command_option options[] = {COMMAND_SETS(&sets), COMMAND_STRICT(&strict), COMMAND_HELP,
+                                      COMMAND_END};
+    return command_on_model(self, argc, argv, options, &sets, check_points, &strict);
 }

@@ -72,7 +72,7 @@ int command_begin(void)
 
 int command_end(int code)
 {
-    if (fflush(stdout) == 0 && !ferror(stdout))
+    if ((fflush(stdout) == 0 && !ferror(stdout)) || code == EXIT_SYSTEM)
         return code;
     command_complain("cannot print: %s", strerror(errno));
     return code ? code : EXIT_SYSTEM;
@@ -171,6 +171,23 @@ void command_tell_difference(const char *folder, const ld_origin *origin)
     if (ld_origin_differs(origin, text, sizeof text))
         command_complain("note: %s was computed otherwise, which may change the last digits: %s",
                          folder, text);
+}
+
+int command_take_notes(ld_source *source, int from, int to, bool quiet, bool strict)
+{
+    ld_messages notes;
+    ld_status status = ld_scenario_notes(source, from, to, &notes);
+    if (status == LD_ERR_INPUT)
+        ld_messages_free(&notes);
+    if (status)
+        return status == LD_ERR_INPUT ? 0 : command_code(print_messages(status, &notes));
+    int code = strict && notes.count > 0 ? EXIT_INPUT : 0;
+    if (strict)
+        ld_messages_print(&notes, stderr);
+    else if (!quiet)
+        ld_notes_print(&notes, stderr);
+    ld_messages_free(&notes);
+    return code;
 }
 
 int command_on_file(const char *file, char **sets, int (*work)(const ld_model *model, void *data),

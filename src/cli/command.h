@@ -73,6 +73,12 @@ int command_wind(const command *self, int argc, char **argv);
             "PATH=VALUE"                                                                           \
     }
 
+#define COMMAND_STRICT(strict)                                                                     \
+    {                                                                                              \
+        "strict", '\0', OPTION_FLAG, strict, "Refuse values that are allowed but hardly meant",    \
+            NULL                                                                                   \
+    }
+
 enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 
 // Reads the options and `count` words. Returns true to go on, then options_end() is due; false to
@@ -105,5 +111,10 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
 ld_status command_read_source(ld_source *source, int point, ld_model **model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
+
+// Prints notes on points `from` to `to` of the sweep of texts: as warnings, which `quiet` leaves
+// out, or where `strict` as errors; where one of the points is wrong, none. Returns 0, or the exit
+// code to end with.
+int command_take_notes(ld_source *source, int from, int to, bool quiet, bool strict);
 
 #endif

@@ -13,7 +13,7 @@ typedef struct run_progress {
 } run_progress;
 
 // From now on SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP ask for a stop; a second
-// one of a kind ends the program at once.
+// one of a kind ends the program at once, but for what a waiting parent hands on.
 void progress_start(run_progress *progress, bool quiet);
 
 // For ld_run_options.progress: false once a stop was asked for.

@@ -7,6 +7,7 @@
 #include "cli/run.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
+#include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
 #include "launchdyn/summary.h"
 
@@ -68,18 +69,28 @@ int run_model(const ld_model *model, void *data)
     ld_summary *summary = ld_summary_new();
     ld_status status = summary ? ld_simulation_create(model, &simulation, &error)
                                : ld_fail(&error, LD_ERR_MEMORY, "no memory for a summary");
-    if (!status)
+    bool begun = !status;
+    if (begun)
         status = simulate(simulation, model, wishes, summary, &error);
     ld_simulation_free(simulation);
     ld_summary_free(summary);
     int code = 0;
-    if (wishes->report && leaves_results(status))
+    if (wishes->report && begun && leaves_results(status))
         code = command_write_report(wishes->folder, NULL, wishes->quiet != 0);
     if (!status)
         return code;
     fflush(stdout);
     int failed = command_fail_on(model, status, &error);
     return code ? code : failed;
+}
+
+// Runs what a scenario says, after notes on it.
+static int run_noted(const ld_model *model, void *data)
+{
+    const run_wishes *wishes = data;
+    int code =
+        command_take_notes(ld_model_source(model), 0, 0, wishes->quiet != 0, wishes->strict != 0);
+    return code ? code : run_model(model, data);
 }
 
 static int run_sample(const ld_model *point, int number, run_wishes *wishes)
@@ -110,8 +121,11 @@ static int run_again(const char *folder, run_wishes *wishes)
         code = command_code(status);
     } else {
         command_tell_difference(folder, &origin);
-        code =
-            origin.sample > 0 ? run_sample(model, origin.sample, wishes) : run_model(model, wishes);
+        code = command_take_notes(origin.source, origin.point, origin.point, wishes->quiet != 0,
+                                  wishes->strict != 0);
+        if (!code)
+            code = origin.sample > 0 ? run_sample(model, origin.sample, wishes)
+                                     : run_model(model, wishes);
         ld_model_free(model);
     }
     ld_origin_free(&origin);
@@ -129,7 +143,7 @@ static int run_words(const command *self, const command_line *line, const char *
     else if (line->count != 1)
         command_complain("run wants %s; see launchdyn run --help", self->arguments);
     else
-        return command_on_file(line->word[0], wishes->sets, run_model, wishes);
+        return command_on_file(line->word[0], wishes->sets, run_noted, wishes);
     return EXIT_INPUT;
 }
 
@@ -151,6 +165,7 @@ int command_run(const command *self, int argc, char **argv)
          "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
         {"report", '\0', OPTION_FLAG, &wishes.report, "Write report.html there too", NULL},
         {"quiet", 'q', OPTION_FLAG, &wishes.quiet, "Print nothing but errors", NULL},
+        COMMAND_STRICT(&wishes.strict),
         COMMAND_HELP,
         COMMAND_END};
     command_line line;

@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/study.h"
 #include "launchdyn/origin.h"
+#include "launchdyn/scenario.h"
 
 void command_study_help(void)
 {
@@ -18,6 +19,15 @@ void command_study_help(void)
          "\n"
          "Jobs on several machines that share DIR take --shard 1/N to N/N, in any order;\n"
          "launchdyn study merge DIR then joins what they have kept.");
+}
+
+int study_take_notes(const ld_study *study, const study_wishes *wishes)
+{
+    const ld_model *nominal = ld_study_model(study);
+    int axes = ld_scenario_axes(nominal);
+    return command_take_notes(ld_model_source(nominal), axes > 0 ? 1 : 0,
+                              axes > 0 ? ld_scenario_points(nominal) : 0, wishes->run.quiet != 0,
+                              wishes->run.strict != 0);
 }
 
 int study_run_all(const ld_study *study, const study_wishes *wishes, study_runner *run)
@@ -77,13 +87,15 @@ static int run_one(void *data)
 // Runs a study, which is freed.
 static int study_do(ld_study *study, study_wishes *wishes)
 {
-    int code = EXIT_INPUT;
-    if (wishes->only != ALL_SAMPLES)
+    int code = study_take_notes(study, wishes);
+    if (!code && wishes->only != ALL_SAMPLES) {
         code = command_apart(run_one, &(chosen_sample){study, wishes});
-    else if (wishes->run.folder)
+    } else if (!code && wishes->run.folder) {
         code = study_run_all(study, wishes, ld_study_run);
-    else
+    } else if (!code) {
         command_complain("study wants --out DIR, the folder that keeps it");
+        code = EXIT_INPUT;
+    }
     ld_study_free(study);
     return code;
 }

@@ -26,9 +26,11 @@ typedef struct study_wishes {
                                         &(wishes)->run.folder,                                     \
                                         "The folder that keeps the study",                         \
                                         "DIR"},                                                    \
-    {                                                                                              \
-        "quiet", 'q', OPTION_FLAG, &(wishes)->run.quiet, "Print nothing but errors", NULL          \
-    }
+        {"quiet", 'q', OPTION_FLAG, &(wishes)->run.quiet, "Print nothing but errors", NULL},       \
+        COMMAND_STRICT(&(wishes)->run.strict)
+
+// Prints notes on all points of the study (command_take_notes()).
+int study_take_notes(const ld_study *study, const study_wishes *wishes);
 
 // ld_study_run(), or another that does the same.
 typedef ld_status study_runner(const ld_study *study, const char *folder,

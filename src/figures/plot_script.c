@@ -300,10 +300,12 @@ void plot_write_quoted(FILE *script, const char *text)
 {
     char shown[5];
     fputc('\'', script);
-    while (*text) {
-        fputs(*text == '\'' ? "'" : "", script);
-        text += printed_character(text, shown);
-        fputs(shown, script);
+    for (const char *c = text; *c;) {
+        // gnuplot escapes < and & in SVG, but leaves ]]>, which XML forbids
+        bool ends = *c == '>' && c >= text + 2 && c[-1] == ']' && c[-2] == ']';
+        fputs(*c == '\'' ? "'" : "", script);
+        c += printed_character(c, shown);
+        fputs(ends ? "\\x3e" : shown, script);
     }
     fputc('\'', script);
 }

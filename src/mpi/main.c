@@ -95,6 +95,8 @@ static int run_study(const char *file, const study_wishes *wishes, int process)
     }
     int code = read_everywhere(file, wishes->run.sets, process, &study);
     if (!code)
+        code = study_take_notes(study, wishes);
+    if (!code)
         code = process == 0 ? lead(study, wishes) : follow(study);
     ld_study_free(study);
     return code;

@@ -23,7 +23,7 @@ study_bins study_choose_bins(const double *const *sorted, const size_t *count, i
         high = fmax(high, sorted[i][count[i] - 1]);
         width = own > 0 ? fmin(width, own) : width;
     }
-    if (!(high >= low))
+    if (!isfinite(high - low)) // there are no values, or infinite ones
         return (study_bins){0};
     if (high == low)
         return (study_bins){.from = low, .width = 0, .count = 1};
@@ -36,7 +36,7 @@ void study_fill_bins(const study_bins *bins, const double *sorted, size_t count,
 {
     for (int i = 0; i < bins->count; i++)
         in_bin[i] = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && bins->count > 0; i++) {
         double bin = bins->width > 0 ? floor((sorted[i] - bins->from) / bins->width) : 0;
         in_bin[(int)fmin(fmax(bin, 0), bins->count - 1)]++;
     }

@@ -279,6 +279,8 @@ static ld_status write_ellipse(FILE *json, const study_values *values)
     estimate axis[2];
     double *const *value = values->value;
     covariance_ellipse_of(value[0], value[1], values->count, &e);
+    if (!isfinite(e.semi_axis[0])) // a value is infinite
+        return LD_OK;
     ld_status status =
         covariance_ellipse_intervals(value[0], value[1], values->group, values->count, &e, axis);
     if (status)

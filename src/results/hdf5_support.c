@@ -1,49 +1,103 @@
 #include "results/hdf5_support.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "base/text_file.h"
+
+// Why calls have failed since hdf5_quiet_begin().
+static struct {
+    bool memory;    // for want of it
+    int number;     // the system's error number, where one is named; the first
+    char text[128]; // of the latest: the innermost entry of the error stack
+} why;
+
+static herr_t see_entry(unsigned depth, const H5E_error2_t *entry, void *unused)
+{
+    (void)unused;
+    const char *number = entry->desc ? strstr(entry->desc, "errno = ") : NULL;
+    why.memory |= entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_CANTALLOC;
+    if (number && !why.number)
+        sscanf(number, "errno = %d", &why.number); // NOLINT(cert-err34-c): written by HDF5
+    if (depth == 0 && entry->desc)
+        snprintf(why.text, sizeof why.text, "%s", entry->desc);
+    return 0;
+}
+
+// Called by HDF5 where a call fails.
+static herr_t see_failure(hid_t stack, void *unused)
+{
+    return H5Ewalk2(stack, H5E_WALK_UPWARD, see_entry, unused);
+}
 
 hdf5_quiet hdf5_quiet_begin(void)
 {
-    hdf5_quiet quiet;
+    hdf5_quiet quiet = {0};
     // before its first work: what a full disk leaves open is not closed again at the program's end,
     // where the library crashes on it; what is to be kept has been closed by hand
     H5dont_atexit();
-    H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    memset(&why, 0, sizeof why);
+    why.memory = H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data) < 0; // it cannot begin
+    H5Eset_auto2(H5E_DEFAULT, see_failure, NULL);
     return quiet;
 }
 
-void hdf5_quiet_end(const hdf5_quiet *quiet)
+ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *error)
 {
     H5Eset_auto2(H5E_DEFAULT, quiet->function, quiet->data);
+    if (why.memory && status != LD_ERR_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "HDF5 has no memory");
+    return status;
 }
 
-// The innermost entry of the error stack, and the system's error number if one is named.
-typedef struct reason {
-    int number;
-    char text[128];
-} reason;
-
-static herr_t find_reason(unsigned depth, const H5E_error2_t *entry, void *data)
+hid_t hdf5_open(const char *path)
 {
-    reason *found = data;
-    const char *number = entry->desc ? strstr(entry->desc, "errno = ") : NULL;
-    if (number && !found->number)
-        sscanf(number, "errno = %d", &found->number); // NOLINT(cert-err34-c): written by HDF5
-    if (depth == 0 && entry->desc)
-        snprintf(found->text, sizeof found->text, "%s", entry->desc);
-    return 0;
+    enum { STEP = 1 << 20 };
+    // HDF5 does not tell why a file cannot be opened in this way
+    int there = open(path, O_RDONLY | O_CLOEXEC);
+    if (there < 0) {
+        why.number = errno;
+        return -1;
+    }
+    close(there);
+    hid_t properties = H5Pcreate(H5P_FILE_ACCESS);
+    bool fine = H5Pset_fapl_core(properties, STEP, false) >= 0;
+    hid_t file = fine ? H5Fopen(path, H5F_ACC_RDONLY, properties) : -1;
+    H5Pclose(properties);
+    return file;
 }
 
 ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path)
 {
-    reason found = {0, "HDF5 failed"};
-    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &found);
+    if (why.memory)
+        return ld_fail(error, LD_ERR_MEMORY, "cannot %s %s: HDF5 has no memory", what, path);
+    if (why.number && status == LD_ERR_INPUT)
+        status = text_file_status(why.number);
+    if (why.number)
+        return ld_fail(error, status, "cannot %s %s: %s", what, path, strerror(why.number));
+    if (strcmp(why.text, "unable to open file") == 0)
+        status = LD_ERR_FILE;
     return ld_fail(error, status, "cannot %s %s: %s", what, path,
-                   found.number ? strerror(found.number) : found.text);
+                   why.text[0] ? why.text : "HDF5 gives no reason");
+}
+
+hid_t hdf5_create_file(const char *path)
+{
+    // this form of the file has checksums on its own structures, too; a later one cannot be read
+    // where the program was killed
+    hid_t properties = H5Pcreate(H5P_FILE_ACCESS), root = H5Pcreate(H5P_FILE_CREATE);
+    H5Pset_libver_bounds(properties, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_attr_phase_change(root, 0, 0); // a title may be longer than 64 kB
+    H5Pset_obj_track_times(root, false);
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, root, properties);
+    H5Pclose(root);
+    H5Pclose(properties);
+    return file;
 }
 
 hid_t hdf5_create_group(hid_t parent, const char *name)
@@ -56,15 +110,30 @@ hid_t hdf5_create_group(hid_t parent, const char *name)
     return group;
 }
 
-hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size)
+static hid_t create_dataset(hid_t group, const char *name, hid_t type, int rank,
+                            const hsize_t *size, bool checked)
 {
-    hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
+    hid_t space = H5Screate_simple(rank, size, NULL);
     hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(properties, false);
+    if (checked && H5Sget_simple_extent_npoints(space) > 0) {
+        H5Pset_chunk(properties, rank, size);
+        H5Pset_fletcher32(properties);
+    }
     hid_t dataset = H5Dcreate2(group, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     H5Pclose(properties);
     H5Sclose(space);
     return dataset;
+}
+
+hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size)
+{
+    return create_dataset(group, name, type, rank, size, false);
+}
+
+hid_t hdf5_create_piece(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size)
+{
+    return create_dataset(group, name, type, rank, size, true);
 }
 
 hid_t hdf5_text_type(void)
@@ -80,8 +149,7 @@ static bool write_attribute(hid_t object, const char *name, hid_t type, const vo
     hid_t space = H5Screate(H5S_SCALAR);
     hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     bool fine = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
-    if (attribute >= 0)
-        H5Aclose(attribute);
+    fine = attribute >= 0 && H5Aclose(attribute) >= 0 && fine;
     H5Sclose(space);
     return fine;
 }
@@ -117,18 +185,6 @@ static bool read_attribute(hid_t object, const char *name, hid_t type, void *val
     return fine;
 }
 
-char *hdf5_read_text(hid_t object, const char *name)
-{
-    char *text = NULL;
-    hid_t type = hdf5_text_type();
-    bool fine = read_attribute(object, name, type, &text);
-    H5Tclose(type);
-    char *copy = fine && text ? strdup(text) : NULL;
-    if (fine && text)
-        H5free_memory(text);
-    return copy;
-}
-
 double hdf5_read_number(hid_t object, const char *name)
 {
     double value = NAN;
@@ -156,19 +212,19 @@ bool hdf5_write_string(hid_t object, const char *name, const char *text)
 bool hdf5_write_document(hid_t group, const char *key, const char *name, const char *text,
                          size_t length)
 {
+    hsize_t one = 1;
     hid_t type = string_type(length);
-    hid_t dataset = hdf5_create_dataset(group, key, type, 0, NULL);
+    hid_t dataset = hdf5_create_piece(group, key, type, 1, &one);
     bool fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
                 (!name || hdf5_write_string(dataset, "name", name));
-    if (dataset >= 0)
-        H5Dclose(dataset);
+    fine = dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
     H5Tclose(type);
     return fine;
 }
 
 enum { LONGEST_STRING = 1 << 28 };
 
-// Room for a scalar of this type and a zero after it; NULL: it is no text of fixed length.
+// Room for one of this type and a zero after it; NULL: it is no text of fixed length.
 static char *room_for(hid_t type, hid_t space)
 {
     bool fine = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
@@ -177,12 +233,32 @@ static char *room_for(hid_t type, hid_t space)
     return fine ? calloc(H5Tget_size(type) + 1, 1) : NULL;
 }
 
+// A text of variable length, as earlier versions wrote attributes.
+static char *read_variable(hid_t attribute)
+{
+    char *text = NULL;
+    hid_t type = hdf5_text_type();
+    bool fine = H5Aread(attribute, type, &text) >= 0 && text;
+    H5Tclose(type);
+    char *copy = fine ? strdup(text) : NULL;
+    if (fine)
+        H5free_memory(text);
+    return copy;
+}
+
 char *hdf5_read_string(hid_t object, const char *name)
 {
     hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     if (attribute < 0)
         return NULL;
     hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+    if (type >= 0 && H5Tis_variable_str(type) > 0) {
+        char *variable = read_variable(attribute);
+        H5Sclose(space);
+        H5Tclose(type);
+        H5Aclose(attribute);
+        return variable;
+    }
     char *text = room_for(type, space);
     if (text && H5Aread(attribute, type, text) < 0) {
         free(text);

@@ -7,22 +7,31 @@
 
 #include "launchdyn/status.h"
 
-// HDF5 prints its error stack unless told not to; the setting before is put back at the end.
+// HDF5 prints its error stack unless told not to; the setting before is put back at the end. What
+// has no memory meanwhile is seen wherever that was, for HDF5 takes what cannot be looked up for
+// what is not there: then the end returns LD_ERR_MEMORY in place of `status`.
 typedef struct hdf5_quiet {
     H5E_auto2_t function;
     void *data;
 } hdf5_quiet;
 
 hdf5_quiet hdf5_quiet_begin(void);
-void hdf5_quiet_end(const hdf5_quiet *quiet);
+ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *error);
+
+// Opens a file to be read: its bytes are read at once, so that what the system refuses is known
+// here.
+hid_t hdf5_open(const char *path);
 
 // `status` with "cannot `what` `path`: reason", the reason from HDF5's error stack.
 ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path);
 
+// A new file, in place of one that is there.
+hid_t hdf5_create_file(const char *path);
 // A group whose members keep the order in which they were made.
 hid_t hdf5_create_group(hid_t parent, const char *name);
-// An array of fixed size; of rank 0 a single value.
+// An array of fixed size; one that is written in one piece and has a checksum.
 hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size);
+hid_t hdf5_create_piece(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size);
 // UTF-8 text of variable length, to be closed.
 hid_t hdf5_text_type(void);
 
@@ -31,18 +40,16 @@ bool hdf5_write_text(hid_t object, const char *name, const char *text);
 bool hdf5_write_integer(hid_t object, const char *name, int value);
 bool hdf5_write_number(hid_t object, const char *name, double value);
 
-// UTF-8 text of fixed length: an attribute, or a dataset of its own with an attribute `name` (NULL:
-// without).
+// UTF-8 text of fixed length, since HDF5 crashes on damage to those of variable length: an
+// attribute, or a dataset of one with an attribute `name` (NULL: without).
 bool hdf5_write_string(hid_t object, const char *name, const char *text);
 bool hdf5_write_document(hid_t group, const char *key, const char *name, const char *text,
                          size_t length);
-// Read back, new; NULL: there is none, or none of fixed length.
+// Read back, new; NULL: there is none. Attributes may be of variable length, too.
 char *hdf5_read_string(hid_t object, const char *name);
 char *hdf5_read_document(hid_t group, const char *key, char **name, size_t *length);
 
-// Attributes read back: the text is new (NULL: no such attribute), the number NaN where there is
-// none.
-char *hdf5_read_text(hid_t object, const char *name);
+// A number read back, NaN where there is none.
 double hdf5_read_number(hid_t object, const char *name);
 
 #endif

@@ -9,6 +9,9 @@
 #include "launchdyn/status.h"
 #include "simulation/summary.h"
 
+// Of history.h5: 1 had texts of variable length and no checksums.
+enum { HISTORY_FORMAT = 2 };
+
 // history.h5, laid out as docs/results.md says. Rows are gathered in blocks; after each block the
 // file on disk is complete up to there.
 typedef struct history_hdf5 history_hdf5;

@@ -28,24 +28,25 @@ static ld_status failed(const history_hdf5 *history, ld_error *error)
 
 static bool create_file(history_hdf5 *history, const char *title)
 {
-    history->file = H5Fcreate(history->path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    history->file = hdf5_create_file(history->path);
     if (history->file < 0)
         return false;
     history->group = hdf5_create_group(history->file, "history");
-    return history->group >= 0 && hdf5_write_integer(history->file, "format", 1) &&
-           hdf5_write_text(history->file, "title", title) &&
-           hdf5_write_text(history->file, "version", LD_VERSION) &&
+    return history->group >= 0 && hdf5_write_integer(history->file, "format", HISTORY_FORMAT) &&
+           hdf5_write_string(history->file, "title", title) &&
+           hdf5_write_string(history->file, "version", LD_VERSION) &&
            hdf5_write_integer(history->file, "complete", 0);
 }
 
-// Ends the table whose rows were written.
-static void close_table(history_hdf5 *history)
+// Ends the table whose rows were written; false where the last of it could not be.
+static bool close_table(history_hdf5 *history)
 {
+    bool fine = true;
     for (size_t i = 0; i < history->count; i++)
         if (history->dataset[i] > 0)
-            H5Dclose(history->dataset[i]);
+            fine = H5Dclose(history->dataset[i]) >= 0 && fine;
     if (history->group > 0)
-        H5Gclose(history->group);
+        fine = H5Gclose(history->group) >= 0 && fine;
     free(history->dataset);
     free(history->block);
     history->dataset = NULL;
@@ -53,13 +54,21 @@ static void close_table(history_hdf5 *history)
     history->group = 0;
     history->count = history->used = 0;
     history->written = 0;
+    return fine;
 }
 
-static void close_all(history_hdf5 *history)
+static bool close_file(history_hdf5 *history)
 {
-    close_table(history);
+    bool fine = close_table(history);
     if (history->file > 0)
-        H5Fclose(history->file);
+        fine = H5Fclose(history->file) >= 0 && fine;
+    history->file = 0;
+    return fine;
+}
+
+static void free_history(history_hdf5 *history)
+{
+    close_file(history);
     free(history->path);
     free(history);
 }
@@ -74,11 +83,11 @@ ld_status history_hdf5_create(const char *path, const char *title, history_hdf5 
     }
     hdf5_quiet quiet = hdf5_quiet_begin();
     ld_status status = create_file(created, title) ? LD_OK : failed(created, error);
+    status = hdf5_quiet_end(&quiet, status, error);
     if (status)
-        close_all(created);
+        free_history(created);
     else
         *history = created;
-    hdf5_quiet_end(&quiet);
     return status;
 }
 
@@ -86,23 +95,20 @@ ld_status history_hdf5_origin(history_hdf5 *history, const ld_origin *origin, ld
 {
     hdf5_quiet quiet = hdf5_quiet_begin();
     ld_status status = origin_write_hdf5(history->file, origin) ? LD_OK : failed(history, error);
-    hdf5_quiet_end(&quiet);
-    return status;
+    return hdf5_quiet_end(&quiet, status, error);
 }
 
 // One array of doubles of fixed size with its unit and description.
 static bool write_array(hid_t group, const ld_array *array)
 {
     hsize_t size[2] = {array->rows, array->columns};
-    hid_t dataset = hdf5_create_dataset(group, array->name, H5T_NATIVE_DOUBLE, 2, size);
+    hid_t dataset = hdf5_create_piece(group, array->name, H5T_NATIVE_DOUBLE, 2, size);
     bool fine =
         dataset >= 0 &&
         H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->value) >= 0 &&
-        hdf5_write_text(dataset, "unit", array->unit) &&
-        hdf5_write_text(dataset, "description", array->description);
-    if (dataset >= 0)
-        H5Dclose(dataset);
-    return fine;
+        hdf5_write_string(dataset, "unit", array->unit) &&
+        hdf5_write_string(dataset, "description", array->description);
+    return dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
 }
 
 static bool write_geometry(hid_t file, const ld_array *arrays, size_t count)
@@ -111,9 +117,7 @@ static bool write_geometry(hid_t file, const ld_array *arrays, size_t count)
     bool fine = group >= 0;
     for (size_t i = 0; fine && i < count; i++)
         fine = write_array(group, &arrays[i]);
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 ld_status history_hdf5_geometry(history_hdf5 *history, const ld_array *arrays, size_t count,
@@ -122,8 +126,7 @@ ld_status history_hdf5_geometry(history_hdf5 *history, const ld_array *arrays, s
     hdf5_quiet quiet = hdf5_quiet_begin();
     ld_status status =
         write_geometry(history->file, arrays, count) ? LD_OK : failed(history, error);
-    hdf5_quiet_end(&quiet);
-    return status;
+    return hdf5_quiet_end(&quiet, status, error);
 }
 
 // One extendible array of doubles with its unit and description.
@@ -131,8 +134,8 @@ static hid_t create_column(hid_t group, const ld_column *column, hid_t space, hi
 {
     hid_t dataset = H5Dcreate2(group, column->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
                                properties, H5P_DEFAULT);
-    if (dataset >= 0 && hdf5_write_text(dataset, "unit", column->unit) &&
-        hdf5_write_text(dataset, "description", column->description))
+    if (dataset >= 0 && hdf5_write_string(dataset, "unit", column->unit) &&
+        hdf5_write_string(dataset, "description", column->description))
         return dataset;
     if (dataset >= 0)
         H5Dclose(dataset);
@@ -145,6 +148,7 @@ static bool create_columns(history_hdf5 *history, const ld_column *columns, size
     hid_t space = H5Screate_simple(1, &none, &unlimited);
     hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_chunk(properties, 1, &chunk);
+    H5Pset_fletcher32(properties);
     H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
     H5Pset_obj_track_times(properties, false);
     bool fine = true;
@@ -175,8 +179,7 @@ ld_status history_hdf5_begin(history_hdf5 *history, const ld_column *columns, si
     }
     hdf5_quiet quiet = hdf5_quiet_begin();
     ld_status status = create_columns(history, columns, count) ? LD_OK : failed(history, error);
-    hdf5_quiet_end(&quiet);
-    return status;
+    return hdf5_quiet_end(&quiet, status, error);
 }
 
 // Appends the block to every column and flushes, so that the file can be read if we are killed.
@@ -204,8 +207,7 @@ static ld_status flush(history_hdf5 *history, ld_error *error)
 {
     hdf5_quiet quiet = hdf5_quiet_begin();
     ld_status status = write_block(history) ? LD_OK : failed(history, error);
-    hdf5_quiet_end(&quiet);
-    return status;
+    return hdf5_quiet_end(&quiet, status, error);
 }
 
 ld_status history_hdf5_row(history_hdf5 *history, const double *values, ld_error *error)
@@ -237,9 +239,8 @@ static hid_t open_rocket(hid_t file, int rocket)
 
 static bool begin_flight(history_hdf5 *history, int rocket)
 {
-    if (history->used > 0 && !write_block(history))
+    if ((history->used > 0 && !write_block(history)) || !close_table(history))
         return false;
-    close_table(history);
     hid_t group = open_rocket(history->file, rocket);
     if (group >= 0) {
         history->group = hdf5_create_group(group, "flight");
@@ -253,7 +254,7 @@ ld_status history_hdf5_flight(history_hdf5 *history, int rocket, const ld_column
 {
     hdf5_quiet quiet = hdf5_quiet_begin();
     ld_status status = begin_flight(history, rocket) ? LD_OK : failed(history, error);
-    hdf5_quiet_end(&quiet);
+    status = hdf5_quiet_end(&quiet, status, error);
     return status ? status : history_hdf5_begin(history, columns, count, error);
 }
 
@@ -284,15 +285,15 @@ static bool write_end(history_hdf5 *history, const ld_summary *summary)
            (!summary ||
             (write_rockets(history->file, summary) && H5Adelete(history->file, "complete") >= 0 &&
              hdf5_write_integer(history->file, "complete", summary->complete) &&
-             hdf5_write_text(history->file, "stopped", summary->stopped))) &&
+             hdf5_write_string(history->file, "stopped", summary->stopped))) &&
            H5Fflush(history->file, H5F_SCOPE_LOCAL) >= 0;
 }
 
 ld_status history_hdf5_close(history_hdf5 *history, const ld_summary *summary, ld_error *error)
 {
     hdf5_quiet quiet = hdf5_quiet_begin();
-    ld_status status = write_end(history, summary) ? LD_OK : failed(history, error);
-    close_all(history);
-    hdf5_quiet_end(&quiet);
-    return status;
+    bool fine = write_end(history, summary);
+    ld_status status = fine && close_file(history) ? LD_OK : failed(history, error);
+    free_history(history);
+    return hdf5_quiet_end(&quiet, status, error);
 }

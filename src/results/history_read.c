@@ -56,7 +56,11 @@ static bool read_names(hid_t group, history_data *history)
         hid_t dataset = history->name[i] ? H5Dopen2(group, history->name[i], H5P_DEFAULT) : -1;
         if (dataset < 0)
             return false;
-        history->unit[i] = hdf5_read_text(dataset, "unit");
+        history->unit[i] = hdf5_read_string(dataset, "unit");
+        if (!history->unit[i]) {
+            H5Dclose(dataset);
+            return false;
+        }
         hsize_t rows = count_rows(dataset);
         history->rows = rows < history->rows ? (size_t)rows : history->rows;
         H5Dclose(dataset);
@@ -98,10 +102,13 @@ static void read_place(hid_t rocket, int number, history_data *history)
 // The table in a group; none where the group is missing or empty.
 static bool read_table(hid_t file, const char *name, history_data *history)
 {
-    hid_t group = H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
     H5G_info_t info = {0};
-    if (group < 0)
+    htri_t there = H5Lexists(file, name, H5P_DEFAULT);
+    if (there == 0)
         return true;
+    hid_t group = there > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+    if (group < 0)
+        return false;
     bool fine = H5Gget_info(group, &info) >= 0;
     history->columns = (size_t)info.nlinks;
     if (fine && info.nlinks > 0)
@@ -147,23 +154,28 @@ static bool read_arrays(hid_t group, history_data *history)
 // None where the file is of a flight alone, or of a version that wrote none.
 static bool read_geometry(hid_t file, history_data *history)
 {
-    if (H5Lexists(file, "geometry", H5P_DEFAULT) <= 0)
+    htri_t there = H5Lexists(file, "geometry", H5P_DEFAULT);
+    if (there == 0)
         return true;
-    hid_t group = H5Gopen2(file, "geometry", H5P_DEFAULT);
+    hid_t group = there > 0 ? H5Gopen2(file, "geometry", H5P_DEFAULT) : -1;
     bool fine = group >= 0 && read_arrays(group, history);
     if (group >= 0)
         H5Gclose(group);
     return fine;
 }
 
-// Group rockets/N, or -1.
-static hid_t open_rocket(hid_t file, int number)
+// Whether there is a group rockets/N, which becomes *rocket; -1: it cannot be read.
+static htri_t open_rocket(hid_t file, int number, hid_t *rocket)
 {
     char name[32];
     snprintf(name, sizeof name, "rockets/%d", number);
-    bool there =
-        H5Lexists(file, "rockets", H5P_DEFAULT) > 0 && H5Lexists(file, name, H5P_DEFAULT) > 0;
-    return there ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+    htri_t there = H5Lexists(file, "rockets", H5P_DEFAULT);
+    if (there > 0)
+        there = H5Lexists(file, name, H5P_DEFAULT);
+    if (there <= 0)
+        return there;
+    *rocket = H5Gopen2(file, name, H5P_DEFAULT);
+    return *rocket >= 0 ? 1 : -1;
 }
 
 // A flight alone: its rows are all the history there is.
@@ -181,8 +193,11 @@ static bool read_flights(hid_t file, history_data *history)
 {
     bool fine = (history->flight = calloc(LD_MAX_FIRINGS, sizeof *history->flight)) != NULL;
     for (int number = 1; fine && number <= LD_MAX_FIRINGS; number++) {
-        hid_t rocket = open_rocket(file, number);
-        if (rocket < 0)
+        hid_t rocket;
+        htri_t there = open_rocket(file, number, &rocket);
+        if (there < 0)
+            return false;
+        if (there == 0)
             break;
         history_data *flight = &history->flight[history->flights++];
         read_instants(rocket, flight);
@@ -206,14 +221,23 @@ typedef ld_status file_reader(hid_t file, const char *path, int number, history_
 static ld_status read_launcher(hid_t file, const char *path, int number, history_data *history,
                                ld_error *error)
 {
-    history->title = hdf5_read_text(file, "title");
-    history->stopped = hdf5_read_text(file, "stopped");
+    double format = hdf5_read_number(file, "format");
+    if (!(format >= 1 && format <= HISTORY_FORMAT))
+        return ld_fail(error, LD_ERR_INPUT,
+                       isnan(format) ? "%s is no history of a run, or is damaged"
+                                     : "%s is of a later version of launchdyn",
+                       path);
+    history->title = hdf5_read_string(file, "title");
+    history->stopped = hdf5_read_string(file, "stopped");
+    if (!history->title)
+        return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     history->complete = hdf5_read_number(file, "complete") > 0;
-    hid_t rocket = open_rocket(file, number);
+    hid_t rocket = -1;
+    htri_t there = open_rocket(file, number, &rocket);
     read_instants(rocket, history);
-    if (rocket >= 0)
+    if (there > 0)
         H5Gclose(rocket);
-    if (!read_table(file, "history", history) || !read_flights(file, history) ||
+    if (there < 0 || !read_table(file, "history", history) || !read_flights(file, history) ||
         !read_geometry(file, history))
         return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     if (history->columns == 0 && history->flights == 0)
@@ -224,8 +248,8 @@ static ld_status read_launcher(hid_t file, const char *path, int number, history
 static ld_status read_rocket(hid_t file, const char *path, int number, history_data *history,
                              ld_error *error)
 {
-    hid_t rocket = open_rocket(file, number);
-    if (rocket < 0)
+    hid_t rocket;
+    if (open_rocket(file, number, &rocket) <= 0)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no rocket %d", path, number);
     read_instants(rocket, history);
     read_place(rocket, number, history);
@@ -239,7 +263,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
     memset(history, 0, sizeof *history);
     hdf5_quiet quiet = hdf5_quiet_begin();
     child_reads(path);
-    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t file = hdf5_open(path);
     ld_status status = LD_OK;
     if (file < 0) {
         status = hdf5_failed(error, LD_ERR_INPUT, "read", path);
@@ -248,7 +272,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
         H5Fclose(file);
     }
     child_reads(NULL);
-    hdf5_quiet_end(&quiet);
+    status = hdf5_quiet_end(&quiet, status, error);
     if (status)
         history_free(history);
     return status;

@@ -202,7 +202,7 @@ ld_status manifest_read(const char *folder, manifest *self, ld_error *error)
     if (self->state != MANIFEST_DAMAGED)
         return LD_OK;
     manifest_free(self);
-    return *self->problem ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory to read summary.json");
+    return *self->problem ? LD_OK : ld_fail(error, status, "summary.json %.200s", problem.text);
 }
 
 void manifest_free(manifest *self)

@@ -28,9 +28,7 @@ static bool write_program(hid_t file, const ld_origin *origin)
     bool fine = group >= 0;
     for (size_t i = 0; fine && i < origin->fact_count; i++)
         fine = hdf5_write_string(group, origin->fact[i].name, origin->fact[i].text);
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 // Texts by their numbers from 1.
@@ -47,9 +45,7 @@ static bool write_files(hid_t group, const ld_source *source)
     for (size_t i = 0; fine && i < source->file_count; i++)
         fine = hdf5_write_document(group, number_text(i + 1, number), source->file[i]->name,
                                    source->file[i]->text, source->file[i]->length);
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 static bool write_sets(hid_t group, const ld_source *source)
@@ -59,9 +55,7 @@ static bool write_sets(hid_t group, const ld_source *source)
     for (size_t i = 0; fine && i < source->set_count; i++)
         fine = hdf5_write_document(group, number_text(i + 1, number), NULL, source->set[i],
                                    strlen(source->set[i]));
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 static bool write_source(hid_t file, const ld_origin *origin)
@@ -71,9 +65,7 @@ static bool write_source(hid_t file, const ld_origin *origin)
                 hdf5_write_integer(group, "sample", origin->sample) &&
                 write_files(hdf5_create_group(group, "files"), origin->source) &&
                 write_sets(hdf5_create_group(group, "set"), origin->source);
-    if (group >= 0)
-        H5Gclose(group);
-    return fine;
+    return group >= 0 && H5Gclose(group) >= 0 && fine;
 }
 
 bool origin_write_hdf5(hid_t file, const ld_origin *origin)
@@ -161,9 +153,9 @@ static bool read_source(hid_t file, ld_origin *origin)
 static ld_status read_history(const char *path, ld_origin *origin, ld_error *error)
 {
     size_t length;
-    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t file = hdf5_open(path);
     if (file < 0)
-        return ld_fail(error, LD_ERR_INPUT, "%.300s is no file of results, or is damaged", path);
+        return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     bool old = H5Lexists(file, "program", H5P_DEFAULT) <= 0;
     bool fine = !old && read_program(file, origin) &&
                 (origin->scenario = hdf5_read_document(file, "scenario", NULL, &length)) != NULL;
@@ -186,7 +178,7 @@ ld_status origin_read_history(const char *path, ld_origin *origin, ld_error *err
     child_reads(path);
     ld_status status = read_history(path, origin, error);
     child_reads(NULL);
-    hdf5_quiet_end(&quiet);
+    status = hdf5_quiet_end(&quiet, status, error);
     if (status)
         ld_origin_free(origin);
     return status;

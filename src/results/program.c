@@ -2,6 +2,9 @@
 #include "results/program.h"
 #include "launchdyn/version.h"
 
+#if defined(__x86_64__) || defined(__i386__)
+#include <cpuid.h>
+#endif
 #include <gnu/libc-version.h>
 #include <hdf5.h>
 #include <sqlite3.h>
@@ -12,27 +15,21 @@
 #include <yaml.h>
 #include <zlib.h>
 
-// OpenBLAS, where that is the one.
-extern char *openblas_get_config(void) __attribute__((weak));
 extern void ilaver_(int *major, int *minor, int *patch);
 
-// "model name : ..." of the first processor, or the kind of machine.
+// The processor's name by its own word, or the kind of machine.
 static void processor_name(char *text, size_t size)
 {
     struct utsname machine;
-    char line[256];
-    FILE *file = fopen("/proc/cpuinfo", "r");
     snprintf(text, size, "%s", uname(&machine) == 0 ? machine.machine : "unknown");
-    while (file && fgets(line, sizeof line, file)) {
-        const char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", 10) != 0 || !colon)
-            continue;
-        snprintf(text, size, "%s", colon + 1 + strspn(colon + 1, " "));
-        text[strcspn(text, "\n")] = '\0';
-        break;
-    }
-    if (file)
-        fclose(file);
+#if defined(__x86_64__) || defined(__i386__)
+    unsigned word[13] = {0};
+    for (unsigned i = 0; i < 12; i += 4)
+        if (!__get_cpuid(0x80000002 + i / 4, word + i, word + i + 1, word + i + 2, word + i + 3))
+            return;
+    const char *name = (const char *)word;
+    snprintf(text, size, "%s", name + strspn(name, " "));
+#endif
 }
 
 void program_describe(program_fact *take, void *self)
@@ -50,7 +47,7 @@ void program_describe(program_fact *take, void *self)
     ilaver_(&lapack[0], &lapack[1], &lapack[2]);
     snprintf(text, sizeof text, "%d.%d.%d", lapack[0], lapack[1], lapack[2]);
     take(self, "LAPACK", text);
-    take(self, "BLAS", openblas_get_config ? openblas_get_config() : "unknown");
+    take(self, "BLAS", LD_BLAS);
     H5get_libversion(&major, &minor, &patch);
     snprintf(text, sizeof text, "%u.%u.%u", major, minor, patch);
     take(self, "HDF5", text);

@@ -245,7 +245,7 @@ static ld_status make_text(const ld_model *model, const ld_summary *summary,
         write_summary(&json, model, summary, &origin, file);
     numeric_locale_leave(before);
     ld_origin_free(&origin);
-    return json.file && fclose(json.file) == 0
+    return json.file && fclose(json.file) == 0 && *text
                ? LD_OK
                : ld_fail(error, LD_ERR_MEMORY, "no memory for the summary");
 }
@@ -264,7 +264,10 @@ ld_status summary_write(const char *path, const ld_model *model, const ld_summar
     free(text);
     bool wrong = fflush(stream) != 0 || ferror(stream);
     int number = errno;
-    wrong |= fclose(stream) != 0;
+    if (fclose(stream) != 0 && !wrong) {
+        wrong = true;
+        number = errno;
+    }
     if (!status && !wrong)
         return LD_OK;
     unlink(path);

@@ -221,78 +221,157 @@ static void check_values(scenario_reader *reader, const tree_node *file,
         }
 }
 
-static void read_root(scenario_reader *reader, const text_source *source, int point,
-                      ld_model *model)
+// A scenario with all that it includes.
+typedef struct whole_scenario {
+    const text_source *source;
+    tree_node *file; // without overrides
+    tree_node *root; // with them
+    scenario_sweep sweep;
+} whole_scenario;
+
+// Reads the texts and puts the axes of the sweep into the model; false after a message.
+static bool open_whole(scenario_reader *reader, const text_source *source, whole_scenario *whole,
+                       ld_model *axes)
 {
     char *real_name = real_name_of(reader, source);
     open_file open = {NULL, real_name ? real_name : source->name, 0};
-    tree_node *file = load(reader, source, &open);
-    free(real_name);
-    tree_node *root = file ? tree_copy(reader, file) : NULL;
-    if (!root)
-        return;
     const char *const *sets = (const char *const *)reader->source->set;
-    root = apply_overrides(reader, root);
-    scenario_sweep sweep = sweep_find(reader, root, sets, reader->source->set_count);
-    sweep_fill(reader, &sweep, model);
-    if (point > ld_scenario_points(model)) {
-        reader_refuse(reader, (text_place){source, 0, 0}, "sweep",
+    *whole = (whole_scenario){.source = source, .file = load(reader, source, &open)};
+    free(real_name);
+    whole->root = whole->file ? tree_copy(reader, whole->file) : NULL;
+    if (!whole->root)
+        return false;
+    whole->root = apply_overrides(reader, whole->root);
+    whole->sweep = sweep_find(reader, whole->root, sets, reader->source->set_count);
+    sweep_fill(reader, &whole->sweep, axes);
+    return true;
+}
+
+// The tree of a point (0: with the nominal values); NULL after a message.
+static tree_node *tree_of_point(scenario_reader *reader, const whole_scenario *whole,
+                                const ld_model *axes, int point)
+{
+    if (point > ld_scenario_points(axes)) {
+        reader_refuse(reader, (text_place){whole->source, 0, 0}, "sweep",
                       "there is no point %d: they go from 1 to %d", point,
-                      ld_scenario_points(model));
+                      ld_scenario_points(axes));
+        return NULL;
+    }
+    if (point == 0)
+        return whole->root;
+    // overrides come last: they have the last word
+    tree_node *root = tree_copy(reader, whole->file);
+    for (int i = 0; i < whole->sweep.count && root; i++)
+        root = sweep_lay(reader, root, &whole->sweep.axis[i], ld_scenario_value(axes, point, i));
+    return root ? apply_overrides(reader, root) : NULL;
+}
+
+static void read_point(scenario_reader *reader, const text_source *source, int point,
+                       ld_model *model)
+{
+    whole_scenario whole;
+    if (!open_whole(reader, source, &whole, model))
         return;
-    }
-    if (point > 0) {
-        // overrides come last: they have the last word
-        root = tree_copy(reader, file);
-        for (int i = 0; i < sweep.count && root; i++)
-            root = sweep_lay(reader, root, &sweep.axis[i], ld_scenario_value(model, point, i));
-        root = root ? apply_overrides(reader, root) : NULL;
-    }
+    tree_node *root = tree_of_point(reader, &whole, model, point);
     if (root && !reader->no_memory)
         scenario_fill(reader, root, model);
     if (point == 0)
-        check_values(reader, file, &sweep);
+        check_values(reader, whole.file, &whole.sweep);
 }
 
-// With `complaint`, which is about a key of the model, there is a message.
-static ld_status read_source(ld_source *source, int point, const char *complaint, ld_model *model,
-                             ld_messages *messages)
+// Puts notes on point `from` to `to` into `notes`, each once, and what is wrong with them into the
+// messages.
+static void note_points(scenario_reader *reader, const text_source *source, int from, int to,
+                        ld_messages *notes)
 {
-    scenario_reader reader = {.messages = messages, .source = source, .complaint = complaint};
+    whole_scenario whole;
+    ld_messages *errors = reader->messages;
+    ld_model axes;
+    model_init(&axes);
+    bool good = open_whole(reader, source, &whole, &axes);
+    for (int point = from; point <= to && good && !reader->no_memory; point++) {
+        memory_pool before = pool_mark(reader);
+        size_t count = notes->count;
+        ld_model model;
+        model_init(&model);
+        tree_node *root = tree_of_point(reader, &whole, &axes, point);
+        if (root && !reader->no_memory)
+            scenario_fill(reader, root, &model);
+        good = root && errors->count == 0 && !reader->no_memory;
+        reader->messages = notes;
+        if (good)
+            scenario_take_notes(reader, root, &model);
+        reader_keep_messages(reader, count, NULL);
+        reader->messages = errors;
+        model_clear(&model);
+        pool_return(reader, before);
+    }
+    model_clear(&axes);
+}
+
+// What is to be read: point `from` into the model or, without one, notes on it up to point `to`.
+typedef struct reading {
+    int from, to;
+    const char *complaint; // about a key of the model, for which there is a message; NULL: none
+    ld_model *model;
+    ld_messages *notes;
+} reading;
+
+// Reads, with points as decimal signs; `messages` is filled on failure.
+static ld_status read_wanted(ld_source *source, const reading *wanted, ld_messages *messages)
+{
+    scenario_reader reader = {
+        .messages = messages, .source = source, .complaint = wanted->complaint};
     const ld_source_file *first = source->file[0];
     text_source root = {source->name, first->text, first->length, source->folder, 1, ""};
-    ld_model fresh;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
-    model_init(&fresh);
-    if (plain)
-        read_root(&reader, &root, point, &fresh);
-    else
+    if (!plain)
         reader.no_memory = true;
+    else if (wanted->model)
+        read_point(&reader, &root, wanted->from, wanted->model);
+    else
+        note_points(&reader, &root, wanted->from, wanted->to, wanted->notes);
+    bool good = messages->count == 0;
+    reader.messages = good && wanted->notes ? wanted->notes : messages;
     reader_finish_messages(&reader);
-    ld_status status = reader.no_memory      ? LD_ERR_MEMORY
-                       : reader.no_file      ? LD_ERR_FILE
-                       : messages->count > 0 ? LD_ERR_INPUT
-                                             : LD_OK;
     if (reader.no_memory) // what they say may come of that
         ld_messages_free(messages);
-    if (status == LD_OK) {
-        fresh.source = source_hold(source);
-        fresh.point = point;
-        *model = fresh;
-    } else {
-        model_clear(&fresh);
-    }
     pool_free(&reader);
     uselocale(before);
     if (plain)
         freelocale(plain);
-    return status;
+    return reader.no_memory ? LD_ERR_MEMORY
+           : reader.no_file ? LD_ERR_FILE
+           : good           ? LD_OK
+                            : LD_ERR_INPUT;
 }
 
 ld_status scenario_read_source(ld_source *source, int point, ld_model *model, ld_messages *messages)
 {
-    return read_source(source, point, NULL, model, messages);
+    ld_model fresh;
+    model_init(&fresh);
+    ld_status status = read_wanted(source, &(reading){.from = point, .model = &fresh}, messages);
+    if (status) {
+        model_clear(&fresh);
+        return status;
+    }
+    fresh.source = source_hold(source);
+    fresh.point = point;
+    *model = fresh;
+    return LD_OK;
+}
+
+ld_status ld_scenario_notes(ld_source *source, int from, int to, ld_messages *notes)
+{
+    ld_messages found = {0};
+    ld_status status =
+        read_wanted(source, &(reading){.from = from, .to = to, .notes = &found}, notes);
+    if (!status)
+        *notes = found;
+    else
+        ld_messages_free(&found);
+    return status;
 }
 
 bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages)
@@ -301,7 +380,11 @@ bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messag
     *messages = (ld_messages){0};
     if (!model->source || !scenario_complains_of_key(error->text))
         return false;
-    if (read_source(model->source, model->point, error->text, &unused, messages) == LD_ERR_INPUT)
+    model_init(&unused);
+    const reading wanted = {.from = model->point, .complaint = error->text, .model = &unused};
+    ld_status status = read_wanted(model->source, &wanted, messages);
+    model_clear(&unused);
+    if (status == LD_ERR_INPUT)
         return true;
     ld_messages_free(messages);
     return false;

@@ -43,18 +43,29 @@ static void print_excerpt(const ld_message *m, FILE *stream)
     fprintf(stream, "\n    %s^\n", below);
 }
 
-void ld_messages_print(const ld_messages *messages, FILE *stream)
+// Prints each as what it is: an error, a warning.
+static void print_as(const ld_messages *messages, const char *kind, FILE *stream)
 {
     for (size_t i = 0; i < messages->count; i++) {
         const ld_message *m = &messages->item[i];
         fprintf(stream, "%s:", VISIBLE(m->file));
         if (m->line > 0)
             fprintf(stream, "%d:%d:", m->line, m->column);
-        fprintf(stream, " error: %s%s%s\n", VISIBLE(m->path), m->path[0] ? ": " : "",
+        fprintf(stream, " %s: %s%s%s\n", kind, VISIBLE(m->path), m->path[0] ? ": " : "",
                 VISIBLE(m->text));
         if (m->source[0])
             print_excerpt(m, stream);
     }
+}
+
+void ld_messages_print(const ld_messages *messages, FILE *stream)
+{
+    print_as(messages, "error", stream);
+}
+
+void ld_notes_print(const ld_messages *notes, FILE *stream)
+{
+    print_as(notes, "warning", stream);
 }
 
 // The line of the source's text that holds `place`.
@@ -166,7 +177,7 @@ void reader_finish_messages(scenario_reader *reader)
     // the last one kept makes room
     ld_message *last = &messages->item[messages->count - 1];
     free(last->text);
-    last->text = strdup("and more errors, which are not shown");
+    last->text = strdup("and more like these, which are not shown");
     reader->no_memory = reader->no_memory || !last->text;
 }
 
@@ -209,7 +220,7 @@ void reader_keep_messages(scenario_reader *reader, size_t count, const ld_togeth
     size_t kept = count;
     for (size_t i = count; i < messages->count && !reader->no_memory; i++) {
         ld_message *m = &messages->item[i];
-        bool wanted = is_about(m, keys);
+        bool wanted = !keys || is_about(m, keys);
         for (size_t k = 0; wanted && k < kept; k++)
             wanted = !is_same(m, &messages->item[k]);
         if (wanted)

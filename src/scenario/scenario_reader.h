@@ -99,8 +99,8 @@ void reader_refuse_word(scenario_reader *reader, text_place place, const char *p
 // block around it.
 bool reader_has_refused(const scenario_reader *reader, size_t count, const char *path);
 
-// Of the messages after the first `count`, keeps those about one of the keys, a key below it or a
-// block around it that do not stand there already.
+// Of the messages after the first `count`, keeps those about one of the keys (NULL: any), a key
+// below it or a block around it that do not stand there already.
 void reader_keep_messages(scenario_reader *reader, size_t count, const ld_together *keys);
 
 // Puts the messages into the order of the text.
@@ -144,6 +144,9 @@ const char *scenario_key_meant(const struct field_block *block, const char *key)
 // Reads the tree into `model` (initialised), each value against its table; then checks the rules.
 void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model);
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
+
+// Adds a message about each value of a good scenario that is allowed but hardly meant.
+void scenario_take_notes(scenario_reader *reader, const tree_node *root, const ld_model *model);
 
 // Whether a sentence begins with the path of a key and a colon.
 bool scenario_complains_of_key(const char *complaint);

@@ -161,7 +161,10 @@ units_result units_factor(const char *text, const char *target, double *factor, 
         return UNITS_DIMENSION;
     if (memcmp(from.power, to.power, sizeof from.power) != 0)
         return UNITS_DIMENSION;
-    *factor = strcmp(text, target) == 0 ? 1 : from.factor / to.factor;
+    double ratio = strcmp(text, target) == 0 ? 1 : from.factor / to.factor;
+    if (!isnormal(ratio))
+        return UNITS_DIMENSION; // Gm9.Gm9.Gm9.Gm9: beyond all numbers
+    *factor = ratio;
     return UNITS_OK;
 }
 

@@ -24,12 +24,11 @@ typedef enum asked {
     ASKED_STAGE // then the first stage, from which on the library goes on by itself
 } asked;
 
-enum { VECTORS = 8 }; // below
-
 struct integrator {
     integrator_settings settings;
     SUNContext context;
     void *erk;
+    serial_vectors *vectors; // these, and the library's
     N_Vector y, atol, rtol, work;
     double t, t_previous;
     double next_step; // size to begin with after a restart; 0: the library chooses
@@ -187,26 +186,18 @@ static int configure(integrator *self)
 
 static int allocate(integrator *self)
 {
-    sunindextype n = (sunindextype)self->settings.n;
     size_t events = (size_t)self->settings.event_count + 1;
     self->found = calloc(events, sizeof *self->found);
     self->g = calloc(events, sizeof *self->g);
     if (!self->found || !self->g || SUNContext_Create(LD_NO_COMMUNICATOR, &self->context))
         return -1;
-    self->y = N_VNew_Serial(n, self->context);
-    if (!self->y)
+    self->vectors = serial_vectors_new(self->settings.n, self->context);
+    if (!self->vectors)
         return -1;
-    serial_vector_operations(self->y);
-    N_VConst(0, self->y);
-    N_Vector *others[VECTORS - 1] = {&self->atol,       &self->rtol,          &self->work,
-                                     &self->y_previous, &self->rate_previous, &self->y_end,
-                                     &self->rate_end};
-    for (int i = 0; i < VECTORS - 1; i++) {
-        *others[i] = N_VClone(self->y);
-        if (!*others[i])
-            return -1;
-        N_VConst(0, *others[i]);
-    }
+    N_Vector *own[] = {&self->y,          &self->atol,          &self->rtol,  &self->work,
+                       &self->y_previous, &self->rate_previous, &self->y_end, &self->rate_end};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        *own[i] = serial_vectors_take(self->vectors);
     return 0;
 }
 
@@ -215,17 +206,13 @@ ld_status integrator_create(const integrator_settings *settings, integrator **ou
     integrator *self = calloc(1, sizeof *self);
     if (self)
         self->settings = *settings;
-    if (!self || allocate(self)) {
+    if (!self || allocate(self) || configure(self)) { // it refuses nothing else
         integrator_free(self);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the integrator");
     }
     for (size_t i = 0; i < settings->n; i++) {
         data(self->atol)[i] = settings->atol[i];
         data(self->rtol)[i] = settings->absolute && settings->absolute[i] ? 0 : settings->rtol;
-    }
-    if (configure(self)) {
-        integrator_free(self);
-        return ld_fail(error, LD_ERR_NUMERIC, "the integrator refuses its settings");
     }
     *out = self;
     return LD_OK;
@@ -237,12 +224,7 @@ void integrator_free(integrator *self)
         return;
     if (self->erk)
         ERKStepFree(&self->erk);
-    N_Vector vectors[VECTORS] = {self->y,     self->atol,       self->rtol,
-                                 self->work,  self->y_previous, self->rate_previous,
-                                 self->y_end, self->rate_end};
-    for (int i = 0; i < VECTORS; i++)
-        if (vectors[i])
-            N_VDestroy(vectors[i]);
+    serial_vectors_free(self->vectors);
     if (self->context)
         SUNContext_Free(&self->context);
     free(self->found);

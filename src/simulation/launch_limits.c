@@ -81,10 +81,17 @@ ld_status launch_check_base(ld_run *run, double t)
                    first, last, t);
 }
 
-// Steps of less than 50 ns on the average over a millisecond: the run would hardly go on.
+// Steps of less than 50 ns on the average over a millisecond, or of less than a microsecond over
+// all of very many: the run would hardly go on.
 static ld_status check_steps(ld_run *run, double t)
 {
-    const int64_t most = 20000;
+    const int64_t most = 20000, very_many = 1000000;
+    int64_t steps = propagator_steps(run->propagator);
+    if (steps > very_many && t - run->t_start < 1e-6 * (double)steps)
+        return ld_fail(&run->error, LD_ERR_NUMERIC,
+                       "the steps are too short to go on: %lld for %.6g s, up to t = %.9g s; is a "
+                       "contact, a damper or a friction far too hard?",
+                       (long long)steps, t - run->t_start, t);
     if (++run->steps_since_progress <= most)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_NUMERIC,

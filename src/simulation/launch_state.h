@@ -90,6 +90,8 @@ typedef struct linear_system {
     int tube, rocket, base; // displacements of each
     int half, count;        // displacements in all; unknowns in all
     double *J;              // count x count, by columns; to be freed
+    double *held;           // base x count, by columns, behind J: what holds the base's
+                            // displacements still, d/dt of them in [N], [N m]
 } linear_system;
 
 // Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching

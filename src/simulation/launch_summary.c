@@ -141,8 +141,7 @@ void launch_summarise(ld_run *run)
         memcpy(summary->stopped, run->error.text, sizeof summary->stopped);
     summary->statistics.cpu_seconds = run->cpu - run->cpu_output;
     summary->statistics.cpu_seconds_setup = self->system->cpu_seconds_setup;
-    summary->mode_count = self->system->mode_count;
-    memcpy(summary->mode, self->system->mode, sizeof summary->mode);
+    summary->mode_count = ld_simulation_tube_modes(self->system, summary->mode, LD_MAX_MODES);
     if (!run->propagator)
         return;
     double t = propagator_time(run->propagator);

@@ -55,12 +55,13 @@ static void displace(const launch_state *self, const linear_system *system, int 
         y[base_extra_at(launcher, unknown - 2 * half)] += change;
 }
 
-// d/dt of the state of the whole, without thrust; a base without a motion of its own is held in its
-// attitude in the origin.
+// d/dt of the state of the whole, without thrust, and what holds the base's displacements still; a
+// base without a motion of its own is held in its attitude in the origin.
 static int rates_of_whole(const launch_state *self, double t, const launching_phase *phase,
-                          const double *y, double *y_dot)
+                          const double *y, double *y_dot, double *held)
 {
     const launcher_system *launcher = &self->launcher;
+    const base_system *moving = &launcher->base;
     launcher_input input;
     launcher_output out;
     simulation_input(self, t, y, &input);
@@ -72,6 +73,8 @@ static int rates_of_whole(const launch_state *self, double t, const launching_ph
     if (launcher_evaluate(launcher, &input, phase, y, &out))
         return -1;
     launcher_rates(launcher, y, &out, phase->rocket, y_dot);
+    for (int i = 0; i < moving->displacement_count; i++)
+        held[i] = moving->kind->dynamics->held_by(&out.base, i);
     return 0;
 }
 
@@ -87,7 +90,7 @@ static int rates_of_tube(const launching_system *tube, const launching_phase *ph
     return 0;
 }
 
-// Rates of the unknowns at state y, in the same order.
+// Rates of the unknowns at state y, in the same order; then what holds the base's displacements.
 static int rates(const launch_state *self, const linear_system *system,
                  const launching_system *alone, double t, const launching_phase *phase,
                  const double *y, double *r)
@@ -95,7 +98,9 @@ static int rates(const launch_state *self, const linear_system *system,
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
     double y_dot[LD_MAX_STATES];
-    if (alone ? rates_of_tube(alone, phase, y, y_dot) : rates_of_whole(self, t, phase, y, y_dot))
+    double *held = r + system->count;
+    if (alone ? rates_of_tube(alone, phase, y, y_dot)
+              : rates_of_whole(self, t, phase, y, y_dot, held))
         return -1;
     int tube = system->tube, both = tube + system->rocket, half = system->half;
     memcpy(r, y_dot + at->r, 3 * sizeof(double));
@@ -132,9 +137,10 @@ static ld_status linearise(const launch_state *self, const launching_system *alo
     int n = system->count, half = system->half;
     double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], trial[LD_MAX_STATES];
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
-    system->J = calloc((size_t)n * (size_t)n, sizeof(double));
+    system->J = calloc((size_t)n * (size_t)(n + system->base), sizeof(double));
     if (!system->J)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
+    system->held = system->J + n * n;
     for (int j = 0; j < n; j++) {
         double h = j < half ? 1e-7 : 1e-5;
         memcpy(trial, y, size);
@@ -146,6 +152,8 @@ static ld_status linearise(const launch_state *self, const launching_system *alo
             return ld_fail(error, LD_ERR_NUMERIC, "the equations cannot be linearised");
         for (int i = 0; i < n; i++)
             system->J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
+        for (int i = 0; i < system->base; i++)
+            system->held[i + system->base * j] = (plus[n + i] - minus[n + i]) / (2 * h);
     }
     return LD_OK;
 }
@@ -198,9 +206,9 @@ static void add_launching_energy(const launch_state *self, int i, double amount,
 }
 
 // Names what moves most in an eigenvector: the group with the largest kinetic energy, and a second
-// one that has at least a third of it.
-static void name_shape(const launch_state *self, const linear_system *system,
-                       const double *squared_speeds, char shape[LD_SHAPE_TEXT])
+// one that has at least a third of it. Returns twice the energy of all.
+static double name_shape(const launch_state *self, const linear_system *system,
+                         const double *squared_speeds, char shape[LD_SHAPE_TEXT])
 {
     const base_system *base = &self->launcher.base;
     double energy[GROUPS + BASE_GROUPS] = {0};
@@ -212,9 +220,12 @@ static void name_shape(const launch_state *self, const linear_system *system,
         double inertia = base->kind->dynamics->inertia_of(base, i - both, &group);
         energy[GROUPS + group] += inertia * squared_speeds[i];
     }
-    for (int g = 1; g < GROUPS + BASE_GROUPS; g++)
+    double all = energy[0];
+    for (int g = 1; g < GROUPS + BASE_GROUPS; g++) {
+        all += energy[g];
         if (energy[g] > energy[best])
             best = g;
+    }
     for (int g = 0; g < GROUPS + BASE_GROUPS; g++)
         if (g != best && energy[g] >= energy[best] / 3 &&
             (second < 0 || energy[g] > energy[second]))
@@ -223,10 +234,14 @@ static void name_shape(const launch_state *self, const linear_system *system,
         snprintf(shape, LD_SHAPE_TEXT, "%s", group_name(base, best));
     else
         snprintf(shape, LD_SHAPE_TEXT, "%s; %s", group_name(base, best), group_name(base, second));
+    return all;
 }
 
-static ld_status eigenvalues_failed(ld_error *error)
+// What LAPACKE's `bad` means.
+static ld_status eigenvalues_failed(int bad, ld_error *error)
 {
+    if (bad == LAPACK_WORK_MEMORY_ERROR)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
     return ld_fail(error, LD_ERR_NUMERIC, "the eigenvalues of the linearised equations failed");
 }
 
@@ -307,8 +322,9 @@ static int modes_of_shapes(const launch_state *self, const linear_system *system
                            const undamped *shape, int count, ld_mode *modes, double *work)
 {
     double rate[LD_MAX_STATES], squares[LD_MAX_STATES], *mix = work + 3 * count * count, mean = 0;
-    if (damp_shapes(self, system, shape, count, rate, mix, work))
-        return -1;
+    int bad = damp_shapes(self, system, shape, count, rate, mix, work);
+    if (bad)
+        return bad;
     for (int i = 0; i < count; i++)
         mean += shape[i].square / count;
     for (int i = 0; i < count; i++) {
@@ -371,7 +387,7 @@ static ld_status undamped_modes(const launch_state *self, const linear_system *s
             modes[(*count)++] = some[k];
     }
     free(work);
-    return bad ? eigenvalues_failed(error) : LD_OK;
+    return bad ? eigenvalues_failed(bad, error) : LD_OK;
 }
 
 static int by_size(const void *a, const void *b)
@@ -381,10 +397,43 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+// A growing motion, and the key of what feeds it.
+typedef struct fed_pole {
+    ld_pole pole;
+    const char *feeder; // NULL: there is none
+} fed_pole;
+
+// What feeds a growing motion: of all that ought to hold a displacement of the base still, what
+// does most work on it, if that is half of what the motion gains. `energy`: twice the kinetic one
+// of the eigenvector; NULL: nothing of the kind.
+static const char *feeder_of(const launch_state *self, const linear_system *system, double rate,
+                             const double *real, const double *imaginary, double energy)
+{
+    const char *feeder = NULL;
+    int first = system->half + system->tube + system->rocket;
+    double most = rate * energy;
+    for (int i = 0; i < system->base; i++) {
+        double force[2] = {0};
+        for (int j = 0; j < system->count; j++) {
+            force[0] += system->held[i + system->base * j] * real[j];
+            force[1] += imaginary ? system->held[i + system->base * j] * imaginary[j] : 0;
+        }
+        double power =
+            force[0] * real[first + i] + (imaginary ? force[1] * imaginary[first + i] : 0);
+        if (power > most) {
+            most = power;
+            feeder = self->launcher.base.kind->dynamics->holder_of(i);
+        }
+    }
+    return feeder;
+}
+
 // Eigenvalues of J with imaginary part >= 0, by ascending modulus, each with what moves in it;
 // those below `least` [1/s], which constraints and neutral directions leave at zero, are dropped.
+// `fed`: of those whose motion its holder feeds the one that grows fastest (NULL: not wanted).
 static ld_status eigenvalues(const launch_state *self, const linear_system *system, double least,
-                             ld_pole *poles, int capacity, int *count, ld_error *error)
+                             ld_pole *poles, int capacity, int *count, fed_pole *fed,
+                             ld_error *error)
 {
     int n = system->count, half = system->half;
     size_t square = (size_t)n * (size_t)n;
@@ -400,14 +449,20 @@ static ld_status eigenvalues(const launch_state *self, const linear_system *syst
             continue;
         ld_pole *pole = &poles[(*count)++];
         *pole = (ld_pole){.real = wr[i], .imaginary = wi[i]};
-        const double *real = right + n * i + half, *imaginary = real + (wi[i] > 0 ? n : 0);
+        const double *real = right + n * i, *imaginary = wi[i] > 0 ? real + n : NULL;
         for (int k = 0; k < half; k++)
-            squares[k] = real[k] * real[k] + (wi[i] > 0 ? imaginary[k] * imaginary[k] : 0);
-        name_shape(self, system, squares, pole->shape);
+            squares[k] = real[half + k] * real[half + k] +
+                         (imaginary ? imaginary[half + k] * imaginary[half + k] : 0);
+        double energy = name_shape(self, system, squares, pole->shape);
+        const char *feeder = fed && wr[i] >= fmax(least, fed->pole.real)
+                                 ? feeder_of(self, system, wr[i], real, imaginary, energy)
+                                 : NULL;
+        if (feeder)
+            *fed = (fed_pole){*pole, feeder};
     }
     free(memory);
     qsort(poles, (size_t)*count, sizeof *poles, by_size);
-    return bad ? eigenvalues_failed(error) : LD_OK;
+    return bad ? eigenvalues_failed(bad, error) : LD_OK;
 }
 
 // Modes of a launcher whose base moves with it: its pairs of complex eigenvalues.
@@ -427,25 +482,35 @@ static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes,
     }
 }
 
-int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity)
+ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
+                                int *count, ld_error *error)
 {
     double y[LD_MAX_STATES];
-    int count = 0;
     launch_state state, *self = &state;
     linear_system system = {0};
     launching_phase phase = {.rocket = false};
+    *count = 0;
     if (!model_has_launcher(simulation->model))
-        return 0; // a flight alone has no tube
-    if (launch_state_begin(self, simulation, NULL))
-        return 0;
+        return LD_OK; // a flight alone has no tube
+    ld_status status = launch_state_begin(self, simulation, error);
+    if (status)
+        return status;
     // straight it rests without gravity alone, and no pose of the base counts
     launching_system weightless = self->launcher.launching;
     weightless.tube.gravity = 0;
     simulation_straight(self, &ORIGIN, y);
-    if (!linearise(self, &weightless, 0, &phase, y, &system, NULL))
-        undamped_modes(self, &system, modes, capacity, &count, NULL);
+    status = linearise(self, &weightless, 0, &phase, y, &system, error);
+    if (!status)
+        status = undamped_modes(self, &system, modes, capacity, count, error);
     free(system.J);
     launch_state_end(self);
+    return status;
+}
+
+int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity)
+{
+    int count = simulation->mode_count < capacity ? simulation->mode_count : capacity;
+    memcpy(modes, simulation->mode, (size_t)count * sizeof *modes);
     return count;
 }
 
@@ -495,7 +560,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     status = simulation_linearise(self, &system, error);
     if (!status)
         status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, poles, pole_capacity,
-                             pole_count, error);
+                             pole_count, NULL, error);
     if (!status && moving)
         modes_of_poles(poles, *pole_count, modes, capacity, count);
     else if (!status)
@@ -503,17 +568,6 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     free(system.J);
     launch_state_end(self);
     return status;
-}
-
-// The key of what ought to hold still what moves most in the shape, and does not; NULL: nothing
-// ought to.
-static const char *holder_of(const base_system *base, const char *shape)
-{
-    const base_dynamics *dynamics = base->kind->dynamics;
-    for (int g = 0; dynamics->groups[g]; g++)
-        if (strncmp(shape, dynamics->groups[g], strlen(dynamics->groups[g])) == 0)
-            return dynamics->holder_of(g);
-    return NULL;
 }
 
 ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *growing,
@@ -527,26 +581,24 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
     if (!poles)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
     launch_state state;
+    fed_pole fed = {0};
     ld_status status = launch_state_begin(&state, simulation, error);
     // without an equilibrium on a flat road there is nothing to say
     ld_error unused;
     if (!status && !simulation_linearise(&state, &system, &unused))
-        eigenvalues(&state, &system, LEAST_RATE, poles, MOST, &count, &unused);
+        eigenvalues(&state, &system, LEAST_RATE, poles, MOST, &count, &fed, &unused);
     launch_state_end(&state);
-    for (int i = 0; i < count && !status; i++) {
-        const char *holder = holder_of(&simulation->launcher.base, poles[i].shape);
-        if (poles[i].real < LEAST_RATE)
-            continue;
-        // what grows by less than a thousandth of its rate is within the differences' error
-        if (poles[i].real > fmax(growing->real, 1e-3 * poles[i].imaginary))
+    // what grows by less than a thousandth of its rate is within the differences' error
+    for (int i = 0; i < count; i++)
+        if (poles[i].real >= LEAST_RATE &&
+            poles[i].real > fmax(growing->real, 1e-3 * poles[i].imaginary))
             *growing = poles[i];
-        if (holder)
-            status =
-                ld_fail(error, LD_ERR_INPUT,
-                        "%s: unstable: about its equilibrium a motion of %.3g Hz grows by %.3g "
-                        "1/s (launchdyn modes lists all)",
-                        holder, poles[i].imaginary / TWO_PI, poles[i].real);
-    }
+    if (fed.feeder)
+        status =
+            ld_fail(error, LD_ERR_INPUT,
+                    "%s: unstable: about its equilibrium a motion of %.3g Hz grows by %.3g 1/s "
+                    "(launchdyn modes lists all)",
+                    fed.feeder, fed.pole.imaginary / TWO_PI, fed.pole.real);
     free(poles);
     free(system.J);
     return status;

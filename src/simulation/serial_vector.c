@@ -1,7 +1,10 @@
 #include "simulation/serial_vector.h"
 
+#include <assert.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <stdbool.h>
+#include <stdlib.h>
 
 #include "math/vec3.h"
 
@@ -156,18 +159,93 @@ static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector
     return 0;
 }
 
-void serial_vector_operations(N_Vector v)
+// ---- a set of vectors
+
+enum { MOST_IN_SET = 64, LANE = 8 };
+
+typedef struct member {
+    struct _generic_N_Vector vector; // first: the library hands this out
+    struct _N_VectorContent_Serial content;
+    serial_vectors *set;
+    bool taken;
+} member;
+
+struct serial_vectors {
+    struct _generic_N_Vector_Ops ops;
+    member member[MOST_IN_SET];
+    double *data;
+};
+
+N_Vector serial_vectors_take(serial_vectors *set)
 {
-    v->ops->nvlinearsum = vector_linear_sum;
-    v->ops->nvconst = vector_const;
-    v->ops->nvprod = vector_prod;
-    v->ops->nvdiv = vector_div;
-    v->ops->nvscale = vector_scale;
-    v->ops->nvabs = vector_abs;
-    v->ops->nvinv = vector_inv;
-    v->ops->nvaddconst = vector_add_const;
-    v->ops->nvmin = vector_min;
-    v->ops->nvmaxnorm = vector_max_norm;
-    v->ops->nvwrmsnorm = vector_wrms_norm;
-    v->ops->nvlinearcombination = vector_linear_combination;
+    int i = 0;
+    while (i < MOST_IN_SET && set->member[i].taken)
+        i++;
+    assert(i < MOST_IN_SET); // the library takes about thirty
+    set->member[i].taken = true;
+    vector_const(0, &set->member[i].vector);
+    return &set->member[i].vector;
+}
+
+static N_Vector vector_clone(N_Vector v)
+{
+    return serial_vectors_take(((member *)v)->set);
+}
+
+static void vector_destroy(N_Vector v)
+{
+    ((member *)v)->taken = false;
+}
+
+static void set_operations(N_Vector_Ops ops)
+{
+    ops->nvclone = vector_clone;
+    ops->nvcloneempty = NULL;
+    ops->nvdestroy = vector_destroy;
+    ops->nvlinearsum = vector_linear_sum;
+    ops->nvconst = vector_const;
+    ops->nvprod = vector_prod;
+    ops->nvdiv = vector_div;
+    ops->nvscale = vector_scale;
+    ops->nvabs = vector_abs;
+    ops->nvinv = vector_inv;
+    ops->nvaddconst = vector_add_const;
+    ops->nvmin = vector_min;
+    ops->nvmaxnorm = vector_max_norm;
+    ops->nvwrmsnorm = vector_wrms_norm;
+    ops->nvlinearcombination = vector_linear_combination;
+}
+
+serial_vectors *serial_vectors_new(size_t n, SUNContext context)
+{
+    size_t row = (n + LANE - 1) / LANE * LANE;
+    serial_vectors *set = calloc(1, sizeof *set);
+    double *data = calloc(MOST_IN_SET * row, sizeof *data);
+    N_Vector pattern = set && data ? N_VNewEmpty_Serial((sunindextype)n, context) : NULL;
+    if (!pattern) {
+        free(set);
+        free(data);
+        return NULL;
+    }
+    set->ops = *pattern->ops;
+    set->data = data;
+    N_VDestroy(pattern);
+    set_operations(&set->ops);
+    for (int i = 0; i < MOST_IN_SET; i++) {
+        member *self = &set->member[i];
+        self->set = set;
+        self->content = (struct _N_VectorContent_Serial){
+            .length = (sunindextype)n, .own_data = SUNFALSE, .data = data + (size_t)i * row};
+        self->vector = (struct _generic_N_Vector){
+            .content = &self->content, .ops = &set->ops, .sunctx = context};
+    }
+    return set;
+}
+
+void serial_vectors_free(serial_vectors *set)
+{
+    if (!set)
+        return;
+    free(set->data);
+    free(set);
 }

@@ -70,11 +70,13 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
     double start = simulation_cpu_now();
     ld_simulation *self = NULL;
     ld_status status = simulation_renew(&self, model, error);
+    if (!status)
+        status =
+            simulation_tube_modes(self, self->mode, 6 + LD_MAX_MODES, &self->mode_count, error);
     if (status) {
         ld_simulation_free(self);
         return status;
     }
-    self->mode_count = ld_simulation_tube_modes(self, self->mode, LD_MAX_MODES);
     self->cpu_seconds_setup = simulation_cpu_now() - start;
     *out = self;
     return LD_OK;

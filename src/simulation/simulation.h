@@ -28,7 +28,7 @@ struct ld_simulation {
 
     double cpu_seconds_setup;
     int mode_count;
-    ld_mode mode[LD_MAX_MODES]; // tube and tail on their supports
+    ld_mode mode[6 + LD_MAX_MODES]; // tube and tail on their supports
 
     quantity_columns columns; // of the history; of a flight alone: of its flight
 };
@@ -58,6 +58,10 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
 ld_status history_build(ld_simulation *self, ld_error *error);
 // The columns' tables, before and after those of the base.
 extern const quantity_table launch_quantities, balance_quantities;
+
+// ld_simulation_tube_modes(), found: LD_ERR_MEMORY, LD_ERR_NUMERIC.
+ld_status simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity, int *count,
+                                ld_error *error);
 
 // Refuses a vehicle's stabiliser that cannot hold its platform, by the equations linearised about
 // the equilibrium on a flat road. `growing`: the fastest growing eigenvalue of any part, zero where

@@ -131,8 +131,7 @@ static bool write_points(const hdf5_writer *self)
             text[i] = data->point[i].text[k];
         hid_t dataset = hdf5_create_dataset(group, data->swept[k], type, 1, &points);
         fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
-        if (dataset >= 0)
-            H5Dclose(dataset);
+        fine = dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
     }
     free(text);
     H5Tclose(type);
@@ -151,7 +150,7 @@ static bool close_all(hdf5_writer *self)
         free(self->column[i].block);
     }
     if (self->group > 0)
-        H5Gclose(self->group);
+        fine = H5Gclose(self->group) >= 0 && fine;
     if (self->file > 0)
         fine = H5Fclose(self->file) >= 0 && fine;
     H5Tclose(self->status);
@@ -175,6 +174,5 @@ ld_status export_hdf5(export_table *table, const char *file, const char *name, l
         status = self.read ? self.read : hdf5_failed(error, LD_ERR_FILE, "write", name);
     if (!close_all(&self) && !status)
         status = hdf5_failed(error, LD_ERR_FILE, "write", name);
-    hdf5_quiet_end(&quiet);
-    return status;
+    return hdf5_quiet_end(&quiet, status, error);
 }

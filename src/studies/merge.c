@@ -102,10 +102,12 @@ static ld_status add_samples(const store_view *part, const store_kept *kept, ld_
     sqlite3_stmt *sample = store_prepare(
         self, "INSERT OR IGNORE INTO main.sample SELECT * FROM part.sample WHERE sample = ?",
         error);
-    sqlite3_stmt *rockets = store_prepare(
-        self, "INSERT INTO main.rocket SELECT * FROM part.rocket WHERE sample = ?", error);
-    ld_status status =
-        sample && rockets ? store_walk_begin(&walk, part, kept, error) : store_status(self);
+    sqlite3_stmt *rockets =
+        sample ? store_prepare(self,
+                               "INSERT INTO main.rocket SELECT * FROM part.rocket WHERE sample = ?",
+                               error)
+               : NULL;
+    ld_status status = rockets ? store_walk_begin(&walk, part, kept, error) : store_status(self);
     while (!status && store_walk_next(&walk, error)) {
         sqlite3_bind_int64(sample, 1, walk.number);
         sqlite3_bind_int64(rockets, 1, walk.number);

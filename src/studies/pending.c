@@ -38,7 +38,20 @@ static bool is_whole(const study_pending *self, int index)
     study_shape shape = record->shape;
     return record->number > 0 && shape.rockets >= 0 && shape.rockets <= self->shape.rockets &&
            shape.of_sample == self->shape.of_sample && shape.of_rocket == self->shape.of_rocket &&
-           shape.results == self->shape.results && *digest_in(self, index) == digest(self, record);
+           shape.results == self->shape.results &&
+           memchr(record->reason, '\0', sizeof record->reason) &&
+           *digest_in(self, index) == digest(self, record);
+}
+
+// Puts a whole record behind those before it, where one between them is damaged.
+static void move_up(study_pending *self, int index)
+{
+    if (index > self->count) {
+        memcpy(record_in(self, self->count), record_in(self, index), record_size(&self->shape));
+        *digest_in(self, self->count) = *digest_in(self, index);
+        *digest_in(self, index) = 0;
+    }
+    self->count++;
 }
 
 ld_status pending_open(study_pending *self, const char *path, uint64_t key,
@@ -60,8 +73,9 @@ ld_status pending_open(study_pending *self, const char *path, uint64_t key,
     if (problem)
         return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(problem));
     self->slot = map;
-    while (self->count < PENDING_MOST && is_whole(self, self->count))
-        self->count++;
+    for (int i = 0; i < PENDING_MOST; i++)
+        if (is_whole(self, i))
+            move_up(self, i);
     return LD_OK;
 }
 

@@ -20,8 +20,8 @@ typedef struct study_pending {
 } study_pending;
 
 // Opens the file at `path`, making it where it is not there, for records of up to this shape. It
-// holds those that an earlier run of the study with the same key has left and that were
-// written whole.
+// holds those that an earlier run of the study with the same key has left and that are whole; the
+// others are as if they had never been run.
 ld_status pending_open(study_pending *self, const char *path, uint64_t key,
                        const study_shape *shape, ld_error *error);
 // Removes the file if nothing is in it.

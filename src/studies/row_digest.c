@@ -27,18 +27,23 @@ uint32_t digest_real(uint32_t digest, double value)
     return of_bits(digest, SQLITE_FLOAT, &value);
 }
 
+static uint32_t of_bytes(uint32_t digest, int kind, const void *bytes, size_t length)
+{
+    const int64_t size = (int64_t)length;
+    return (uint32_t)crc32_z(of_bits(digest, kind, &size), bytes, length);
+}
+
 uint32_t digest_text(uint32_t digest, const void *text, size_t length)
 {
-    const int64_t bytes = (int64_t)length;
-    digest = of_bits(digest, SQLITE_TEXT, &bytes);
-    return (uint32_t)crc32_z(digest, text, length);
+    return of_bytes(digest, SQLITE_TEXT, text, length);
 }
 
 uint32_t digest_columns(uint32_t digest, sqlite3_stmt *row, int first, int end)
 {
     for (int i = first; i < end; i++) {
-        const void *text;
-        switch (sqlite3_column_type(row, i)) {
+        const int kind = sqlite3_column_type(row, i);
+        const void *bytes;
+        switch (kind) {
         case SQLITE_INTEGER:
             digest = digest_integer(digest, sqlite3_column_int64(row, i));
             break;
@@ -48,9 +53,10 @@ uint32_t digest_columns(uint32_t digest, sqlite3_stmt *row, int first, int end)
         case SQLITE_NULL:
             digest = digest_null(digest);
             break;
-        default: // a text, or bytes
-            text = sqlite3_column_blob(row, i);
-            digest = digest_text(digest, text ? text : "", (size_t)sqlite3_column_bytes(row, i));
+        default: // a text is another value than the same bytes
+            bytes = sqlite3_column_blob(row, i);
+            digest =
+                of_bytes(digest, kind, bytes ? bytes : "", (size_t)sqlite3_column_bytes(row, i));
         }
     }
     return digest;

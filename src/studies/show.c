@@ -184,7 +184,7 @@ static void print_half(FILE *stream, int width, const estimate *e, int least)
     int digits = printed_digits(e->value, half, least), length;
     do {
         number_text(value, e->value, digits);
-        length = snprintf(text, sizeof text, isnan(e->low) ? "%s" : "%s +- %.2g", value, half);
+        length = snprintf(text, sizeof text, isfinite(half) ? "%s +- %.2g" : "%s", value, half);
     } while (length > width && digits-- > least);
     fprintf(stream, " %-*s", width, text);
 }
@@ -316,9 +316,11 @@ static ld_status print_ellipses(shown *self, const study_point *point, ld_error 
             return status;
         if (values->count < 3)
             continue;
+        covariance_ellipse_of(values->value[0], values->value[1], values->count, &ellipse);
+        if (!isfinite(ellipse.semi_axis[0])) // a value is infinite
+            continue;
         fputs(first ? "\n" : "", self->stream);
         first = false;
-        covariance_ellipse_of(values->value[0], values->value[1], values->count, &ellipse);
         if (covariance_ellipse_intervals(values->value[0], values->value[1], values->group,
                                          values->count, &ellipse, axis))
             return no_memory(error);

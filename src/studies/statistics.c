@@ -309,7 +309,8 @@ static ld_status moments(grouped *self, group_statistics *result, double *reach)
     if (status)
         return status;
     result->skewness = skewness(self, result->mean.value);
-    double squares = self->count > 1 ? fmax(0, variance(self->all)) : NAN;
+    double squares = self->count > 1 ? variance(self->all) : NAN;
+    squares = squares < 0 ? 0 : squares; // that of infinite values stays NaN
     result->deviation.value = sqrt(squares);
     if (self->groups > 1) {
         mean_interval(self, &result->mean);
@@ -357,7 +358,7 @@ void covariance_ellipse_of(const double *x, const double *y, size_t count,
     double apart = hypot(0.5 * (xx - yy), xy) / n;
     *result = (covariance_ellipse){
         .mean = {mx, my},
-        .semi_axis = {sqrt(half + apart), sqrt(fmax(0, half - apart))},
+        .semi_axis = {sqrt(half + apart), half > apart ? sqrt(half - apart) : 0},
         .angle = 0.5 * atan2(2 * xy, xx - yy),
     };
 }

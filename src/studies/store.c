@@ -13,7 +13,6 @@
 #include "launchdyn/version.h"
 #include "results/folder.h"
 #include "studies/row_digest.h"
-#include "studies/store.h"
 
 ld_status store_status(const study_store *self)
 {
@@ -133,10 +132,12 @@ static ld_status prepare_all(study_store *self, ld_error *error)
 {
     const study_shape *shape = &self->study->shape;
     self->insert_sample = store_prepare_insert(self, "sample", 5 + (int)shape->of_sample, error);
-    self->insert_rocket = store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
-    self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
-    bool all = self->insert_sample && self->insert_rocket && self->find;
-    return all ? LD_OK : store_status(self);
+    if (self->insert_sample)
+        self->insert_rocket =
+            store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
+    if (self->insert_rocket)
+        self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
+    return self->find ? LD_OK : store_status(self);
 }
 
 static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
@@ -439,8 +440,8 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
     ld_status status = LD_OK;
     if (open_to_read(self, folder) != SQLITE_OK ||
         sqlite3_busy_timeout(self->database, PATIENCE) != SQLITE_OK ||
-        sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM study", NULL,
-                     NULL, NULL) != SQLITE_OK)
+        sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM sqlite_master",
+                     NULL, NULL, NULL) != SQLITE_OK)
         status = store_fail(self, "read", error);
     const store_view view = store_main(self);
     if (!status)

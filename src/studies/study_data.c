@@ -210,7 +210,7 @@ static ld_status count_samples(study_data *data, ld_error *error)
     study_reader *self = data->reader;
     const store_view view = store_main(&self->store);
     store_walk walk;
-    ld_status status = store_walk_begin(&walk, &view, &self->store.kept, error);
+    ld_status status = store_walk_begin(&walk, &view, &self->store.kept, &data->damage);
     while (!status && store_walk_next(&walk, error))
         if (walk.point >= 1 && walk.point <= data->point_count) {
             self->point[walk.point - 1].done++;

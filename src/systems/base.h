@@ -103,8 +103,9 @@ typedef struct base_dynamics {
     int (*extra_of)(const base_system *self, int extra);
     double (*inertia_of)(const base_system *self, int displacement, int *group);
     const char *const *groups; // their names, ended by NULL
-    // The key of what ought to hold that group still and does not; NULL: of none.
-    const char *(*holder_of)(int group);
+    // What holds a displacement still: its key (NULL: nothing does) and what it does, [N], [N m].
+    const char *(*holder_of)(int displacement);
+    double (*held_by)(const base_output *output, int displacement);
 } base_dynamics;
 
 struct base_interface {

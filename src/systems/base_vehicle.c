@@ -357,13 +357,6 @@ static const char *const groups[GROUPS + 1] = {
     [WHEEL_ACROSS] = "wheels, across",
 };
 
-static const char *holder_of(int group)
-{
-    return group == AZIMUTH     ? "platform.azimuth.stabiliser"
-           : group == ELEVATION ? "platform.elevation.stabiliser"
-                                : NULL;
-}
-
 // Displacements: place and attitude of the chassis (the rotation in its own axes), hinge angles,
 // wheel positions.
 static void displace_slightly(const base_system *self, int displacement, double change,
@@ -406,6 +399,18 @@ static int extra_of(const base_system *self, int extra)
     return VEHICLE_MARCHING + WHEEL_STATES * wheels;
 }
 
+static const char *holder_of(int displacement)
+{
+    return displacement == 6   ? "platform.azimuth.stabiliser"
+           : displacement == 7 ? "platform.elevation.stabiliser"
+                               : NULL;
+}
+
+static double held_by(const base_output *output, int displacement)
+{
+    return holder_of(displacement) ? output->report.vehicle.hinge[displacement - 6].torque : 0;
+}
+
 static double inertia_of(const base_system *self, int displacement, int *group)
 {
     if (displacement >= 8) {
@@ -440,6 +445,7 @@ static const base_dynamics dynamics = {
     .inertia_of = inertia_of,
     .groups = groups,
     .holder_of = holder_of,
+    .held_by = held_by,
 };
 
 // ---- quantities

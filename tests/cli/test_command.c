@@ -287,7 +287,7 @@ static pid_t start_endless(bool nohup)
 {
     char command[512];
     snprintf(command, sizeof command,
-             "cd %s && exec ./launchdyn run examples/fixed.yaml --out stopped "
+             "cd %s && exec ./launchdyn run examples/fixed.yaml -q --out stopped "
              "--set run.stuck_time='1000 s' --set rocket.lock.release_force='50 kN' "
              ">.out 2>.err",
              shell.folder);

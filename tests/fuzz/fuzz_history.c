@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "base/random.h"
+#include "fuzz/must_say.h"
 #include "fuzz/small_run.h"
 #include "launchdyn/origin.h"
 #include "report/report_parts.h"
@@ -296,11 +297,6 @@ static void write_changed(const uint8_t *data, size_t size)
 }
 
 // ---- reading
-
-static void must_say(ld_status status, const ld_error *error)
-{
-    must(status == LD_OK || (error->text[0] && error->status == status));
-}
 
 // What the report and the plots make of it.
 static void show(history_data *history)

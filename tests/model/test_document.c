@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/field.h"
-
-static const char begin_mark[] = "<!-- keys: begin -->\n", end_mark[] = "<!-- keys: end -->\n";
+#include "model/plausible.h"
 
 static char *read_whole(const char *path)
 {
@@ -20,29 +18,43 @@ static char *read_whole(const char *path)
     return text;
 }
 
-// The part of the document between the marks; a build writes what belongs there beside its tests.
-static void test_document_matches_tables(void **state)
+// The part of the document between the marks of a name is what is written; a build puts what
+// belongs there beside its tests.
+static void check_part(const char *name, void (*write)(FILE *stream))
 {
-    (void)state;
-    char *tables = NULL;
+    char *tables = NULL, begin_mark[64], end_mark[64], file[512];
     size_t length = 0;
     FILE *stream = open_memstream(&tables, &length);
-    field_write_markdown(stream);
+    write(stream);
     fclose(stream);
-    FILE *record = fopen(LD_BINARY_DIR "/scenario-keys.md", "w");
+    snprintf(file, sizeof file, "%s/scenario-%s.md", LD_BINARY_DIR, name);
+    FILE *record = fopen(file, "w");
     assert_non_null(record);
     fputs(tables, record);
     fclose(record);
+    snprintf(begin_mark, sizeof begin_mark, "<!-- %s: begin -->\n", name);
+    snprintf(end_mark, sizeof end_mark, "<!-- %s: end -->\n", name);
     char *document = read_whole(LD_SOURCE_DIR "/docs/scenario.md");
     char *begin = strstr(document, begin_mark), *end = strstr(document, end_mark);
     assert_true(begin && end && begin < end);
     begin += strlen(begin_mark);
     *end = '\0';
     if (strcmp(begin, tables) != 0)
-        fail_msg("docs/scenario.md differs from the tables; take %s",
-                 LD_BINARY_DIR "/scenario-keys.md");
+        fail_msg("docs/scenario.md differs from the tables; take %s", file);
     free(document);
     free(tables);
+}
+
+static void test_document_matches_tables(void **state)
+{
+    (void)state;
+    check_part("keys", field_write_markdown);
+}
+
+static void test_document_has_all_notes(void **state)
+{
+    (void)state;
+    check_part("notes", plausible_write_markdown);
 }
 
 static int check_block(const field_block *block)
@@ -67,6 +79,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_key_is_documented),
         cmocka_unit_test(test_document_matches_tables),
+        cmocka_unit_test(test_document_has_all_notes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

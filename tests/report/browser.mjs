@@ -1,7 +1,7 @@
 // The report of a run in a real browser.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, checkFits, checkInjected, checkNoneEmpty, drawn, inBrowser, launchdyn, leave, near, open, paper, picture,
+import { check, checkFits, checkInjected, checkNoneEmpty, drawn, inBrowser, launchdyn, launchdynEnding, leave, near, open, paper, picture,
   rowNear, runOf } from "./support.mjs";
 
 // The numbers below a plot, the time first.
@@ -31,7 +31,7 @@ async function checkOrigin(page, run) {
   check("the scenario as it was understood", understood.length > 500 && understood === scenario, understood.length);
   check("the scenario's own text", file === source.files[0].text && file.includes("adaptors:"), file.length);
   const cells = await page.$$eval(".origin td", (list) => list.map((cell) => cell.textContent));
-  check("program and libraries", cells.length >= 13 && cells.join() === Object.values(program).join(), cells.join(", "));
+  check("program and libraries", cells.length >= 10 && cells.join() === Object.values(program).join(), cells.join(", "));
   const open = await page.$$eval(".origin details[open]", (list) => list.length);
   check("all of it is folded", open === 0, open);
 }
@@ -330,11 +330,10 @@ async function checkHostile(browser) {
   check("nothing of it ran", await page.evaluate(() => window.owned === undefined && !document.querySelector("img:not(.photo)")));
   await checkInjected(browser, run.file);
   writeFileSync(join(run.out, "summary.json"), "{\"title\": ");
-  launchdyn("report", run.out);
+  launchdynEnding([2], "report", run.out);
   await leave(page);
   const broken = await open(browser, run.file);
-  check("a broken summary is said",
-    (await broken.textContent("body")).includes("summary.json is not complete"));
+  check("a broken summary is said", (await broken.textContent("body")).includes("No summary: "));
   await leave(broken);
 }
 

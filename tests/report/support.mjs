@@ -1,6 +1,6 @@
 // What the tests of reports in a browser share: runs, Chromium led by playwright-core, checks. Run by
 // the script `browser` beside it, which says where everything is.
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
@@ -28,6 +28,12 @@ export const near = (a, b, share) => Math.abs(a - b) <= share * Math.max(Math.ab
 
 export function launchdyn(...words) {
   return execFileSync(LD_COMMAND, words, { encoding: "utf8" });
+}
+
+// Where the command may end with one of several codes.
+export function launchdynEnding(codes, ...words) {
+  const { status, stderr } = spawnSync(LD_COMMAND, words, { encoding: "utf8" });
+  if (!codes.includes(status)) throw new Error(`${words.join(" ")}: code ${status}, ${stderr}`);
 }
 
 export const example = (name) => join(LD_EXAMPLES, name);
@@ -99,7 +105,7 @@ export async function leave(page) {
   check("no errors", page.errors.length === 0, page.errors.join("; ").slice(0, 300));
   check("nothing against the policy", violations.length === 0, violations.join("; ").slice(0, 300));
   const asked = page.requests.filter((url) => !/^(data|blob):/.test(url));
-  check("no request but the file", asked.every((url) => url === `file://${page.file}`), asked);
+  check("no request but the file", asked.every((url) => decodeURIComponent(url) === `file://${page.file}`), asked);
   await page.context().close();
 }
 

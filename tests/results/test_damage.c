@@ -16,6 +16,7 @@
 #include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
 #include "launchdyn/summary.h"
+#include "results/history.h"
 
 enum { FILES = 5, MOST = 1 << 24 };
 static const char *const names[FILES] = {"history.h5", "summary.json", "history.csv", "flights.csv",
@@ -178,6 +179,79 @@ static void test_flips_and_cuts(void **state)
     assert_int_equal(look(read_origin), LD_OK);
 }
 
+// ---- a history alone, without digests: its own checksums
+
+static history_data intact;
+
+static bool same_table(const history_data *one, const history_data *other)
+{
+    bool same = one->rows == other->rows && one->columns == other->columns;
+    for (size_t i = 0; same && i < one->columns; i++)
+        same = one->unit[i] && strcmp(one->name[i], other->name[i]) == 0 &&
+               strcmp(one->unit[i], other->unit[i]) == 0;
+    return same && (one->columns == 0 || memcmp(one->value, other->value,
+                                                one->rows * one->columns * sizeof(double)) == 0);
+}
+
+enum { SAME, REFUSED, DIFFERENT, CRASHED, ENDS };
+
+static int read_alone(void *data)
+{
+    history_data found;
+    if (history_read(data, &found, NULL))
+        return REFUSED;
+    bool same = same_table(&found, &intact) && found.flights == intact.flights &&
+                found.arrays == intact.arrays && found.title &&
+                strcmp(found.title, intact.title) == 0;
+    for (size_t i = 0; same && i < found.flights; i++)
+        same = same_table(&found.flight[i], &intact.flight[i]);
+    for (size_t i = 0; same && i < found.arrays; i++)
+        same = found.geometry[i].rows == intact.geometry[i].rows &&
+               memcmp(found.geometry[i].value, intact.geometry[i].value,
+                      found.geometry[i].rows * found.geometry[i].columns * sizeof(double)) == 0;
+    return same ? SAME : DIFFERENT;
+}
+
+static void test_a_history_alone(void **state)
+{
+    (void)state;
+    const char *wanted = getenv("LD_DAMAGES");
+    int cases = wanted ? atoi(wanted) / 5 : 40, count[ENDS] = {0};
+    uint64_t random = 41;
+    char path[128], what[64];
+    snprintf(path, sizeof path, "%s", in("alone.h5"));
+    bytes whole = read_bytes(in("run/history.h5"));
+    write_bytes(path, whole.at, whole.count);
+    assert_int_equal(history_read(path, &intact, NULL), LD_OK);
+    // a bit of a value
+    const double *value = history_column(&intact, "rocket.s") + 20;
+    unsigned char *at = whole.at;
+    while (memcmp(at, value, sizeof *value) != 0)
+        assert_true(++at < whole.at + whole.count - sizeof *value);
+    at[2] ^= 1;
+    write_bytes(path, whole.at, whole.count);
+    at[2] ^= 1;
+    assert_int_equal(history_read(path, &(history_data){0}, NULL), LD_ERR_INPUT);
+    for (int i = 0; i < cases; i++) {
+        int code = CRASHED;
+        ld_error error;
+        damage(path, whole, &random, what, sizeof what);
+        if (ld_child_run(read_alone, path, &code, &error)) {
+            assert_int_equal(error.status, LD_ERR_INPUT);
+            code = CRASHED;
+        }
+        count[code]++;
+        if (code >= DIFFERENT)
+            printf("    %s: %s\n", what, code == CRASHED ? "crashed" : "read with other values");
+    }
+    printf("    of %d: %d refused, %d read with the same values, %d with others, %d crashed\n",
+           cases, count[REFUSED], count[SAME], count[DIFFERENT], count[CRASHED]);
+    if (!wanted)
+        assert_int_equal(count[DIFFERENT], 0);
+    history_free(&intact);
+    free(whole.at);
+}
+
 // ---- what is said
 
 static void expect_report(const char *line, ld_status status, const char *text, const char *note)
@@ -275,9 +349,8 @@ static void test_parts_of_a_killed_run(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flips_and_cuts),
-        cmocka_unit_test(test_what_is_said),
-        cmocka_unit_test(test_earlier_version),
+        cmocka_unit_test(test_flips_and_cuts),        cmocka_unit_test(test_a_history_alone),
+        cmocka_unit_test(test_what_is_said),          cmocka_unit_test(test_earlier_version),
         cmocka_unit_test(test_parts_of_a_killed_run),
     };
     return cmocka_run_group_tests(tests, make_runs, scratch_remove);

@@ -2,6 +2,7 @@
 // sentence about physics, and without much work, as none was asked for.
 //   LD_RANDOM_SCENARIOS   how many
 //   LD_RANDOM_FIRST       number of the first, to repeat one (1)
+//   LD_RANDOM_PRINT       print the scenarios, too
 //   LD_RANDOM_SECONDS     CPU time that none may take [s] (none)
 #include "support/check.h"
 #include "support/draw.h"
@@ -257,6 +258,8 @@ static void every_scenario_ends(void **state)
     for (int i = first; ends[STOPPED] + ends[WENT_WELL] + ends[WRONG] < count; i++) {
         uint64_t seed = (uint64_t)i;
         ld_model *model = draw_scenario(&seed, &all);
+        if (getenv("LD_RANDOM_PRINT"))
+            ld_model_print(model, stdout);
         ends[run_scenario(i, model, seconds > 0 ? seconds : INFINITY, &longest)]++;
         ld_model_free(model);
     }

@@ -87,7 +87,7 @@ static void read_column(hid_t file, const char *name, hid_t type, void *value)
 static void expect_attribute(hid_t file, const char *object, const char *name, const char *text)
 {
     hid_t opened = H5Oopen(file, object, H5P_DEFAULT);
-    char *found = hdf5_read_text(opened, name);
+    char *found = hdf5_read_string(opened, name);
     assert_string_equal(found, text);
     free(found);
     H5Oclose(opened);

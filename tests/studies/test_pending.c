@@ -67,11 +67,43 @@ static void test_other_studies(void **state)
     assert_int_equal(taken(2, asked), 0);
 }
 
+// Behind a record that is damaged the others are there.
+static void test_damaged(void **state)
+{
+    (void)state;
+    enum { RECORDS = 5 };
+    study_record *record = calloc(1, record_size(&asked));
+    study_pending pending;
+    assert_non_null(record);
+    write_record();
+    assert_int_equal(pending_open(&pending, path, 1, &asked, NULL), LD_OK);
+    record->shape = asked;
+    for (record->number = 8; record->number < 7 + RECORDS; record->number++)
+        pending_add(&pending, record);
+    size_t slot = pending.slot_size;
+    pending_close(&pending);
+    free(record);
+    FILE *file = fopen(path, "r+");
+    assert_non_null(file);
+    for (int i = 0; i < RECORDS; i += 2) { // the first, the third and the last
+        assert_int_equal(fseek(file, (long)((size_t)i * slot + slot / 2), SEEK_SET), 0);
+        fputc('x', file);
+    }
+    fclose(file);
+    assert_int_equal(pending_open(&pending, path, 1, &asked, NULL), LD_OK);
+    assert_int_equal(pending.count, 2);
+    assert_int_equal(pending_read(&pending, 0)->number, 8);
+    assert_int_equal(pending_read(&pending, 1)->number, 10);
+    pending_clear(&pending);
+    pending_close(&pending);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_study),
         cmocka_unit_test(test_other_studies),
+        cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

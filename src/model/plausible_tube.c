@@ -1,0 +1,232 @@
+// Plausibility of tubes, their supports and the base that carries them.
+#include "model/plausible.h"
+
+#define PI 3.14159265358979323846
+#define FIND(name) static plausible_pair name(const plausible_entry *at)
+
+static double norm(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+// ---- sections
+
+static const ld_section *section_of(const plausible_entry *at)
+{
+    return &at->model->tubes.section[at->i];
+}
+
+FIND(wall_thickness)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(s->outer_radius - s->bore_radius, s->bore_radius);
+}
+
+FIND(wall_area)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(s->area, PI * s->bore_radius * s->bore_radius);
+}
+
+// Radius about which the wall lies: of a thin ring sqrt(2 I/A).
+FIND(radius_of_area)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(sqrt(2 * s->second_moment / s->area), s->bore_radius);
+}
+
+FIND(radius_of_stiffness)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(sqrt(2 * s->bending_stiffness / s->axial_stiffness), s->bore_radius);
+}
+
+FIND(radius_of_inertia)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(sqrt(s->polar_inertia / s->mass_per_length), s->bore_radius);
+}
+
+FIND(mass_over_area)
+{
+    const ld_section *s = section_of(at);
+    return plausible_alone(s->form == LD_SECTION_AREA ? s->mass_per_length / s->area : NAN);
+}
+
+FIND(wave_speed)
+{
+    const ld_section *s = section_of(at);
+    return plausible_alone(sqrt(s->axial_stiffness / s->mass_per_length));
+}
+
+// ---- the tube
+
+FIND(slenderness)
+{
+    return plausible_compare(at->model->tubes.length, plausible_bore(at->model));
+}
+
+// Frequency of the highest bending mode, about that of a clamped tube, beside that of steps.
+FIND(highest_mode)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    const ld_section *s = tubes->section;
+    double k = (tubes->modes.bending - 0.5) * PI / tubes->length;
+    double frequency = k * k * sqrt(s->bending_stiffness / s->mass_per_length) / (2 * PI);
+    return plausible_compare(tubes->modes.bending > 0 ? frequency : NAN,
+                             1 / at->model->run.max_step);
+}
+
+FIND(tail_mass)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    return plausible_compare(tubes->tail.mass, plausible_tube_mass(tubes) - tubes->tail.mass);
+}
+
+FIND(point_mass)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double mass = tubes->point_mass[at->i].mass;
+    return plausible_compare(mass, plausible_tube_mass(tubes) - mass);
+}
+
+FIND(support_frequency)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double stiffness = 0;
+    for (int i = 0; i < tubes->support_count; i++)
+        stiffness += tubes->support[i].stiffness[1];
+    double mass = plausible_tube_mass(tubes) + at->model->rocket.full.mass;
+    return plausible_alone(stiffness > 0 ? sqrt(stiffness / mass) / (2 * PI) : NAN);
+}
+
+FIND(pitch)
+{
+    const ld_layout *layout = &at->model->tubes.layout;
+    bool several = layout->rows * layout->columns > 1;
+    return plausible_compare(several ? layout->pitch : NAN, 2 * plausible_bore(at->model));
+}
+
+FIND(first_tube)
+{
+    return plausible_compare(norm(at->model->tubes.layout.first), at->model->tubes.length);
+}
+
+// ---- slot
+
+FIND(slot_radius)
+{
+    return plausible_compare(at->model->tubes.slot.radius, plausible_bore(at->model));
+}
+
+FIND(slot_angle)
+{
+    const ld_table *angle = &at->model->tubes.slot.angle;
+    double greatest = 0;
+    for (size_t i = 0; i < angle->rows; i++)
+        greatest = fmax(greatest, fabs(angle->data[2 * i + 1]));
+    return plausible_alone(greatest);
+}
+
+// ---- a base whose motion is given
+
+FIND(base_speed)
+{
+    return plausible_alone(norm(at->model->base.velocity));
+}
+
+// Sum of amplitude (2 pi f)^power.
+static double greatest_rate(const ld_sines *sines, int power)
+{
+    double sum = 0;
+    for (int i = 0; i < sines->count; i++)
+        sum += fabs(sines->term[i].amplitude) * pow(2 * PI * sines->term[i].frequency, power);
+    return sum;
+}
+
+FIND(base_acceleration)
+{
+    const ld_base *base = &at->model->base;
+    const double a[3] = {greatest_rate(&base->surge, 2), greatest_rate(&base->heave, 2),
+                         greatest_rate(&base->sway, 2)};
+    return plausible_alone(norm(a));
+}
+
+FIND(base_rate)
+{
+    const ld_base *base = &at->model->base;
+    const double w[3] = {greatest_rate(&base->yaw, 1), greatest_rate(&base->pitch, 1),
+                         greatest_rate(&base->roll, 1)};
+    return plausible_alone(norm(w));
+}
+
+#define NO_LOW .low = -INFINITY
+#define NO_HIGH .high = INFINITY
+#define BORE .other = "the bore's radius"
+
+const plausible_rule plausible_of_tube[] = {
+    {"tubes.length", .unit = "m", BORE, .low = 2, .high = 500, .find = slenderness,
+     .why = "a launch tube is long, but no wire"},
+    {"tubes.sections.#.outer_radius", "the wall's thickness", .unit = "m",
+     .other = "the section's inner radius", .low = 0.002, .high = 1, .find = wall_thickness,
+     .why = "a wall is thin, but no foil"},
+    {"tubes.sections.#.area", .unit = "m2", .other = "the area of the bore", .low = 0.004,
+     .high = 3, .find = wall_area, .why = "a wall is thin, but no foil"},
+    {"tubes.sections.#.second_moment", "the wall's mean radius by its moment and area", .unit = "m",
+     BORE, .low = 0.5, .high = 3, .find = radius_of_area, .why = "a wall lies around its bore"},
+    {"tubes.sections.#.torsion_constant", .unit = "m4", .other = "tubes.sections.#.second_moment",
+     .low = 1e-5, .high = 2.5,
+     .why = "that of a ring is twice its second moment, of an open one less"},
+    {"tubes.sections.#.bending_stiffness", "the wall's mean radius by its stiffnesses", .unit = "m",
+     BORE, .low = 0.5, .high = 3, .find = radius_of_stiffness,
+     .why = "a wall lies around its bore"},
+    {"tubes.sections.#.torsion_stiffness", .unit = "N.m2",
+     .other = "tubes.sections.#.bending_stiffness", .low = 1e-5, .high = 2.5,
+     .why = "that of a ring is a little less than its bending stiffness"},
+    {"tubes.sections.#.axial_stiffness", "the speed of sound along the wall", .unit = "m/s",
+     .low = 100, .high = 20000, .find = wave_speed, .why = "that of steel is 5200 m/s"},
+    {"tubes.sections.#.mass_per_length", "mass over volume of the wall", .unit = "kg/m3",
+     .low = 300, .high = 40000, .find = mass_over_area, .why = "that of steel is 7850 kg/m3"},
+    {"tubes.sections.#.polar_inertia", "the mean radius of the mass", .unit = "m", BORE, .low = 0.5,
+     .high = 5, .find = radius_of_inertia, .why = "a wall lies around its bore"},
+    {"tubes.material.density", .unit = "kg/m3", .low = 500, .high = 23000,
+     .why = "wood has 500 kg/m3, steel 7850 kg/m3, no metal more than 22600 kg/m3"},
+    {"tubes.material.youngs_modulus", .unit = "Pa", .low = 1e8, .high = 1e12,
+     .why = "that of plastics is some 1e9 Pa, that of steel 2.1e11 Pa"},
+    {"tubes.material.shear_modulus", .unit = "Pa", .other = "tubes.material.youngs_modulus",
+     .low = 0.005, .high = 0.6, .why = "that of a metal is about 0.4 times Young's modulus"},
+    {"tubes.material.poisson_ratio", .unit = "", .low = 0, NO_HIGH,
+     .why = "materials that grow thicker as they are pulled are rare"},
+    {"tubes.modes.damping", .unit = "", NO_LOW, .high = 0.2,
+     .why = "the structure of a tube damps a few percent"},
+    {"tubes.modes.bending", "the highest mode's rough frequency", .unit = "Hz",
+     .other = "one over run.max_step", NO_LOW, .high = 20, .find = highest_mode,
+     .of = "run.max_step", .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.tail.mass", .unit = "kg", .other = "the mass of the tube", NO_LOW, .high = 20,
+     .find = tail_mass, .of = "tubes.material.density", .why = "a tail is a part of the tube"},
+    {"tubes.tail.center", .unit = "m", .other = "tubes.length", .low = -1, .high = 1,
+     .why = "a tail is welded to the rear end"},
+    {"tubes.point_masses.#.mass", .unit = "kg", .other = "the mass of all else of the tube", NO_LOW,
+     .high = 20, .find = point_mass, .of = "tubes.material.density",
+     .why = "a guide ring is a part of the tube"},
+    {"tubes.supports", "the frequency of tube and rocket on their stiffness along y", .unit = "Hz",
+     .low = 0.5, .high = 10000, .find = support_frequency, .of = "tubes.material.density",
+     .why = "supports hold a tube tighter than rubber and softer than rock"},
+    {"tubes.layout.pitch", .unit = "m", .other = "the bore's diameter", NO_LOW, .high = 20,
+     .find = pitch, .why = "tubes of one launcher lie side by side"},
+    {"tubes.layout.first", "the distance of tube 1 from the platform's origin", .unit = "m",
+     .other = "tubes.length", NO_LOW, .high = 5, .find = first_tube,
+     .why = "tubes lie on their platform"},
+    {"tubes.slot.radius", .unit = "m", BORE, .low = 0.5, .high = 2, .find = slot_radius,
+     .why = "the slot lies in the wall around the bore"},
+    {"tubes.slot.angle", "its greatest angle", .unit = "rad", NO_LOW, .high = 45 * PI / 180,
+     .find = slot_angle, .why = "a steeper slot brakes and jams"},
+    {"tubes.slot.friction", .unit = "", NO_LOW, .high = 1.5,
+     .why = "dry metal on metal has less than 1"},
+    {"base.velocity", "the speed", .unit = "m/s", NO_LOW, .high = 1000, .find = base_speed,
+     .why = "it is steady while the launch lasts"},
+    {"base.motion", "the acceleration by its sines", .unit = "m/s2", NO_LOW, .high = 100,
+     .find = base_acceleration, .why = "gravity has 9.8 m/s2"},
+    {"base.motion", "the angular rate by its sines", .unit = "rad/s", NO_LOW, .high = 10,
+     .find = base_rate, .why = "that is more than a turn in a second"},
+    {0}};

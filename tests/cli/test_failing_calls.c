@@ -1,0 +1,459 @@
+// Calls of the system that fail: of each kind, over the commands, one call or all from one on. What
+// must hold: a code that is not 0 after one sentence that names the cause, or no consequence; no
+// signal; no file half-written under its own name; the same command then goes on to the same files.
+//
+// Of all calls that come from the same stack the first one fails. LD_FAILING_CALLS: how many, of
+// all there are, in a command (default 2), drawn by chance; 0: all of them. LD_FAILING_COMMAND:
+// only in this one; LD_FAILING_KIND: only of this kind.
+#define _GNU_SOURCE
+#include "support/shell.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "base/random.h"
+
+enum {
+    INPUT = 2,
+    SYSTEM = 3,
+    MOST_FILES = 32,
+    MOST_CALLS = 1 << 14,
+    MOST_WORDS = 24,
+    MOST_PATH = 160
+};
+
+// ---- the commands, each in a folder of its own
+
+#define SCENARIO                                                                                   \
+    "ln -s ../examples .; printf 'include: examples/fixed.yaml\nrun: {end: tip, output_step: "     \
+    "10 ms}\nscatter: {samples: 2, factors: {rocket.mass_error: {normal: 0.2 kg}}}\n' >s.yaml; "
+#define RUN SCENARIO "../launchdyn run s.yaml --out o --quiet; "
+#define STUDY SCENARIO "../launchdyn study s.yaml --out o --quiet; "
+
+typedef struct verb {
+    const char *name, *prepare, *line;
+    const char *left_out; // kinds not tried: libraries die of them or blame the file; "": none
+    const char *shown; // a command that prints what a folder holds whose files may be in the making
+} verb;
+
+static const verb verbs[] = {
+    {"check", SCENARIO, "check s.yaml", "", NULL},
+    {"run", SCENARIO, "run s.yaml --out o --csv", "memory", NULL},
+    {"run again", RUN, "run --again o --out p", "memory", NULL},
+    {"plot", RUN, "plot o -o x.svg", "memory", NULL},
+    {"study", SCENARIO, "study s.yaml --out o", "memory read", "study show o --what all"},
+    {"study show", STUDY, "study show o", "memory read", NULL},
+    {"study export", STUDY, "study export o --csv x.csv --hdf5 x.h5", "memory read", NULL},
+    {"study merge",
+     SCENARIO "../launchdyn study s.yaml --out o --quiet --shard 1/2; "
+              "../launchdyn study s.yaml --out o --quiet --shard 2/2; ",
+     "study merge o", "memory read", "study show o --what all"},
+};
+
+enum { VERBS = sizeof verbs / sizeof *verbs };
+
+// ---- the kinds of failures
+
+typedef struct fault {
+    const char *kind;
+    int error;
+    const char *told[4]; // beside the error's own text: what libraries make of it
+} fault;
+
+static const fault failures[] = {
+    {"memory", ENOMEM, {"memory"}},
+    {"open", EMFILE, {"unable to open", "disk I/O error"}},
+    {"open", EACCES, {"unable to open", "readonly database", "disk I/O error"}},
+    {"read", EIO, {"disk I/O error", "malformed", "damaged"}}, // SQLite takes it for that
+    {"write", ENOSPC, {"disk is full"}},
+    {"write", EIO, {"disk I/O error"}},
+    {"sync", EIO, {"disk I/O error"}},
+    {"rename", EIO, {NULL}},
+    {"remove", EACCES, {"disk I/O error"}},
+    {"map", ENOMEM, {"memory", "disk I/O error"}},
+    {"thread", EAGAIN, {NULL}},
+    {"process", EAGAIN, {NULL}},
+    {"folder", ENOSPC, {NULL}},
+    {"length", ENOSPC, {"disk is full", "disk I/O error"}},
+    {"close", EIO, {"disk I/O error"}},
+};
+
+enum { FAILURES = sizeof failures / sizeof *failures };
+
+// ---- what is in a folder
+
+typedef struct file_mark {
+    char path[MOST_PATH];
+    uint64_t hash; // of what it holds
+} file_mark;
+
+typedef struct folder_mark {
+    file_mark file[MOST_FILES];
+    int count;
+} folder_mark;
+
+static uint64_t hash_file(const char *path)
+{
+    static char bytes[1 << 16];
+    uint64_t hash = 14695981039346656037u;
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    for (size_t count; (count = fread(bytes, 1, sizeof bytes, file)) > 0;)
+        for (size_t i = 0; i < count; i++)
+            hash = (hash ^ (unsigned char)bytes[i]) * 1099511628211u;
+    fclose(file);
+    return hash;
+}
+
+static void mark_folder(const char *path, folder_mark *mark)
+{
+    DIR *folder = opendir(path);
+    assert_non_null(folder);
+    for (struct dirent *entry; (entry = readdir(folder)) != NULL;) {
+        char inner[MOST_PATH];
+        size_t length = strlen(entry->d_name);
+        bool of_database = length > 4 && (strcmp(entry->d_name + length - 4, "-wal") == 0 ||
+                                          strcmp(entry->d_name + length - 4, "-shm") == 0);
+        if (entry->d_name[0] == '.' || entry->d_type == DT_LNK || of_database)
+            continue;
+        snprintf(inner, sizeof inner, "%.60s/%.90s", path, entry->d_name);
+        if (entry->d_type == DT_DIR) {
+            mark_folder(inner, mark);
+            continue;
+        }
+        assert_true(mark->count < MOST_FILES);
+        file_mark *file = &mark->file[mark->count++];
+        strcpy(file->path, inner);
+        file->hash = hash_file(inner);
+    }
+    closedir(folder);
+}
+
+static folder_mark mark_files(void)
+{
+    folder_mark mark = {.count = 0};
+    mark_folder(".", &mark);
+    return mark;
+}
+
+static bool holds(const folder_mark *mark, const file_mark *file)
+{
+    for (int i = 0; i < mark->count; i++)
+        if (strcmp(mark->file[i].path, file->path) == 0)
+            return mark->file[i].hash == file->hash;
+    return false;
+}
+
+static bool all_in(const folder_mark *mark, const folder_mark *other)
+{
+    for (int i = 0; i < mark->count; i++)
+        if (!holds(other, &mark->file[i]))
+            return false;
+    return true;
+}
+
+// Whether each file is one of `before` or `after`, or, if such may be left, has a name for a while.
+static bool none_half_written(const folder_mark *now, const folder_mark *before,
+                              const folder_mark *after, bool parts)
+{
+    for (int i = 0; i < now->count; i++) {
+        const file_mark *file = &now->file[i];
+        size_t length = strlen(file->path);
+        bool part = length > 5 && strcmp(file->path + length - 5, ".part") == 0;
+        if (!(part && parts) && !holds(before, file) && !holds(after, file))
+            return false;
+    }
+    return true;
+}
+
+// ---- one run of a command
+
+typedef struct outcome {
+    int code; // minus the signal
+    char out[1 << 14], err[1 << 12];
+    folder_mark files;
+} outcome;
+
+static void read_text(const char *name, char *text, size_t size)
+{
+    FILE *file = fopen(name, "r");
+    assert_non_null(file);
+    text[fread(text, 1, size - 1, file)] = '\0';
+    fclose(file);
+}
+
+static void set_number(const char *name, long value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%ld", value);
+    setenv(name, text, 1);
+}
+
+static void become(const char *line, const fault *failure, long at, bool on)
+{
+    char words[256], *word[MOST_WORDS + 1];
+    const struct rlimit seconds = {20, 20}, no_core = {0, 0}; // of one that never ends
+    int count = 0;
+    snprintf(words, sizeof words, "launchdyn %s", line);
+    for (char *next = strtok(words, " "); next && count < MOST_WORDS; next = strtok(NULL, " "))
+        word[count++] = next;
+    word[count] = NULL;
+    setrlimit(RLIMIT_CPU, &seconds);
+    setrlimit(RLIMIT_CORE, &no_core);
+    alarm(300);
+    setenv("LD_PRELOAD", LD_BINARY_DIR "/tests/libfailing_calls.so", 1);
+    setenv("FAIL_LOG", "../.log", 1);
+    if (failure) {
+        setenv("FAIL_KIND", failure->kind, 1);
+        set_number("FAIL_AT", at);
+        set_number("FAIL_ERROR", failure->error);
+    }
+    if (on)
+        setenv("FAIL_ON", "", 1);
+    if (!freopen("/dev/null", "r", stdin) || !freopen("../.out", "w", stdout) ||
+        !freopen("../.err", "w", stderr))
+        _exit(126);
+    execv(LD_BINARY_DIR "/launchdyn", word);
+    _exit(127);
+}
+
+// Runs the line in the folder "work", where the call fails that is the one `at`.
+static void run_line(const char *line, const fault *failure, long at, bool on, outcome *result)
+{
+    int status = 0;
+    fflush(NULL);
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        become(line, failure, at, on);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    result->code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    read_text("../.out", result->out, sizeof result->out);
+    read_text("../.err", result->err, sizeof result->err);
+    result->files = mark_files();
+}
+
+static void in_shell(const char *line)
+{
+    assert_int_equal(chdir(shell.folder), 0);
+    if (system(line) != 0)
+        fail_msg("%s failed", line);
+}
+
+static void work_anew(void)
+{
+    in_shell("rm -rf work && cp -a base work");
+    assert_int_equal(chdir("work"), 0);
+}
+
+// ---- what is held against it
+
+// A call that may fail: the first of its kind from a stack, and how.
+typedef struct failing_call {
+    const fault *failure;
+    long at;
+} failing_call;
+
+typedef struct tried {
+    const verb *command;
+    folder_mark before, after;
+    outcome expected, shown;
+    failing_call call[MOST_CALLS];
+    int count;
+} tried;
+
+typedef enum verdict {
+    TOLD,
+    HARMLESS,
+    ENDED,
+    SILENT,
+    UNTRUE,
+    CRASHED,
+    HALF,
+    STUCK,
+    VERDICTS
+} verdict;
+
+static const char *const verdicts[VERDICTS] = {
+    "told",           "harmless", "ended in a library", "silent",
+    "not told truly", "crashed",  "half a file stays",  "does not go on"};
+
+// Whether the text is one message, of a scenario's text with the line that it is about, and names
+// the failure.
+static bool one_true_message(const char *text, const fault *failure)
+{
+    bool names = strstr(text, strerror(failure->error)) != NULL;
+    for (int i = 0; failure->told[i]; i++)
+        names |= strstr(text, failure->told[i]) != NULL;
+    const char *end = strchr(text, '\n');
+    while (end && end[1] == ' ')
+        end = strchr(end + 1, '\n');
+    return end && !end[1] && names;
+}
+
+// 3, as a rule; a file that may not be read, and a disk that cannot be, are of what was given.
+static bool right_code(int code, const fault *failure)
+{
+    bool given = failure->error == EACCES || strcmp(failure->kind, "read") == 0;
+    return code == SYSTEM || (code == INPUT && given);
+}
+
+// Whether a library has ended its process, or complains for itself, without memory:
+// docs/verification.md names which.
+static bool ended_in_library(const char *text, const fault *failure)
+{
+    return failure->error == ENOMEM && (strstr(text, "launchdyn: ended by signal") ||
+                                        strstr(text, "ARKODE") || strstr(text, "HDF5-DIAG"));
+}
+
+static bool same(const outcome *a, const outcome *b)
+{
+    return strcmp(a->out, b->out) == 0 && strcmp(a->err, b->err) == 0;
+}
+
+// That the command, run again where a failure left it, comes to what it would have come to.
+static bool goes_on(const tried *self)
+{
+    static outcome again, shown;
+    run_line(self->command->line, NULL, 0, false, &again);
+    if (!self->command->shown)
+        return again.code == 0 && all_in(&self->expected.files, &again.files) &&
+               all_in(&again.files, &self->expected.files);
+    run_line(self->command->shown, NULL, 0, false, &shown);
+    return again.code == 0 && same(&shown, &self->shown);
+}
+
+static bool same_files(const folder_mark *a, const folder_mark *b)
+{
+    return all_in(a, b) && all_in(b, a);
+}
+
+static verdict judge(const tried *self, const fault *failure, long at, bool on, outcome *now)
+{
+    run_line(self->command->line, failure, at, on, now);
+    bool in_the_making = self->command->shown, finished = same_files(&now->files, &self->after);
+    bool parts = on || strcmp(failure->kind, "remove") == 0;
+    if (now->code < 0)
+        return CRASHED;
+    if (now->code == 0 && (!same(now, &self->expected) || (!finished && !in_the_making)))
+        return SILENT;
+    if (now->code == SYSTEM && ended_in_library(now->err, failure))
+        return ENDED;
+    if (now->code != 0 && !(right_code(now->code, failure) && one_true_message(now->err, failure)))
+        return UNTRUE;
+    if (!in_the_making && !none_half_written(&now->files, &self->before, &self->after, parts))
+        return HALF;
+    bool as_ever = same_files(&now->files, &self->before) || (finished && now->code == 0);
+    if (!as_ever && !goes_on(self))
+        return STUCK;
+    return now->code == 0 ? HARMLESS : TOLD;
+}
+
+static void tell(const tried *self, const fault *failure, long at, bool on, verdict found,
+                 const outcome *now)
+{
+    char stack[1 << 14] = "";
+    read_text("../.log", stack, sizeof stack);
+    printf("%s, %s %d at %ld%s: %s, code %d, \"%s\"\n%s\n", self->command->name, failure->kind,
+           failure->error, at, on ? " on" : "", verdicts[found], now->code, now->err, stack);
+}
+
+static void read_calls(tried *self)
+{
+    char kind[16];
+    long at;
+    const char *only = getenv("LD_FAILING_KIND");
+    FILE *log = fopen("../.log", "r");
+    assert_non_null(log);
+    self->count = 0;
+    while (fscanf(log, "%15s %ld", kind, &at) == 2)
+        for (int i = 0; i < FAILURES; i++) {
+            bool wanted = only ? strcmp(kind, only) == 0 : !strstr(self->command->left_out, kind);
+            if (strcmp(kind, failures[i].kind) != 0 || !wanted)
+                continue;
+            assert_true(self->count < MOST_CALLS);
+            self->call[self->count++] = (failing_call){&failures[i], at};
+        }
+    fclose(log);
+}
+
+// Runs the command as it is, for what it prints and writes and which calls it makes.
+static void begin_command(tried *self, const verb *command)
+{
+    char line[1024];
+    self->command = command;
+    snprintf(line, sizeof line, "rm -rf base && mkdir base && cd base && { %s:; } >.prepared 2>&1",
+             command->prepare);
+    in_shell(line);
+    work_anew();
+    self->before = mark_files();
+    run_line(command->line, NULL, 0, false, &self->expected);
+    if (self->expected.code != 0)
+        fail_msg("%s: code %d, \"%s\"", command->line, self->expected.code, self->expected.err);
+    self->after = self->expected.files;
+    read_calls(self);
+    if (command->shown)
+        run_line(command->shown, NULL, 0, false, &self->shown);
+    work_anew();
+}
+
+// Lets one call fail; adds to the counts of what came of it.
+static void try_call(tried *self, failing_call call, bool on, int counts[VERDICTS])
+{
+    static outcome now;
+    verdict found = judge(self, call.failure, call.at, on, &now);
+    counts[found]++;
+    if (found > ENDED)
+        tell(self, call.failure, call.at, on, found, &now);
+    folder_mark files = mark_files();
+    if (!same_files(&files, &self->before))
+        work_anew();
+}
+
+// Whether all was well.
+static bool try_command(const verb *command, int wanted)
+{
+    static tried self;
+    int counts[VERDICTS] = {0}, tries = 0;
+    uint64_t stream = random_stream(command->name);
+    begin_command(&self, command);
+    if (wanted == 0)
+        for (; tries < 2 * self.count; tries++)
+            try_call(&self, self.call[tries / 2], tries % 2, counts);
+    for (; tries < wanted && self.count > 0; tries++) {
+        int drawn = (int)(random_uniform(1, stream, (uint64_t)tries, 0, 0) * self.count);
+        try_call(&self, self.call[drawn], tries % 2, counts);
+    }
+    printf("    %-14s %6d calls, %6d tried:", command->name, self.count, tries);
+    for (int i = 0; i < VERDICTS; i++)
+        printf(" %d %s%s", counts[i], verdicts[i], i + 1 < VERDICTS ? "," : "\n");
+    return counts[TOLD] + counts[HARMLESS] + counts[ENDED] == tries;
+}
+
+static void test_commands(void **state)
+{
+    (void)state;
+#ifdef LD_SANITIZED // which bring an allocator of their own
+    skip();
+#endif
+    const char *wanted = getenv("LD_FAILING_CALLS"), *only = getenv("LD_FAILING_COMMAND");
+    bool fine = true;
+    for (int i = 0; i < VERBS; i++)
+        if (!only || strcmp(only, verbs[i].name) == 0)
+            fine &= try_command(&verbs[i], wanted ? atoi(wanted) : 2);
+    assert_true(fine);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_commands, shell_make, shell_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
