@@ -15,9 +15,9 @@ extern "C" {
 /// @param work what it returns, 0 to 255, is the child's exit code; it prints for itself
 /// @param code the exit code of the child, or 128 + the number of one of the three signals where
 ///             that ended it
-/// @return LD_OK; where another signal ended the child LD_ERR_INPUT if it was reading a file of
-///         results, else LD_ERR_FILE, with a sentence that names signal and file; LD_ERR_MEMORY or
-///         LD_ERR_MISSING: it could not be started
+/// @return LD_OK; LD_ERR_FILE where another signal ended the child, with a sentence that names the
+///         signal and the file that was read or written; LD_ERR_MEMORY or LD_ERR_MISSING: it could
+///         not be started
 ld_status ld_child_run(int (*work)(void *data), void *data, int *code, ld_error *error);
 
 #pragma GCC visibility pop

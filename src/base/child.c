@@ -90,9 +90,10 @@ static ld_status died(const child_work *work, int number, ld_error *error)
 {
     const char *written = work->written[0];
     if (*work->read) // what it writes beside is not foreign
-        return ld_fail(error, LD_ERR_INPUT,
-                       "ended by signal %d (%s) while reading %.400s, which may be damaged", number,
-                       strsignal(number), work->read);
+        return ld_fail(error, LD_ERR_FILE,
+                       "ended by signal %d (%s) while reading %.400s: it is damaged, or there is "
+                       "no memory",
+                       number, strsignal(number), work->read);
     return ld_fail(error, LD_ERR_FILE, "ended by signal %d (%s)%s%.400s", number, strsignal(number),
                    *written ? " while writing " : "", written);
 }

@@ -55,25 +55,12 @@ static void read_history(report_source *source, const char *folder)
         report_take_note(source->report, "The history has no rows.");
 }
 
-// Takes the last members away, the texts of the scenario, which the report has from the history.
-static void cut_texts(report_source *source)
-{
-    static const char first[] = ",\n  \"scenario\": ";
-    char *from = strstr(source->summary, first);
-    if (!from)
-        return;
-    strcpy(from, "\n}\n");
-    source->summary_length = strlen(source->summary);
-}
-
 // Takes the summary over, or says why there is none; also where it does not say what is whole.
 static void take_summary(report_source *source, manifest *found)
 {
     source->summary = found->text;
     source->summary_length = found->length;
     found->text = NULL;
-    if (source->summary)
-        cut_texts(source);
     const char *doubt = manifest_doubt(found);
     if (doubt)
         report_take_note(

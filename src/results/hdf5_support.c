@@ -55,6 +55,19 @@ ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *er
     return status;
 }
 
+// Files that lead to others are none of ours, and what those hold is not of this run.
+static hid_t leads_away(void)
+{
+    snprintf(why.text, sizeof why.text, "it leads to other files");
+    return -1;
+}
+
+static herr_t see_link(hid_t group, const char *name, const H5L_info_t *info, void *unused)
+{
+    (void)group, (void)name, (void)unused;
+    return info->type != H5L_TYPE_HARD;
+}
+
 hid_t hdf5_open(const char *path)
 {
     enum { STEP = 1 << 20 };
@@ -69,7 +82,26 @@ hid_t hdf5_open(const char *path)
     bool fine = H5Pset_fapl_core(properties, STEP, false) >= 0;
     hid_t file = fine ? H5Fopen(path, H5F_ACC_RDONLY, properties) : -1;
     H5Pclose(properties);
+    if (file >= 0 && H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, see_link, NULL) > 0) {
+        H5Fclose(file);
+        return leads_away();
+    }
     return file;
+}
+
+hid_t hdf5_open_dataset(hid_t group, const char *name)
+{
+    hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
+    if (dataset < 0)
+        return -1;
+    hid_t properties = H5Dget_create_plist(dataset);
+    bool elsewhere =
+        H5Pget_external_count(properties) > 0 || H5Pget_layout(properties) == H5D_VIRTUAL;
+    H5Pclose(properties);
+    if (!elsewhere)
+        return dataset;
+    H5Dclose(dataset);
+    return leads_away();
 }
 
 ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path)
@@ -83,7 +115,7 @@ ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const
     if (strcmp(why.text, "unable to open file") == 0)
         status = LD_ERR_FILE;
     return ld_fail(error, status, "cannot %s %s: %s", what, path,
-                   why.text[0] ? why.text : "HDF5 gives no reason");
+                   why.text[0] ? why.text : "HDF5 gives no reason, as where there is no memory");
 }
 
 hid_t hdf5_create_file(const char *path)
@@ -289,7 +321,7 @@ static char *read_dataset(hid_t dataset, size_t *length)
 
 char *hdf5_read_document(hid_t group, const char *key, char **name, size_t *length)
 {
-    hid_t dataset = H5Lexists(group, key, H5P_DEFAULT) > 0 ? H5Dopen2(group, key, H5P_DEFAULT) : -1;
+    hid_t dataset = H5Lexists(group, key, H5P_DEFAULT) > 0 ? hdf5_open_dataset(group, key) : -1;
     if (dataset < 0)
         return NULL;
     char *text = read_dataset(dataset, length);

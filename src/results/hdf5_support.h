@@ -19,8 +19,10 @@ hdf5_quiet hdf5_quiet_begin(void);
 ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *error);
 
 // Opens a file to be read: its bytes are read at once, so that what the system refuses is known
-// here.
+// here. -1 also where it links to other files.
 hid_t hdf5_open(const char *path);
+// A dataset to be read; -1 also where its numbers lie in other files.
+hid_t hdf5_open_dataset(hid_t group, const char *name);
 
 // `status` with "cannot `what` `path`: reason", the reason from HDF5's error stack.
 ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path);

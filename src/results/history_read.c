@@ -53,7 +53,7 @@ static bool read_names(hid_t group, history_data *history)
     history->rows = SIZE_MAX;
     for (size_t i = 0; i < history->columns; i++) {
         history->name[i] = read_name(group, i);
-        hid_t dataset = history->name[i] ? H5Dopen2(group, history->name[i], H5P_DEFAULT) : -1;
+        hid_t dataset = history->name[i] ? hdf5_open_dataset(group, history->name[i]) : -1;
         if (dataset < 0)
             return false;
         history->unit[i] = hdf5_read_string(dataset, "unit");
@@ -75,7 +75,7 @@ static bool read_columns(hid_t group, history_data *history)
     history->value = malloc((history->columns * history->rows + 1) * sizeof *history->value);
     bool fine = history->value != NULL;
     for (size_t i = 0; fine && i < history->columns; i++) {
-        hid_t dataset = H5Dopen2(group, history->name[i], H5P_DEFAULT);
+        hid_t dataset = hdf5_open_dataset(group, history->name[i]);
         fine = read_values(dataset, history->rows, history->value + i * history->rows);
         H5Dclose(dataset);
     }
@@ -143,7 +143,7 @@ static bool read_arrays(hid_t group, history_data *history)
     for (hsize_t i = 0; fine && i < info.nlinks; i++) {
         history_array *array = &history->geometry[history->arrays++];
         array->name = read_name(group, i);
-        hid_t dataset = array->name ? H5Dopen2(group, array->name, H5P_DEFAULT) : -1;
+        hid_t dataset = array->name ? hdf5_open_dataset(group, array->name) : -1;
         fine = dataset >= 0 && read_array(dataset, array);
         if (dataset >= 0)
             H5Dclose(dataset);

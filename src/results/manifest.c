@@ -91,6 +91,11 @@ static const char *const wrongs[] = {
     "'{\"title\": \"text\", \"version\": \"text\", \"complete\": \"true false\","
     " \"t_end\": \"integer real null\", \"rockets\": \"array\"}')"
     " WHERE instr(value, coalesce(json_type(?1, '$.' || key), '-')) = 0",
+    "SELECT '\"files\" is no list of files with name, size and digest'"
+    " FROM json_each(?1, '$.files')"
+    " WHERE type <> 'object' OR json_type(?1, fullkey || '.name') IS NOT 'text'"
+    " OR json_type(?1, fullkey || '.size') IS NOT 'integer'"
+    " OR json_type(?1, fullkey || '.digest') IS NOT 'text'",
     "SELECT '\"' || replace(substr(fullkey, 3), '\"', '') || '\" is no number' FROM json_tree(?1)"
     " WHERE type = 'text' AND key NOT IN ('name', 'shape')"
     " AND path NOT IN ('$', '$.program', '$.notes')"
@@ -108,7 +113,7 @@ static sqlite3_stmt *ask(sqlite3 *reader, const char *query, const manifest *sel
     return answer;
 }
 
-// Also where it cannot be asked at all; SQLITE_NOMEM: for want of memory.
+// SQLITE_DONE: nothing is; SQLITE_ROW: what self->problem says.
 static int find_wrong(sqlite3 *reader, manifest *self)
 {
     for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; i++) {
@@ -117,9 +122,6 @@ static int find_wrong(sqlite3 *reader, manifest *self)
         if (result == SQLITE_ROW)
             snprintf(self->problem, sizeof self->problem, "summary.json is damaged: %.200s",
                      (const char *)sqlite3_column_text(answer, 0));
-        else if (result != SQLITE_DONE)
-            snprintf(self->problem, sizeof self->problem, "summary.json is damaged: %.200s",
-                     sqlite3_errmsg(reader));
         sqlite3_finalize(answer);
         if (result != SQLITE_DONE)
             return result;
@@ -151,8 +153,27 @@ static int read_files(sqlite3 *reader, manifest *self)
     return result;
 }
 
-// Returns SQLITE_DONE, SQLITE_NOMEM, or another result with self->problem.
-static int read_json(manifest *self)
+// Leaves of the text what is to be shown.
+static int cut_text(sqlite3 *reader, manifest *self)
+{
+    sqlite3_stmt *row = ask(
+        reader, "SELECT json_remove(?1, '$.scenario', '$.source', '$.files', '$.digest')", self);
+    int result = row ? sqlite3_step(row) : sqlite3_errcode(reader);
+    const char *shown = result == SQLITE_ROW ? (const char *)sqlite3_column_text(row, 0) : NULL;
+    char *copy = shown ? strdup(shown) : NULL;
+    sqlite3_finalize(row);
+    if (result != SQLITE_ROW)
+        return result;
+    if (!copy)
+        return SQLITE_NOMEM;
+    free(self->text);
+    self->text = copy;
+    self->length = strlen(copy);
+    return SQLITE_DONE;
+}
+
+// LD_OK too where self->problem says what is wrong; LD_ERR_MEMORY.
+static ld_status read_json(manifest *self, ld_error *error)
 {
     sqlite3 *reader = NULL;
     int result = sqlite3_open_v2(":memory:", &reader, SQLITE_OPEN_READWRITE, NULL);
@@ -160,29 +181,35 @@ static int read_json(manifest *self)
         result = find_wrong(reader, self);
     if (result == SQLITE_DONE)
         result = read_files(reader, self);
+    if (result == SQLITE_DONE)
+        result = cut_text(reader, self);
+    if (result != SQLITE_DONE && result != SQLITE_ROW && result != SQLITE_NOMEM)
+        snprintf(self->problem, sizeof self->problem, "summary.json is damaged: %.200s",
+                 sqlite3_errmsg(reader));
     sqlite3_close(reader);
-    return result;
+    return result == SQLITE_NOMEM ? ld_fail(error, LD_ERR_MEMORY, "cannot be read: no memory")
+                                  : LD_OK;
 }
 
 // ---- reading
 
-static void judge(manifest *self)
+// LD_OK too where self->problem says what is wrong; LD_ERR_MEMORY.
+static ld_status judge(manifest *self, ld_error *error)
 {
     bool sealed = had_seal(self);
     if (sealed && !is_sealed(self)) {
         snprintf(self->problem, sizeof self->problem,
                  "summary.json is damaged: its text has not the digest of its last line");
-        return;
+        return LD_OK;
     }
     if (memchr(self->text, '\0', self->length)) { // where a reader of JSON may end
         snprintf(self->problem, sizeof self->problem, "summary.json is damaged: it is no text");
-        return;
+        return LD_OK;
     }
-    int result = read_json(self);
-    if (result == SQLITE_DONE)
+    ld_status status = read_json(self, error);
+    if (!status && !*self->problem)
         self->state = sealed ? MANIFEST_WHOLE : MANIFEST_EARLIER;
-    else if (result == SQLITE_NOMEM)
-        self->problem[0] = '\0';
+    return status;
 }
 
 ld_status manifest_read(const char *folder, manifest *self, ld_error *error)
@@ -198,7 +225,7 @@ ld_status manifest_read(const char *folder, manifest *self, ld_error *error)
     if (status == LD_ERR_INPUT)
         snprintf(self->problem, sizeof self->problem, "summary.json %.200s", problem.text);
     else if (!status)
-        judge(self);
+        status = judge(self, &problem);
     if (self->state != MANIFEST_DAMAGED)
         return LD_OK;
     manifest_free(self);

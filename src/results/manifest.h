@@ -30,7 +30,8 @@ typedef enum manifest_state {
 typedef struct manifest {
     manifest_state state;
     char problem[256];                  // why it is damaged: "summary.json ..."
-    char *text;                         // of summary.json, which is not damaged; else NULL
+    char *text;                         // what it says but for files and the scenario's texts;
+                                        // NULL: it is damaged, or not there
     size_t length;                      // of the text
     manifest_file file[MANIFEST_FILES]; // of a whole one
 } manifest;

@@ -201,12 +201,21 @@ static int allocate(integrator *self)
     return 0;
 }
 
+// Whether there is room for what the library makes for itself, which dies where there is none.
+static bool has_room(void)
+{
+    enum { ROOM = 1 << 18 };
+    void *volatile room = malloc(ROOM); // else a compiler leaves both away
+    free(room);
+    return room;
+}
+
 ld_status integrator_create(const integrator_settings *settings, integrator **out, ld_error *error)
 {
     integrator *self = calloc(1, sizeof *self);
     if (self)
         self->settings = *settings;
-    if (!self || allocate(self) || configure(self)) { // it refuses nothing else
+    if (!self || !has_room() || allocate(self) || configure(self)) { // it refuses nothing else
         integrator_free(self);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the integrator");
     }

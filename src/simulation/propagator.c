@@ -416,19 +416,12 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
 
 // ---- both ----
 
-ld_status propagator_create(launch_state *launch, propagator **out, ld_error *error)
+static ld_status create_integrators(propagator *self, ld_error *error)
 {
-    propagator *self = calloc(1, sizeof *self);
-    if (!self)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the integration");
-    *out = self;
-    tolerances all;
+    const launch_state *launch = self->launch;
     const launcher_system *launcher = &launch->launcher;
+    tolerances all;
     find_tolerances(launch, &all);
-    self->launch = launch;
-    self->vehicle = base_as_vehicle(&launcher->base);
-    self->apart = self->vehicle && launch->model->run.coupling_step > 0;
-    self->events = events_of(launch, !self->apart);
     integrator_settings settings = {
         .n = (size_t)launcher->state_count,
         .method = INTEGRATOR_CASH_KARP,
@@ -453,6 +446,23 @@ ld_status propagator_create(launch_state *launch, propagator **out, ld_error *er
     settings.rhs = launching_rhs;
     settings.events = launching_events_apart;
     return status ? status : integrator_create(&settings, &self->integrator, error);
+}
+
+ld_status propagator_create(launch_state *launch, propagator **out, ld_error *error)
+{
+    propagator *self = calloc(1, sizeof *self);
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the integration");
+    self->launch = launch;
+    self->vehicle = base_as_vehicle(&launch->launcher.base);
+    self->apart = self->vehicle && launch->model->run.coupling_step > 0;
+    self->events = events_of(launch, !self->apart);
+    ld_status status = create_integrators(self, error);
+    if (status)
+        propagator_free(self);
+    else
+        *out = self;
+    return status;
 }
 
 void propagator_free(propagator *self)

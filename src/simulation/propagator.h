@@ -8,6 +8,7 @@
 
 typedef struct propagator propagator;
 
+// *out stays as it is where it fails.
 ld_status propagator_create(launch_state *launch, propagator **out, ld_error *error);
 void propagator_free(propagator *self);
 

@@ -102,10 +102,12 @@ static void print_text(FILE *stream, const char *text)
 static void print_cell(FILE *stream, sqlite3_stmt *row, int column)
 {
     int type = sqlite3_column_type(row, column);
-    if (type == SQLITE_FLOAT)
+    if (type == SQLITE_FLOAT) {
         fprintf(stream, "%.17g", sqlite3_column_double(row, column));
-    else if (type != SQLITE_NULL)
-        print_text(stream, (const char *)sqlite3_column_text(row, column));
+    } else if (type != SQLITE_NULL) {
+        const char *text = (const char *)sqlite3_column_text(row, column);
+        print_text(stream, text ? text : ""); // NULL: no memory, which the next step tells
+    }
 }
 
 static ld_status write_csv(export_table *table, FILE *stream, ld_error *error)
@@ -114,8 +116,11 @@ static ld_status write_csv(export_table *table, FILE *stream, ld_error *error)
     ld_status status;
     export_begin(table);
     for (int i = 0; i < table->columns; i++) {
+        const char *name = sqlite3_column_name(table->row, i);
+        if (!name)
+            return no_memory(error);
         fputs(i ? "," : "", stream);
-        print_text(stream, sqlite3_column_name(table->row, i));
+        print_text(stream, name);
     }
     fputc('\n', stream);
     while (!(status = export_next(table, &there, error)) && there) {

@@ -54,10 +54,13 @@ static bool create_columns(hdf5_writer *self)
         column->type = text ? self->status : i < table->keys ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
         column->size = text ? STATUS : 8;
         column->block = calloc(BLOCK, column->size);
-        column->dataset = hdf5_create_dataset(self->group, sqlite3_column_name(table->row, i),
-                                              column->type, 1, &rows);
-        if (!column->block || column->dataset < 0 ||
-            !hdf5_write_text(column->dataset, "unit", export_unit(table, i)))
+        const char *name = sqlite3_column_name(table->row, i);
+        if (!column->block || !name) {
+            self->read = ld_fail(self->error, LD_ERR_MEMORY, "no memory for the table");
+            return false;
+        }
+        column->dataset = hdf5_create_dataset(self->group, name, column->type, 1, &rows);
+        if (column->dataset < 0 || !hdf5_write_text(column->dataset, "unit", export_unit(table, i)))
             return false;
     }
     return true;
@@ -78,7 +81,8 @@ static void fill_cell(const hdf5_writer *self, int i, size_t at)
     } else {
         const char *text = (const char *)sqlite3_column_text(row, i);
         memset(cell, 0, STATUS);
-        memcpy(cell, text, strnlen(text, STATUS - 1));
+        if (text) // else no memory, which the next step tells
+            memcpy(cell, text, strnlen(text, STATUS - 1));
     }
 }
 

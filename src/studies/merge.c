@@ -1,4 +1,5 @@
 // Joins the databases of shards into the study's own.
+#include <errno.h>
 #include <glob.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -6,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/printed.h"
+#include "base/text_file.h"
 #include "studies/store.h"
 
 // The databases that a folder holds of a study run in parts.
@@ -41,7 +43,13 @@ static ld_status list_shards(shard_list *self, const char *folder, ld_error *err
     int shard, shards;
     *self = (shard_list){0};
     shard_pattern(folder, pattern);
-    if (glob(pattern, 0, NULL, &self->found) != 0)
+    const int problem = glob(pattern, GLOB_ERR, NULL, &self->found);
+    if (problem == GLOB_NOSPACE)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the list of shards");
+    if (problem == GLOB_ABORTED && errno != ENOENT)
+        return ld_fail(error, text_file_status(errno), "cannot read the folder %s: %s", folder,
+                       strerror(errno));
+    if (problem)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no shards of a study", folder);
     bool first = true;
     for (size_t i = 0; i < self->found.gl_pathc; i++) {
@@ -67,11 +75,14 @@ static ld_status ask(study_store *self, const char *query, char **answer, ld_err
     if (!select)
         return store_status(self);
     int result = sqlite3_step(select);
-    const char *text = result == SQLITE_ROW ? (const char *)sqlite3_column_text(select, 0) : NULL;
-    if (text)
-        *answer = strdup(text);
+    const store_view view = store_main(self);
+    ld_status status = LD_OK;
+    if (result == SQLITE_ROW)
+        status = store_column_text(&view, select, 0, answer, error);
+    else if (result != SQLITE_DONE)
+        status = store_fail(self, "read", error);
     sqlite3_finalize(select);
-    return result == SQLITE_ROW || result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
+    return status;
 }
 
 // Makes the tables that the attached database has, and copies what it says of the study.

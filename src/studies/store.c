@@ -70,6 +70,11 @@ ld_status store_commit(study_store *self, ld_status status, ld_error *error)
     return status;
 }
 
+static void no_memory(const char *table, ld_error *error)
+{
+    ld_fail(error, LD_ERR_MEMORY, "no memory to write the table %s", table);
+}
+
 // "INSERT INTO table VALUES (?, ?, ...)"
 sqlite3_stmt *store_prepare_insert(study_store *self, const char *table, int columns,
                                    ld_error *error)
@@ -77,14 +82,18 @@ sqlite3_stmt *store_prepare_insert(study_store *self, const char *table, int col
     char *text = NULL;
     size_t length;
     FILE *stream = open_memstream(&text, &length);
-    if (!stream)
+    if (!stream) {
+        no_memory(table, error);
         return NULL;
+    }
     fprintf(stream, "INSERT INTO %s VALUES (", table);
     for (int i = 0; i < columns; i++)
         fputs(i ? ", ?" : "?", stream);
     fputs(")", stream);
-    fclose(stream);
-    sqlite3_stmt *statement = store_prepare(self, text, error);
+    bool whole = fclose(stream) == 0 && text;
+    sqlite3_stmt *statement = whole ? store_prepare(self, text, error) : NULL;
+    if (!whole)
+        no_memory(table, error);
     free(text);
     return statement;
 }
@@ -137,7 +146,7 @@ static ld_status prepare_all(study_store *self, ld_error *error)
             store_prepare_insert(self, "rocket", 2 + (int)record_width(shape), error);
     if (self->insert_rocket)
         self->find = store_prepare(self, "SELECT 1 FROM sample WHERE sample = ?", error);
-    return self->find ? LD_OK : store_status(self);
+    return self->find ? LD_OK : error->status;
 }
 
 static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
@@ -327,10 +336,13 @@ static ld_status open_pending(study_store *self, ld_error *error)
     snprintf(path, sizeof path, "%.*s.pending", (int)(strlen(self->path) - strlen(".db")),
              self->path);
     const store_view view = store_main(self);
-    char *hash = store_view_text(&view, "hash");
+    char *hash;
+    ld_status status = store_view_text(&view, "hash", &hash, error);
+    if (status)
+        return status;
     uint64_t key = random_stream(hash ? hash : "") ^ random_stream(LD_VERSION);
     free(hash);
-    ld_status status = pending_open(&self->pending, path, key, &self->study->shape, error);
+    status = pending_open(&self->pending, path, key, &self->study->shape, error);
     self->opened = INT64_MAX; // what an earlier run has left may be there
     if (!status)
         status = store_settle(self, true, error);

@@ -121,8 +121,12 @@ static inline store_view store_main(study_store *self)
     return (store_view){self, "main", self->path};
 }
 
-// The text of that name in the table `study`, to be freed; NULL where there is none.
-char *store_view_text(const store_view *self, const char *name);
+// The text of that name in the table `study`, to be freed; NULL where there is none, no such table
+// either.
+ld_status store_view_text(const store_view *self, const char *name, char **text, ld_error *error);
+// What a row has in a column, to be freed; NULL: nothing.
+ld_status store_column_text(const store_view *self, sqlite3_stmt *row, int column, char **text,
+                            ld_error *error);
 
 // Reads the row `kept`; refuses another format, and what is said once where it is damaged.
 ld_status store_read_kept(const store_view *self, store_kept *kept, ld_error *error);

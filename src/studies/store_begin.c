@@ -60,7 +60,9 @@ static ld_status make_tables(study_store *self, ld_error *error)
     fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID; CREATE TABLE origin (kind TEXT NOT NULL, "
           "name TEXT NOT NULL, text BLOB NOT NULL)",
           stream);
-    ld_status status = fclose(stream) == 0 ? store_execute(self, text, error) : LD_ERR_MEMORY;
+    ld_status status = fclose(stream) == 0 && text
+                           ? store_execute(self, text, error)
+                           : ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
     free(text);
     return status;
 }
@@ -92,7 +94,7 @@ static ld_status put_points(study_store *self, ld_error *error)
         good = store_step(insert);
     }
     sqlite3_finalize(insert);
-    return good ? LD_OK : store_fail(self, "write", error);
+    return good ? LD_OK : insert ? store_fail(self, "write", error) : error->status;
 }
 
 static ld_status fill_new(study_store *self, const char *identity, ld_error *error)
@@ -133,8 +135,14 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
     ld_status status = store_check(&view, &self->kept, error);
     if (status)
         return status;
-    char *before = store_view_text(&view, "scenario"), line[96];
-    char *version = store_view_text(&view, "version");
+    char *before = NULL, *version = NULL, line[96];
+    status = store_view_text(&view, "scenario", &before, error);
+    if (!status)
+        status = store_view_text(&view, "version", &version, error);
+    if (status) {
+        free(before);
+        return status;
+    }
     if (!before || !version) {
         status = ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->path);
     } else if (strcmp(before, identity) != 0) {
@@ -220,9 +228,11 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
     sqlite3_stmt *tables = store_prepare(self, "SELECT 1 FROM sqlite_master", error);
     if (!tables)
         return store_status(self);
-    bool there = sqlite3_step(tables) == SQLITE_ROW;
+    int there = sqlite3_step(tables);
     sqlite3_finalize(tables);
-    ld_status status = there ? compare(self, identity, error) : fill_new(self, identity, error);
+    ld_status status = there == SQLITE_ROW    ? compare(self, identity, error)
+                       : there == SQLITE_DONE ? fill_new(self, identity, error)
+                                              : store_fail(self, "read", error);
     if (!status)
         status = store_set_number(self, "samples", self->study->samples, error);
     int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;

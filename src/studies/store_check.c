@@ -28,17 +28,32 @@ static sqlite3_stmt *prepare(const store_view *self, const char *format, ld_erro
     return statement;
 }
 
-char *store_view_text(const store_view *self, const char *name)
+ld_status store_column_text(const store_view *self, sqlite3_stmt *row, int column, char **text,
+                            ld_error *error)
 {
-    sqlite3_stmt *select = prepare(self, "SELECT value FROM %s.study WHERE name = ?", NULL);
-    char *value = NULL;
-    if (!select)
-        return NULL;
+    const bool there = sqlite3_column_type(row, column) != SQLITE_NULL;
+    const char *found = there ? (const char *)sqlite3_column_text(row, column) : NULL;
+    *text = found ? strdup(found) : NULL;
+    return !there || *text ? LD_OK
+                           : ld_fail(error, LD_ERR_MEMORY, "no memory to read %s", self->path);
+}
+
+ld_status store_view_text(const store_view *self, const char *name, char **text, ld_error *error)
+{
+    sqlite3_stmt *select = prepare(self, "SELECT value FROM %s.study WHERE name = ?", error);
+    *text = NULL;
+    if (!select) // SQLITE_ERROR: there is no such table
+        return sqlite3_errcode(self->store->database) == SQLITE_ERROR ? LD_OK
+                                                                      : store_status(self->store);
     sqlite3_bind_text(select, 1, name, -1, SQLITE_STATIC);
-    if (sqlite3_step(select) == SQLITE_ROW && sqlite3_column_text(select, 0))
-        value = strdup((const char *)sqlite3_column_text(select, 0));
+    ld_status status = LD_OK;
+    int result = sqlite3_step(select);
+    if (result == SQLITE_ROW)
+        status = store_column_text(self, select, 0, text, error);
+    else if (result != SQLITE_DONE)
+        status = fail(self, error);
     sqlite3_finalize(select);
-    return value;
+    return status;
 }
 
 // ---- what is said once
@@ -83,14 +98,13 @@ static void kept_text(const store_kept *kept, char text[128])
 // A database of this format, which says so in one word.
 static ld_status check_format(const store_view *self, ld_error *error)
 {
-    char *format = store_view_text(self, "format"), *version = store_view_text(self, "version");
-    const int code = sqlite3_errcode(self->store->database);
-    ld_status status = LD_OK;
-    if (!version && code != SQLITE_OK && code != SQLITE_ERROR) // of which a missing table is one
-        status = fail(self, error);
-    else if (!format || !version)
+    char *format = NULL, *version = NULL;
+    ld_status status = store_view_text(self, "format", &format, error);
+    if (!status)
+        status = store_view_text(self, "version", &version, error);
+    if (!status && (!format || !version))
         status = ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->path);
-    else if (strcmp(format, STORE_FORMAT) != 0)
+    else if (!status && strcmp(format, STORE_FORMAT) != 0)
         status = ld_fail(error, LD_ERR_INPUT,
                          "%s is of format %.20s, begun by launchdyn %.40s: this is launchdyn "
                          "%s, which knows format " STORE_FORMAT " only",
@@ -109,7 +123,9 @@ ld_status store_read_kept(const store_view *self, store_kept *kept, ld_error *er
         status = find_facts(self, &kept->facts, error);
     if (status)
         return status;
-    text = store_view_text(self, "kept");
+    status = store_view_text(self, "kept", &text, error);
+    if (status)
+        return status;
     if (text)
         sscanf(text, "%" SCNd64 " %" SCNd64 " %" SCNx64, &kept->samples, &kept->greatest,
                &kept->sum);
@@ -199,8 +215,9 @@ static int read_sample(store_walk *self, int64_t from, bool *intact)
                   (int32_t)self->digest == sqlite3_column_int64(self->sample, DIGEST);
         result = rockets == SQLITE_DONE ? SQLITE_ROW : rockets;
     }
-    sqlite3_reset(self->sample);
-    return result;
+    // what of a row could not be had, without memory, is told here
+    const int after = sqlite3_reset(self->sample);
+    return result == SQLITE_ROW && after != SQLITE_OK ? after : result;
 }
 
 bool store_walk_next(store_walk *self, ld_error *error)
@@ -241,12 +258,15 @@ static ld_status ask(const store_view *self, const char *format, int64_t *number
     if (!row)
         return store_status(self->store);
     int result = sqlite3_step(row);
-    const char *told = result == SQLITE_ROW ? (const char *)sqlite3_column_text(row, 0) : NULL;
+    char *told = NULL;
+    ld_status status =
+        result == SQLITE_ROW ? store_column_text(self, row, 0, &told, error) : fail(self, error);
     const char *line = told ? strrchr(told, '\n') : NULL;
     *number = result == SQLITE_ROW ? sqlite3_column_int64(row, 0) : 0;
     snprintf(text, 160, "%s", line ? line + 1 : told ? told : "");
+    free(told);
     sqlite3_finalize(row);
-    return result == SQLITE_ROW ? LD_OK : fail(self, error);
+    return status;
 }
 
 static ld_status damaged_samples(const store_walk *self, ld_error *error)

@@ -25,7 +25,7 @@ static ld_status no_memory(ld_error *error)
     return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
 }
 
-// Keeps a text, which may be NULL, until the end; NULL: no memory.
+// Keeps a text until the end, if it is one; NULL: no memory.
 static const char *keep(study_reader *self, char *text)
 {
     if (self->texts == self->text_capacity) {
@@ -38,13 +38,17 @@ static const char *keep(study_reader *self, char *text)
         self->text = list;
         self->text_capacity = capacity;
     }
-    self->text[self->texts++] = text;
+    if (text)
+        self->text[self->texts++] = text;
     return text;
 }
 
+// Of a row, "" where there is nothing; NULL: no memory.
 static const char *column_text(study_reader *self, sqlite3_stmt *row, int column)
 {
     const char *text = (const char *)sqlite3_column_text(row, column);
+    if (!text && sqlite3_column_type(row, column) != SQLITE_NULL)
+        return NULL;
     return keep(self, strdup(text ? text : ""));
 }
 
@@ -74,7 +78,11 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
     int stepped;
     while ((stepped = sqlite3_step(row)) == SQLITE_ROW && !status) {
         const char *name = (const char *)sqlite3_column_text(row, 1);
-        const quantity *result = study_result_like(name);
+        const quantity *result = name ? study_result_like(name) : NULL;
+        if (!name) {
+            status = no_memory(error);
+            break;
+        }
         if (is_key(name) || factors != !result)
             continue;
         size_t size = ((size_t)data->column_count + 1) * sizeof *self->column;
@@ -113,7 +121,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
                                           NULL, 0, &model, &messages);
     if (status) {
         ld_messages_free(&messages);
-        return LD_OK;
+        return status == LD_ERR_MEMORY ? no_memory(error) : LD_OK;
     }
     for (int i = data->result_count; i < data->column_count; i++) {
         const ld_factor *factor = factor_named(&model, data->column[i].name);
@@ -188,9 +196,11 @@ static ld_status list_points(study_data *data, ld_error *error)
         return store_status(&self->store);
     data->swept_count = sqlite3_column_count(row) - 1;
     status = make_points(data, points, error);
-    for (int k = 0; k < data->swept_count && !status; k++)
-        if (!(self->swept[k] = keep(self, strdup(sqlite3_column_name(row, k + 1)))))
+    for (int k = 0; k < data->swept_count && !status; k++) {
+        const char *name = sqlite3_column_name(row, k + 1);
+        if (!(self->swept[k] = keep(self, name ? strdup(name) : NULL)))
             status = no_memory(error);
+    }
     for (int i = 0; i < data->point_count && !status; i++) {
         if (sqlite3_step(row) != SQLITE_ROW)
             status = store_fail(&self->store, "read", error);
@@ -229,26 +239,42 @@ static ld_status count_samples(study_data *data, ld_error *error)
 
 // ---- opening
 
-// A whole number from a text, at least `least`.
-static int64_t number_of(char *text, int64_t least)
+// A whole number, at least `least`.
+static ld_status read_number(const store_view *view, const char *name, int64_t least,
+                             int64_t *number, ld_error *error)
 {
-    int64_t number = text ? atoll(text) : least;
+    char *text;
+    ld_status status = store_view_text(view, name, &text, error);
+    *number = text ? atoll(text) : least;
+    *number = *number > least ? *number : least;
     free(text);
-    return number > least ? number : least;
+    return status;
+}
+
+static ld_status read_text(study_reader *self, const char *name, const char **text, ld_error *error)
+{
+    char *found;
+    const store_view view = store_main(&self->store);
+    ld_status status = store_view_text(&view, name, &found, error);
+    if (status)
+        return status;
+    if (!found)
+        return ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->store.path);
+    *text = keep(self, found);
+    return *text ? LD_OK : no_memory(error);
 }
 
 static ld_status read_texts(study_data *data, ld_error *error)
 {
     study_reader *self = data->reader;
     const store_view view = store_main(&self->store);
-    data->strata = number_of(store_view_text(&view, "strata"), 1);
-    data->asked = number_of(store_view_text(&view, "samples"), 0);
     data->title = "";
-    data->scenario = keep(self, store_view_text(&view, "scenario"));
-    data->version = keep(self, store_view_text(&view, "version"));
-    if (!data->scenario || !data->version)
-        return ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->store.path);
-    return LD_OK;
+    ld_status status = read_number(&view, "strata", 1, &data->strata, error);
+    if (!status)
+        status = read_number(&view, "samples", 0, &data->asked, error);
+    if (!status)
+        status = read_text(self, "scenario", &data->scenario, error);
+    return status ? status : read_text(self, "version", &data->version, error);
 }
 
 ld_status study_data_open_damaged(const char *folder, study_data *data, ld_error *error)
@@ -449,8 +475,10 @@ static sqlite3_stmt *select_values(study_reader *self, const study_column *const
     fprintf(text,
             " FROM sample JOIN rocket USING (sample) WHERE sample.status = 'ok' AND sample.point = "
             "? AND sample.sample <= ? ORDER BY sample.sample, rocket.rocket");
-    fclose(text);
-    sqlite3_stmt *row = store_prepare(&self->store, query, error);
+    bool whole = fclose(text) == 0 && query;
+    sqlite3_stmt *row = whole ? store_prepare(&self->store, query, error) : NULL;
+    if (!whole)
+        no_memory(error);
     free(query);
     return row;
 }
@@ -464,7 +492,7 @@ static ld_status read_up_to(const study_data *data, const study_point *point, in
     int result = SQLITE_DONE;
     sqlite3_stmt *row = select_values(self, column, columns, error);
     if (!row)
-        return store_status(&self->store);
+        return error->status;
     sqlite3_bind_int64(row, 1, point->number);
     sqlite3_bind_int64(row, 2, last);
     values->count = 0;

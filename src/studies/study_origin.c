@@ -59,10 +59,11 @@ static ld_status read_origin(study_store *store, ld_origin *origin, ld_error *er
 {
     origin->source = source_new("", NULL);
     const store_view view = store_main(store);
-    origin->scenario = store_view_text(&view, "resolved");
     if (!origin->source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the texts of the study");
-    ld_status status = read_rows(store, origin, error);
+    ld_status status = store_view_text(&view, "resolved", &origin->scenario, error);
+    if (!status)
+        status = read_rows(store, origin, error);
     if (status)
         return status;
     if (!origin->scenario)

@@ -334,7 +334,11 @@ static void test_killed_at_work(void **state)
 {
     (void)state;
     int status = 0;
+    char part[128];
+    snprintf(part, sizeof part, "%s/stopped/history.h5.part", shell.folder);
     pid_t child = start_endless(false);
+    while (access(part, F_OK) != 0)
+        usleep(10000);
     kill(worker_of(child, SIGTERM), SIGKILL);
     waitpid(child, &status, 0);
     assert_true(WIFEXITED(status));

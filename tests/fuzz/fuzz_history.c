@@ -87,6 +87,7 @@ static void make_once(void)
     H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, list_object, NULL, H5O_INFO_BASIC);
     H5Fclose(file);
     template = read_in_memory("run/history.h5", &template_size);
+    write_in_memory("other", template, template_size);
     remove(in_memory("run/history.h5"));
     remove(in_memory("run/summary.json"));
 }
@@ -219,7 +220,10 @@ static void change_object(hid_t file, const char *path, unsigned change, unsigne
         H5Gclose(H5Gcreate2(file, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
         break;
     case 2:
-        H5Lcreate_soft(detail & 1 ? "/" : path, file, path, H5P_DEFAULT, H5P_DEFAULT);
+        if (detail & 2)
+            H5Lcreate_external(in_memory("other"), "/", file, path, H5P_DEFAULT, H5P_DEFAULT);
+        else
+            H5Lcreate_soft(detail & 1 ? "/" : path, file, path, H5P_DEFAULT, H5P_DEFAULT);
         break;
     case 3: // another's in its place
         H5Lcreate_hard(file, places[detail % place_count].object, file, path, H5P_DEFAULT,

@@ -189,7 +189,7 @@ static void test_numbers_are_those_of_the_results(void **state)
     CHECK_WITHIN("bytes of the page", (double)strlen(page), (double)report.bytes,
                  (double)report.bytes);
     assert_int_equal(report.note_count, 0);
-    assert_non_null(strstr(page, "\"muzzle_speed\": 37.700000000000003"));
+    assert_non_null(strstr(page, "\"muzzle_speed\":37.700000000000003"));
     assert_non_null(strstr(page, "\"release\":0.0033335999999999999"));
     free(page);
 }

@@ -18,6 +18,13 @@
 #include "launchdyn/summary.h"
 #include "results/history.h"
 
+// HDF5 itself loses memory on some damage.
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libhdf5\nleak:H5\n";
+}
+
 enum { FILES = 5, MOST = 1 << 24 };
 static const char *const names[FILES] = {"history.h5", "summary.json", "history.csv", "flights.csv",
                                          "trajectories.kml"};
@@ -193,7 +200,8 @@ static bool same_table(const history_data *one, const history_data *other)
                                                 one->rows * one->columns * sizeof(double)) == 0);
 }
 
-enum { SAME, REFUSED, DIFFERENT, CRASHED, ENDS };
+// Exit codes that no sanitizer has.
+enum { SAME = 10, REFUSED, DIFFERENT, CRASHED, ENDS };
 
 static int read_alone(void *data)
 {
@@ -209,6 +217,7 @@ static int read_alone(void *data)
         same = found.geometry[i].rows == intact.geometry[i].rows &&
                memcmp(found.geometry[i].value, intact.geometry[i].value,
                       found.geometry[i].rows * found.geometry[i].columns * sizeof(double)) == 0;
+    history_free(&found);
     return same ? SAME : DIFFERENT;
 }
 
@@ -231,15 +240,17 @@ static void test_a_history_alone(void **state)
     at[2] ^= 1;
     write_bytes(path, whole.at, whole.count);
     at[2] ^= 1;
-    assert_int_equal(history_read(path, &(history_data){0}, NULL), LD_ERR_INPUT);
+    ld_error error;
+    int code = CRASHED;
+    assert_int_equal(ld_child_run(read_alone, path, &code, &error), LD_OK);
+    assert_int_equal(code, REFUSED);
     for (int i = 0; i < cases; i++) {
-        int code = CRASHED;
-        ld_error error;
         damage(path, whole, &random, what, sizeof what);
         if (ld_child_run(read_alone, path, &code, &error)) {
             assert_int_equal(error.status, LD_ERR_INPUT);
             code = CRASHED;
         }
+        assert_in_range(code, SAME, CRASHED);
         count[code]++;
         if (code >= DIFFERENT)
             printf("    %s: %s\n", what, code == CRASHED ? "crashed" : "read with other values");

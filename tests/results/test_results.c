@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <hdf5.h>
 #include <locale.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -519,6 +520,47 @@ static void test_unreadable_histories(void **state)
     printf("    %s\n", error.text);
 }
 
+// The ways in which HDF5 reads from another file.
+enum { LINK_OUT, LINK_SOFT, DATA_OUT, DATA_VIRTUAL, WAYS };
+
+// Puts in the place of the column t one of ten numbers that lie in the file `other`.
+static void lead_away(const char *path, const char *other, int way)
+{
+    hsize_t rows = 10;
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate_simple(1, &rows, NULL);
+    hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+    assert_true(H5Ldelete(file, "history/t", H5P_DEFAULT) >= 0);
+    if (way == LINK_OUT)
+        H5Lcreate_external(other, "history/t", file, "history/t", H5P_DEFAULT, H5P_DEFAULT);
+    if (way == LINK_SOFT)
+        H5Lcreate_soft("/history/tip.y", file, "history/t", H5P_DEFAULT, H5P_DEFAULT);
+    if (way == DATA_OUT)
+        H5Pset_external(properties, other, 0, H5F_UNLIMITED);
+    if (way == DATA_VIRTUAL)
+        H5Pset_virtual(properties, space, other, "history/t", space);
+    if (way >= DATA_OUT)
+        H5Dclose(H5Dcreate2(file, "history/t", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties,
+                            H5P_DEFAULT));
+    assert_true(H5Lexists(file, "history/t", H5P_DEFAULT) > 0);
+    H5Pclose(properties);
+    H5Sclose(space);
+    H5Fclose(file);
+}
+
+static void test_histories_that_lead_to_other_files(void **state)
+{
+    place *here = *state;
+    ld_error error = {0};
+    history_data read;
+    write_launch(here, "other", false, 10);
+    for (int way = 0; way < WAYS; way++) {
+        write_launch(here, "run", false, 10);
+        lead_away(in(here, "run/history.h5"), in(here, "other/history.h5"), way);
+        assert_int_equal(history_read(in(here, "run/history.h5"), &read, &error), LD_ERR_INPUT);
+        assert_non_null(strstr(error.text, "run/history.h5: it leads to other files"));
+    }
+}
+
 static void test_bad_column_names(void **state)
 {
     place *here = *state;
@@ -541,15 +583,25 @@ static void test_bad_column_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_hdf5_holds_every_bit),     TEST(test_hdf5_is_read_by_others),
-        TEST(test_same_run_same_bytes),      TEST(test_csv_holds_every_bit),
-        TEST(test_decimal_comma_stays_out),  TEST(test_csv_quotes_names),
-        TEST(test_summary_is_json),          TEST(test_numbers_keep_17_digits),
-        TEST(test_terminal_table),           TEST(test_replaces_an_earlier_run),
-        TEST(test_discard_leaves_nothing),   TEST(test_closed_folder_is_one_message),
-        TEST(test_a_file_is_no_folder),      TEST(test_full_disk_is_one_message),
-        TEST(test_a_killed_run_can_be_read), TEST(test_unreadable_histories),
-        TEST(test_bad_column_names),         TEST(test_results_of_a_study_are_those_of_the_summary),
+        TEST(test_hdf5_holds_every_bit),
+        TEST(test_hdf5_is_read_by_others),
+        TEST(test_same_run_same_bytes),
+        TEST(test_csv_holds_every_bit),
+        TEST(test_decimal_comma_stays_out),
+        TEST(test_csv_quotes_names),
+        TEST(test_summary_is_json),
+        TEST(test_numbers_keep_17_digits),
+        TEST(test_terminal_table),
+        TEST(test_replaces_an_earlier_run),
+        TEST(test_discard_leaves_nothing),
+        TEST(test_closed_folder_is_one_message),
+        TEST(test_a_file_is_no_folder),
+        TEST(test_full_disk_is_one_message),
+        TEST(test_a_killed_run_can_be_read),
+        TEST(test_unreadable_histories),
+        TEST(test_bad_column_names),
+        TEST(test_results_of_a_study_are_those_of_the_summary),
+        TEST(test_histories_that_lead_to_other_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
