@@ -221,7 +221,6 @@ static void bench_tolerance(const char *text)
 int main(void)
 {
     double load[3];
-    study_calm_blas();
     if (getloadavg(load, 3) == 3)
         printf("load of the machine at the start: %.1f\n", load[0]);
     bench_kind("launch, fixed base", fixed);

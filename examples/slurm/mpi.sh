@@ -9,6 +9,6 @@ set -euo pipefail
 file=$1
 folder=$2
 
-# A core a process. Killed or out of time, the same job goes on where it was.
+# A core a process, also where the BLAS would take more. Killed or out of time, the same job goes on where it was.
 export OPENBLAS_NUM_THREADS=1
 exec mpirun launchdyn-mpi study "$file" --out "$folder" --quiet

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "math/symmetric_eigen.h"
-
 enum { MAX_BREAKS = LD_MAX_SECTIONS + LD_MAX_POINT_MASSES + LD_MAX_SUPPORTS + 2 };
 
 // Stations that must be nodes, ascending.
@@ -167,32 +165,70 @@ static double stiffness_of(line_kind kind, const ld_section *section)
     }
 }
 
-// Flexibility of the clamped line [n][n]: deflections under unit nodal loads, int m_i m_j ds/EI
-// with the moments m_i = x_i - s of a force and 1 of a couple, s < x_i; bars: int ds/EA.
-static void assemble_flexibility(const tube_line *line, const ld_tubes *model, double *F)
+// What unit elastic energy (f^T K f = 1) bends, twists or stretches an element by, its curvature or
+// strain constant.
+static double element_deformation(const tube_line *line, const ld_tubes *model, int e)
 {
-    const tube_mesh *mesh = line->mesh;
+    double h = line->mesh->node[e + 1] - line->mesh->node[e];
+    return sqrt(h / stiffness_of(line->kind, &model->section[line->mesh->section[e]]));
+}
+
+// Nodal vectors of the clamped line with one element deformed, the others rigid: with constant
+// curvature, then with a linear one, zero in the middle, which shifts what lies beyond. A bar is
+// stretched.
+static void fill_shapes(const tube_line *line, const ld_tubes *model)
+{
     int w = line->width, n = line->n;
-    // integrals of 1, s, s^2 over ds/EI, from 0 to x_i
-    double I0 = 0, I1 = 0, I2 = 0;
-    for (int i = 1; i <= mesh->elements; i++) {
-        double x0 = mesh->node[i - 1], xi = mesh->node[i];
-        double f = (xi - x0) / stiffness_of(line->kind, &model->section[mesh->section[i - 1]]);
-        I0 += f;
-        I1 += f * (x0 + xi) / 2;
-        I2 += f * (x0 * x0 + x0 * xi + xi * xi) / 3;
-        for (int j = i; j <= mesh->elements; j++) {
-            double xj = mesh->node[j], *Fij = &F[w * (i - 1) * n + w * (j - 1)];
-            double *Fji = &F[w * (j - 1) * n + w * (i - 1)];
-            if (w == 1) {
-                Fij[0] = Fji[0] = I0;
-                continue;
+    const double *node = line->mesh->node;
+    for (int e = 0; e < line->mesh->elements; e++) {
+        double d = element_deformation(line, model, e), h = node[e + 1] - node[e];
+        double *first = &line->shape[(size_t)(w * e) * (size_t)n], *second = first + n;
+        for (int i = e + 1; i <= line->mesh->elements; i++) {
+            int at = w * (i - 1);
+            first[at] = w == 1 ? d : d * (node[i] - node[e + 1] + 0.5 * h);
+            if (w == 2) {
+                first[at + 1] = d;
+                second[at] = -d * h / sqrt(12);
             }
-            Fij[0] = Fji[0] = xi * xj * I0 - (xi + xj) * I1 + I2;
-            Fij[1] = Fji[n] = xi * I0 - I1;
-            Fij[n] = Fji[1] = xj * I0 - I1;
-            Fij[n + 1] = Fji[n + 1] = I0;
         }
+    }
+}
+
+// Products `out` [n] of all shapes with the nodal forces (and couples) [n], from the tip on: force
+// and couple that an element carries at its outer end.
+static void times_shapes(const tube_line *line, const ld_tubes *model, const double *forces,
+                         double *out)
+{
+    int w = line->width;
+    double force = 0, couple = 0;
+    for (int e = line->mesh->elements - 1; e >= 0; e--) {
+        double d = element_deformation(line, model, e);
+        double h = line->mesh->node[e + 1] - line->mesh->node[e];
+        force += forces[w * e];
+        if (w == 1) {
+            out[e] = d * force;
+            continue;
+        }
+        couple += forces[2 * e + 1];
+        out[2 * e] = d * (couple + 0.5 * h * force);
+        out[2 * e + 1] = -d * h / sqrt(12) * force;
+        couple += h * force;
+    }
+}
+
+// The mass in the amplitudes of the shapes; `forces` [n] is room.
+static void fill_mass(const tube_line *line, const ld_tubes *model, const double *M, double *forces)
+{
+    int w = line->width, n = line->n, N = n + w;
+    for (int k = 0; k < n; k++) {
+        const double *shape = &line->shape[(size_t)k * (size_t)n];
+        for (int i = 0; i < n; i++) {
+            int first = i - 2 * w + 1 > 0 ? i - 2 * w + 1 : 0, end = i + 2 * w < n ? i + 2 * w : n;
+            forces[i] = 0;
+            for (int j = first; j < end; j++)
+                forces[i] += M[(i + w) * N + w + j] * shape[j];
+        }
+        times_shapes(line, model, forces, &line->mass[(size_t)k * (size_t)n]);
     }
 }
 
@@ -216,32 +252,16 @@ static void take_moments(tube_line *line, const double *M)
         }
 }
 
-// Clamped modes: K b omega^-2... in flexibility form F M b = b/omega^2, b^T M b = 1.
-static ld_status solve_clamped(tube_line *line, double *F, double *M, ld_error *error)
+static ld_status check_mass(const tube_line *line, const ld_tubes *model, ld_error *error)
 {
     static const char *const inertia[] = {"mass", "polar inertia", "mass"};
-    int n = line->n;
-    double *value = malloc((size_t)n * sizeof *value);
-    if (!value)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
-    int info = symmetric_eigen(EIGEN_PRODUCT, n, F, M, value);
-    bool good = info == 0 && value[n - 1] > 0 && isfinite(value[n - 1]);
-    for (int k = 0; good && k < n; k++) {
-        // the tiniest flexibilities are known to rounding of the largest only
-        double floor = 1e-17 * value[n - 1];
-        line->om2[k] = 1 / fmax(value[n - 1 - k], floor);
-        memcpy(&line->mode[k * n], &F[(n - 1 - k) * n], (size_t)n * sizeof *F);
+    for (int e = 0; e < line->mesh->elements; e++) {
+        const ld_section *section = &model->section[line->mesh->section[e]];
+        double has = line->kind == LINE_TORSION ? section->polar_inertia : section->mass_per_length;
+        if (!(has > 0))
+            return ld_fail(error, LD_ERR_INPUT, "the tube has sections without %s",
+                           inertia[line->kind]);
     }
-    free(value);
-    if (info == EIGEN_NO_MEMORY)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
-    if (info > n)
-        return ld_fail(error, LD_ERR_INPUT, "the tube has sections without %s",
-                       inertia[line->kind]);
-    if (!good)
-        return ld_fail(error, LD_ERR_NUMERIC,
-                       "the modes of the clamped tube cannot be found: is a stiffness or a mass "
-                       "not finite or out of all proportion?");
     return LD_OK;
 }
 
@@ -250,27 +270,32 @@ ld_status tube_line_build(tube_line *line, line_kind kind, const tube_mesh *mesh
 {
     int w = kind == LINE_BENDING ? 2 : 1, n = w * mesh->elements, N = n + w;
     size_t nn = (size_t)n * (size_t)n, NN = (size_t)N * (size_t)N;
-    double *block = calloc(nn + 3 * (size_t)n, sizeof(double));
-    double *work = calloc(NN + 2 * nn, sizeof(double));
-    if (!block || !work) {
+    double *block = calloc(2 * nn + 2 * (size_t)n, sizeof(double));
+    double *M = calloc(NN + (size_t)n, sizeof(double)), trace = 0;
+    if (!block || !M) {
         free(block);
-        free(work);
+        free(M);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a line of %d elements", mesh->elements);
     }
     *line = (tube_line){.kind = kind, .mesh = mesh, .width = w, .n = n};
-    line->mode = block;
-    line->om2 = block + nn;
-    line->moment[0] = line->om2 + n;
+    line->shape = block;
+    line->mass = block + nn;
+    line->moment[0] = line->mass + nn;
     line->moment[1] = line->moment[0] + n;
 
-    double *M = work, *F = work + NN, *held = F + nn;
     assemble_mass(line, model, M);
-    assemble_flexibility(line, model, F);
     take_moments(line, M);
-    for (int i = 0; i < n; i++)
-        memcpy(&held[i * n], &M[(i + w) * N + w], (size_t)n * sizeof *M);
-    ld_status status = solve_clamped(line, F, held, error);
-    free(work);
+    fill_shapes(line, model);
+    fill_mass(line, model, M, M + NN);
+    free(M);
+    for (int k = 0; k < n; k++)
+        trace += line->mass[k * (n + 1)];
+    line->low = 1 / trace;
+    ld_status status = check_mass(line, model, error);
+    if (!status && !(trace > 0 && isfinite(trace)))
+        status = ld_fail(error, LD_ERR_NUMERIC,
+                         "the modes of the clamped tube cannot be found: is a stiffness or a mass "
+                         "not finite or out of all proportion?");
     if (status)
         tube_line_free(line);
     return status;
@@ -278,7 +303,7 @@ ld_status tube_line_build(tube_line *line, line_kind kind, const tube_mesh *mesh
 
 void tube_line_free(tube_line *line)
 {
-    free(line->mode);
+    free(line->shape);
     *line = (tube_line){0};
 }
 

@@ -1,11 +1,10 @@
 // Finite elements of the bare tube: a mesh along x, and on it three kinds of line (bending in one
-// plane, torsion, stretch), each with its consistent mass, and all its modes clamped at x = 0.
+// plane, torsion, stretch), each with its consistent mass.
 //
 // Bending: Euler-Bernoulli beam, cubic Hermite shapes, nodal degrees of freedom (value, slope).
 // Torsion and stretch: bar, linear shapes, nodal value. The stiffness is never assembled: a tube
-// clamped at one end is statically determinate, so its flexibility is known in closed form (unit
-// load method), exact at the nodes of these elements as loads act at nodes and EI, GI_t, EA are
-// constant in an element (Przemieniecki, Theory of Matrix Structural Analysis, 1968).
+// clamped at one end is statically determinate, so the elements' own deformations (their natural
+// modes; Argyris 1964) are coordinates, one by one, in which the elastic stiffness is diagonal.
 // Low modes keep all their digits on fine meshes that way, where a stiffness matrix loses h^4.
 #ifndef LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
 #define LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
@@ -27,10 +26,12 @@ typedef enum line_kind { LINE_BENDING, LINE_TORSION, LINE_STRETCH } line_kind;
 typedef struct tube_line {
     line_kind kind;
     const tube_mesh *mesh;
-    int width;          // degrees of freedom a node, and rigid shapes (1, x): 2 bending, 1 bars
-    int n;              // modes of the clamped line
-    double *mode;       // [n][n] nodal vectors of the clamped modes, row by row; unit modal mass
-    double *om2;        // [n] omega^2 [1/s2], ascending
+    int width;     // degrees of freedom a node, and rigid shapes (1, x): 2 bending, 1 bars
+    int n;         // degrees of freedom of the clamped line
+    double *shape; // [n][n] nodal vectors of the clamped line with one element deformed alone,
+                   // row by row: elastic stiffness E, f^T K f = 1
+    double *mass;  // [n][n] mass matrix in the amplitudes of these shapes [s2]
+    double low;    // [1/s2] below the lowest clamped omega^2, and close to it: 1 / trace of mass
     double *moment[2];  // [n] nodal vectors M 1 and M x: their products with a shape f are the
                         // integrals of f and x f over mass (torsion: over polar inertia)
     double rigid[2][2]; // integrals of 1, x; x, x^2 over the same
@@ -44,7 +45,7 @@ void tube_mesh_free(tube_mesh *mesh);
 // that begins there at an inner node.
 int tube_mesh_find(const tube_mesh *mesh, double x);
 
-// Assembles a line on `mesh` (which must outlive it) and solves for its clamped modes.
+// Assembles a line on `mesh` (which must outlive it).
 ld_status tube_line_build(tube_line *line, line_kind kind, const tube_mesh *mesh,
                           const ld_tubes *model, ld_error *error);
 void tube_line_free(tube_line *line);

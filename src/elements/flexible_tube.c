@@ -57,8 +57,7 @@ static void add_outer(int n, double *A, double k, const double *s)
 }
 
 // Mass A and stiffness B of the free line with its ties, order N = width + n, in the coordinates
-// (rigid shapes, amplitudes of the clamped modes): elastic stiffness and elastic mass are diagonal
-// there. `s` [N] is room for one row.
+// (rigid shapes, amplitudes of the elements' deformations). `s` [N] is room for one row.
 static void assemble_free(const tube_line *line, const line_ties *ties, double *A, double *B,
                           double *s)
 {
@@ -69,13 +68,13 @@ static void assemble_free(const tube_line *line, const line_ties *ties, double *
         for (int k = 0; k < n; k++) {
             double sum = 0;
             for (int i = 0; i < n; i++)
-                sum += line->moment[r][i] * line->mode[k * n + i];
+                sum += line->moment[r][i] * line->shape[k * n + i];
             A[r * N + w + k] = A[(w + k) * N + r] = sum;
         }
     }
-    for (int k = w; k < N; k++) {
-        A[k * (N + 1)] = 1;
-        B[k * (N + 1)] = line->om2[k - w];
+    for (int k = 0; k < n; k++) {
+        memcpy(&A[(w + k) * N + w], &line->mass[k * n], (size_t)n * sizeof *A);
+        B[(w + k) * (N + 1)] = 1;
     }
     for (int spring = 0; spring < ties->springs; spring++) {
         double x = ties->at[spring];
@@ -83,41 +82,41 @@ static void assemble_free(const tube_line *line, const line_ties *ties, double *
         if (w == 2)
             s[1] = x;
         for (int k = 0; k < n; k++)
-            s[w + k] = tube_line_value(line, &line->mode[k * n], x);
+            s[w + k] = tube_line_value(line, &line->shape[k * n], x);
         add_outer(N, B, ties->value[spring], s);
         s[0] = 0;
         if (w == 2)
             s[1] = 1;
         for (int k = 0; k < n; k++)
-            s[w + k] = tube_line_slope(line, &line->mode[k * n], x);
+            s[w + k] = tube_line_slope(line, &line->shape[k * n], x);
         add_outer(N, B, ties->slope[spring], s);
     }
 }
 
-// Natural frequencies and modes of the free line with its ties: rows of `vector` [N][N] from the
-// highest to the lowest, omega^2 in `lambda` [N] in the same order. Solved for 1/(lambda + sigma),
-// which keeps the digits of the low ones and lets rigid motions be.
-static ld_status solve_free(const tube_line *line, const line_ties *ties, double *vector,
-                            double *lambda, ld_error *error)
+// The `wanted` lowest natural frequencies and modes of the free line with its ties: rows of
+// `vector` [wanted][N] from the highest to the lowest, omega^2 in `lambda` [N] in the same order.
+// Solved for 1/(lambda + sigma), which keeps the digits of the low ones and lets rigid motions be.
+static ld_status solve_free(const tube_line *line, const line_ties *ties, int wanted,
+                            double *vector, double *lambda, ld_error *error)
 {
     int N = line->width + line->n;
-    double sigma = line->om2[0], *B = calloc((size_t)N * (size_t)(N + 1), sizeof(double));
-    if (!B)
+    size_t NN = (size_t)N * (size_t)N;
+    double *A = calloc(2 * NN + (size_t)N, sizeof *A), *B = A + NN;
+    if (!A)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
-    memset(vector, 0, (size_t)N * (size_t)N * sizeof(double));
-    assemble_free(line, ties, vector, B, B + N * N);
-    for (int i = 0; i < N * N; i++)
-        B[i] += sigma * vector[i];
-    int info = symmetric_eigen(EIGEN_GENERALISED, N, vector, B, lambda);
-    free(B);
+    assemble_free(line, ties, A, B, B + NN);
+    for (size_t i = 0; i < NN; i++)
+        B[i] += line->low * A[i];
+    int info = symmetric_eigen(N, A, B, wanted, lambda, vector);
+    free(A);
     if (info == EIGEN_NO_MEMORY)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
     if (info || !(lambda[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "the modes of the tube on its supports cannot be found: is a stiffness or "
                        "a mass not finite or out of all proportion?");
-    for (int k = 0; k < N; k++)
-        lambda[k] = fmax(0, 1 / lambda[k] - sigma);
+    for (int k = 0; k < wanted; k++)
+        lambda[k] = fmax(0, 1 / lambda[k] - line->low);
     return LD_OK;
 }
 
@@ -129,18 +128,16 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-// Elastic parts of the modes from the lowest on, scaled to amplitudes e = omega c of the clamped
-// modes and made orthonormal in elastic energy: rows of `part` [wanted][n]. A mode whose part is
-// rounding, or depends on those before, is passed over: of a nearly rigid tube the first ones
-// may be. Returns how many were found.
-static int take_elastic_parts(const tube_line *line, const double *vector, int wanted, double *part)
+// Elastic parts of the modes from the lowest on, made orthonormal in elastic energy: rows of `part`
+// [m][n]. A mode whose part is rounding, or depends on those before, is passed over: of a nearly
+// rigid tube the first ones may be. Returns how many were found.
+static int take_elastic_parts(const tube_line *line, const double *vector, int count, int m,
+                              double *part)
 {
     int w = line->width, n = line->n, N = w + n, found = 0;
-    for (int k = 0; k < N && found < wanted; k++) {
-        const double *mode = &vector[(N - 1 - k) * N + w];
+    for (int k = 0; k < count && found < m; k++) {
         double *e = &part[found * n];
-        for (int i = 0; i < n; i++)
-            e[i] = sqrt(line->om2[i]) * mode[i];
+        memcpy(e, &vector[(count - 1 - k) * N + w], (size_t)n * sizeof *e);
         for (int pass = 0; pass < 2; pass++)
             for (int j = 0; j < found; j++) {
                 double p = dot(n, e, &part[j * n]);
@@ -157,34 +154,53 @@ static int take_elastic_parts(const tube_line *line, const double *vector, int w
     return found;
 }
 
+// Elastic parts of the `m` lowest clamped modes.
+static ld_status take_clamped(const tube_line *line, int m, double *part, ld_error *error)
+{
+    int n = line->n;
+    size_t nn = (size_t)n * (size_t)n;
+    double *mass = malloc((nn + (size_t)n) * sizeof *mass);
+    if (!mass)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
+    memcpy(mass, line->mass, nn * sizeof *mass);
+    int info = symmetric_eigen(n, mass, NULL, m, mass + nn, part);
+    free(mass);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
+    if (info)
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "the modes of the clamped tube cannot be found: is a stiffness or a mass "
+                       "not finite or out of all proportion?");
+    return LD_OK;
+}
+
 // Diagonalises the mass of the elastic parts, whose stiffness is E, and writes the tangent shapes:
-// unit modal mass, positive at the tip, ascending frequency.
+// unit modal mass, positive at the tip, ascending frequency. `row` [n] is room.
 static ld_status diagonalise(const tube_line *line, const double *part, line_shapes *shapes,
-                             ld_error *error)
+                             double *row, ld_error *error)
 {
     int n = line->n, m = shapes->count, w = line->width;
-    double mass[LD_NB * LD_NB], value[LD_NB];
-    for (int k = 0; k < m; k++)
-        for (int l = 0; l < m; l++) {
-            mass[k * m + l] = 0;
-            for (int i = 0; i < n; i++)
-                mass[k * m + l] += part[k * n + i] * part[l * n + i] / line->om2[i];
-        }
-    int info = symmetric_eigen(EIGEN_STANDARD, m, mass, NULL, value);
+    double mass[LD_NB * LD_NB], value[LD_NB], mixes[LD_NB * LD_NB];
+    for (int k = 0; k < m; k++) {
+        for (int i = 0; i < n; i++)
+            row[i] = dot(n, &line->mass[i * n], &part[k * n]);
+        for (int l = 0; l < m; l++)
+            mass[k * m + l] = dot(n, row, &part[l * n]);
+    }
+    int info = symmetric_eigen(m, mass, NULL, m, value, mixes);
     if (info == EIGEN_NO_MEMORY)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", m);
     if (info || !(value[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC, "the tube's modes are not independent");
     for (int k = 0; k < m; k++) {
-        const double *mix = &mass[(m - 1 - k) * m];
+        const double *mix = &mixes[(m - 1 - k) * m];
         double *nodal = &shapes->nodal[k * n], omega = 1 / sqrt(value[m - 1 - k]);
         for (int i = 0; i < n; i++) {
             double c = 0;
             for (int l = 0; l < m; l++)
                 c += mix[l] * part[l * n + i];
-            c *= omega / sqrt(line->om2[i]);
             for (int d = 0; d < n; d++)
-                nodal[d] += c * line->mode[i * n + d];
+                nodal[d] += omega * c * line->shape[i * n + d];
         }
         shapes->om2[k] = omega * omega;
         if (nodal[n - w] < 0)
@@ -194,38 +210,41 @@ static ld_status diagonalise(const tube_line *line, const double *part, line_sha
     return LD_OK;
 }
 
-// Shapes of the span on one line, `count` of them; `work` holds N (N + 1) + count n numbers.
+// Shapes of the span on one line, `count` of them; `work` holds (count + width) N + N + count n
+// numbers. Leaving out the rigid shapes makes as many modes dependent as there are, at most.
 static ld_status choose_shapes(const tube_line *line, const ld_tubes *model, line_shapes *shapes,
                                double *work, ld_error *error)
 {
-    int n = line->n, N = line->width + n, m = shapes->count, found = m;
-    double *vector = work, *lambda = work + N * N, *part = lambda + N;
+    int n = line->n, N = line->width + n, m = shapes->count, count = m + line->width, found = 0;
+    double *vector = work, *lambda = vector + count * N, *part = lambda + N;
     line_ties ties = ties_of(line->kind, model), none = {0};
-    ld_status status = solve_free(line, &ties, vector, lambda, error);
+    ld_status status = solve_free(line, &ties, count, vector, lambda, error);
     if (status)
         return status;
     for (int k = 0; k < m; k++)
-        shapes->supported[k] = sqrt(lambda[N - 1 - k]);
+        shapes->supported[k] = sqrt(lambda[count - 1 - k]);
     switch (model->modes.span) {
     case LD_SPAN_SUPPORTED:
-        found = take_elastic_parts(line, vector, m, part);
+        found = take_elastic_parts(line, vector, count, m, part);
         break;
     case LD_SPAN_FREE_FREE:
-        status = solve_free(line, &none, vector, lambda, error);
+        status = solve_free(line, &none, count, vector, lambda, error);
         if (status)
             return status;
-        found = take_elastic_parts(line, vector, m, part);
+        found = take_elastic_parts(line, vector, count, m, part);
         break;
     case LD_SPAN_CLAMPED:
-        for (int k = 0; k < m; k++)
-            part[k * n + k] = 1;
+        status = take_clamped(line, m, part, error);
+        if (status)
+            return status;
+        found = m;
         break;
     }
     if (found < m)
         return ld_fail(error, LD_ERR_INPUT,
                        "only %d of %d modes are independent: take fewer modes or more elements",
                        found, m);
-    return diagonalise(line, part, shapes, error);
+    return diagonalise(line, part, shapes, lambda, error);
 }
 
 // Line and shapes of one kind; shapes->count = 0 leaves both empty.
@@ -243,7 +262,7 @@ static ld_status build_line(tube_line *line, line_shapes *shapes, line_kind kind
         return ld_fail(error, LD_ERR_INPUT, "%d %s modes need a mesh of more than %d elements",
                        shapes->count, names[kind], mesh->elements);
     shapes->nodal = calloc(m * n, sizeof(double));
-    double *work = calloc(N * (N + 1) + m * n, sizeof(double));
+    double *work = calloc((m + (size_t)line->width + 1) * N + m * n, sizeof(double));
     status = shapes->nodal && work ? choose_shapes(line, model, shapes, work, error)
                                    : ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
     free(work);

@@ -113,7 +113,6 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
         fputs("launchdyn-mpi: no memory for the records of samples\n", stderr);
         MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
     }
-    study_calm_blas();
     ledger_open(&ledger, study, folder, STORE_ROLLBACK, options, counts, error);
     // MPI is this thread's; alone, or without a second one, it runs samples after it has served
     bool second = all.processes > 1 && worker_start(&worker, &ledger) == 0;
@@ -172,7 +171,6 @@ void mpi_study_follow(const ld_study *study, bool (*go_on)(void *), void *self)
     follower of = {.go_on = go_on, .self = self};
     study_worker worker;
     ld_error error;
-    study_calm_blas();
     ld_status status = worker_create(&worker, study, &error);
     if (status) {
         study_record failed = {.outcome = status};

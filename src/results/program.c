@@ -15,8 +15,6 @@
 #include <yaml.h>
 #include <zlib.h>
 
-// OpenBLAS, where that is the one.
-extern char *openblas_get_config(void) __attribute__((weak));
 extern void ilaver_(int *major, int *minor, int *patch);
 
 // The processor's name by its own word, or the kind of machine.
@@ -48,7 +46,7 @@ void program_describe(program_fact *take, void *self)
     ilaver_(&lapack[0], &lapack[1], &lapack[2]);
     snprintf(text, sizeof text, "%d.%d.%d", lapack[0], lapack[1], lapack[2]);
     take(self, "LAPACK", text);
-    take(self, "BLAS", openblas_get_config ? openblas_get_config() : "unknown");
+    take(self, "BLAS", LD_BLAS);
     // not asked: that starts the library, which dies without memory; it refuses another version
     snprintf(text, sizeof text, "%d.%d.%d", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);
     take(self, "HDF5", text);

@@ -3,15 +3,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-// OpenBLAS, where that is the one.
-extern void openblas_set_num_threads(int count) __attribute__((weak));
-
-void study_calm_blas(void)
-{
-    if (openblas_set_num_threads)
-        openblas_set_num_threads(1);
-}
-
 ld_status study_check(const ld_study *study, ld_error *error)
 {
     if (study->nominal->scatter.present || study->nominal->sweep_count > 0)

@@ -40,7 +40,4 @@ static inline int64_t study_draw_of(const ld_study *self, int64_t number)
 // Refuses a study that varies nothing.
 ld_status study_check(const ld_study *self, ld_error *error);
 
-// OpenBLAS, where that is the one, stays on one thread from now on: samples run side by side.
-void study_calm_blas(void);
-
 #endif

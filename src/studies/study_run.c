@@ -30,7 +30,6 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
         status = check_shard(study, options, error);
     if (status)
         return status;
-    study_calm_blas();
     ledger_open(&ledger, study, folder, options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD, options,
                 counts, error);
     worker_run_side_by_side(&ledger, options->threads);

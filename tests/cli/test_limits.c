@@ -160,6 +160,17 @@ static void test_little_stack(void **state)
 #endif
 }
 
+// No library holds so much of the address space that others find none.
+static void test_little_address_space(void **state)
+{
+    (void)state;
+#ifndef LD_SANITIZED // which take terabytes
+    assert_int_equal(run("ulimit -v 100000; launchdyn check examples/fixed.yaml && "
+                         "launchdyn run examples/fixed.yaml" QUICK),
+                     0);
+#endif
+}
+
 static void test_few_open_files(void **state)
 {
     (void)state;
@@ -199,6 +210,7 @@ int main(void)
         TEST(test_files_beyond_their_limit),
         TEST(test_cut_pipes),
         TEST(test_little_stack),
+        TEST(test_little_address_space),
         TEST(test_few_open_files),
         TEST(test_few_threads),
     };

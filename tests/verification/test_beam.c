@@ -390,8 +390,9 @@ static int planar_matrices(const flexible_tube *tube, const ld_tubes *model, dou
 static double planar_frequency(const flexible_tube *tube, const ld_tubes *model, int mode)
 {
     double M[(2 + LD_NB) * (2 + LD_NB)], K[(2 + LD_NB) * (2 + LD_NB)], mu[2 + LD_NB];
+    double vectors[(2 + LD_NB) * (2 + LD_NB)];
     int n = planar_matrices(tube, model, M, K);
-    assert_int_equal(symmetric_eigen(EIGEN_GENERALISED, n, M, K, mu), 0);
+    assert_int_equal(symmetric_eigen(n, M, K, n, mu, vectors), 0);
     return 1 / sqrt(mu[n - 1 - mode]);
 }
 

@@ -149,7 +149,7 @@ static void resting_base_is_fixed(void **state)
     (void)state;
     ld_model model;
     reference_model(&model);
-    model.run.tolerance = 1e-9;
+    model.run.tolerance = 1e-10;
     ld_rocket_summary fixed = launch(&model);
     printf("  prescribed, no motion\n");
     model.base.kind = LD_BASE_PRESCRIBED;
