@@ -1,11 +1,17 @@
 // The lock: holds the rocket at its place in the tube until it is let go (model.md, section 5).
 //
-// Held is e_x . v_rel = 0 at O1, by a force along e_x of the section at s; in a bore without a slot
-// also w_SB . e_x = 0, by a moment about e_x.
+// Held is e_x . v_rel = 0 at a point L of the rocket, by a force along e_x of the section at s (the
+// foot of O1), moved rigidly to L; where the lock holds roll also w_SB . e_x = 0, by a moment about
+// e_x.
 #ifndef LD_ELEMENTS_LOCK_H
 #define LD_ELEMENTS_LOCK_H
 
 #include "elements/constraint.h"
+
+typedef struct lock_system {
+    v3 at; // [m] L in B
+    bool holds_roll;
+} lock_system;
 
 LD_INLINE void roll_constrain(const launching_instant *now, constraint_set *set)
 {
@@ -20,14 +26,22 @@ LD_INLINE void roll_constrain(const launching_instant *now, constraint_set *set)
     roll->drift = v3_dot(axis, w_rel);
 }
 
-LD_INLINE void lock_constrain(const launching_instant *now, bool holds_roll, constraint_set *set)
+LD_INLINE void lock_constrain(const lock_system *self, const launching_instant *now,
+                              constraint_set *set)
 {
     const rocket_state *rocket = &now->rocket;
+    v3 rho = m3_apply(rocket->A_RB, self->at);
     set->lock_row = set->count;
-    constrain_force(now, m3_column(rocket->at.A, 0), v3_zero(), rocket->Ad, v3_zero(), POWER_LOCK,
-                    set);
-    if (holds_roll)
+    constrain_force(now, m3_column(rocket->at.A, 0), v3_zero(), v3_add(rocket->Ad, rho), rho,
+                    POWER_LOCK, set);
+    if (self->holds_roll)
         roll_constrain(now, set);
+}
+
+LD_INLINE void lock_build(const ld_lock *lock, const ld_slot *slot, lock_system *self)
+{
+    self->at = v3_make(lock->x, lock->radius * cos(lock->angle), lock->radius * sin(lock->angle));
+    self->holds_roll = slot->kind == LD_SLOT_NONE;
 }
 
 #endif

@@ -427,6 +427,8 @@ typedef struct ld_contact {
 typedef struct ld_lock {
     bool present;         ///< false: the rocket is free from the start
     double release_force; ///< [N]
+    double x, radius,
+        angle; ///< [m], [m], [rad] of the point held, in B: (x, radius cos, radius sin)
 } ld_lock;
 
 typedef struct ld_motor {

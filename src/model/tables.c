@@ -690,10 +690,21 @@ static const field_row knob_fields[] = {{"angle", NUMBER(ld_rocket, knob_angle, 
                                         {0}};
 static const field_block knob_block = {.fields = knob_fields};
 
-static const field_row lock_fields[] = {{"release_force", NUMBER(ld_lock, release_force, "N"),
-                                         POSITIVE, REQUIRED,
-                                         .doc = "carried force at which it lets go"},
-                                        {0}};
+static const field_row lock_at_fields[] = {
+    {"x", NUMBER(ld_lock, x, "m"), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "along the axis, from the rear adaptor"},
+    {"radius", NUMBER(ld_lock, radius, "m"), FROM_TO(0, 100), DEFAULT(0), .doc = "from the axis"},
+    {"angle", NUMBER(ld_lock, angle, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .doc = "from y of B, about x"},
+    {0}};
+static const field_block lock_at_block = {.fields = lock_at_fields};
+
+static const field_row lock_fields[] = {
+    {"release_force", NUMBER(ld_lock, release_force, "N"), POSITIVE, REQUIRED,
+     .doc = "carried force at which it lets go"},
+    {"at", SAME_STRUCT(lock_at_block), .initial_doc = "the rear adaptor's centre",
+     .doc = "point of the rocket that it holds along the tube"},
+    {0}};
 static const field_block lock_block = {.fields = lock_fields};
 static const field_word lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 

@@ -18,41 +18,48 @@ static void join(char *path, const char *folder, const char *name)
     snprintf(path, REPORT_PATH_SIZE, "%s/%s", folder, name);
 }
 
-static void read_rockets(report_source *source, const char *path)
+// LD_ERR_INPUT, of the one after the last, is no failure.
+static ld_status read_rockets(report_source *source, const char *path, ld_error *error)
 {
-    history_data *next = source->rocket;
-    while (source->rocket_count < REPORT_ROCKETS &&
-           !history_read_rocket(path, source->rocket_count + 1, next, NULL)) {
-        source->rocket_count++;
-        next++;
+    ld_status status = LD_OK;
+    while (source->rocket_count < REPORT_ROCKETS && !status) {
+        history_data *next = &source->rocket[source->rocket_count];
+        status = history_read_rocket(path, source->rocket_count + 1, next, error);
+        source->rocket_count += !status;
     }
+    return status == LD_ERR_INPUT ? LD_OK : status;
 }
 
-// Reads the history, of a folder in which it is not damaged.
-static void read_history(report_source *source, const char *folder)
+// Reads the history, of a folder in which it is not damaged. LD_ERR_FILE, LD_ERR_MEMORY: it could
+// not be read; what else keeps from it is noted.
+static ld_status read_history(report_source *source, const char *folder, ld_error *error)
 {
     char path[REPORT_PATH_SIZE];
-    ld_error error;
     join(path, folder, "history.h5");
     if (access(path, F_OK) != 0) {
         join(path, folder, "history.h5.part");
         if (access(path, F_OK) != 0) {
             report_take_note(source->report, "There is no history.h5: no plots.");
-            return;
+            return LD_OK;
         }
         report_take_note(source->report, "The run did not come to its end: the plots are of "
                                          "history.h5.part, up to its last block.");
     }
-    if (history_read(path, &source->history, &error)) {
-        report_take_note(source->report, "No plots: %s.", error.text);
-        return;
-    }
-    read_rockets(source, path);
+    ld_status status = history_read(path, &source->history, error);
+    if (status == LD_ERR_INPUT)
+        report_take_note(source->report, "No plots: %s.", error->text);
+    if (status)
+        return status == LD_ERR_INPUT ? LD_OK : status;
     source->has_history = true;
+    status = read_rockets(source, path, error);
+    if (status)
+        return status;
     // results of an earlier version keep none
-    source->has_origin = origin_read_history(path, &source->origin, NULL) == LD_OK;
+    status = origin_read_history(path, &source->origin, error);
+    source->has_origin = !status;
     if (source->history.rows == 0 && source->history.flights == 0)
         report_take_note(source->report, "The history has no rows.");
+    return status == LD_ERR_INPUT ? LD_OK : status;
 }
 
 // Takes the summary over, or says why there is none; also where it does not say what is whole.
@@ -104,10 +111,11 @@ static ld_status read_folder(report_source *source, const char *folder, ld_error
     if (status)
         return status;
     status = find_damage(source, folder, &found, &history, &first);
-    if (history)
-        read_history(source, folder);
+    ld_status read = history ? read_history(source, folder, error) : LD_OK;
     take_summary(source, &found);
     manifest_free(&found);
+    if (read)
+        return read;
     if (status == LD_ERR_INPUT)
         return ld_fail(error, status, "%.300s is damaged: %s", folder, first.text);
     return status ? ld_fail(error, status, "%.300s/%s", folder, first.text) : LD_OK;

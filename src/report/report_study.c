@@ -64,27 +64,35 @@ static void add_series(study_source *source, const study_data *data, const char 
     }
 }
 
-static void open_studies(study_source *source, const char *const *folder, size_t count)
+// LD_ERR_FILE, LD_ERR_MEMORY: one could not be read; what is none, or damaged, is noted.
+static ld_status open_studies(study_source *source, const char *const *folder, size_t count,
+                              ld_error *error)
 {
     source->several = count > 1;
     for (size_t i = 0; i < count; i++) {
         study_data *data = &source->study[source->study_count];
-        ld_error error;
         if (source->study_count == REPORT_SERIES) {
             report_take_note(source->report, "More than %d studies: the rest is left out.",
                              REPORT_SERIES);
-            return;
+            return LD_OK;
         }
-        if (study_data_open(folder[i], data, &error)) {
-            report_take_note(source->report, "%.230s.", error.text);
+        ld_status status = study_data_open(folder[i], data, error);
+        if (status == LD_ERR_INPUT) {
+            report_take_note(source->report, "%.230s.", error->text);
             continue;
         }
+        if (status)
+            return status;
         // a study of an earlier version keeps none
-        if (ld_study_read_origin(folder[i], &source->origin[source->study_count], &error))
+        status = ld_study_read_origin(folder[i], &source->origin[source->study_count], error);
+        if (status)
             source->origin[source->study_count] = (ld_origin){0};
         source->folder[source->study_count++] = folder[i];
         add_series(source, data, folder[i]);
+        if (status && status != LD_ERR_INPUT)
+            return status;
     }
+    return LD_OK;
 }
 
 static void close_studies(study_source *source)
@@ -174,9 +182,8 @@ ld_status ld_report_write_studies(const char *const *folder, size_t count, const
     if (!source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     source->report = report;
-    open_studies(source, folder, count);
-    ld_status status = LD_OK;
-    if (source->series_count == 0)
+    ld_status status = open_studies(source, folder, count, error);
+    if (!status && source->series_count == 0)
         status = ld_fail(error, LD_ERR_INPUT, "no study to report: %s",
                          report->note_count ? report->note[0] : "nothing is named that has points");
     if (!status)

@@ -31,6 +31,7 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
     self->rocket = rocket;
     adaptors_build(rocket, &self->adaptors);
     slot_build(&self->model->tubes.slot, rocket, &self->slot);
+    lock_build(&rocket->lock, &self->model->tubes.slot, &self->lock);
 }
 
 // Modes and coefficients follow from all keys of `tubes` but those of the slot and of where the

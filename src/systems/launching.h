@@ -6,6 +6,7 @@
 
 #include "elements/adaptor.h"
 #include "elements/breech.h"
+#include "elements/lock.h"
 #include "elements/slot.h"
 #include "elements/support.h"
 
@@ -19,6 +20,7 @@ typedef struct launching_system {
     support_set supports;
     adaptor_set adaptors;
     slot_system slot;
+    lock_system lock;
     bool wide_instructions; // AVX2 is there
 } launching_system;
 

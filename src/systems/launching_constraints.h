@@ -2,7 +2,6 @@
 #ifndef LD_SYSTEMS_LAUNCHING_CONSTRAINTS_H
 #define LD_SYSTEMS_LAUNCHING_CONSTRAINTS_H
 
-#include "elements/lock.h"
 #include "systems/launching.h"
 
 LD_INLINE void launching_constrain(const launching_system *self, const launching_instant *now,
@@ -11,7 +10,7 @@ LD_INLINE void launching_constrain(const launching_system *self, const launching
     if (self->slot.present)
         slot_constrain(&self->slot, now, set);
     if (now->phase->locked)
-        lock_constrain(now, !self->slot.present, set);
+        lock_constrain(&self->lock, now, set);
 }
 
 #endif

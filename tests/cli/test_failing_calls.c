@@ -47,6 +47,8 @@ static const verb verbs[] = {
     {"run", SCENARIO, "run s.yaml --out o --csv", "memory", NULL},
     {"run again", RUN, "run --again o --out p", "memory", NULL},
     {"plot", RUN, "plot o -o x.svg", "memory", NULL},
+    {"report", RUN, "report o -o x.html", "memory open", NULL},
+    {"report of a study", STUDY, "report o -o x.html", "memory read write", NULL},
     {"study", SCENARIO, "study s.yaml --out o", "", "study show o --what all"},
     {"study show", STUDY, "study show o", "", NULL},
     {"study export", STUDY, "study export o --csv x.csv --hdf5 x.h5", "memory", NULL},

@@ -818,22 +818,30 @@ static void write_relative(const jet_scene *scene, jet s, dense_launch_output *o
 
 static void add_lock(equations *eq, const jet_scene *scene, jet s, bool holds_roll)
 {
-    // s_ddot = 0; force along e_x of S at O1
+    // e_x of S . v_rel = 0 at L, and its derivative in time; force along e_x of S at L
+    const ld_lock *lock = &scene->dense->model->rocket.lock;
+    double at[3] = {lock->x, lock->radius * cos(lock->angle), lock->radius * sin(lock->angle)};
+    jet3 L_B = jet3_constant(at), L = point_in(&scene->B, &L_B);
     jet_frame fixed = section_in_I(scene, jet_constant(s.v));
+    jet_frame section = section_in_I(scene, s), material = section_in_I(scene, jet_freeze(s));
+    jet3 r_L = seen_from(&section, &L), frozen = jet3_freeze(r_L);
+    jet3 tube = point_in(&material, &frozen), v_rel = jet3_sub(&L, &tube);
     double place[3], axis[3];
+    eq->active[LOCK] = true;
     for (int i = 0; i < 3; i++) {
-        place[i] = scene->B.r.c[i].v;
+        const jet *e_x = &section.A.c[i][0];
+        for (int k = 0; k < eq->n; k++)
+            eq->C[LOCK][k] += e_x->v * v_rel.c[i].d[k];
+        eq->rhs[LOCK] -= e_x->v * v_rel.c[i].te + e_x->t * v_rel.c[i].e;
+        place[i] = L.c[i].v;
         axis[i] = fixed.A.c[i][0].v;
     }
-    eq->active[LOCK] = true;
-    eq->rhs[LOCK] = -s.te;
-    memcpy(eq->C[LOCK], s.d, (size_t)eq->n * sizeof *s.d);
     add_pair(eq->G[LOCK], scene, &fixed, place, axis);
     if (!holds_roll)
         return;
-    // rate about e_x of S of B against S: entry zy of (Q e-derivative) Q^T, Q = A_SB
-    jet_frame section = section_in_I(scene, s);
-    jet33 back = jet33_transpose(&section.A), Q = jet33_mul(&back, &scene->B.A);
+    // rate about e_x of S of B against the tube there, on which the moment does no work: entry zy
+    // of (Q e-derivative) Q^T, Q = A_SB
+    jet33 back = jet33_transpose(&material.A), Q = jet33_mul(&back, &scene->B.A);
     eq->active[ROLL] = true;
     for (int l = 0; l < 3; l++) {
         const jet *y = &Q.c[1][l], *z = &Q.c[2][l];

@@ -84,7 +84,7 @@ static void fill_rocket(ld_rocket *rocket)
                                    .friction = 0.12,
                                    .friction_speed = 0.01};
     // lock and motor
-    rocket->lock = (ld_lock){true, 5e3};
+    rocket->lock = (ld_lock){.present = true, .release_force = 5e3};
     rocket->motor.thrust = reference_table(4, 2, (double[]){0, 0, 0.01, 15e3, 2.5, 15e3, 2.55, 0});
     rocket->motor.thrust_scale = 1;
     rocket->motor.time_scale = 1;

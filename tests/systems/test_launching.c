@@ -197,6 +197,16 @@ static void options_equal_dense(void **state)
     check_agreement(&model, launching_evaluate, 200, "kelvin-voigt");
     model.rocket.contact.law = LD_CONTACT_BILATERAL;
     check_agreement(&model, launching_evaluate, 200, "bilateral");
+    const ld_lock lock = model.rocket.lock;
+    model.rocket.lock.x = 0.7;
+    model.rocket.lock.radius = 0.0825;
+    model.rocket.lock.angle = 2.2;
+    check_agreement(&model, launching_evaluate, 200, "lock off the axis");
+    check_agreement(&model, overall, 200, "lock off the axis, overall");
+    model.tubes.slot.kind = LD_SLOT_NONE;
+    check_agreement(&model, launching_evaluate, 200, "lock off the axis, no slot");
+    model.tubes.slot.kind = LD_SLOT_HELIX;
+    model.rocket.lock = lock;
     model.rocket.contact.law = LD_CONTACT_HUNT_CROSSLEY;
     model.tubes.slot.kind = LD_SLOT_NONE;
     check_agreement(&model, launching_evaluate, 200, "no slot (the lock holds the roll)");

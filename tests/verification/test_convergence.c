@@ -206,8 +206,8 @@ static void check_tolerances(ld_model *model, const tolerance_bounds *bound)
 }
 
 // The whole thing, touching and parting adaptors and the nodes of the tube included: they are kinks
-// that step control passes. At 1e-10 the instants' error is what the steps happen to leave: 2e-13 to
-// 2.4e-12 s over 24 masses 1e-7 apart.
+// that step control passes. At 1e-10 the instants' error is what the steps happen to leave: 2e-13
+// to 2.4e-12 s over 24 masses 1e-7 apart.
 static void tolerance_converges(void **state)
 {
     (void)state;

@@ -323,6 +323,37 @@ static void reactions(void **state)
     reference_model_free(&model);
 }
 
+// The lock's force F off the axis by R is a couple F R that the two adaptors carry.
+static void couple_of_the_lock(void **state)
+{
+    (void)state;
+    static const double R[] = {0, 0.0825, -0.0825};
+    for (int k = 0; k < 3; k++) {
+        ld_model model;
+        double y[LD_MAX_STATES];
+        reference_model(&model);
+        ld_rocket *rocket = &model.rocket;
+        model.base.elevation = acos(0) / 2;
+        model.tubes.slot.kind = LD_SLOT_NONE;
+        rocket->adaptor_count = 2;
+        rocket->adaptor[1] = rocket->adaptor[2];
+        rocket->lock.x = 0.3;
+        rocket->lock.radius = fabs(R[k]);
+        rocket->lock.angle = R[k] < 0 ? 2 * acos(0) : 0;
+        fresh_launch launch;
+        fresh_launch_make(&launch, &model);
+        ld_equilibrium_summary found = find_equilibrium(&launch.state, y);
+        double along = 60 * model.gravity * sin(model.base.elevation), across = along;
+        double front = (across * 1.1 + along * R[k]) / 1.9;
+        printf("  %g mm above the axis\n", 1e3 * R[k]);
+        CHECK_NEAR("front adaptor [N]", found.contact_force[1], front, 0.02);
+        CHECK_NEAR("rear adaptor [N]", found.contact_force[0], across - front, 0.1);
+        CHECK_BELOW("by the dense check [m/s2]", dense_acceleration(&launch.state, y), 9.8e-9);
+        fresh_launch_free(&launch);
+        reference_model_free(&model);
+    }
+}
+
 // Left alone at rest, lock closed, for 0.2 s.
 static void nothing_moves_while_locked(void **state)
 {
@@ -366,6 +397,7 @@ int main(void)
         cmocka_unit_test(upright_and_eccentric),
         cmocka_unit_test(sag_of_the_beam),
         cmocka_unit_test(reactions),
+        cmocka_unit_test(couple_of_the_lock),
         cmocka_unit_test(nothing_moves_while_locked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
