@@ -101,7 +101,7 @@ static void write_changed(const uint8_t *data, size_t size, bool sealed)
     FILE *file = fopen(in_memory("run/summary.json"), "wb");
     must(file != NULL);
     if (sealed && text[length - 1] == '}') { // its last member follows
-        memcpy(text + length - 1, ",", 1);
+        text[length - 1] = ',';
         manifest_seal(file, text, length);
     } else {
         fputs(text, file);
