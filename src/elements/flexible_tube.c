@@ -101,9 +101,10 @@ static ld_status solve_free(const tube_line *line, const line_ties *ties, int wa
 {
     int N = line->width + line->n;
     size_t NN = (size_t)N * (size_t)N;
-    double *A = calloc(2 * NN + (size_t)N, sizeof *A), *B = A + NN;
+    double *A = calloc(2 * NN + (size_t)N, sizeof *A);
     if (!A)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
+    double *B = A + NN;
     assemble_free(line, ties, A, B, B + NN);
     for (size_t i = 0; i < NN; i++)
         B[i] += line->low * A[i];

@@ -159,6 +159,7 @@ static void write_product(unsigned *seed, char text[128], int sum[BASES])
 // The product of base units with these powers, "m9.m2.s-1"; "" of none.
 static void write_base(const int power[BASES], char *text)
 {
+    const char *start = text;
     text[0] = '\0';
     for (int b = 0; b < BASES; b++)
         for (int left = power[b]; left != 0;) {
@@ -166,7 +167,7 @@ static void write_base(const int power[BASES], char *text)
             text += sprintf(text, "%s%d.", base[b], now);
             left -= now;
         }
-    if (text[0] == '\0' && text[-1] == '.')
+    if (text > start)
         text[-1] = '\0';
 }
 

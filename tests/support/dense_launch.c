@@ -816,7 +816,8 @@ static void write_relative(const jet_scene *scene, jet s, dense_launch_output *o
     skew_of(output->w_SB, &Q, part_rate, 0);
 }
 
-static void add_lock(equations *eq, const jet_scene *scene, jet s, bool holds_roll)
+static void add_lock(equations *eq, const jet_scene *scene, jet s, bool holds_roll,
+                     dense_launch_output *output)
 {
     // e_x of S . v_rel = 0 at L, and its derivative in time; force along e_x of S at L
     const ld_lock *lock = &scene->dense->model->rocket.lock;
@@ -833,6 +834,7 @@ static void add_lock(equations *eq, const jet_scene *scene, jet s, bool holds_ro
         for (int k = 0; k < eq->n; k++)
             eq->C[LOCK][k] += e_x->v * v_rel.c[i].d[k];
         eq->rhs[LOCK] -= e_x->v * v_rel.c[i].te + e_x->t * v_rel.c[i].e;
+        output->lock_drift += e_x->v * v_rel.c[i].e;
         place[i] = L.c[i].v;
         axis[i] = fixed.A.c[i][0].v;
     }
@@ -848,6 +850,7 @@ static void add_lock(equations *eq, const jet_scene *scene, jet s, bool holds_ro
         for (int k = 0; k < eq->n; k++)
             eq->C[ROLL][k] += z->d[k] * y->v;
         eq->rhs[ROLL] -= z->te * y->v + z->e * y->t;
+        output->lock_roll += z->e * y->v;
     }
     double opposite[3] = {-axis[0], -axis[1], -axis[2]};
     add_moment(eq->G[ROLL], eq->n, &scene->B.A, axis);
@@ -979,7 +982,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)
-        add_lock(&eq, &moving, s, !slotted);
+        add_lock(&eq, &moving, s, !slotted, output);
     write_relative(&moving, s, output);
     double x_ddot[DENSE_MAX_COORDINATES], multiplier[ROWS], sign;
     bool rubs = slotted && !conditions->locked && !conditions->frictionless &&

@@ -85,6 +85,8 @@ typedef struct dense_launch_output {
     double lock_moment;  // [N m] on the rocket along e_x of S (slot none, locked)
     double breech_force; // [N] on the rocket along e_x of S
     double slot_drift;   // [m/s] n . v_rel
+    double lock_drift;   // [m/s] e_x . v_rel at its point, locked
+    double lock_roll;    // [rad/s] about e_x of S against the tube there (slot none, locked)
     double s, s_dot;     // [m], [m/s] station of O1
     double y, z, psi, theta, gamma; // of the rocket in S, as in the input
     double w_SB[3];                 // [rad/s] rate of B against S (which moves on with s), in S
