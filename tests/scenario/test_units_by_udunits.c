@@ -10,6 +10,14 @@
 #include "scenario/units.h"
 
 enum { BASES = 5, UNITS = BASES + 14, PREFIXES = 7 };
+
+// UDUNITS loses memory at texts that it refuses.
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libudunits2";
+}
+
 static const char *const base[BASES] = {"m", "kg", "s", "rad", "K"};
 static const struct {
     const char *symbol, *definition;

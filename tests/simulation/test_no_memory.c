@@ -25,7 +25,14 @@ static size_t used, most = SIZE_MAX; // [bytes]
 
 static bool has_room(size_t size)
 {
-    return used < most && size <= most - used;
+    return most == SIZE_MAX || (used < most && size <= most - used);
+}
+
+// What others have allocated is given back here too: not below zero.
+static void forget(void *block)
+{
+    size_t size = malloc_usable_size(block);
+    used -= size < used ? size : used;
 }
 
 static void *count(void *block)
@@ -48,7 +55,7 @@ void *__wrap_realloc(void *old, size_t size)
 {
     if (!has_room(size))
         return NULL;
-    used -= malloc_usable_size(old);
+    forget(old);
     return count(__real_realloc(old, size));
 }
 
@@ -59,7 +66,7 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size)
 
 void __wrap_free(void *block)
 {
-    used -= malloc_usable_size(block);
+    forget(block);
     __real_free(block);
 }
 
