@@ -226,6 +226,16 @@ static void test_include(void **state)
     model_clear(&fixed);
 }
 
+static void test_point_of_the_lock(void **state)
+{
+    (void)state;
+    const char *const set = "rocket.lock.at={x: 30 cm, radius: 80 mm, angle: 0.5 rad}";
+    ld_model m = read_model("examples/fixed.yaml", &set, 1);
+    assert_true(m.rocket.lock.x == 0.3 && m.rocket.lock.radius == 0.08);
+    assert_true(m.rocket.lock.angle == 0.5 && m.rocket.lock.release_force == 5000);
+    model_clear(&m);
+}
+
 static void test_overrides(void **state)
 {
     (void)state;
@@ -506,14 +516,23 @@ static void test_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),           cmocka_unit_test(test_ring),
-        cmocka_unit_test(test_reference_model),  cmocka_unit_test(test_section_forms),
-        cmocka_unit_test(test_include),          cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_override_order),   cmocka_unit_test(test_engine_file),
-        cmocka_unit_test(test_engine_from_zero), cmocka_unit_test(test_motion_file),
-        cmocka_unit_test(test_round_trip),       cmocka_unit_test(test_round_trip_of_random_bits),
-        cmocka_unit_test(test_awkward_title),    cmocka_unit_test(test_locale),
-        cmocka_unit_test(test_failures),         cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_ring),
+        cmocka_unit_test(test_reference_model),
+        cmocka_unit_test(test_section_forms),
+        cmocka_unit_test(test_include),
+        cmocka_unit_test(test_point_of_the_lock),
+        cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_override_order),
+        cmocka_unit_test(test_engine_file),
+        cmocka_unit_test(test_engine_from_zero),
+        cmocka_unit_test(test_motion_file),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_round_trip_of_random_bits),
+        cmocka_unit_test(test_awkward_title),
+        cmocka_unit_test(test_locale),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

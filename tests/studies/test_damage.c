@@ -13,6 +13,7 @@
 
 #include "base/random.h"
 #include "launchdyn/report.h"
+#include "studies/row_digest.h"
 
 static const char text[] = "include: flight.yaml\n"
                            "run: {flight_tolerance: 1e-4}\n"
@@ -368,6 +369,14 @@ static void test_infinite(void **state)
     free(page);
 }
 
+// SQLite gives a negative zero back as zero: a sample with one is not damaged.
+static void test_both_zeros(void **state)
+{
+    (void)state;
+    assert_true(digest_real(7, -0.0) == digest_real(7, 0.0));
+    assert_true(digest_real(7, -1.0) != digest_real(7, 1.0));
+}
+
 // What stands in the place of study.db.
 static void test_other_files(void **state)
 {
@@ -391,9 +400,10 @@ static void test_other_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_database), cmocka_unit_test(test_going_on),
-        cmocka_unit_test(test_left),     cmocka_unit_test(test_odd_contents),
-        cmocka_unit_test(test_infinite), cmocka_unit_test(test_other_files),
+        cmocka_unit_test(test_database),    cmocka_unit_test(test_going_on),
+        cmocka_unit_test(test_left),        cmocka_unit_test(test_odd_contents),
+        cmocka_unit_test(test_infinite),    cmocka_unit_test(test_both_zeros),
+        cmocka_unit_test(test_other_files),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
