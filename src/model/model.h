@@ -255,6 +255,7 @@ typedef struct ld_stabiliser {
     double ki;           ///< [N m/(rad s)]
     double kd;           ///< [N m s/rad]
     double torque_limit; ///< [N m]; a locked hinge needs none of these four
+    double feedforward;  ///< [-] of the chassis' rate along the hinge, against it a rate command
 } ld_stabiliser;
 
 typedef struct ld_hinge_friction {

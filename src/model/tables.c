@@ -434,6 +434,9 @@ static const field_row stabiliser_fields[] = {
      .doc = "gain on its rate"},
     {"torque_limit", NUMBER(ld_stabiliser, torque_limit, "N.m"), POSITIVE, UNLESS_LOCKED,
      .doc = "greatest torque"},
+    {"feedforward", NUMBER(ld_stabiliser, feedforward, ""), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "share of the chassis' inertial rate along the hinge's axis against which it is "
+            "commanded to turn"},
     {0}};
 static const field_block stabiliser_block = {.fields = stabiliser_fields};
 

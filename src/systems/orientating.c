@@ -242,6 +242,7 @@ void orientating_motion_at(const orientating_system *self, double t, const doubl
     v3 X = m3_column(chassis->A, 0), Y = m3_column(chassis->A, 1), Z = m3_column(chassis->A, 2);
     v3 arm = m3_apply(chassis->A, v3_from(turret[HINGE_AZIMUTH]->hinge_at));
     v3 r = v3_add(chassis->r, arm), v = v3_add(chassis->v, v3_cross(chassis->w, arm));
+    motion->hinge[HINGE_AZIMUTH].base_rate = v3_dot(chassis->w, Y);
     v3 w = v3_axpy(chassis->w, state[ORIENTATING_RATE + HINGE_AZIMUTH], Y);
     m3 A = m3_columns(v3_axpy(v3_scale(c, X), -s, Z), Y, v3_axpy(v3_scale(c, Z), s, X));
     v3 center = m3_apply(A, v3_from(turret[HINGE_AZIMUTH]->center));
@@ -255,6 +256,7 @@ void orientating_motion_at(const orientating_system *self, double t, const doubl
     r = v3_add(r, arm);
     v = v3_add(v, v3_cross(w, arm));
     X = m3_column(A, 0), Z = m3_column(A, 2);
+    motion->hinge[HINGE_ELEVATION].base_rate = v3_dot(chassis->w, Z);
     w = v3_axpy(w, state[ORIENTATING_RATE + HINGE_ELEVATION], Z);
     A = m3_columns(v3_axpy(v3_scale(c, X), s, Y), v3_axpy(v3_scale(c, Y), -s, X), Z);
     center = m3_apply(A, self->elevation_center);
@@ -279,16 +281,6 @@ void orientating_motion_at(const orientating_system *self, double t, const doubl
     }
 }
 
-// Torque of the stabiliser on the outboard body; rate of its integral z.
-static double stabilise(const ld_stabiliser *given, double z, hinge_report *hinge)
-{
-    double e = hinge->error, e_dot = hinge->command_rate - hinge->measured_rate;
-    double wanted = given->kp * e + given->kd * e_dot + z, limit = given->torque_limit;
-    hinge->limited = fabs(wanted) >= limit;
-    hinge->torque = hinge->limited ? copysign(limit, wanted) : wanted;
-    return fabs(z) >= limit && z * e > 0 ? 0 : given->ki * e;
-}
-
 // Torques on the outboard body of hinge i; rate of its stabiliser's integral z.
 static double drive_hinge(const ld_turret *turret, const orientating_input *input, int i, double z,
                           hinge_report *hinge)
@@ -307,7 +299,7 @@ static double drive_hinge(const ld_turret *turret, const orientating_input *inpu
         hinge->friction -=
             friction->coulomb * b_dot / sqrt(b_dot * b_dot + friction->rate * friction->rate);
     if (!turret->lock.present)
-        return stabilise(&turret->stabiliser, z, hinge);
+        return stabiliser_drive(&turret->stabiliser, z, hinge);
     hinge->torque = rest->torque - turret->lock.stiffness * (hinge->angle - rest->angle) -
                     turret->lock.damping * b_dot;
     return 0;

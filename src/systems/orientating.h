@@ -11,7 +11,7 @@
 #include "elements/base_frame.h"
 #include "elements/work.h"
 #include "launchdyn/mstmm.h"
-#include "model/model.h"
+#include "systems/stabiliser.h"
 
 enum { HINGE_AZIMUTH, HINGE_ELEVATION, HINGES };
 
@@ -51,16 +51,6 @@ typedef struct orientating_system {
     double elevation_mass;
     v3 elevation_center, tube_at;
 } orientating_system;
-
-typedef struct hinge_report {
-    double angle, rate;             // [rad], [rad/s] of the hinge
-    double measured, measured_rate; // pitch (yaw) of the elevation platform's x axis against I
-    double command, command_rate;
-    double error;    // wrapped
-    double torque;   // [N m] of stabiliser or lock on the outboard body
-    double friction; // [N m]
-    bool limited;    // torque at its limit
-} hinge_report;
 
 typedef struct orientating_motion {
     base_frame chassis;         // r: mass centre
