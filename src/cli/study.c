@@ -59,17 +59,9 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
     return status ? command_fail(status, &error) : 0;
 }
 
-// One sample of a study.
-typedef struct chosen_sample {
-    const ld_study *study;
-    const study_wishes *wishes;
-} chosen_sample;
-
-// With its whole history, in a folder of its own.
-static int run_one(void *data)
+// One sample of a study, with its whole history, in a folder of its own.
+static int run_one(const ld_study *study, const study_wishes *wishes)
 {
-    const ld_study *study = ((const chosen_sample *)data)->study;
-    const study_wishes *wishes = ((const chosen_sample *)data)->wishes;
     ld_sample *sample = NULL;
     ld_error error;
     char folder[4096];
@@ -79,7 +71,7 @@ static int run_one(void *data)
     run_wishes run = wishes->run;
     snprintf(folder, sizeof folder, "%s/sample-%d", run.folder ? run.folder : "", wishes->only);
     run.folder = run.folder ? folder : NULL;
-    int code = command_end(run_model(ld_sample_model(sample), &run));
+    int code = run_model(ld_sample_model(sample), &run);
     ld_sample_free(sample);
     return code;
 }
@@ -89,7 +81,7 @@ static int study_do(ld_study *study, study_wishes *wishes)
 {
     int code = study_take_notes(study, wishes);
     if (!code && wishes->only != ALL_SAMPLES) {
-        code = command_apart(run_one, &(chosen_sample){study, wishes});
+        code = run_one(study, wishes);
     } else if (!code && wishes->run.folder) {
         code = study_run_all(study, wishes, ld_study_run);
     } else if (!code) {
@@ -134,18 +126,6 @@ static int finish(ld_status status, const ld_error *error)
     return status ? command_fail(status, error) : 0;
 }
 
-// A study's table to be written.
-typedef struct study_table {
-    const char *folder, *csv, *hdf5;
-} study_table;
-
-static int write_table(void *data)
-{
-    const study_table *table = data;
-    ld_error error;
-    return finish(ld_study_export(table->folder, table->csv, table->hdf5, &error), &error);
-}
-
 static int study_folder(const char *verb, const char *folder, const study_wishes *wishes)
 {
     ld_error error;
@@ -155,7 +135,7 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
         return finish(ld_study_merge(folder, stdout, &error), &error);
     bool same = wishes->csv && wishes->hdf5 && strcmp(wishes->csv, wishes->hdf5) == 0;
     if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5) && !same)
-        return command_apart(write_table, &(study_table){folder, wishes->csv, wishes->hdf5});
+        return finish(ld_study_export(folder, wishes->csv, wishes->hdf5, &error), &error);
     if (strcmp(verb, "export") == 0)
         command_complain(same ? "study export wants a file each for --csv and --hdf5"
                               : "study export wants --csv FILE or --hdf5 FILE");

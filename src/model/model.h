@@ -247,6 +247,14 @@ typedef struct ld_vehicle {
     ld_tyre tyre;
 } ld_vehicle;
 
+/// Two loops in place of a stabiliser's kp, ki, kd: the angle's gives the rate's command.
+typedef struct ld_cascade {
+    bool present;
+    double kp;      ///< [1/s]
+    double rate_kp; ///< [N m s/rad]
+    double rate_ki; ///< [N m/rad]
+} ld_cascade;
+
 /// Moves a platform to its commanded angle: model.md, section 6.
 typedef struct ld_stabiliser {
     ld_table command;    ///< t [s], pitch or yaw [rad]; one row: constant; linear between rows,
@@ -255,6 +263,10 @@ typedef struct ld_stabiliser {
     double ki;           ///< [N m/(rad s)]
     double kd;           ///< [N m s/rad]
     double torque_limit; ///< [N m]; a locked hinge needs none of these four
+    double feedforward;  ///< [-] of the chassis' rate along the hinge, against it a rate command
+    ld_cascade cascade;
+    double bandwidth; ///< [Hz] of the actuator's lag; 0: none
+    double slew;      ///< [N m/s] greatest rate of the lagging torque; 0: any
 } ld_stabiliser;
 
 typedef struct ld_hinge_friction {
