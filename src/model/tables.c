@@ -432,6 +432,24 @@ static const field_row cascade_fields[] = {
     {0}};
 static const field_block cascade_block = {.fields = cascade_fields};
 static const field_word cascade_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
+static const field_row noise_fields[] = {
+    {"angle", NUMBER(ld_sensor_noise, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "rms of the measured angle"},
+    {"rate", NUMBER(ld_sensor_noise, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "rms of the measured rate"},
+    {"seed", INTEGER(ld_sensor_noise, seed, 0, 999999999), DEFAULT(1),
+     .doc = "the same seed is the same noise"},
+    {0}};
+static const field_block noise_block = {.fields = noise_fields};
+static const field_row resolution_fields[] = {
+    {"angle", NUMBER(ld_resolution, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "least step of the measured angle; 0: none"},
+    {"rate", NUMBER(ld_resolution, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "least step of the measured rate; 0: none"},
+    {0}};
+static const field_block resolution_block = {.fields = resolution_fields};
+
 #define UNLESS_CASCADE NO_DEFAULT("needed unless the hinge has a lock or a cascade")
 static const field_row stabiliser_fields[] = {
     {"command", TABLE(ld_stabiliser, command, command_table), .required = true,
@@ -456,6 +474,14 @@ static const field_row stabiliser_fields[] = {
      .doc = "of the actuator, whose torque follows as a first-order lag; 0: at once"},
     {"slew", NUMBER(ld_stabiliser, slew, "N.m/s"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "greatest rate of the actuator's torque, which needs its bandwidth; 0: any"},
+    {"sample", NUMBER(ld_stabiliser, sample, "s"), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "period of a digital loop, whose torque is held in between; 0: continuous"},
+    {"delay", NUMBER(ld_stabiliser, delay, "s"), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "from a sample until its torque is given out, at most the period"},
+    {"noise", BLOCK(ld_stabiliser, noise, noise_block), .initial_doc = "none",
+     .doc = "white noise of the sensors, one draw a sample"},
+    {"resolution", BLOCK(ld_stabiliser, resolution, resolution_block), .initial_doc = "none",
+     .doc = "of the sensors, rounded in each sample"},
     {0}};
 static const field_block stabiliser_block = {.fields = stabiliser_fields};
 

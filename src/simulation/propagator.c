@@ -267,7 +267,7 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
         .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
         .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
         .rest = {launch->rest.hinge[0], launch->rest.hinge[1]},
-        .frictionless = launch->phase.frictionless,
+        .linear = launch->phase.frictionless,
     };
     const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
     orientating_motion_at(orientating, t, y, &motion);
