@@ -497,6 +497,12 @@ typedef struct ld_aerodynamics {
         double drag; ///< [-] C_c
         double at;   ///< [m] x of B
     } crossflow;
+    struct {
+        bool present;
+        double nose;     ///< [m] x of B
+        double drag;     ///< [-] C_c
+        double diameter; ///< [m] D; NaN: reference_diameter
+    } emerged;           ///< the air on what has come out of the tube, while the rocket is in it
     // plain body: drag and damping at the mass centre
     double area;       ///< [m2]
     double drag;       ///< [-] C_D
@@ -771,6 +777,12 @@ static inline bool model_has_launcher(const ld_model *model)
 static inline bool model_has_vehicle(const ld_model *model)
 {
     return model->base.kind == LD_BASE_VEHICLE;
+}
+/// Whether the air acts on what has come out of the tube.
+static inline bool model_has_crossflow(const ld_model *model)
+{
+    const ld_aerodynamics *air = &model->rocket.aerodynamics;
+    return model_has_launcher(model) && air->present && air->emerged.present;
 }
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
