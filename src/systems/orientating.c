@@ -380,8 +380,11 @@ int orientating_evaluate(const orientating_system *self, const orientating_input
 
 void orientating_rest(const orientating_system *self, double *state)
 {
+    const ld_platform *given = &self->model->platform;
+    const ld_turret *turret[HINGES] = {&given->azimuth, &given->elevation};
     for (int i = 0; i < HINGES && self->state_count > ORIENTATING_DRIVE; i++)
-        stabiliser_rest(state[ORIENTATING_Z + i], state + ORIENTATING_DRIVE + DRIVE_STATES * i);
+        stabiliser_rest(&turret[i]->stabiliser, state[ORIENTATING_Z + i],
+                        state + ORIENTATING_DRIVE + DRIVE_STATES * i);
 }
 
 // The next instant of hinge i.
