@@ -51,26 +51,19 @@ void child_wrote(const char *path)
 
 // ---- in the parent ----
 
-static bool is_ignored(int number)
-{
-    struct sigaction action;
-    return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
 static bool asks_to_end(int number)
 {
     return number == SIGHUP || number == SIGINT || number == SIGTERM;
 }
 
-// The signals that are waited for: the child's end, and those to be handed on.
+// The signals that are waited for: the child's end, and those to be handed on, also where this
+// process ignores them, for the child may not.
 static void fill_waited(sigset_t *set)
 {
-    static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
+    static const int numbers[] = {SIGCHLD, SIGHUP, SIGINT, SIGTERM};
     sigemptyset(set);
-    sigaddset(set, SIGCHLD);
-    for (int i = 0; i < 3; i++)
-        if (!is_ignored(numbers[i]))
-            sigaddset(set, numbers[i]);
+    for (int i = 0; i < 4; i++)
+        sigaddset(set, numbers[i]);
 }
 
 // Returns the child's status for wait(). What a terminal sends has reached the child, too.

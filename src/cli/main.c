@@ -12,7 +12,7 @@ static const command commands[] = {
     {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run, true},
     {"study", "FILE | show DIR | export DIR | merge DIR",
      "Run the samples of a scattered scenario, or show what a study has found", command_study_help,
-     command_study, false},
+     command_study, true},
     {"check", "FILE", "Check a scenario file and print what was understood, in SI", NULL,
      command_check, true},
     {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes, true},

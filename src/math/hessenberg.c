@@ -32,11 +32,12 @@ int hessenberg_reduce(hessenberg *self, const double *A)
 {
     int n = self->n, low, high;
     double *H = self->rows, *scale = self->spare, *tau = self->spare + n; // by columns for now
-    size_t size = (size_t)n * (size_t)n * sizeof *H;
+    size_t square = (size_t)n * (size_t)n, size = square * sizeof *H;
+    double *work = H + square; // a workspace of LAPACK's own prints where there is no memory
     memcpy(H, A, size);
     int bad = LAPACKE_dgebal(LAPACK_COL_MAJOR, 'B', n, H, n, &low, &high, scale);
     if (!bad)
-        bad = LAPACKE_dgehrd(LAPACK_COL_MAJOR, n, low, high, H, n, tau);
+        bad = LAPACKE_dgehrd_work(LAPACK_COL_MAJOR, n, low, high, H, n, tau, work, n * n);
     if (bad)
         return bad;
     for (int i = 0; i < n; i++)
@@ -44,7 +45,7 @@ int hessenberg_reduce(hessenberg *self, const double *A)
             self->H[n * i + j] = i > j + 1 ? 0 : H[i + n * j];
     // X = D Q, X^-T = D^-1 Q, D the balancing
     memcpy(self->X, H, size);
-    bad = LAPACKE_dorghr(LAPACK_COL_MAJOR, n, low, high, self->X, n, tau);
+    bad = LAPACKE_dorghr_work(LAPACK_COL_MAJOR, n, low, high, self->X, n, tau, work, n * n);
     memcpy(self->inverse, self->X, size);
     if (!bad)
         bad = LAPACKE_dgebak(LAPACK_COL_MAJOR, 'B', 'R', n, low, high, scale, n, self->X, n);

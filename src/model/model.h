@@ -247,6 +247,25 @@ typedef struct ld_vehicle {
     ld_tyre tyre;
 } ld_vehicle;
 
+/// Two loops in place of a stabiliser's kp, ki, kd: the angle's gives the rate's command.
+typedef struct ld_cascade {
+    bool present;
+    double kp;      ///< [1/s]
+    double rate_kp; ///< [N m s/rad]
+    double rate_ki; ///< [N m/rad]
+} ld_cascade;
+
+/// What a sensor of angle and rate does to each of its samples.
+typedef struct ld_sensor_noise {
+    double angle; ///< [rad] rms
+    double rate;  ///< [rad/s] rms
+    int seed;
+} ld_sensor_noise;
+typedef struct ld_resolution {
+    double angle; ///< [rad] 0: none
+    double rate;  ///< [rad/s] 0: none
+} ld_resolution;
+
 /// Moves a platform to its commanded angle: model.md, section 6.
 typedef struct ld_stabiliser {
     ld_table command;    ///< t [s], pitch or yaw [rad]; one row: constant; linear between rows,
@@ -255,6 +274,14 @@ typedef struct ld_stabiliser {
     double ki;           ///< [N m/(rad s)]
     double kd;           ///< [N m s/rad]
     double torque_limit; ///< [N m]; a locked hinge needs none of these four
+    double feedforward;  ///< [-] of the chassis' rate along the hinge, against it a rate command
+    ld_cascade cascade;
+    double bandwidth; ///< [Hz] of the actuator's lag; 0: none
+    double slew;      ///< [N m/s] greatest rate of the lagging torque; 0: any
+    double sample;    ///< [s] period of a digital loop; 0: continuous
+    double delay;     ///< [s] from a sample until its torque is given out, <= sample
+    ld_sensor_noise noise;
+    ld_resolution resolution;
 } ld_stabiliser;
 
 typedef struct ld_hinge_friction {

@@ -119,21 +119,34 @@ static int run_command(int argc, char **argv, int process)
     return code;
 }
 
-int main(int argc, char **argv)
+// The program's words.
+typedef struct program_call {
+    int argc;
+    char **argv;
+} program_call;
+
+static int take_part(void *data)
 {
+    program_call *call = data;
     int given, process;
-    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &given);
+    MPI_Init_thread(&call->argc, &call->argv, MPI_THREAD_FUNNELED, &given);
     MPI_Comm_rank(MPI_COMM_WORLD, &process);
     // one of them talks
     if (process > 0 && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)))
         MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
     int code = command_begin();
     if (!code && given >= MPI_THREAD_FUNNELED) {
-        code = run_command(argc, argv, process);
+        code = run_command(call->argc, call->argv, process);
     } else if (!code) {
         command_complain("this MPI is made for programs without threads");
         code = EXIT_SYSTEM;
     }
     MPI_Finalize();
     return process == 0 ? code : 0;
+}
+
+// What mpirun starts waits for the process that takes part: no thread of MPI is there yet.
+int main(int argc, char **argv)
+{
+    return command_apart(take_part, &(program_call){argc, argv});
 }

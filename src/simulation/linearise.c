@@ -1,11 +1,11 @@
 // Natural frequencies and damping: eigenvalues of the equations linearised at rest.
-#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "math/dense.h"
+#include "math/general_eigen.h"
 #include "simulation/launch_state.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
@@ -241,10 +241,10 @@ static double name_shape(const launch_state *self, const linear_system *system,
     return all;
 }
 
-// What LAPACKE's `bad` means.
+// What general_eigen()'s `bad` means.
 static ld_status eigenvalues_failed(int bad, ld_error *error)
 {
-    if (bad == LAPACK_WORK_MEMORY_ERROR)
+    if (bad == EIGEN_NO_MEMORY)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
     return ld_fail(error, LD_ERR_NUMERIC, "the eigenvalues of the linearised equations failed");
 }
@@ -317,8 +317,7 @@ static int damp_shapes(const launch_state *self, const linear_system *system, co
     }
     for (int i = 0; i < square && count > 1; i++)
         damped[i] += 1e-9 * sum * vertical[i];
-    return LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', count, damped, count, rate, unused, NULL, 1,
-                         mix, count);
+    return general_eigen(count, damped, rate, unused, NULL, mix);
 }
 
 // The modes that `count` shapes of one frequency have, by ascending damping.
@@ -360,7 +359,7 @@ static int undamped_shapes(const linear_system *system, undamped *shape, int *co
             for (int i = 0; i < n; i++)
                 KT[i + n * j] -=
                     system->J[n + i + system->count * k] * system->J[k + system->count * (n + j)];
-    int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'V', 'V', n, KT, n, wr, wi, left, n, right, n);
+    int bad = general_eigen(n, KT, wr, wi, left, right);
     *count = 0;
     for (int i = 0; i < n && !bad; i++)
         if (wr[i] >= 1)
@@ -446,7 +445,7 @@ static ld_status eigenvalues(const launch_state *self, const linear_system *syst
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
     double *J = memory, *right = J + square, *wr = right + square, *wi = wr + n, *squares = wi + n;
     memcpy(J, system->J, square * sizeof *J);
-    int bad = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', n, J, n, wr, wi, NULL, 1, right, n);
+    int bad = general_eigen(n, J, wr, wi, NULL, right);
     *count = 0;
     for (int i = 0; i < n && !bad && *count < capacity; i++) {
         if (wi[i] < 0 || hypot(wr[i], wi[i]) < least)

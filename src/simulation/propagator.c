@@ -140,7 +140,7 @@ typedef struct held_wrench {
     v3 force, moment, force_rate, moment_rate;
 } held_wrench;
 
-enum { ORIENTATING_COUNT = ORIENTATING_STATES + ORIENTATING_POWERS };
+enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 struct propagator {
@@ -159,7 +159,7 @@ struct propagator {
     held_frame chassis, tube;
     held_wrench on_chassis, on_tube;
     integrator *orientating, *marching;
-    int marching_count;
+    int orientating_count, marching_count;
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
 };
@@ -249,14 +249,14 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
         .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
         .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
         .rest = {launch->rest.hinge[0], launch->rest.hinge[1]},
-        .frictionless = launch->phase.frictionless,
+        .linear = launch->phase.frictionless,
     };
     const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
     orientating_motion_at(orientating, t, y, &motion);
     if (orientating_evaluate(orientating, &input, y, &motion, y_dot, &out))
         return -1;
-    memcpy(y_dot + ORIENTATING_STATES, out.power, sizeof out.power);
-    return all_finite(ORIENTATING_COUNT, y_dot) ? 0 : -1;
+    memcpy(y_dot + orientating->state_count, out.power, sizeof out.power);
+    return all_finite(self->orientating_count, y_dot) ? 0 : -1;
 }
 
 static int marching_rhs(double t, const double *y, double *y_dot, void *user)
@@ -290,8 +290,9 @@ static void split_base(const propagator *self, const double *y, double *orientat
 {
     const launcher_system *launcher = &self->launch->launcher;
     int works = launcher->work_at + POWER_COUNT;
-    part_of(y, launcher->base_at, ORIENTATING_STATES, works, ORIENTATING_POWERS, orientating);
-    part_of(y, launcher->base_at + VEHICLE_MARCHING, self->vehicle->marching.state_count,
+    part_of(y, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
+            orientating);
+    part_of(y, launcher->base_at + self->vehicle->marching_at, self->vehicle->marching.state_count,
             works + ORIENTATING_POWERS, MARCHING_POWERS, marching);
 }
 
@@ -300,9 +301,10 @@ static void join_base(const propagator *self, const double *orientating, const d
 {
     const launcher_system *launcher = &self->launch->launcher;
     int works = launcher->work_at + POWER_COUNT;
-    put_part(orientating, launcher->base_at, ORIENTATING_STATES, works, ORIENTATING_POWERS, y);
-    put_part(marching, launcher->base_at + VEHICLE_MARCHING, self->vehicle->marching.state_count,
-             works + ORIENTATING_POWERS, MARCHING_POWERS, y);
+    put_part(orientating, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
+             y);
+    put_part(marching, launcher->base_at + self->vehicle->marching_at,
+             self->vehicle->marching.state_count, works + ORIENTATING_POWERS, MARCHING_POWERS, y);
 }
 
 // The base's states at an instant between the last exchange and the next: cubic Hermite.
@@ -335,7 +337,7 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     const launcher_system *launcher = &launch->launcher;
     launcher_input input;
     launcher_output *out = &launch->latest.out;
-    double since = t - self->t, orientating[ORIENTATING_COUNT], marching[MARCHING_MOST];
+    double since = t - self->t, orientating[ORIENTATING_MOST], marching[MARCHING_MOST];
     simulation_input(launch, t, y, &input);
     launch->latest.known = false;
     if (launcher_evaluate(launcher, &input, &launch->phase, y, out))
@@ -389,20 +391,21 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
     bool absolute[2][LD_MAX_STATES] = {{false}};
     for (int i = 0; i < LD_MAX_STATES; i++)
         atol[0][i] = atol[1][i] = 1e300;
-    for (int i = 0; i < ORIENTATING_STATES; i++) {
+    for (int i = 0; i < self->vehicle->marching_at; i++) {
         atol[0][i] = all->atol[launcher->base_at + i];
         absolute[0][i] = all->absolute[launcher->base_at + i];
     }
     for (int i = 0; i < self->vehicle->marching.state_count; i++) {
-        atol[1][i] = all->atol[launcher->base_at + VEHICLE_MARCHING + i];
-        absolute[1][i] = all->absolute[launcher->base_at + VEHICLE_MARCHING + i];
+        atol[1][i] = all->atol[launcher->base_at + self->vehicle->marching_at + i];
+        absolute[1][i] = all->absolute[launcher->base_at + self->vehicle->marching_at + i];
     }
+    self->orientating_count = self->vehicle->marching_at + ORIENTATING_POWERS;
     self->marching_count = self->vehicle->marching.state_count + MARCHING_POWERS;
     integrator_settings settings = *whole;
     settings.events = NULL;
     settings.event_count = 0;
     settings.max_step = 0;
-    settings.n = ORIENTATING_COUNT;
+    settings.n = (size_t)self->orientating_count;
     settings.rhs = orientating_rhs;
     settings.atol = atol[0];
     settings.absolute = absolute[0];

@@ -60,7 +60,7 @@ int launcher_evaluate_base(const launcher_system *self, const launcher_input *in
         .moment = output->launching.base_moment,
         .rest = input->rest,
         .held = input->held,
-        .frictionless = phase->frictionless,
+        .linear = phase->frictionless,
     };
     return self->base.kind->dynamics->evaluate(&self->base, &input->found, &load,
                                                state + self->base_at, &output->base);

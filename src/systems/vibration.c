@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/general_eigen.h"
 #include "math/rotation_vector.h"
 #include "systems/multibody.h"
 
@@ -39,7 +40,7 @@ static void displace(const ld_mstmm *s, const double *q, int speed, double size,
     }
 }
 
-// Arrays of one analysis, n x n row by row.
+// Arrays of one analysis, n x n column by column.
 typedef struct linear {
     int n;
     double *M, *C, *K, *q, *zero, *unit, *force, *other;
@@ -75,7 +76,7 @@ static void linearise(ld_mstmm *s, const double *q, linear *l)
         ld_mstmm_forces(s, q, l->zero, l->unit, NULL, l->force);
         l->unit[j] = 0;
         for (int i = 0; i < n; i++)
-            l->M[i * n + j] = l->force[i] - l->other[i];
+            l->M[i + n * j] = l->force[i] - l->other[i];
 
         // the force needed to hold grows by K d
         static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1, -8, 8, -1};
@@ -83,7 +84,7 @@ static void linearise(ld_mstmm *s, const double *q, linear *l)
             displace(s, q, j, at[k] * step, l->q);
             ld_mstmm_forces(s, l->q, l->zero, l->zero, NULL, l->force);
             for (int i = 0; i < n; i++)
-                l->K[i * n + j] += weight[k] * l->force[i] / (12 * step);
+                l->K[i + n * j] += weight[k] * l->force[i] / (12 * step);
         }
     }
     damping_matrix(s, l);
@@ -113,22 +114,23 @@ static ld_status check_equilibrium(ld_mstmm *s, const double *q, const double *t
 // Eigenvalues of the first-order form [d; d_dot]' = [0, E; -M^-1 K, -M^-1 C].
 static ld_status solve(linear *l, ld_error *error)
 {
-    int n = l->n;
-    lapack_int info = LAPACKE_dpotrf(LAPACK_ROW_MAJOR, 'L', n, l->M, n);
+    int n = l->n, width = 2 * n;
+    lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, l->M, n);
     if (!info)
-        info = LAPACKE_dpotrs(LAPACK_ROW_MAJOR, 'L', n, n, l->M, n, l->K, n);
+        info = LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', n, n, l->M, n, l->K, n);
     if (!info)
-        info = LAPACKE_dpotrs(LAPACK_ROW_MAJOR, 'L', n, n, l->M, n, l->C, n);
-    for (int i = 0; i < n; i++) {
-        l->state[i * 2 * n + n + i] = 1;
-        for (int j = 0; j < n; j++) {
-            l->state[(n + i) * 2 * n + j] = -l->K[i * n + j];
-            l->state[(n + i) * 2 * n + n + j] = -l->C[i * n + j];
+        info = LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', n, n, l->M, n, l->C, n);
+    for (int j = 0; j < n; j++) {
+        l->state[j + width * (n + j)] = 1;
+        for (int i = 0; i < n; i++) {
+            l->state[n + i + width * j] = -l->K[i + n * j];
+            l->state[n + i + width * (n + j)] = -l->C[i + n * j];
         }
     }
     if (!info)
-        info = LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'V', 2 * n, l->state, 2 * n, l->re, l->im, NULL,
-                             1, l->vectors, 2 * n);
+        info = general_eigen(width, l->state, l->re, l->im, NULL, l->vectors);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a vibration analysis");
     return info ? ld_fail(error, LD_ERR_NUMERIC,
                           "the eigenvalues of the linearised system do not "
                           "come out")
@@ -153,8 +155,8 @@ static void shape_of(const linear *l, int k, double *out)
     int n = l->n, width = 2 * n, best = 0;
     bool vibrates = l->im[k] != 0;
     for (int i = 0; i < n; i++) {
-        out[2 * i] = l->vectors[i * width + k];
-        out[2 * i + 1] = vibrates ? l->vectors[i * width + k + 1] : 0;
+        out[2 * i] = l->vectors[i + width * k];
+        out[2 * i + 1] = vibrates ? l->vectors[i + width * (k + 1)] : 0;
         if (hypot(out[2 * i], out[2 * i + 1]) > hypot(out[2 * best], out[2 * best + 1]))
             best = i;
     }

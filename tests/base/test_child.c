@@ -119,6 +119,29 @@ static void test_ignored(void **state)
     signal(SIGHUP, SIG_DFL);
 }
 
+// One that this process ignores, as a shell's job in the background does, and the child does not.
+static int wait_to_be_asked(void *data)
+{
+    sigset_t asked;
+    (void)data;
+    signal(SIGINT, SIG_DFL);
+    sigemptyset(&asked);
+    sigaddset(&asked, SIGINT);
+    sigprocmask(SIG_BLOCK, &asked, NULL);
+    kill(getppid(), SIGINT);
+    return sigtimedwait(&asked, NULL, &(struct timespec){10, 0}) == SIGINT ? 7 : 8;
+}
+
+static void test_ignored_here_alone(void **state)
+{
+    (void)state;
+    int code = 0;
+    signal(SIGINT, SIG_IGN);
+    assert_int_equal(ld_child_run(wait_to_be_asked, NULL, &code, NULL), LD_OK);
+    assert_int_equal(code, 7);
+    assert_ptr_equal(signal(SIGINT, SIG_DFL), SIG_IGN);
+}
+
 static void test_in_no_child(void **state)
 {
     (void)state;
@@ -132,7 +155,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_its_code_comes_back), cmocka_unit_test(test_ended_by_a_signal),
         cmocka_unit_test(test_asked_to_end),        cmocka_unit_test(test_ignored),
-        cmocka_unit_test(test_in_no_child),
+        cmocka_unit_test(test_ignored_here_alone),  cmocka_unit_test(test_in_no_child),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -1,5 +1,5 @@
 // A signal that ends a command while it writes: its code, and no file under its temporary name
-// left.
+// left. What ends a study's process from within: a sentence, and the study goes on.
 #include "support/check.h"
 #include "support/shell.h"
 
@@ -40,10 +40,34 @@ static void test_writing(void **state)
     }
 }
 
+#define STUDY                                                                                      \
+    "{ echo 'include: examples/flight.yaml'; echo 'run: {end: 1 ms}'; echo 'scatter: {samples: "   \
+    "20000, factors: {rocket.mass_error: {normal: 0.2 kg}}}'; } >study.yaml; "
+
+// While the study is at work its process is killed: a crash would go to a sanitizer first.
+#define AND_ITS_PROCESS_DIES                                                                       \
+    " & until [ -s s/study.pending ]; do sleep 0.01; done; pkill -KILL -P $!; wait $!"
+
+static void test_study_that_dies(void **state)
+{
+    (void)state;
+    if (run("command -v pkill") != 0)
+        skip();
+    run(STUDY "launchdyn study study.yaml -j 2 --out s" AND_ITS_PROCESS_DIES);
+    assert_int_equal(shell.code, 3);
+    assert_string_equal(shell.out, "");
+    assert_string_equal(shell.err, "launchdyn: ended by signal 9 (Killed)\n");
+    run("launchdyn study s/../study.yaml --out s --set scatter.samples=2000 --quiet; "
+        "launchdyn study show s");
+    assert_int_equal(shell.code, 0);
+    expect_in(shell.out, "2000 of 2000 samples, 0 failed");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_writing, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(test_study_that_dies, shell_make, shell_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

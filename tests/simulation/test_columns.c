@@ -640,7 +640,7 @@ static void load(instant *at)
     on->breech = at->run->model->rocket.start_at;
     on->breech_speed = at->self->phase.breech_speed;
     at->orientating = y + at->self->launcher.base_at;
-    at->marching = at->orientating + VEHICLE_MARCHING;
+    at->marching = at->orientating + ORIENTATING_STATES;
     if (at->run->model->base.kind != LD_BASE_VEHICLE) {
         dense_base_at(at->run->model, at->t, &on->base);
         return;
