@@ -161,6 +161,9 @@ extern const quantity_table base_motion_inputs;
 
 extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external;
 
+// Columns of the bases of that kind; NULL: they have none of their own.
+const quantity_table *base_quantities(ld_base_kind kind);
+
 ld_status base_build(base_system *self, const ld_model *model, ld_error *error);
 void base_free(base_system *self);
 
