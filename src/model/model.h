@@ -491,10 +491,12 @@ typedef struct ld_rocket {
     double start_at; ///< [m] s of the rear adaptor at the start
     ld_mass_data full;
     ld_mass_data empty;
-    double propellant;      ///< [kg] burnt mass; NaN: see model_complete()
-    double products[3];     ///< [kg m2] J_xy, J_xz, J_yz of the matrix, full and empty
-    double mass_error;      ///< [kg] at the mass centre, added to full and empty
-    double eccentricity[2]; ///< [m] y, z, added to full and empty
+    double propellant;           ///< [kg] burnt mass; NaN: see model_complete()
+    double products[3];          ///< [kg m2] J_xy, J_xz, J_yz of the matrix, full and empty
+    double dynamic_imbalance[2]; ///< [-] delta_y, delta_z: the inertia's x axis points along
+                                 ///< (1, delta_y, delta_z) of B, turned the shortest way
+    double mass_error;           ///< [kg] at the mass centre, added to full and empty
+    double eccentricity[2];      ///< [m] y, z, added to full and empty
     int adaptor_count;
     ld_adaptor adaptor[LD_MAX_ADAPTORS]; ///< the first is the rear one
     ld_contact contact;
