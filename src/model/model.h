@@ -35,6 +35,8 @@ enum {
     LD_MAX_TOGETHER = 8,
     LD_MAX_CHOICES = 32,
     LD_MAX_UNTIL = 16,
+    LD_MAX_MEASURES = 24,
+    LD_MAX_QUANTITY = 96,
     LD_MAX_CORRELATED = 16,
     LD_MAX_POINTS = 10000,
 };
@@ -255,6 +257,17 @@ typedef struct ld_cascade {
     double rate_ki; ///< [N m/rad]
 } ld_cascade;
 
+/// What a sensor of angle and rate does to each of its samples.
+typedef struct ld_sensor_noise {
+    double angle; ///< [rad] rms
+    double rate;  ///< [rad/s] rms
+    int seed;
+} ld_sensor_noise;
+typedef struct ld_resolution {
+    double angle; ///< [rad] 0: none
+    double rate;  ///< [rad/s] 0: none
+} ld_resolution;
+
 /// Moves a platform to its commanded angle: model.md, section 6.
 typedef struct ld_stabiliser {
     ld_table command;    ///< t [s], pitch or yaw [rad]; one row: constant; linear between rows,
@@ -267,6 +280,10 @@ typedef struct ld_stabiliser {
     ld_cascade cascade;
     double bandwidth; ///< [Hz] of the actuator's lag; 0: none
     double slew;      ///< [N m/s] greatest rate of the lagging torque; 0: any
+    double sample;    ///< [s] period of a digital loop; 0: continuous
+    double delay;     ///< [s] from a sample until its torque is given out, <= sample
+    ld_sensor_noise noise;
+    ld_resolution resolution;
 } ld_stabiliser;
 
 typedef struct ld_hinge_friction {
@@ -480,6 +497,12 @@ typedef struct ld_aerodynamics {
         double drag; ///< [-] C_c
         double at;   ///< [m] x of B
     } crossflow;
+    struct {
+        bool present;
+        double nose;     ///< [m] x of B
+        double drag;     ///< [-] C_c
+        double diameter; ///< [m] D; NaN: reference_diameter
+    } emerged;           ///< the air on what has come out of the tube, while the rocket is in it
     // plain body: drag and damping at the mass centre
     double area;       ///< [m2]
     double drag;       ///< [-] C_D
@@ -625,6 +648,19 @@ typedef struct ld_together {
     char path[LD_MAX_TOGETHER][LD_MAX_PATH];
 } ld_together;
 
+typedef enum ld_take { LD_TAKE_VALUE, LD_TAKE_PEAK, LD_TAKE_RMS, LD_TAKE_MEAN } ld_take;
+
+/// A result that the scenario asks for: what a column of the launch is at an instant of a rocket,
+/// or in a window between two. Instants: start, t_ignition, t_release, t_front, t_middle, t_rear,
+/// t_exit.NAME, end.
+typedef struct ld_measure {
+    char name[LD_MAX_NAME];     ///< the result is called measure.NAME
+    char of[LD_MAX_QUANTITY];   ///< column
+    ld_take take;               ///< its value, largest magnitude, root mean square, mean
+    char from[LD_MAX_QUANTITY]; ///< instant of a value, or at which the window begins
+    char to[LD_MAX_QUANTITY];   ///< instant at which it ends; of a value ""
+} ld_measure;
+
 /// One scattered number of the scenario. Units are those of the key, in SI.
 typedef struct ld_factor {
     char path[LD_MAX_PATH]; ///< keys joined by dots; list members by name, else by number from 1;
@@ -722,6 +758,8 @@ struct ld_model {
     const ld_rocket *salvo; ///< [firing_count] rocket of each firing where they differ in numbers,
                             ///< not owned; NULL: each is `rocket`
     ld_run_settings run;
+    int measure_count;
+    ld_measure measure[LD_MAX_MEASURES];
     ld_scatter scatter; ///< for studies
     int sweep_count;
     ld_sweep_axis *sweep; ///< for studies, owned by the model; its points are read by
@@ -744,6 +782,12 @@ static inline bool model_has_launcher(const ld_model *model)
 static inline bool model_has_vehicle(const ld_model *model)
 {
     return model->base.kind == LD_BASE_VEHICLE;
+}
+/// Whether the air acts on what has come out of the tube.
+static inline bool model_has_crossflow(const ld_model *model)
+{
+    const ld_aerodynamics *air = &model->rocket.aerodynamics;
+    return model_has_launcher(model) && air->present && air->emerged.present;
 }
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without

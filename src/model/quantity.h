@@ -9,16 +9,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What there is one of each: a run; a vehicle, where the base is one; a round or WGS 84 Earth; then
-// several.
+// What there is one of each: a run; a vehicle, where the base is one; air on the emerged part of
+// the rocket, where it is asked for; a round or WGS 84 Earth; then several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
+    EACH_CROSSFLOW,
     EACH_EARTH,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,
     EACH_HINGE, // azimuth, elevation
     EACH_WHEEL,
+    EACH_MEASURE, // that the scenario asks for
     EACH_COUNT
 } quantity_each;
 
@@ -61,7 +63,7 @@ typedef struct quantity_line {
 
 typedef struct quantity {
     const char *name; // %s: of which
-    const char *unit; // SI; "" or "1": none
+    const char *unit; // SI; "" or "1": none; NULL: each has one of its own (quantity_unit)
     const char *description;
     quantity_place at;
     const char *json; // path in summary.json, where that is not the name; [] at its end: in a list

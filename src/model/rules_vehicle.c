@@ -141,6 +141,24 @@ static void command_rules(const rule_set *rules, const char *path, const ld_tabl
     }
 }
 
+// What a digital loop alone has.
+static void sample_rules(const rule_set *rules, const char *path, const ld_stabiliser *s)
+{
+    const struct {
+        const char *name;
+        bool given;
+    } option[] = {{"delay", s->delay > 0},
+                  {"noise", s->noise.angle > 0 || s->noise.rate > 0},
+                  {"resolution", s->resolution.angle > 0 || s->resolution.rate > 0}};
+    for (int i = 0; i < 3 && s->sample == 0; i++)
+        if (option[i].given)
+            broken(rules, path, 0, "sample is missing; %s needs it, in s, > 0 s and <= 10 s",
+                   option[i].name);
+    if (s->sample > 0 && s->delay > s->sample)
+        broken(rules, path, 0, "a delay of %g s is longer than the sample period of %g s", s->delay,
+               s->sample);
+}
+
 // Without a lock the hinge needs its stabiliser whole, its gains or a cascade.
 static void gain_rules(const rule_set *rules, const char *path, const ld_stabiliser *s)
 {
@@ -162,6 +180,7 @@ static void gain_rules(const rule_set *rules, const char *path, const ld_stabili
     if (s->slew > 0 && s->bandwidth == 0)
         broken(rules, path, 0,
                "bandwidth is missing; a slew limit needs it, in Hz, > 0 Hz and <= 10000 Hz");
+    sample_rules(rules, path, s);
 }
 
 static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,

@@ -7,6 +7,7 @@
 #define INTEGER(type, member, least_, most_)                                                       \
     .kind = FIELD_INTEGER, .offset = offsetof(type, member), .range = {least_, most_, 0, 0}
 #define WORD(type, member) .kind = FIELD_WORD, .offset = offsetof(type, member)
+#define QUANTITY(type, member) .kind = FIELD_QUANTITY, .offset = offsetof(type, member)
 #define CHOICE(type, member, words_)                                                               \
     .kind = FIELD_CHOICE, .offset = offsetof(type, member), .words = (words_)
 #define BLOCK(type, member, block_)                                                                \
@@ -166,7 +167,7 @@ static const field_row environment_fields[] = {
      .doc = "place of I's origin on the Earth; none: as below, and on a flat Earth no map"},
     {"atmosphere", BLOCK(ld_model, environment.atmosphere, atmosphere_block),
      .initial_doc = "us1976", SWITCH(ld_model, environment.atmosphere.kind, atmosphere_words),
-     .doc = "air in free flight: US Standard Atmosphere 1976, or uniform"},
+     .doc = "air about the rocket: US Standard Atmosphere 1976, or uniform"},
     {"density_scale", NUMBER(ld_model, environment.atmosphere.density_scale, ""), FROM_TO(0, 1000),
      DEFAULT(1), .doc = "factor on the density of the air"},
     {"temperature_offset", NUMBER(ld_model, environment.atmosphere.temperature_offset, "K"),
@@ -180,7 +181,7 @@ static const field_row environment_fields[] = {
             "ellipsoid, by default that of the site"},
     {"wind", BLOCK(ld_model, environment.wind, wind_block), .initial_doc = "none",
      SWITCH(ld_model, environment.wind.present, wind_words), .other_is_bool = true,
-     .doc = "velocity of the air in free flight, where it goes to"},
+     .doc = "velocity of the air, where it goes to"},
     {0}};
 static const field_block environment_block = {.fields = environment_fields};
 
@@ -432,6 +433,24 @@ static const field_row cascade_fields[] = {
     {0}};
 static const field_block cascade_block = {.fields = cascade_fields};
 static const field_word cascade_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
+static const field_row noise_fields[] = {
+    {"angle", NUMBER(ld_sensor_noise, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "rms of the measured angle"},
+    {"rate", NUMBER(ld_sensor_noise, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "rms of the measured rate"},
+    {"seed", INTEGER(ld_sensor_noise, seed, 0, 999999999), DEFAULT(1),
+     .doc = "the same seed is the same noise"},
+    {0}};
+static const field_block noise_block = {.fields = noise_fields};
+static const field_row resolution_fields[] = {
+    {"angle", NUMBER(ld_resolution, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "least step of the measured angle; 0: none"},
+    {"rate", NUMBER(ld_resolution, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "least step of the measured rate; 0: none"},
+    {0}};
+static const field_block resolution_block = {.fields = resolution_fields};
+
 #define UNLESS_CASCADE NO_DEFAULT("needed unless the hinge has a lock or a cascade")
 static const field_row stabiliser_fields[] = {
     {"command", TABLE(ld_stabiliser, command, command_table), .required = true,
@@ -456,6 +475,14 @@ static const field_row stabiliser_fields[] = {
      .doc = "of the actuator, whose torque follows as a first-order lag; 0: at once"},
     {"slew", NUMBER(ld_stabiliser, slew, "N.m/s"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "greatest rate of the actuator's torque, which needs its bandwidth; 0: any"},
+    {"sample", NUMBER(ld_stabiliser, sample, "s"), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "period of a digital loop, whose torque is held in between; 0: continuous"},
+    {"delay", NUMBER(ld_stabiliser, delay, "s"), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "from a sample until its torque is given out, at most the period"},
+    {"noise", BLOCK(ld_stabiliser, noise, noise_block), .initial_doc = "none",
+     .doc = "white noise of the sensors, one draw a sample"},
+    {"resolution", BLOCK(ld_stabiliser, resolution, resolution_block), .initial_doc = "none",
+     .doc = "of the sensors, rounded in each sample"},
     {0}};
 static const field_block stabiliser_block = {.fields = stabiliser_fields};
 
@@ -778,6 +805,16 @@ static const field_row crossflow_fields[] = {
      .doc = "x of B where it acts"},
     {0}};
 static const field_block crossflow_block = {.fields = crossflow_fields};
+static const field_word emerged_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row emerged_fields[] = {
+    {"nose", NUMBER(ld_aerodynamics, emerged.nose, "m"), ABOVE_TO(0, 100), REQUIRED,
+     .doc = "x of B where the rocket ends; what lies between the tube's tip and it is in the air"},
+    {"drag", NUMBER(ld_aerodynamics, emerged.drag, ""), FROM_TO(0, 100), REQUIRED,
+     .doc = "C_c, coefficient of the drag of the lateral speed, on diameter times length"},
+    {"diameter", NUMBER(ld_aerodynamics, emerged.diameter, "m"), ABOVE_TO(0, 100),
+     NO_DEFAULT("reference_diameter; needed by a plain body"), .doc = "D"},
+    {0}};
+static const field_block emerged_block = {.fields = emerged_fields};
 #define TABLED .forms = FORM(LD_AERODYNAMICS_TABLE)
 #define PLAIN_BODY .forms = FORM(LD_AERODYNAMICS_BODY)
 static const field_row aerodynamics_fields[] = {
@@ -799,6 +836,10 @@ static const field_row aerodynamics_fields[] = {
     {"crossflow", SAME_STRUCT(crossflow_block), .initial_doc = "none", TABLED,
      SWITCH(ld_aerodynamics, crossflow.present, crossflow_words), .other_is_bool = true,
      .doc = "drag of large angles of attack"},
+    {"emerged", SAME_STRUCT(emerged_block), .initial_doc = "none",
+     SWITCH(ld_aerodynamics, emerged.present, emerged_words), .other_is_bool = true,
+     .doc = "drag of the lateral speed on the part of the rocket that has come out of its tube, "
+            "until the rear adaptor does"},
     {"ca_scale", NUMBER(ld_aerodynamics, ca_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
      .doc = "factor on ca_power_off and ca_power_on"},
     {"cn_scale", NUMBER(ld_aerodynamics, cn_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
@@ -869,7 +910,8 @@ static const field_row rocket_fields[] = {
      .other_is_bool = true, .doc = "thrust; `none`: only in a flight alone"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
-     .other_is_bool = true, .doc = "air forces in free flight"},
+     .other_is_bool = true,
+     .doc = "air forces in free flight and, by its key emerged, on what has come out of the tube"},
     {"pressure", LATER, .doc = "pressure-driven launch in place of a motor"},
     {0}};
 static const field_block rocket_block = {
@@ -1020,6 +1062,32 @@ static const field_row run_fields[] = {
     {0}};
 static const field_block run_block = {.fields = run_fields};
 
+// ---- results that are asked for
+
+static const field_word take_words[] = {{"value", LD_TAKE_VALUE},
+                                        {"peak", LD_TAKE_PEAK},
+                                        {"rms", LD_TAKE_RMS},
+                                        {"mean", LD_TAKE_MEAN},
+                                        {NULL, 0}};
+#define IN_WINDOW .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN)
+static const field_row measure_fields[] = {
+    {"name", WORD(ld_measure, name), .required = true, .doc = "the result is called measure.NAME"},
+    {"of", QUANTITY(ld_measure, of), .required = true,
+     .doc = "a column of the launch (quantities.md)"},
+    {"take", CHOICE(ld_measure, take, take_words), .required = true,
+     .doc = "its value at an instant; its largest magnitude, root mean square or mean in a window"},
+    {"at", QUANTITY(ld_measure, from), .required = true, .forms = FORM(LD_TAKE_VALUE),
+     .doc = "instant (Measures, above)"},
+    {"from", QUANTITY(ld_measure, from), .required = true, IN_WINDOW,
+     .doc = "instant at which the window begins"},
+    {"to", QUANTITY(ld_measure, to), .required = true, IN_WINDOW,
+     .doc = "instant at which it ends"},
+    {0}};
+static const field_block measure_block = {.fields = measure_fields,
+                                          .form = take_words,
+                                          .form_offset = offsetof(ld_measure, take),
+                                          .form_key = "take"};
+
 // ---- studies
 
 static const field_word plan_words[] = {
@@ -1072,6 +1140,9 @@ static const field_row scenario_fields[] = {
      .doc = "which tube fires when, one after the other"},
     {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
      .doc = "how it is simulated"},
+    {"measures", LIST(ld_model, measure, measure_count, measure_block, 0, LD_MAX_MEASURES), IN_TUBE,
+     .silent = true, .initial_doc = "none",
+     .doc = "results besides those that every run has (Measures, above)"},
     {"flight", BLOCK(ld_model, flight, flight_block), .required = true, .forms = IN_FLIGHT,
      .doc = "flight alone, in place of base, platform, tubes, firing and what the rocket has for "
             "the tube"},

@@ -8,18 +8,35 @@
 
 // ---- the equations ----
 
-// Thrust and mass at time t.
-static void burn(const launch_state *self, double t, launching_input *input)
+// The air about the rocket at its mass centre.
+static void find_air(const launch_state *self, double t, const double *y, launching_input *input)
+{
+    const launching_system *launching = &self->launcher.launching;
+    const launching_layout *at = &launching->layout;
+    launching_output unused;
+    launching_pose pose;
+    launching_rocket_pose(launching, y, &pose, &unused);
+    v3 center = v3_add(pose.p1, m3_apply(pose.A_RB, input->mass.c));
+    v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), center));
+    double left = launching->tube.flexible.length - y[at->x + X_S];
+    input->air = flight_air_at(self->air, t, r, left);
+}
+
+// Thrust, mass and air at time t and the launching subsystem's state.
+static void surround(const launch_state *self, double t, const double *y, launching_input *input)
 {
     double tau = t - self->t_ignition;
     input->thrust = motor_thrust(self->motor, self->piece, tau);
     motor_mass(self->motor, self->piece, tau, &input->mass);
+    input->air = (moving_air){0};
+    if (self->air && self->phase.rocket)
+        find_air(self, t, y, input);
 }
 
 void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input)
 {
     launcher_place(&self->launcher, t, y, input);
-    burn(self, t, &input->launching);
+    surround(self, t, y, &input->launching);
     input->rest = self->rest;
     input->held = false;
     input->formulation = self->model->run.formulation;
@@ -212,7 +229,7 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     launching_input input;
     launching_output *out = &launch->latest.out.launching;
     held_frame_at(&self->tube, t - self->t, &input.base);
-    burn(launch, t, &input);
+    surround(launch, t, y, &input);
     launch->latest.known = false; // not one of the whole
     launching_outcome outcome = launcher_evaluate_tube(launcher, launch->model->run.formulation,
                                                        &input, &launch->phase, y, out);
@@ -221,8 +238,9 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
         return -1;
     int count = launcher->launching.layout.count;
     launching_rates(&launcher->launching, y, out, launch->phase.rocket, y_dot);
-    memcpy(y_dot + count, out->power, sizeof out->power);
-    return all_finite(count + POWER_COUNT, y_dot) ? 0 : -1;
+    int works = launcher->launching.work_count;
+    memcpy(y_dot + count, out->power, (size_t)works * sizeof *y_dot);
+    return all_finite(count + works, y_dot) ? 0 : -1;
 }
 
 static int launching_events_apart(double t, const double *y, double *g, void *user)
@@ -249,7 +267,7 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
         .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
         .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
         .rest = {launch->rest.hinge[0], launch->rest.hinge[1]},
-        .frictionless = launch->phase.frictionless,
+        .linear = launch->phase.frictionless,
     };
     const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
     orientating_motion_at(orientating, t, y, &motion);
@@ -284,12 +302,18 @@ static void put_part(const double *part, int at, int count, int works_at, int wo
     memcpy(y + works_at, part + count, (size_t)works * sizeof(double));
 }
 
+static void split_launching(const launcher_system *launcher, const double *y, double *part)
+{
+    const launching_system *launching = &launcher->launching;
+    part_of(y, 0, launching->layout.count, launcher->work_at, launching->work_count, part);
+}
+
 // The orientating and marching parts of the whole state.
 static void split_base(const propagator *self, const double *y, double *orientating,
                        double *marching)
 {
     const launcher_system *launcher = &self->launch->launcher;
-    int works = launcher->work_at + POWER_COUNT;
+    int works = launcher->work_at + launcher->launching.work_count;
     part_of(y, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
             orientating);
     part_of(y, launcher->base_at + self->vehicle->marching_at, self->vehicle->marching.state_count,
@@ -300,7 +324,7 @@ static void join_base(const propagator *self, const double *orientating, const d
                       double *y)
 {
     const launcher_system *launcher = &self->launch->launcher;
-    int works = launcher->work_at + POWER_COUNT;
+    int works = launcher->work_at + launcher->launching.work_count;
     put_part(orientating, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
              y);
     put_part(marching, launcher->base_at + self->vehicle->marching_at,
@@ -315,7 +339,7 @@ static void base_between(const propagator *self, double t, double *y)
     double a = (1 + 2 * x) * (1 - x) * (1 - x), b = x * (1 - x) * (1 - x) * h;
     double c = x * x * (3 - 2 * x), d = -x * x * (1 - x) * h;
     for (int i = launcher->base_at; i < launcher->state_count; i++)
-        if (i < launcher->work_at || i >= launcher->work_at + POWER_COUNT)
+        if (i < launcher->work_at || i >= launcher->work_at + launcher->launching.work_count)
             y[i] =
                 a * self->from[i] + b * self->rate_from[i] + c * self->to[i] + d * self->rate_to[i];
 }
@@ -324,7 +348,8 @@ static void base_between(const propagator *self, double t, double *y)
 static void join(const propagator *self, double t, const double *y, double *whole)
 {
     const launcher_system *launcher = &self->launch->launcher;
-    put_part(y, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT, whole);
+    const launching_system *launching = &launcher->launching;
+    put_part(y, 0, launching->layout.count, launcher->work_at, launching->work_count, whole);
     base_between(self, t, whole);
 }
 
@@ -440,12 +465,12 @@ static ld_status create_integrators(propagator *self, ld_error *error)
     if (!self->apart)
         return integrator_create(&settings, &self->integrator, error);
     ld_status status = create_base(self, &settings, &all, error);
-    int count = launcher->launching.layout.count;
-    for (int i = 0; i < POWER_COUNT; i++) {
+    int count = launcher->launching.layout.count, works = launcher->launching.work_count;
+    for (int i = 0; i < works; i++) {
         all.atol[count + i] = 1e300;
         all.absolute[count + i] = false;
     }
-    settings.n = (size_t)(count + POWER_COUNT);
+    settings.n = (size_t)(count + works);
     settings.rhs = launching_rhs;
     settings.events = launching_events_apart;
     return status ? status : integrator_create(&settings, &self->integrator, error);
@@ -495,7 +520,7 @@ ld_status propagator_start(propagator *self, double t, const double *y, bool ane
         memcpy(self->from, y, (size_t)launcher->state_count * sizeof(double));
     }
     memmove(self->state, y, (size_t)launcher->state_count * sizeof(double));
-    part_of(y, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT, launching);
+    split_launching(launcher, y, launching);
     return integrator_start(self->integrator, t, launching, error);
 }
 
@@ -520,8 +545,7 @@ integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *er
     if (t >= self->t_next) {
         if (exchange(self, t, self->state, t_stop, error))
             return INTEGRATOR_FAILED;
-        part_of(self->state, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT,
-                launching);
+        split_launching(launcher, self->state, launching);
         if (integrator_start(self->integrator, t, launching, error))
             return INTEGRATOR_FAILED;
     }

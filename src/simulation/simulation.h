@@ -4,6 +4,7 @@
 #define LD_SIMULATION_SIMULATION_H
 
 #include "elements/motor.h"
+#include "simulation/measures.h"
 #include "simulation/quantity_table.h"
 #include "simulation/summary.h"
 #include "systems/flight.h"
@@ -20,6 +21,9 @@ struct ld_simulation {
     motor motor_of[LD_MAX_FIRINGS]; // of each firing where the rockets of a salvo differ, else one
     int motor_count;
     flight_system flight; // of a flight alone
+    // of each firing, where the launch asks what its rocket flies in; NULL: it does not
+    flight_system *flight_of;
+    int flight_count;
 
     // of a vehicle, linearised about its equilibrium on a flat road
     ld_status stability; // whether its stabilisers hold its platform; else why not
@@ -30,7 +34,8 @@ struct ld_simulation {
     int mode_count;
     ld_mode mode[6 + LD_MAX_MODES]; // tube and tail on their supports
 
-    quantity_columns columns; // of the history; of a flight alone: of its flight
+    quantity_columns columns;              // of the history; of a flight alone: of its flight
+    measure_plan measure[LD_MAX_MEASURES]; // of the model's measures
 };
 
 // Makes *simulation (NULL: a new one) that of `model`, as ld_simulation_create does but without the
@@ -40,6 +45,9 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
 
 // Motor of firing i.
 const motor *simulation_motor(const ld_simulation *self, int i);
+
+// Flight of firing i; NULL where the launch has none.
+const flight_system *simulation_flight(const ld_simulation *self, int i);
 
 // Adds a remark that the user should see.
 void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
@@ -56,8 +64,6 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
 
 // Names the columns of the history, once.
 ld_status history_build(ld_simulation *self, ld_error *error);
-// The columns' tables, before and after those of the base.
-extern const quantity_table launch_quantities, balance_quantities;
 
 // ld_simulation_tube_modes(), found: LD_ERR_MEMORY, LD_ERR_NUMERIC.
 ld_status simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity, int *count,

@@ -6,12 +6,24 @@
 static const base_interface *const kinds[] = {&base_fixed, &base_prescribed, &base_vehicle,
                                               &base_external};
 
+// NULL: there is none.
+static const base_interface *base_of_kind(ld_base_kind kind)
+{
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (kinds[i]->kind == kind)
+            return kinds[i];
+    return NULL;
+}
+
+const quantity_table *base_quantities(ld_base_kind kind)
+{
+    const base_interface *base = base_of_kind(kind);
+    return base ? base->quantities : NULL;
+}
+
 ld_status base_build(base_system *self, const ld_model *model, ld_error *error)
 {
-    *self = (base_system){.model = model};
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
-        if (kinds[i]->kind == model->base.kind)
-            self->kind = kinds[i];
+    *self = (base_system){.model = model, .kind = base_of_kind(model->base.kind)};
     if (!self->kind)
         return ld_fail(error, LD_ERR_INPUT, "base.kind: %d carries no tube", (int)model->base.kind);
     ld_status status = self->kind->build(self, error);

@@ -150,6 +150,16 @@ static double next_corner(const base_system *self, double t)
                 corner_after(&platform->elevation.stabiliser.command, t));
 }
 
+static double next_sample(const base_system *self, double t)
+{
+    return orientating_next_sample(orientating_of(self), t);
+}
+
+static void sample(const base_system *self, double t, double *state)
+{
+    orientating_sample(orientating_of(self), t, state);
+}
+
 static int evaluate(const base_system *self, const base_found *found, const base_load *load,
                     const double *state, base_output *output)
 {
@@ -166,7 +176,7 @@ static int evaluate(const base_system *self, const base_found *found, const base
         .tube_moment = load->moment,
         .rest = {load->rest.hinge[0], load->rest.hinge[1]},
         .held = load->held,
-        .frictionless = load->frictionless,
+        .linear = load->linear,
     };
     int outcome = orientating_evaluate(orientating_of(self), &wrenches, state, &motion,
                                        output->rate, &orientating);
@@ -532,6 +542,8 @@ const base_interface base_vehicle = {
     .share = share,
     .place = place,
     .next_corner = next_corner,
+    .next_sample = next_sample,
+    .sample = sample,
     .quantities = &quantities,
     .find = find,
     .dynamics = &dynamics,

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/random.h"
 #include "elements/motor.h"
 #include "math/sine_cosine.h"
 
@@ -305,7 +306,7 @@ static void drive_hinge(const ld_turret *turret, const orientating_input *input,
     }
     const ld_hinge_friction *friction = &turret->friction;
     hinge->friction = -friction->viscous * b_dot;
-    if (!input->frictionless)
+    if (!input->linear)
         hinge->friction -=
             friction->coulomb * b_dot / sqrt(b_dot * b_dot + friction->rate * friction->rate);
     int drive = ORIENTATING_DRIVE + DRIVE_STATES * i;
@@ -313,8 +314,8 @@ static void drive_hinge(const ld_turret *turret, const orientating_input *input,
         hinge->torque = rest->torque - turret->lock.stiffness * (hinge->angle - rest->angle) -
                         turret->lock.damping * b_dot;
     else
-        stabiliser_evaluate(&turret->stabiliser, state[ORIENTATING_Z + i], state + drive, hinge,
-                            state_dot + ORIENTATING_Z + i, state_dot + drive);
+        stabiliser_evaluate(&turret->stabiliser, input->linear, state[ORIENTATING_Z + i],
+                            state + drive, hinge, state_dot + ORIENTATING_Z + i, state_dot + drive);
 }
 
 // Accelerations of the chain by the form that the model asks for.
@@ -379,11 +380,36 @@ int orientating_evaluate(const orientating_system *self, const orientating_input
 
 void orientating_rest(const orientating_system *self, double *state)
 {
+    for (int i = 0; i < HINGES && self->state_count > ORIENTATING_DRIVE; i++)
+        stabiliser_rest(state[ORIENTATING_Z + i], state + ORIENTATING_DRIVE + DRIVE_STATES * i);
+}
+
+// The next instant of hinge i.
+static double next_sample(const ld_turret *turret, double t)
+{
+    return turret->lock.present ? INFINITY : stabiliser_next_sample(&turret->stabiliser, t);
+}
+
+double orientating_next_sample(const orientating_system *self, double t)
+{
+    const ld_platform *given = &self->model->platform;
+    return fmin(next_sample(&given->azimuth, t), next_sample(&given->elevation, t));
+}
+
+void orientating_sample(const orientating_system *self, double t, double *state)
+{
     const ld_platform *given = &self->model->platform;
     const ld_turret *turret[HINGES] = {&given->azimuth, &given->elevation};
-    for (int i = 0; i < HINGES && self->state_count > ORIENTATING_DRIVE; i++)
-        stabiliser_rest(&turret[i]->stabiliser, state[ORIENTATING_Z + i],
-                        state + ORIENTATING_DRIVE + DRIVE_STATES * i);
+    static const char *const stream[HINGES] = {"platform.azimuth.stabiliser.noise",
+                                               "platform.elevation.stabiliser.noise"};
+    double before = nextafter(t, -INFINITY);
+    orientating_motion motion;
+    orientating_motion_at(self, t, state, &motion);
+    for (int i = 0; i < HINGES; i++)
+        if (next_sample(turret[i], before) == t)
+            stabiliser_sample(&turret[i]->stabiliser, t, random_stream(stream[i]), &motion.hinge[i],
+                              state + ORIENTATING_Z + i,
+                              state + ORIENTATING_DRIVE + DRIVE_STATES * i);
 }
 
 double orientating_kinetic_energy(const orientating_system *self, const double *state)

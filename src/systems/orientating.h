@@ -67,8 +67,8 @@ typedef struct orientating_input {
     v3 chassis_force, chassis_moment; // in I, about the chassis' mass centre
     v3 tube_force, tube_moment;       // in T, about T's origin
     hinge_rest rest[HINGES];          // of locked or held hinges
-    bool frictionless;                // Coulomb friction off (equilibrium, linearisation)
-    bool held; // hinges carry rest[].torque, whatever stabilisers and friction say (equilibrium)
+    bool linear; // no Coulomb friction, digital loops as continuous ones (linearisation)
+    bool held;   // hinges carry rest[].torque, whatever stabilisers and friction say (equilibrium)
 } orientating_input;
 
 typedef struct orientating_output {
@@ -97,6 +97,11 @@ int orientating_evaluate(const orientating_system *self, const orientating_input
 
 // Puts the drives at rest under the torques z.
 void orientating_rest(const orientating_system *self, double *state);
+
+// The first instant [s] after t at which a digital loop changes the state; infinity: none. What it
+// makes of the state at such an instant.
+double orientating_next_sample(const orientating_system *self, double t);
+void orientating_sample(const orientating_system *self, double t, double *state);
 
 // [J] kinetic energy of chassis and platforms.
 double orientating_kinetic_energy(const orientating_system *self, const double *state);

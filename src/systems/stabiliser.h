@@ -6,10 +6,14 @@
 #ifndef LD_SYSTEMS_STABILISER_H
 #define LD_SYSTEMS_STABILISER_H
 
+#include <stdint.h>
+
 #include "model/model.h"
 
 enum {
-    DRIVE_TORQUE, // [N m] of an actuator that lags
+    DRIVE_TORQUE,   // [N m] of an actuator that lags
+    DRIVE_HELD,     // [N m] asked for until a digital loop gives out the next
+    DRIVE_COMPUTED, // [N m] that it gives out next
     DRIVE_STATES
 };
 
@@ -28,11 +32,20 @@ typedef struct hinge_report {
 bool stabiliser_has_drive(const ld_stabiliser *given);
 
 // Puts the drive at rest under a torque [N m].
-void stabiliser_rest(const ld_stabiliser *given, double torque, double *drive);
+void stabiliser_rest(double torque, double *drive);
 
 // Torque on the outboard body, into the report, whose angles and rates are known; rates of the
-// state. `drive`, `drive_dot`: unused if it has none.
-void stabiliser_evaluate(const ld_stabiliser *given, double z, const double *drive,
+// state. `drive`, `drive_dot`: unused if it has none. `linear`: a digital loop as a continuous one.
+void stabiliser_evaluate(const ld_stabiliser *given, bool linear, double z, const double *drive,
                          hinge_report *hinge, double *z_dot, double *drive_dot);
+
+// The first instant [s] after t at which a digital loop takes a sample or gives out a torque;
+// infinity: none.
+double stabiliser_next_sample(const ld_stabiliser *given, double t);
+
+// What it does to its state at such an instant, from the angles and rates in the report; `stream`
+// of the sensors' noise.
+void stabiliser_sample(const ld_stabiliser *given, double t, uint64_t stream,
+                       const hinge_report *hinge, double *z, double *drive);
 
 #endif

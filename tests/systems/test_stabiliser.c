@@ -255,12 +255,107 @@ static void slew(void **context)
     tear_down(&f);
 }
 
+// ---- digital loop
+
+// A rigid inertia without friction on a base at rest.
+static void let_go(fixture *f)
+{
+    f->model.platform.elevation.friction.viscous = 0;
+    begin(f);
+    f->state[ORIENTATING_W + 2] = 0;
+}
+
+// A step of the command, 2 mrad, by a sampled PID with a delay: between the instants the torque
+// stays, so that angle and rate are known exactly.
+static void sampled(void **context)
+{
+    (void)context;
+    static const double late[] = {0, 0.4, 1}; // of the period
+    for (int k = 0; k < 3; k++) {
+        fixture f;
+        set_up(&f);
+        const double T = 5e-3, d = late[k] * T, kp = 8e5, ki = 4e6, kd = 2e4, quantum = 1e-4;
+        f.given->kp = kp, f.given->ki = ki, f.given->kd = kd;
+        f.given->sample = T, f.given->delay = d;
+        f.given->resolution.angle = quantum;
+        f.given->command.data[1] = 2e-3;
+        let_go(&f);
+        double t = 0, angle = 0, rate = 0, z = 0, held = 0, computed = 0, worst = 0;
+        for (int n = 1; n <= 60; n++) {
+            // the equations' way, until sample n has been taken
+            while (t < n * T) {
+                double next = orientating_next_sample(&f.system, t);
+                follow(&f, t, next);
+                orientating_sample(&f.system, next, f.state);
+                t = next;
+            }
+            // by hand: until the torque of sample n - 1 comes, and on
+            angle += rate * d + 0.5 * held / J * d * d;
+            rate += held / J * d;
+            held = computed;
+            angle += rate * (T - d) + 0.5 * held / J * (T - d) * (T - d);
+            rate += held / J * (T - d);
+            double error = 2e-3 - quantum * round(angle / quantum);
+            computed = kp * error - kd * rate + z;
+            z += T * ki * error;
+            if (d == 0)
+                held = computed;
+            const hinge_report hinge = hinge_of(&f, t);
+            worst = fmax(worst, fabs(hinge.measured - angle));
+            worst = fmax(worst, fabs(hinge.measured_rate - rate) * T);
+            worst = fmax(worst, fabs(f.state[ORIENTATING_Z + HINGE_ELEVATION] - z) / kp);
+        }
+        printf("  delay %g ms: after %g ms at %.4g mrad\n", 1e3 * d, 1e3 * t, 1e3 * angle);
+        CHECK_BELOW("angle, rate x period, z/kp [rad]", worst, 1e-12);
+        tear_down(&f);
+    }
+}
+
+// What a sensor adds: its rms, white, of both channels, neither of them the other's.
+static void noise(void **context)
+{
+    (void)context;
+    enum { SAMPLES = 20000 };
+    static double heard[2][SAMPLES];
+    fixture f;
+    set_up(&f);
+    for (int channel = 0; channel < 2; channel++) {
+        *f.given = (ld_stabiliser){.command = f.given->command,
+                                   .kp = channel == 0,
+                                   .kd = channel == 1,
+                                   .torque_limit = 1e9,
+                                   .sample = 1e-3,
+                                   .noise = {0.03, 0.2, 7}};
+        const hinge_report still = {0};
+        for (int k = 0; k < SAMPLES; k++) {
+            double z = 0, drive[DRIVE_STATES] = {0};
+            stabiliser_sample(f.given, (k - SAMPLES / 2) * 1e-3, 12, &still, &z, drive);
+            heard[channel][k] = -drive[DRIVE_HELD];
+        }
+    }
+    double squares[2] = {0}, next[2] = {0}, both = 0;
+    for (int k = 0; k < SAMPLES; k++) {
+        for (int i = 0; i < 2; i++) {
+            squares[i] += heard[i][k] * heard[i][k];
+            next[i] += heard[i][k] * heard[i][(k + 1) % SAMPLES];
+        }
+        both += heard[0][k] * heard[1][k];
+    }
+    // five standard errors
+    const double far = 5 / sqrt(SAMPLES);
+    CHECK_BELOW("rms of the angle, over 0.03", fabs(sqrt(squares[0] / SAMPLES) / 0.03 - 1), far);
+    CHECK_BELOW("rms of the rate, over 0.2", fabs(sqrt(squares[1] / SAMPLES) / 0.2 - 1), far);
+    CHECK_BELOW("next samples' correlation, angle", fabs(next[0] / squares[0]), far);
+    CHECK_BELOW("next samples' correlation, rate", fabs(next[1] / squares[1]), far);
+    CHECK_BELOW("angle's with rate", fabs(both) / sqrt(squares[0] * squares[1]), far);
+    tear_down(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(feedforward),
-        cmocka_unit_test(loops),
-        cmocka_unit_test(slew),
+        cmocka_unit_test(feedforward), cmocka_unit_test(loops), cmocka_unit_test(slew),
+        cmocka_unit_test(sampled),     cmocka_unit_test(noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
