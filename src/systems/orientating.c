@@ -403,8 +403,8 @@ void orientating_sample(const orientating_system *self, double t, double *state)
 {
     const ld_platform *given = &self->model->platform;
     const ld_turret *turret[HINGES] = {&given->azimuth, &given->elevation};
-    static const char *const stream[HINGES] = {"platform.azimuth.stabiliser.noise",
-                                               "platform.elevation.stabiliser.noise"};
+    static const char *const stream[HINGES] = {"platform.azimuth.stabiliser.sensor_noise",
+                                               "platform.elevation.stabiliser.sensor_noise"};
     double before = nextafter(t, -INFINITY);
     orientating_motion motion;
     orientating_motion_at(self, t, state, &motion);

@@ -29,7 +29,8 @@ static const struct saved_case {
     {"marching",
      "marching/30-kmh.yaml",
      {"run.lead_in=50 ms", "run.output_step.tube=0.5 ms",
-      "platform.elevation.stabiliser={sample: 0.7 ms, delay: 0.3 ms, noise: {rate: 1 mrad/s}, "
+      "platform.elevation.stabiliser={sample: 0.7 ms, delay: 0.3 ms, sensor_noise: {rate: 1 "
+      "mrad/s}, "
       "bandwidth: 30 Hz}"},
      0},
     {"apart",
