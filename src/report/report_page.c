@@ -45,10 +45,10 @@ static const char *title_of(const report_source *source)
     return title && *title ? title : "A run of launchdyn";
 }
 
-ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,
-                            ld_error *error)
+ld_status report_write_run(FILE *json, const report_source *source, const report_detail *detail,
+                           ld_error *error)
 {
-    fputs("{\"title\":", json);
+    fputs("\"title\":", json);
     json_write_text(json, title_of(source));
     fprintf(json,
             ",\"version\":\"%s\",\"pixels\":%.17g,\"overAll\":%d,\"history\":%d,\"complete\":%d",
@@ -63,11 +63,20 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     }
     fputs("],\"rockets\":[", json);
     write_rockets(json, source);
-    fputs("],\"geometry\":", json);
-    report_write_geometry(json, &source->history);
-    fputs(",\"tables\":[", json);
+    fputs("],\"tables\":[", json);
     ld_status status = write_tables(json, source, detail, error);
-    fputs("],\"figures\":", json);
+    fputc(']', json);
+    return status;
+}
+
+ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,
+                            ld_error *error)
+{
+    fputc('{', json);
+    ld_status status = report_write_run(json, source, detail, error);
+    fputs(",\"geometry\":", json);
+    report_write_geometry(json, &source->history);
+    fputs(",\"figures\":", json);
     plot_write_json(json);
     fputc('}', json);
     return status;
@@ -85,16 +94,16 @@ static ld_status write_replay(FILE *page, const report_source *source, ld_error 
     return status;
 }
 
-static void write_origin(FILE *page, const ld_origin *origin)
+void report_write_run_origin(FILE *page, const char *name, const report_source *source, size_t room)
 {
     char *json = NULL;
     size_t length = 0;
-    FILE *stream = open_memstream(&json, &length);
+    FILE *stream = source->has_origin ? open_memstream(&json, &length) : NULL;
     if (!stream)
         return;
-    report_write_origin(stream, origin, REPORT_ORIGIN_BYTES);
+    report_write_origin(stream, &source->origin, room);
     if (fclose(stream) == 0)
-        report_write_json(page, "origin", json, length);
+        report_write_json(page, name, json, length);
     free(json);
 }
 
@@ -107,8 +116,7 @@ ld_status report_write_page(FILE *page, const report_source *source, const char 
     if (source->summary)
         report_write_json(page, "summary", source->summary, source->summary_length);
     report_write_json(page, "data", data, length);
-    if (source->has_origin)
-        write_origin(page, &source->origin);
+    report_write_run_origin(page, "origin", source, REPORT_ORIGIN_BYTES);
     ld_status status = write_replay(page, source, error);
     report_end_page(page, &run_bundle);
     return status;
