@@ -883,6 +883,10 @@ static const field_row rocket_fields[] = {
      .doc = "about the mass centre"},
     {"products_of_inertia", VECTOR(ld_model, rocket.products, "kg.m2", 3), ANY, DEFAULT(0),
      .doc = "elements J_xy, J_xz, J_yz of the matrix, full and empty"},
+    {"dynamic_imbalance", VECTOR(ld_model, rocket.dynamic_imbalance, "rad", 2), FROM_TO(-1, 1),
+     DEFAULT(0),
+     .doc = "delta_y, delta_z: inertia and products, full and empty, are about axes of which x "
+            "points along (1, delta_y, delta_z) of B"},
     {"mass_error", NUMBER(ld_model, rocket.mass_error, "kg"), ANY, DEFAULT(0),
      .doc = "added to the full and the empty mass, at the mass centre"},
     {"eccentricity", VECTOR(ld_model, rocket.eccentricity, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
