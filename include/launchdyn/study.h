@@ -81,14 +81,17 @@ ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *
 
 /// What is shown of a study; NULL or zeros: the usual.
 typedef struct ld_study_view {
-    const char *what; ///< names of results, with commas between; "all"; NULL: a choice
-    bool sensitivity; ///< how much of the variance each factor explains, instead of statistics
-    const void *reserved[4]; ///< NULL: room for what later versions may be asked
+    const char *what;     ///< names of results, with commas between; "all"; NULL: a choice
+    bool sensitivity;     ///< how much of the variance each factor explains, instead of statistics
+    const char *measured; ///< a CSV file of measured shots, beside which its results are shown
+                          ///< instead (docs/study.md): differences with intervals and p; NULL: none
+    const void *reserved[3]; ///< NULL: room for what later versions may be asked
 } ld_study_view;
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs: point
 /// by point of a sweep, and side by side.
-/// @return LD_OK; LD_ERR_INPUT (no study there, no such result), LD_ERR_FILE, LD_ERR_MEMORY
+/// @return LD_OK; LD_ERR_INPUT (no study there, no such result, wrong measured shots), LD_ERR_FILE,
+///         LD_ERR_MEMORY
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
                         ld_error *error);
 

@@ -128,9 +128,15 @@ static int finish(ld_status status, const ld_error *error)
 
 static int study_folder(const char *verb, const char *folder, const study_wishes *wishes)
 {
+    const ld_study_view *view = &wishes->view;
     ld_error error;
+    if (strcmp(verb, "show") == 0 && view->measured && (view->what || view->sensitivity)) {
+        command_complain("--measured shows what its file has: neither --what nor --sensitivity "
+                         "goes with it");
+        return EXIT_INPUT;
+    }
     if (strcmp(verb, "show") == 0)
-        return finish(ld_study_show(folder, &wishes->view, stdout, &error), &error);
+        return finish(ld_study_show(folder, view, stdout, &error), &error);
     if (strcmp(verb, "merge") == 0)
         return finish(ld_study_merge(folder, stdout, &error), &error);
     bool same = wishes->csv && wishes->hdf5 && strcmp(wishes->csv, wishes->hdf5) == 0;
@@ -168,8 +174,8 @@ static const char *wrong_to_run(const char *file, const char *again, const study
         return "study show, study export and study merge want DIR";
     if (wishes->csv || wishes->hdf5)
         return "--csv and --hdf5 are options of study export DIR";
-    if (wishes->view.what || wishes->view.sensitivity)
-        return "--what and --sensitivity are options of study show DIR";
+    if (wishes->view.what || wishes->view.sensitivity || wishes->view.measured)
+        return "--what, --sensitivity and --measured are options of study show DIR";
     if (wishes->shards && wishes->only != ALL_SAMPLES)
         return "--only and --shard do not go together";
     if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
@@ -180,7 +186,7 @@ static const char *wrong_to_run(const char *file, const char *again, const study
 int command_study(const command *self, int argc, char **argv)
 {
     study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
-    char *shard = NULL, *what = NULL, *again = NULL;
+    char *shard = NULL, *what = NULL, *measured = NULL, *again = NULL;
     int sensitivity = 0;
     const command_option options[] = {
         STUDY_OPTIONS(&wishes),
@@ -195,6 +201,8 @@ int command_study(const command *self, int argc, char **argv)
         {"what", 'w', OPTION_TEXT, &what, "Of show: these results, or all", "NAME,..."},
         {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
          "Of show: the share of the variance that each factor explains", NULL},
+        {"measured", '\0', OPTION_TEXT, &measured,
+         "Of show: its results beside the shots in this CSV file", "FILE"},
         {"csv", '\0', OPTION_TEXT, &wishes.csv, "Of export: the table as CSV", "FILE"},
         {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "Of export: the table as HDF5", "FILE"},
         COMMAND_HELP,
@@ -203,7 +211,8 @@ int command_study(const command *self, int argc, char **argv)
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {
         const char *file = line.count > 0 ? line.word[0] : NULL;
-        wishes.view = (ld_study_view){.what = what, .sensitivity = sensitivity};
+        wishes.view =
+            (ld_study_view){.what = what, .sensitivity = sensitivity, .measured = measured};
         if (shard && !read_shard(shard, &wishes)) {
             code = EXIT_INPUT;
         } else if (line.count == 2 && !again) {

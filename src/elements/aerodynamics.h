@@ -28,6 +28,12 @@ typedef struct aerodynamics {
 ld_status aerodynamics_build(aerodynamics *self, const ld_aerodynamics *model, ld_error *error);
 void aerodynamics_free(aerodynamics *self);
 
+// The air about a rocket, taken as one over its length.
+typedef struct moving_air {
+    v3 v;           // [m/s] its velocity against the ground, in I
+    double density; // [kg/m3]
+} moving_air;
+
 // Force f and moment m about the mass centre, in axes whose x is the rocket's.
 typedef struct air_wrench {
     v3 f, m;

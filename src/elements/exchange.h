@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "elements/aerodynamics.h"
 #include "elements/base_frame.h"
 #include "elements/flexible_tube.h"
 #include "elements/motor.h"
@@ -40,6 +41,7 @@ typedef struct launching_input {
     base_frame base;
     double thrust; // [N]
     rocket_mass mass;
+    moving_air air; // about the rocket; read where its emerged part feels it
 } launching_input;
 
 typedef struct adaptor_report {
@@ -62,8 +64,14 @@ typedef struct adaptor_report {
     X(POWER_MODAL_DAMPING, "modal_damping", "work of the modal damping")                           \
     X(POWER_BASE, "base", "work of the moving base through the supports")                          \
     X(POWER_MASS_CHANGE, "mass_change", "kinetic energy carried off by burnt propellant")
+// That of the air on what has emerged, where it is asked for.
+#define CROSSFLOW_WORKS(X)                                                                         \
+    X(POWER_CROSSFLOW, "crossflow", "work of the air on the emerged part of the rocket")
 
-enum launching_power { LAUNCHING_WORKS(WORK_PLACE) POWER_COUNT };
+enum launching_power {
+    LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) POWER_COUNT,
+    POWER_ALWAYS = POWER_CROSSFLOW, // those that are always there come first
+};
 
 typedef struct launching_output {
     v3 a, w_dot;                 // inertial acceleration of R's origin, derivative of w, in R
@@ -75,6 +83,8 @@ typedef struct launching_output {
     double slot_friction; // [N] along tau on the rocket
     double lock_force;    // [N] carried, along +x (minus the force on the rocket)
     double breech_force;  // [N] on the rocket along +x
+    double emerged;       // [m] length of the rocket that is out of the tube, in the air
+    v3 crossflow;         // [N] force of the air on it, in R
     double drift;         // [m/s] n . v_rel, zero but for the step error
     double power[POWER_COUNT];
     double elastic;             // [J] of supports and modes

@@ -101,10 +101,15 @@ double beta_cumulative(double a, double b, double x)
     return 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
+double student_beyond(double t, double freedom)
+{
+    return beta_cumulative(freedom / 2, 0.5, freedom / (freedom + t * t));
+}
+
 // P(T > t) for t >= 0.
 static double student_tail(double t, double freedom)
 {
-    return 0.5 * beta_cumulative(freedom / 2, 0.5, freedom / (freedom + t * t));
+    return 0.5 * student_beyond(t, freedom);
 }
 
 double student_quantile(double p, double freedom)

@@ -12,6 +12,8 @@ double normal_quantile(double p);
 double beta_cumulative(double a, double b, double x);
 // Quantile of Student's t with `freedom` > 0 degrees of freedom.
 double student_quantile(double p, double freedom);
+// P(|T| > |t|) of Student's t.
+double student_beyond(double t, double freedom);
 // Binomial distribution function: P(X <= k) of n draws with probability p.
 double binomial_cumulative(long k, long n, double p);
 

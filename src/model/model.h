@@ -247,6 +247,25 @@ typedef struct ld_vehicle {
     ld_tyre tyre;
 } ld_vehicle;
 
+/// Two loops in place of a stabiliser's kp, ki, kd: the angle's gives the rate's command.
+typedef struct ld_cascade {
+    bool present;
+    double kp;      ///< [1/s]
+    double rate_kp; ///< [N m s/rad]
+    double rate_ki; ///< [N m/rad]
+} ld_cascade;
+
+/// What a sensor of angle and rate does to each of its samples.
+typedef struct ld_sensor_noise {
+    double angle; ///< [rad] rms
+    double rate;  ///< [rad/s] rms
+    int seed;
+} ld_sensor_noise;
+typedef struct ld_resolution {
+    double angle; ///< [rad] 0: none
+    double rate;  ///< [rad/s] 0: none
+} ld_resolution;
+
 /// Moves a platform to its commanded angle: model.md, section 6.
 typedef struct ld_stabiliser {
     ld_table command;    ///< t [s], pitch or yaw [rad]; one row: constant; linear between rows,
@@ -256,6 +275,13 @@ typedef struct ld_stabiliser {
     double kd;           ///< [N m s/rad]
     double torque_limit; ///< [N m]; a locked hinge needs none of these four
     double feedforward;  ///< [-] of the chassis' rate along the hinge, against it a rate command
+    ld_cascade cascade;
+    double bandwidth; ///< [Hz] of the actuator's lag; 0: none
+    double slew;      ///< [N m/s] greatest rate of the lagging torque; 0: any
+    double sample;    ///< [s] period of a digital loop; 0: continuous
+    double delay;     ///< [s] from a sample until its torque is given out, <= sample
+    ld_sensor_noise noise;
+    ld_resolution resolution;
 } ld_stabiliser;
 
 typedef struct ld_hinge_friction {
@@ -469,6 +495,12 @@ typedef struct ld_aerodynamics {
         double drag; ///< [-] C_c
         double at;   ///< [m] x of B
     } crossflow;
+    struct {
+        bool present;
+        double nose;     ///< [m] x of B
+        double drag;     ///< [-] C_c
+        double diameter; ///< [m] D; NaN: reference_diameter
+    } emerged;           ///< the air on what has come out of the tube, while the rocket is in it
     // plain body: drag and damping at the mass centre
     double area;       ///< [m2]
     double drag;       ///< [-] C_D
@@ -728,6 +760,12 @@ static inline bool model_has_launcher(const ld_model *model)
 static inline bool model_has_vehicle(const ld_model *model)
 {
     return model->base.kind == LD_BASE_VEHICLE;
+}
+/// Whether the air acts on what has come out of the tube.
+static inline bool model_has_crossflow(const ld_model *model)
+{
+    const ld_aerodynamics *air = &model->rocket.aerodynamics;
+    return model_has_launcher(model) && air->present && air->emerged.present;
 }
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without

@@ -100,6 +100,17 @@ FIND(support_frequency)
     return plausible_alone(stiffness > 0 ? sqrt(stiffness / mass) / (2 * PI) : NAN);
 }
 
+// Time [s] in which the supports' dampers along y take the tube's motion.
+FIND(support_time)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double damping = 0;
+    for (int i = 0; i < tubes->support_count; i++)
+        damping += tubes->support[i].damping[1];
+    return plausible_compare(damping > 0 ? plausible_tube_mass(tubes) / damping : NAN,
+                             at->model->run.max_step);
+}
+
 FIND(pitch)
 {
     const ld_layout *layout = &at->model->tubes.layout;
@@ -212,6 +223,10 @@ const plausible_rule plausible_of_tube[] = {
     {"tubes.supports", "the frequency of tube and rocket on their stiffness along y", .unit = "Hz",
      .low = 0.5, .high = 10000, .find = support_frequency, .of = "tubes.material.density",
      .why = "supports hold a tube tighter than rubber and softer than rock"},
+    {"tubes.supports", "the time in which their damping along y takes the tube's motion",
+     .unit = "s", .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_time,
+     .of = "tubes.material.density",
+     .why = "the integrator follows it by as many steps as it needs"},
     {"tubes.layout.pitch", .unit = "m", .other = "the bore's diameter", NO_LOW, .high = 20,
      .find = pitch, .why = "tubes of one launcher lie side by side"},
     {"tubes.layout.first", "the distance of tube 1 from the platform's origin", .unit = "m",

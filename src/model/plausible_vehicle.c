@@ -185,6 +185,24 @@ static plausible_pair hinge_frequency(const plausible_entry *at, double stiffnes
     return plausible_alone(sqrt(stiffness / (inertia + tubes_inertia(at->model))) / (2 * PI));
 }
 
+// Time [s] in which a damper [N m s/rad] of a hinge takes the motion of what it carries.
+static plausible_pair hinge_time(const plausible_entry *at, double damping, double inertia)
+{
+    if (!(damping > 0))
+        return plausible_nothing();
+    return plausible_compare((inertia + tubes_inertia(at->model)) / damping,
+                             at->model->run.max_step);
+}
+
+FIND(tyre_time)
+{
+    const ld_vehicle *vehicle = vehicle_of(at);
+    if (!(vehicle->tyre.damping[1] > 0))
+        return plausible_nothing();
+    return plausible_compare(vehicle->wheel[0].mass / vehicle->tyre.damping[1],
+                             at->model->run.max_step);
+}
+
 FIND(azimuth_angle)
 {
     const ld_table *command = &at->model->platform.azimuth.stabiliser.command;
@@ -227,6 +245,23 @@ static plausible_pair greatest_slew(const ld_table *command)
     {                                                                                              \
         const ld_turret *turret = &at->model->platform.name;                                       \
         return hinge_frequency(at, turret->lock.stiffness, turret->inertia[about]);                \
+    }                                                                                              \
+    FIND(name##_viscous)                                                                           \
+    {                                                                                              \
+        const ld_turret *turret = &at->model->platform.name;                                       \
+        return hinge_time(at, turret->friction.viscous, turret->inertia[about]);                   \
+    }                                                                                              \
+    FIND(name##_kd)                                                                                \
+    {                                                                                              \
+        const ld_turret *turret = &at->model->platform.name;                                       \
+        double kd = turret->lock.present ? NAN : turret->stabiliser.kd;                            \
+        return hinge_time(at, kd, turret->inertia[about]);                                         \
+    }                                                                                              \
+    FIND(name##_lock_damping)                                                                      \
+    {                                                                                              \
+        const ld_turret *turret = &at->model->platform.name;                                       \
+        double damping = turret->lock.present ? turret->lock.damping : NAN;                        \
+        return hinge_time(at, damping, turret->inertia[about]);                                    \
     }                                                                                              \
     FIND(name##_slew)                                                                              \
     {                                                                                              \
@@ -280,6 +315,30 @@ OF_PLATFORM(elevation, 2)
          .find = name##_lock,                                                                      \
          .of = "tubes.layout.first",                                                               \
          .why = "a lock is tighter than a pendulum and softer than rock"},                         \
+        {"platform." #name ".friction.viscous",                                                    \
+         "the time in which it takes the motion of the hinge",                                     \
+         .unit = "s",                                                                              \
+         .other = "run.max_step",                                                                  \
+         .low = 0.05,                                                                              \
+         NO_HIGH,                                                                                  \
+         .find = name##_viscous,                                                                   \
+         .why = "the integrator follows it by as many steps as it needs"},                         \
+        {"platform." #name ".stabiliser.kd",                                                       \
+         "the time in which it takes the motion of the hinge",                                     \
+         .unit = "s",                                                                              \
+         .other = "run.max_step",                                                                  \
+         .low = 0.05,                                                                              \
+         NO_HIGH,                                                                                  \
+         .find = name##_kd,                                                                        \
+         .why = "the integrator follows it by as many steps as it needs"},                         \
+        {"platform." #name ".lock.damping",                                                        \
+         "the time in which it takes the motion of the hinge",                                     \
+         .unit = "s",                                                                              \
+         .other = "run.max_step",                                                                  \
+         .low = 0.05,                                                                              \
+         NO_HIGH,                                                                                  \
+         .find = name##_lock_damping,                                                              \
+         .why = "the integrator follows it by as many steps as it needs"},                         \
         {"platform." #name ".stabiliser.command",                                                  \
          "the greatest rate",                                                                      \
          .unit = "rad/s",                                                                          \
@@ -331,6 +390,9 @@ const plausible_rule plausible_of_vehicle[] = {
     {"base.tyre.stiffness.y", "the frequency of a wheel between tyre and suspension", .unit = "Hz",
      .low = 1, .high = 200, .find = hop_frequency, .of = "base.suspension.stiffness.y",
      .why = "that of lorries is about 10 Hz"},
+    {"base.tyre.damping.y", "the time in which it takes the motion of a wheel", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = tyre_time, .of = "base.wheels.#.mass",
+     .why = "the integrator follows it by as many steps as it needs"},
     {"base.tyre.relaxation_length", .unit = "m", .other = "base.tyre.radius", .low = 0.05,
      .high = 10, .why = "it is about the radius"},
     {"base.tyre.friction", .unit = "", .low = 0.05, .high = 1.5,

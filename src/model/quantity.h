@@ -9,11 +9,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What there is one of each: a run; a vehicle, where the base is one; a round or WGS 84 Earth; then
-// several.
+// What there is one of each: a run; a vehicle, where the base is one; air on the emerged part of
+// the rocket, where it is asked for; a round or WGS 84 Earth; then several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
+    EACH_CROSSFLOW,
     EACH_EARTH,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,

@@ -141,22 +141,46 @@ static void command_rules(const rule_set *rules, const char *path, const ld_tabl
     }
 }
 
-// Without a lock the hinge needs its stabiliser whole.
-static void gain_rules(const rule_set *rules, const char *name, const ld_stabiliser *s)
+// What a digital loop alone has.
+static void sample_rules(const rule_set *rules, const char *path, const ld_stabiliser *s)
 {
     const struct {
         const char *name;
+        bool given;
+    } option[] = {{"delay", s->delay > 0},
+                  {"noise", s->noise.angle > 0 || s->noise.rate > 0},
+                  {"resolution", s->resolution.angle > 0 || s->resolution.rate > 0}};
+    for (int i = 0; i < 3 && s->sample == 0; i++)
+        if (option[i].given)
+            broken(rules, path, 0, "sample is missing; %s needs it, in s, > 0 s and <= 10 s",
+                   option[i].name);
+    if (s->sample > 0 && s->delay > s->sample)
+        broken(rules, path, 0, "a delay of %g s is longer than the sample period of %g s", s->delay,
+               s->sample);
+}
+
+// Without a lock the hinge needs its stabiliser whole, its gains or a cascade.
+static void gain_rules(const rule_set *rules, const char *path, const ld_stabiliser *s)
+{
+    bool cascade = s->cascade.present;
+    const struct {
+        const char *name;
         double value;
-    } gain[] = {{"kp", s->kp}, {"kd", s->kd}, {"torque_limit", s->torque_limit}};
-    char missing[64] = "", path[64];
+    } gain[] = {{"kp", cascade ? 0 : s->kp},
+                {"kd", cascade ? 0 : s->kd},
+                {"torque_limit", s->torque_limit}};
+    char missing[64] = "";
     for (int i = 0; i < 3; i++)
         if (isnan(gain[i].value)) {
             strcat(missing, missing[0] ? ", " : "");
             strcat(missing, gain[i].name);
         }
-    snprintf(path, sizeof path, "platform.%s.stabiliser", name);
     if (missing[0])
         broken(rules, path, 0, "missing: %s; only a hinge with a lock does without", missing);
+    if (s->slew > 0 && s->bandwidth == 0)
+        broken(rules, path, 0,
+               "bandwidth is missing; a slew limit needs it, in Hz, > 0 Hz and <= 10000 Hz");
+    sample_rules(rules, path, s);
 }
 
 static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,
@@ -167,8 +191,9 @@ static void turret_rules(const rule_set *rules, const char *name, const ld_turre
     inertia_rule(rules, path, turret->inertia, NULL);
     snprintf(path, sizeof path, "platform.%s.stabiliser.command", name);
     command_rules(rules, path, &turret->stabiliser.command, pitch);
+    snprintf(path, sizeof path, "platform.%s.stabiliser", name);
     if (!turret->lock.present)
-        gain_rules(rules, name, &turret->stabiliser);
+        gain_rules(rules, path, &turret->stabiliser);
 }
 
 void vehicle_rules(const rule_set *rules)

@@ -166,7 +166,7 @@ static const field_row environment_fields[] = {
      .doc = "place of I's origin on the Earth; none: as below, and on a flat Earth no map"},
     {"atmosphere", BLOCK(ld_model, environment.atmosphere, atmosphere_block),
      .initial_doc = "us1976", SWITCH(ld_model, environment.atmosphere.kind, atmosphere_words),
-     .doc = "air in free flight: US Standard Atmosphere 1976, or uniform"},
+     .doc = "air about the rocket: US Standard Atmosphere 1976, or uniform"},
     {"density_scale", NUMBER(ld_model, environment.atmosphere.density_scale, ""), FROM_TO(0, 1000),
      DEFAULT(1), .doc = "factor on the density of the air"},
     {"temperature_offset", NUMBER(ld_model, environment.atmosphere.temperature_offset, "K"),
@@ -180,7 +180,7 @@ static const field_row environment_fields[] = {
             "ellipsoid, by default that of the site"},
     {"wind", BLOCK(ld_model, environment.wind, wind_block), .initial_doc = "none",
      SWITCH(ld_model, environment.wind.present, wind_words), .other_is_bool = true,
-     .doc = "velocity of the air in free flight, where it goes to"},
+     .doc = "velocity of the air, where it goes to"},
     {0}};
 static const field_block environment_block = {.fields = environment_fields};
 
@@ -422,21 +422,66 @@ static const field_row command_columns[] = {
 };
 static const table_format command_table = {TABLE_CONSTANT | TABLE_CSV, 2, command_columns, NULL};
 #define UNLESS_LOCKED NO_DEFAULT("needed unless the hinge has a lock")
+static const field_row cascade_fields[] = {
+    {"kp", NUMBER(ld_cascade, kp, "1/s"), POSITIVE, REQUIRED,
+     .doc = "gain of the angle's loop: the rate that it commands, over the error"},
+    {"rate_kp", NUMBER(ld_cascade, rate_kp, "N.m.s/rad"), POSITIVE, REQUIRED,
+     .doc = "gain of the rate's loop"},
+    {"rate_ki", NUMBER(ld_cascade, rate_ki, "N.m/rad"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "gain on the integral of the rate's error, which stays within the torque limit"},
+    {0}};
+static const field_block cascade_block = {.fields = cascade_fields};
+static const field_word cascade_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
+static const field_row noise_fields[] = {
+    {"angle", NUMBER(ld_sensor_noise, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "rms of the measured angle"},
+    {"rate", NUMBER(ld_sensor_noise, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "rms of the measured rate"},
+    {"seed", INTEGER(ld_sensor_noise, seed, 0, 999999999), DEFAULT(1),
+     .doc = "the same seed is the same noise"},
+    {0}};
+static const field_block noise_block = {.fields = noise_fields};
+static const field_row resolution_fields[] = {
+    {"angle", NUMBER(ld_resolution, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "least step of the measured angle; 0: none"},
+    {"rate", NUMBER(ld_resolution, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "least step of the measured rate; 0: none"},
+    {0}};
+static const field_block resolution_block = {.fields = resolution_fields};
+
+#define UNLESS_CASCADE NO_DEFAULT("needed unless the hinge has a lock or a cascade")
 static const field_row stabiliser_fields[] = {
     {"command", TABLE(ld_stabiliser, command, command_table), .required = true,
      .doc = "yaw (azimuth) or pitch (elevation) of the elevation platform's x axis against I, "
             "constant or over time (linear between rows, constant outside)"},
-    {"kp", NUMBER(ld_stabiliser, kp, "N.m/rad"), NOT_NEGATIVE, UNLESS_LOCKED,
+    {"kp", NUMBER(ld_stabiliser, kp, "N.m/rad"), NOT_NEGATIVE, UNLESS_CASCADE,
      .doc = "gain on the error"},
     {"ki", NUMBER(ld_stabiliser, ki, "N.m/rad/s"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "gain on its integral, which stays within the torque limit"},
-    {"kd", NUMBER(ld_stabiliser, kd, "N.m.s/rad"), NOT_NEGATIVE, UNLESS_LOCKED,
+    {"kd", NUMBER(ld_stabiliser, kd, "N.m.s/rad"), NOT_NEGATIVE, UNLESS_CASCADE,
      .doc = "gain on its rate"},
     {"torque_limit", NUMBER(ld_stabiliser, torque_limit, "N.m"), POSITIVE, UNLESS_LOCKED,
      .doc = "greatest torque"},
     {"feedforward", NUMBER(ld_stabiliser, feedforward, ""), FROM_TO(0, 1), DEFAULT(0),
      .doc = "share of the chassis' inertial rate along the hinge's axis against which it is "
             "commanded to turn"},
+    {"cascade", BLOCK(ld_stabiliser, cascade, cascade_block), .initial_doc = "none",
+     SWITCH(ld_stabiliser, cascade.present, cascade_words), .other_is_bool = true,
+     .doc = "two loops in place of kp, ki, kd, which then do not matter: the angle's commands a "
+            "rate to the rate's"},
+    {"bandwidth", NUMBER(ld_stabiliser, bandwidth, "Hz"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "of the actuator, whose torque follows as a first-order lag; 0: at once"},
+    {"slew", NUMBER(ld_stabiliser, slew, "N.m/s"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "greatest rate of the actuator's torque, which needs its bandwidth; 0: any"},
+    {"sample", NUMBER(ld_stabiliser, sample, "s"), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "period of a digital loop, whose torque is held in between; 0: continuous"},
+    {"delay", NUMBER(ld_stabiliser, delay, "s"), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "from a sample until its torque is given out, at most the period"},
+    {"noise", BLOCK(ld_stabiliser, noise, noise_block), .initial_doc = "none",
+     .doc = "white noise of the sensors, one draw a sample"},
+    {"resolution", BLOCK(ld_stabiliser, resolution, resolution_block), .initial_doc = "none",
+     .doc = "of the sensors, rounded in each sample"},
     {0}};
 static const field_block stabiliser_block = {.fields = stabiliser_fields};
 
@@ -470,7 +515,8 @@ static const field_row turret_fields[] = {
     {"inertia", VECTOR(ld_turret, inertia, "kg.m2", 3), POSITIVE, REQUIRED,
      .doc = "of the frame about its own mass centre"},
     {"stabiliser", BLOCK(ld_turret, stabiliser, stabiliser_block), .required = true,
-     .doc = "holds the commanded angle: torque kp error + kd its rate + ki its integral, limited"},
+     .doc = "holds the commanded angle: torque kp error + kd its rate + ki its integral, limited; "
+            "or as its options say"},
     {"friction", BLOCK(ld_turret, friction, friction_block), .initial_doc = "none",
      .doc = "in the hinge"},
     {"lock", BLOCK(ld_turret, lock, hinge_lock_block), .initial_doc = "none",
@@ -758,6 +804,16 @@ static const field_row crossflow_fields[] = {
      .doc = "x of B where it acts"},
     {0}};
 static const field_block crossflow_block = {.fields = crossflow_fields};
+static const field_word emerged_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row emerged_fields[] = {
+    {"nose", NUMBER(ld_aerodynamics, emerged.nose, "m"), ABOVE_TO(0, 100), REQUIRED,
+     .doc = "x of B where the rocket ends; what lies between the tube's tip and it is in the air"},
+    {"drag", NUMBER(ld_aerodynamics, emerged.drag, ""), FROM_TO(0, 100), REQUIRED,
+     .doc = "C_c, coefficient of the drag of the lateral speed, on diameter times length"},
+    {"diameter", NUMBER(ld_aerodynamics, emerged.diameter, "m"), ABOVE_TO(0, 100),
+     NO_DEFAULT("reference_diameter; needed by a plain body"), .doc = "D"},
+    {0}};
+static const field_block emerged_block = {.fields = emerged_fields};
 #define TABLED .forms = FORM(LD_AERODYNAMICS_TABLE)
 #define PLAIN_BODY .forms = FORM(LD_AERODYNAMICS_BODY)
 static const field_row aerodynamics_fields[] = {
@@ -779,6 +835,10 @@ static const field_row aerodynamics_fields[] = {
     {"crossflow", SAME_STRUCT(crossflow_block), .initial_doc = "none", TABLED,
      SWITCH(ld_aerodynamics, crossflow.present, crossflow_words), .other_is_bool = true,
      .doc = "drag of large angles of attack"},
+    {"emerged", SAME_STRUCT(emerged_block), .initial_doc = "none",
+     SWITCH(ld_aerodynamics, emerged.present, emerged_words), .other_is_bool = true,
+     .doc = "drag of the lateral speed on the part of the rocket that has come out of its tube, "
+            "until the rear adaptor does"},
     {"ca_scale", NUMBER(ld_aerodynamics, ca_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
      .doc = "factor on ca_power_off and ca_power_on"},
     {"cn_scale", NUMBER(ld_aerodynamics, cn_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
@@ -845,7 +905,8 @@ static const field_row rocket_fields[] = {
      .other_is_bool = true, .doc = "thrust; `none`: only in a flight alone"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
-     .other_is_bool = true, .doc = "air forces in free flight"},
+     .other_is_bool = true,
+     .doc = "air forces in free flight and, by its key emerged, on what has come out of the tube"},
     {"pressure", LATER, .doc = "pressure-driven launch in place of a motor"},
     {0}};
 static const field_block rocket_block = {

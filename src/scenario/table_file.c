@@ -4,97 +4,44 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text_lines.h"
 #include "model/field.h"
 #include "scenario/scenario_reader.h"
 
-enum { MAX_FIELDS = 16, LINE = 1024 };
-
-// Lines of a file one after the other, split into fields.
+// A file's lines, and where what is wrong with them is told.
 typedef struct line_reader {
     scenario_reader *reader;
     const char *path; // of the key that names the file
     const text_source *source;
-    const char *next;
-    int number;      // of the line at hand, from 1
-    char text[LINE]; // of the line at hand, cut into fields
-    int count;
-    const char *field[MAX_FIELDS];
-    int column[MAX_FIELDS];
+    text_lines at; // the line at hand
     bool failed;
 } line_reader;
 
 static void refuse_line(line_reader *lines, int field, const char *text)
 {
-    text_place at = {lines->source, lines->number, field < lines->count ? lines->column[field] : 1};
+    text_place at = {lines->source, lines->at.number, text_lines_column(&lines->at, field)};
     reader_refuse(lines->reader, at, lines->path, "%s", text);
     lines->failed = true;
-}
-
-// Copies the next line; false at the end.
-static bool take_line(line_reader *lines)
-{
-    const char *end = lines->source->text + lines->source->length;
-    if (lines->next >= end || lines->failed)
-        return false;
-    const char *stop = memchr(lines->next, '\n', (size_t)(end - lines->next));
-    size_t length = (size_t)((stop ? stop : end) - lines->next);
-    lines->number++;
-    lines->count = 0;
-    bool good = length < LINE && !memchr(lines->next, '\0', length);
-    memcpy(lines->text, lines->next, good ? length : 0);
-    lines->text[good ? length : 0] = '\0';
-    lines->next += length + 1;
-    if (!good)
-        refuse_line(lines, 0, "this line is no text, or too long");
-    return good;
-}
-
-static char *trim(char *text)
-{
-    text += strspn(text, " \t\r");
-    size_t length = strlen(text);
-    while (length > 0 && strchr(" \t\r", text[length - 1]))
-        text[--length] = '\0';
-    return text;
-}
-
-static void add_field(line_reader *lines, char *text)
-{
-    if (lines->count < MAX_FIELDS) {
-        lines->column[lines->count] = (int)(text - lines->text) + 1;
-        lines->field[lines->count++] = text;
-    }
 }
 
 // The next line that is neither blank nor a comment, its fields cut at blanks or at commas.
 static bool next_line(line_reader *lines, char comment, bool commas)
 {
-    while (take_line(lines)) {
-        char *text = lines->text;
-        if (text[strspn(text, " \t\r")] == comment || *trim(text) == '\0')
-            continue;
-        const char *between = commas ? "," : " \t\r";
-        for (char *part = text; part;) {
-            char *end = part + strcspn(part, between);
-            char *rest = *end ? end + 1 : NULL;
-            *end = '\0';
-            if (commas || *part)
-                add_field(lines, trim(part));
-            part = rest;
-        }
-        return true;
-    }
-    return false;
+    bool there = !lines->failed && text_lines_next(&lines->at, comment, commas);
+    if (!there && !lines->failed && lines->at.wrong)
+        refuse_line(lines, 0, lines->at.wrong);
+    return there;
 }
 
 static bool line_number(line_reader *lines, int field, double *value)
 {
-    const char *reason, *end = number_parse(lines->field[field], value, &reason);
+    const char *reason, *end = number_parse(lines->at.field[field], value, &reason);
     char text[160], quoted[64];
     if (end && *end == '\0')
         return true;
     snprintf(text, sizeof text, "found %s%s%s; expected a number",
-             reader_quote(lines->field[field], quoted), reason ? ", " : "", reason ? reason : "");
+             reader_quote(lines->at.field[field], quoted), reason ? ", " : "",
+             reason ? reason : "");
     refuse_line(lines, field, text);
     return false;
 }
@@ -127,7 +74,7 @@ static void read_rasp_header(line_reader *lines)
             refuse_line(lines, 0, "no engine in this file");
         return;
     }
-    if (lines->count < 7) {
+    if (lines->at.count < 7) {
         refuse_line(lines, 0,
                     "the header of an engine has seven fields: name, diameter, length, "
                     "delays, propellant mass, total mass, manufacturer");
@@ -143,7 +90,7 @@ static bool read_rasp_point(line_reader *lines, ld_table *table)
 {
     const double origin[2] = {0, 0};
     double row[2];
-    if (lines->count != 2) {
+    if (lines->at.count != 2) {
         refuse_line(lines, 0, "expected two numbers, time in s and thrust in N");
         return false;
     }
@@ -195,11 +142,11 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
     char name[32], unit[32], unknown[32], text[192];
     double factor;
     int end = 0;
-    if (!column->unit[0] && i < lines->count && strcmp(lines->field[i], column->name) == 0)
+    if (!column->unit[0] && i < lines->at.count && strcmp(lines->at.field[i], column->name) == 0)
         return 1;
-    if (column->unit[0] && i < lines->count &&
-        sscanf(lines->field[i], "%31[a-z_] [%31[^]]]%n", name, unit, &end) == 2 && end > 0 &&
-        lines->field[i][end] == '\0' && strcmp(name, column->name) == 0 &&
+    if (column->unit[0] && i < lines->at.count &&
+        sscanf(lines->at.field[i], "%31[a-z_] [%31[^]]]%n", name, unit, &end) == 2 && end > 0 &&
+        lines->at.field[i][end] == '\0' && strcmp(name, column->name) == 0 &&
         units_factor(unit, column->unit, &factor, unknown) == UNITS_OK)
         return factor;
     if (column->unit[0])
@@ -224,7 +171,7 @@ static void read_cell(line_reader *lines, const field_row *column, int i, double
         refuse_line(lines, i, "too large a number");
     } else if (!field_in_range(column->range, *value)) {
         field_range_text(column, expected, sizeof expected);
-        snprintf(text, sizeof text, "found %.40s; expected %s", lines->field[i], expected);
+        snprintf(text, sizeof text, "found %.40s; expected %s", lines->at.field[i], expected);
         refuse_line(lines, i, text);
     }
 }
@@ -234,8 +181,9 @@ static void read_csv_row(line_reader *lines, const table_format *format, const d
 {
     double row[FIELD_MAX_COLUMNS];
     char text[128];
-    if (lines->count != format->columns) {
-        snprintf(text, sizeof text, "expected %d numbers, found %d", format->columns, lines->count);
+    if (lines->at.count != format->columns) {
+        snprintf(text, sizeof text, "expected %d numbers, found %d", format->columns,
+                 lines->at.count);
         refuse_line(lines, 0, text);
         return;
     }
@@ -257,11 +205,11 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
     if (!next_line(lines, '#', true) && !lines->failed)
         refuse_line(lines, 0, "the file is empty");
     // the header says which form of the table it is
-    const table_format *given = field_table_format(format, (size_t)lines->count);
+    const table_format *given = field_table_format(format, (size_t)lines->at.count);
     format = given ? given : format;
     // a table that may do without a header is in SI units then
-    bool bare = format->sources & TABLE_BARE && lines->count > 0 &&
-                strchr("0123456789+-.", lines->field[0][0]);
+    bool bare = format->sources & TABLE_BARE && lines->at.count > 0 &&
+                strchr("0123456789+-.", lines->at.field[0][0]);
     for (int i = 0; i < format->columns && !lines->failed; i++)
         factor[i] = bare ? 1 : header_factor(lines, &format->column[i], i);
     if (bare)
@@ -279,7 +227,7 @@ bool table_file_read(scenario_reader *reader, const field_row *f, text_place pla
     line_reader lines = {.reader = reader, .path = path, .source = opened};
     if (!opened)
         return false;
-    lines.next = opened->text;
+    lines.at = text_lines_begin(opened->text, opened->length);
     size_t length = strlen(name);
     if (strcmp(name + length - 4, ".eng") == 0)
         read_rasp(&lines, table);

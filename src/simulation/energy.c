@@ -24,7 +24,10 @@ void simulation_energy(const launch_state *self, const launcher_input *input,
     energy->potential = launching_potential_energy(&launcher->launching, y);
     energy->elastic = launcher_elastic_energy(launcher, out);
     memset(energy->work, 0, sizeof energy->work);
-    memcpy(energy->work, work, (size_t)launcher->work_count * sizeof *work);
+    int launching = launcher->launching.work_count;
+    memcpy(energy->work, work, (size_t)launching * sizeof *work);
+    memcpy(energy->work + POWER_COUNT, work + launching,
+           (size_t)launcher->base.work_count * sizeof *work);
     energy->residual = energy->kinetic + energy->potential + energy->elastic - energy_start - sum;
     energy->residual_relative = largest > 0 ? energy->residual / largest : 0;
 }

@@ -153,6 +153,12 @@ static const quantity guidance[] = {
     {"lock.force", "N", "force carried by the lock", AT(out.launching.lock_force)},
     {"breech.force", "N", "force of the breech on the rocket", AT(out.launching.breech_force)},
 };
+// In the axes of the floating frame.
+static const quantity crossflow[] = {
+    {"crossflow.length", "m", "length of the rocket that is out of the tube", AT(out.launching.emerged)},
+    {"crossflow.y", "N", "force of the air on it, along y of R", AT(out.launching.crossflow.y)},
+    {"crossflow.z", "N", "force of the air on it, along z of R", AT(out.launching.crossflow.z)},
+};
 static const quantity energies[] = {
     {"energy.kinetic", "J", "kinetic energy of tube, tail and rocket, and of the vehicle", AT(energy.kinetic)},
     {"energy.potential", "J", "potential energy of tube and tail in gravity", AT(energy.potential)},
@@ -162,6 +168,7 @@ static const quantity energies[] = {
 #define ORIENTATING(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
+static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity balance[] = {
     {"energy.residual", "J", "what the energy balance misses", AT(energy.residual)},
@@ -178,10 +185,12 @@ static const quantity_group groups[] = {
     {.title = "mass and thrust", ROCKET, QUANTITY_ROWS(motor_now)},
     {.title = "each adaptor", .each = EACH_ADAPTOR, ROCKET, QUANTITY_ROWS(contacts)},
     {.title = "slot, lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
+    {.title = "air on the emerged part of the rocket", .each = EACH_CROSSFLOW, ROCKET, QUANTITY_ROWS(crossflow)},
 };
 static const quantity_group balances[] = {
     {.title = "energy", QUANTITY_ROWS(energies)},
     {.title = "works since the start", QUANTITY_ROWS(works)},
+    {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, QUANTITY_ROWS(crossflow_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
     {.title = "balance", QUANTITY_ROWS(balance)},
 };

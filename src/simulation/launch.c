@@ -119,14 +119,15 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
 static ld_status step(ld_run *run)
 {
     double t = propagator_time(run->propagator), stop = launch_next_stop(run, t);
+    double input = fmin(run->t_input, launch_next_sample(run, t));
     ld_status status = launch_check_base(run, t);
     if (status)
         return status;
-    run->outcome = propagator_step(run->propagator, fmin(stop, run->t_input), &run->error);
+    run->outcome = propagator_step(run->propagator, fmin(stop, input), &run->error);
     if (run->outcome == INTEGRATOR_FAILED)
         return step_failed(run);
     if (run->outcome == INTEGRATOR_STOPPED && propagator_time(run->propagator) < stop)
-        run->outcome = INTEGRATOR_STEPPED; // an input's instant is none of the launch
+        run->outcome = INTEGRATOR_STEPPED; // an input's or a sample's instant is none of the launch
     run->ahead = true;
     run->event_count = run->event_told = 0;
     return LD_OK;
@@ -137,6 +138,8 @@ static ld_status arrive(ld_run *run)
 {
     run->ahead = false;
     ld_status status = after_step(run, run->outcome);
+    if (!status)
+        status = launch_sample_base(run);
     if (!status)
         status = change_tube(run, propagator_time(run->propagator));
     if (!status && launch_is_finished(run))

@@ -1,4 +1,4 @@
-// A base that is told where it is, and the wrench on any base.
+// A base that is told where it is, one that acts by itself at instants, and the wrench on any base.
 #include <math.h>
 #include <string.h>
 
@@ -67,6 +67,23 @@ ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *er
     launch_let_go_at_once(run, run->t, y);
     run->status = propagator_start(run->propagator, run->t, y, false, &run->error);
     return LD_OK;
+}
+
+double launch_next_sample(const ld_run *run, double t)
+{
+    const base_system *base = &run->launch.launcher.base;
+    return base->kind->next_sample ? base->kind->next_sample(base, t) : INFINITY;
+}
+
+ld_status launch_sample_base(ld_run *run)
+{
+    const launcher_system *launcher = &run->launch.launcher;
+    double t = propagator_time(run->propagator), y[LD_MAX_STATES];
+    if (launch_next_sample(run, nextafter(t, -INFINITY)) != t)
+        return LD_OK;
+    memcpy(y, propagator_state(run->propagator), (size_t)launcher->state_count * sizeof *y);
+    launcher->base.kind->sample(&launcher->base, t, y + launcher->base_at);
+    return propagator_start(run->propagator, t, y, false, &run->error);
 }
 
 ld_status launch_wrench(ld_run *run, const double *y, ld_base_wrench *wrench, ld_error *error)

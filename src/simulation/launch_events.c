@@ -141,6 +141,8 @@ double launch_next_stop(const ld_run *run, double t)
     stop = fmin(stop, run->t_end);
     if (base->kind->next_corner)
         stop = fmin(stop, base->kind->next_corner(base, t));
+    if (self->air) // a gust's
+        stop = fmin(stop, wind_next_corner(&self->air->wind, t));
     // where nobody has said when, a step still wants a finite end
     if (t < self->t_ignition)
         return fmin(stop, isinf(self->t_ignition) ? t + 1 : self->t_ignition);

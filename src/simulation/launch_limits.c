@@ -81,23 +81,26 @@ ld_status launch_check_base(ld_run *run, double t)
                    first, last, t);
 }
 
-// Steps of less than 50 ns on the average over a millisecond, or of less than a microsecond over
-// all of very many: the run would hardly go on.
+// Steps of less than 50 ns on the average over a millisecond, or over all of n steps of less than n
+// times 10 ps (a microsecond of 100 000) and than half the longest step: the run would hardly go
+// on.
 static ld_status check_steps(ld_run *run, double t)
 {
-    const int64_t most = 20000, very_many = 1000000;
-    int64_t steps = propagator_steps(run->propagator);
-    if (steps > very_many && t - run->t_start < 1e-6 * (double)steps)
+    const int64_t most = 20000;
+    if (++run->steps_since_progress > most)
         return ld_fail(&run->error, LD_ERR_NUMERIC,
-                       "the steps are too short to go on: %lld for %.6g s, up to t = %.9g s; is a "
-                       "contact, a damper or a friction far too hard?",
-                       (long long)steps, t - run->t_start, t);
-    if (++run->steps_since_progress <= most)
+                       "the steps became too short to go on: more than %lld within a millisecond, "
+                       "up to t = %.9g s",
+                       (long long)most, t);
+    int64_t steps = propagator_steps(run->propagator);
+    double spent = t - run->t_start;
+    double least = fmin(1e-11 * (double)steps, run->launch.model->run.max_step / 2) * (double)steps;
+    if (spent < 1e-3 || spent >= least)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_NUMERIC,
-                   "the steps became too short to go on: more than %lld within a millisecond, up "
-                   "to t = %.9g s",
-                   (long long)most, t);
+                   "the steps are too short to go on: %lld for %.6g s, up to t = %.9g s; is a "
+                   "contact, a damper or a friction far too hard?",
+                   (long long)steps, spent, t);
 }
 
 // Every millisecond of physics: the caller hears of it, and the tube is looked at.

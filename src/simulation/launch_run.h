@@ -63,6 +63,10 @@ ld_status launch_ignite(ld_run *run);
 ld_status launch_begin_base(ld_run *run);
 // At the present, of which a step then ends. Only what was told is to blame for what it returns.
 ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *error);
+// The first instant after t at which the base changes its state by itself [s]; it does so where the
+// present is one.
+double launch_next_sample(const ld_run *run, double t);
+ld_status launch_sample_base(ld_run *run);
 // On any base, in the state y of the present.
 ld_status launch_wrench(ld_run *run, const double *y, ld_base_wrench *wrench, ld_error *error);
 

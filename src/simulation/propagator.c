@@ -8,18 +8,35 @@
 
 // ---- the equations ----
 
-// Thrust and mass at time t.
-static void burn(const launch_state *self, double t, launching_input *input)
+// The air about the rocket at its mass centre.
+static void find_air(const launch_state *self, double t, const double *y, launching_input *input)
+{
+    const launching_system *launching = &self->launcher.launching;
+    const launching_layout *at = &launching->layout;
+    launching_output unused;
+    launching_pose pose;
+    launching_rocket_pose(launching, y, &pose, &unused);
+    v3 center = v3_add(pose.p1, m3_apply(pose.A_RB, input->mass.c));
+    v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), center));
+    double left = launching->tube.flexible.length - y[at->x + X_S];
+    input->air = flight_air_at(self->air, t, r, left);
+}
+
+// Thrust, mass and air at time t and the launching subsystem's state.
+static void surround(const launch_state *self, double t, const double *y, launching_input *input)
 {
     double tau = t - self->t_ignition;
     input->thrust = motor_thrust(self->motor, self->piece, tau);
     motor_mass(self->motor, self->piece, tau, &input->mass);
+    input->air = (moving_air){0};
+    if (self->air && self->phase.rocket)
+        find_air(self, t, y, input);
 }
 
 void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input)
 {
     launcher_place(&self->launcher, t, y, input);
-    burn(self, t, &input->launching);
+    surround(self, t, y, &input->launching);
     input->rest = self->rest;
     input->held = false;
     input->formulation = self->model->run.formulation;
@@ -140,7 +157,7 @@ typedef struct held_wrench {
     v3 force, moment, force_rate, moment_rate;
 } held_wrench;
 
-enum { ORIENTATING_COUNT = ORIENTATING_STATES + ORIENTATING_POWERS };
+enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 struct propagator {
@@ -159,7 +176,7 @@ struct propagator {
     held_frame chassis, tube;
     held_wrench on_chassis, on_tube;
     integrator *orientating, *marching;
-    int marching_count;
+    int orientating_count, marching_count;
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
 };
@@ -212,7 +229,7 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     launching_input input;
     launching_output *out = &launch->latest.out.launching;
     held_frame_at(&self->tube, t - self->t, &input.base);
-    burn(launch, t, &input);
+    surround(launch, t, y, &input);
     launch->latest.known = false; // not one of the whole
     launching_outcome outcome = launcher_evaluate_tube(launcher, launch->model->run.formulation,
                                                        &input, &launch->phase, y, out);
@@ -221,8 +238,9 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
         return -1;
     int count = launcher->launching.layout.count;
     launching_rates(&launcher->launching, y, out, launch->phase.rocket, y_dot);
-    memcpy(y_dot + count, out->power, sizeof out->power);
-    return all_finite(count + POWER_COUNT, y_dot) ? 0 : -1;
+    int works = launcher->launching.work_count;
+    memcpy(y_dot + count, out->power, (size_t)works * sizeof *y_dot);
+    return all_finite(count + works, y_dot) ? 0 : -1;
 }
 
 static int launching_events_apart(double t, const double *y, double *g, void *user)
@@ -249,14 +267,14 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
         .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
         .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
         .rest = {launch->rest.hinge[0], launch->rest.hinge[1]},
-        .frictionless = launch->phase.frictionless,
+        .linear = launch->phase.frictionless,
     };
     const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
     orientating_motion_at(orientating, t, y, &motion);
     if (orientating_evaluate(orientating, &input, y, &motion, y_dot, &out))
         return -1;
-    memcpy(y_dot + ORIENTATING_STATES, out.power, sizeof out.power);
-    return all_finite(ORIENTATING_COUNT, y_dot) ? 0 : -1;
+    memcpy(y_dot + orientating->state_count, out.power, sizeof out.power);
+    return all_finite(self->orientating_count, y_dot) ? 0 : -1;
 }
 
 static int marching_rhs(double t, const double *y, double *y_dot, void *user)
@@ -284,14 +302,21 @@ static void put_part(const double *part, int at, int count, int works_at, int wo
     memcpy(y + works_at, part + count, (size_t)works * sizeof(double));
 }
 
+static void split_launching(const launcher_system *launcher, const double *y, double *part)
+{
+    const launching_system *launching = &launcher->launching;
+    part_of(y, 0, launching->layout.count, launcher->work_at, launching->work_count, part);
+}
+
 // The orientating and marching parts of the whole state.
 static void split_base(const propagator *self, const double *y, double *orientating,
                        double *marching)
 {
     const launcher_system *launcher = &self->launch->launcher;
-    int works = launcher->work_at + POWER_COUNT;
-    part_of(y, launcher->base_at, ORIENTATING_STATES, works, ORIENTATING_POWERS, orientating);
-    part_of(y, launcher->base_at + VEHICLE_MARCHING, self->vehicle->marching.state_count,
+    int works = launcher->work_at + launcher->launching.work_count;
+    part_of(y, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
+            orientating);
+    part_of(y, launcher->base_at + self->vehicle->marching_at, self->vehicle->marching.state_count,
             works + ORIENTATING_POWERS, MARCHING_POWERS, marching);
 }
 
@@ -299,10 +324,11 @@ static void join_base(const propagator *self, const double *orientating, const d
                       double *y)
 {
     const launcher_system *launcher = &self->launch->launcher;
-    int works = launcher->work_at + POWER_COUNT;
-    put_part(orientating, launcher->base_at, ORIENTATING_STATES, works, ORIENTATING_POWERS, y);
-    put_part(marching, launcher->base_at + VEHICLE_MARCHING, self->vehicle->marching.state_count,
-             works + ORIENTATING_POWERS, MARCHING_POWERS, y);
+    int works = launcher->work_at + launcher->launching.work_count;
+    put_part(orientating, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
+             y);
+    put_part(marching, launcher->base_at + self->vehicle->marching_at,
+             self->vehicle->marching.state_count, works + ORIENTATING_POWERS, MARCHING_POWERS, y);
 }
 
 // The base's states at an instant between the last exchange and the next: cubic Hermite.
@@ -313,7 +339,7 @@ static void base_between(const propagator *self, double t, double *y)
     double a = (1 + 2 * x) * (1 - x) * (1 - x), b = x * (1 - x) * (1 - x) * h;
     double c = x * x * (3 - 2 * x), d = -x * x * (1 - x) * h;
     for (int i = launcher->base_at; i < launcher->state_count; i++)
-        if (i < launcher->work_at || i >= launcher->work_at + POWER_COUNT)
+        if (i < launcher->work_at || i >= launcher->work_at + launcher->launching.work_count)
             y[i] =
                 a * self->from[i] + b * self->rate_from[i] + c * self->to[i] + d * self->rate_to[i];
 }
@@ -322,7 +348,8 @@ static void base_between(const propagator *self, double t, double *y)
 static void join(const propagator *self, double t, const double *y, double *whole)
 {
     const launcher_system *launcher = &self->launch->launcher;
-    put_part(y, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT, whole);
+    const launching_system *launching = &launcher->launching;
+    put_part(y, 0, launching->layout.count, launcher->work_at, launching->work_count, whole);
     base_between(self, t, whole);
 }
 
@@ -335,7 +362,7 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     const launcher_system *launcher = &launch->launcher;
     launcher_input input;
     launcher_output *out = &launch->latest.out;
-    double since = t - self->t, orientating[ORIENTATING_COUNT], marching[MARCHING_MOST];
+    double since = t - self->t, orientating[ORIENTATING_MOST], marching[MARCHING_MOST];
     simulation_input(launch, t, y, &input);
     launch->latest.known = false;
     if (launcher_evaluate(launcher, &input, &launch->phase, y, out))
@@ -389,20 +416,21 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
     bool absolute[2][LD_MAX_STATES] = {{false}};
     for (int i = 0; i < LD_MAX_STATES; i++)
         atol[0][i] = atol[1][i] = 1e300;
-    for (int i = 0; i < ORIENTATING_STATES; i++) {
+    for (int i = 0; i < self->vehicle->marching_at; i++) {
         atol[0][i] = all->atol[launcher->base_at + i];
         absolute[0][i] = all->absolute[launcher->base_at + i];
     }
     for (int i = 0; i < self->vehicle->marching.state_count; i++) {
-        atol[1][i] = all->atol[launcher->base_at + VEHICLE_MARCHING + i];
-        absolute[1][i] = all->absolute[launcher->base_at + VEHICLE_MARCHING + i];
+        atol[1][i] = all->atol[launcher->base_at + self->vehicle->marching_at + i];
+        absolute[1][i] = all->absolute[launcher->base_at + self->vehicle->marching_at + i];
     }
+    self->orientating_count = self->vehicle->marching_at + ORIENTATING_POWERS;
     self->marching_count = self->vehicle->marching.state_count + MARCHING_POWERS;
     integrator_settings settings = *whole;
     settings.events = NULL;
     settings.event_count = 0;
     settings.max_step = 0;
-    settings.n = ORIENTATING_COUNT;
+    settings.n = (size_t)self->orientating_count;
     settings.rhs = orientating_rhs;
     settings.atol = atol[0];
     settings.absolute = absolute[0];
@@ -437,12 +465,12 @@ static ld_status create_integrators(propagator *self, ld_error *error)
     if (!self->apart)
         return integrator_create(&settings, &self->integrator, error);
     ld_status status = create_base(self, &settings, &all, error);
-    int count = launcher->launching.layout.count;
-    for (int i = 0; i < POWER_COUNT; i++) {
+    int count = launcher->launching.layout.count, works = launcher->launching.work_count;
+    for (int i = 0; i < works; i++) {
         all.atol[count + i] = 1e300;
         all.absolute[count + i] = false;
     }
-    settings.n = (size_t)(count + POWER_COUNT);
+    settings.n = (size_t)(count + works);
     settings.rhs = launching_rhs;
     settings.events = launching_events_apart;
     return status ? status : integrator_create(&settings, &self->integrator, error);
@@ -492,7 +520,7 @@ ld_status propagator_start(propagator *self, double t, const double *y, bool ane
         memcpy(self->from, y, (size_t)launcher->state_count * sizeof(double));
     }
     memmove(self->state, y, (size_t)launcher->state_count * sizeof(double));
-    part_of(y, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT, launching);
+    split_launching(launcher, y, launching);
     return integrator_start(self->integrator, t, launching, error);
 }
 
@@ -517,8 +545,7 @@ integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *er
     if (t >= self->t_next) {
         if (exchange(self, t, self->state, t_stop, error))
             return INTEGRATOR_FAILED;
-        part_of(self->state, 0, launcher->launching.layout.count, launcher->work_at, POWER_COUNT,
-                launching);
+        split_launching(launcher, self->state, launching);
         if (integrator_start(self->integrator, t, launching, error))
             return INTEGRATOR_FAILED;
     }

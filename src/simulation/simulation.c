@@ -14,6 +14,22 @@ double simulation_cpu_now(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
+static ld_status create_flights(ld_simulation *self, ld_error *error)
+{
+    const ld_model *model = self->model;
+    if (!model_has_crossflow(model))
+        return LD_OK;
+    self->flight_of = calloc((size_t)model->firing_count, sizeof *self->flight_of);
+    if (!self->flight_of)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the air about the rockets");
+    ld_status status = LD_OK;
+    for (int i = 0; i < model->firing_count && !status; i++) {
+        status = flight_build(&self->flight_of[i], model, i, error);
+        self->flight_count += !status;
+    }
+    return status;
+}
+
 static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_error *error)
 {
     const ld_model *model = self->model;
@@ -23,6 +39,8 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
         status = motor_build(&self->motor_of[i], salvo_rocket(model, i), error);
         self->motor_count += !status;
     }
+    if (!status)
+        status = create_flights(self, error);
     if (status)
         return status;
     status = history_build(self, error);
@@ -35,6 +53,9 @@ static void release(ld_simulation *self)
 {
     launcher_free(&self->launcher);
     flight_free(&self->flight);
+    for (int i = 0; i < self->flight_count; i++)
+        flight_free(&self->flight_of[i]);
+    free(self->flight_of);
     for (int i = 0; i < self->motor_count; i++)
         motor_free(&self->motor_of[i]);
     quantity_columns_free(&self->columns);
@@ -92,4 +113,9 @@ void ld_simulation_free(ld_simulation *self)
 const motor *simulation_motor(const ld_simulation *self, int i)
 {
     return &self->motor_of[self->model->salvo ? i : 0];
+}
+
+const flight_system *simulation_flight(const ld_simulation *self, int i)
+{
+    return self->flight_of ? &self->flight_of[i] : NULL;
 }

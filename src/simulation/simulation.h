@@ -20,6 +20,9 @@ struct ld_simulation {
     motor motor_of[LD_MAX_FIRINGS]; // of each firing where the rockets of a salvo differ, else one
     int motor_count;
     flight_system flight; // of a flight alone
+    // of each firing, where the launch asks what its rocket flies in; NULL: it does not
+    flight_system *flight_of;
+    int flight_count;
 
     // of a vehicle, linearised about its equilibrium on a flat road
     ld_status stability; // whether its stabilisers hold its platform; else why not
@@ -40,6 +43,9 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
 
 // Motor of firing i.
 const motor *simulation_motor(const ld_simulation *self, int i);
+
+// Flight of firing i; NULL where the launch has none.
+const flight_system *simulation_flight(const ld_simulation *self, int i);
 
 // Adds a remark that the user should see.
 void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);

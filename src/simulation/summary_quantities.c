@@ -219,6 +219,7 @@ static const quantity energies[] = {
 #define ORIENTATING(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
+static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity balance[] = {
     {"energy.residual", "J", "what the energy balance misses", RUN(energy.residual)},
@@ -241,6 +242,7 @@ static const quantity_group run_groups[] = {
     {.title = "of its hinges", .each = EACH_HINGE, .launch = true, WHEELS, QUANTITY_ROWS(resting_hinges)},
     {.title = "energy at the end", .launch = true, QUANTITY_ROWS(energies)},
     {.title = "works since the start", .launch = true, QUANTITY_ROWS(works)},
+    {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, .launch = true, QUANTITY_ROWS(crossflow_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
     {.title = "balance", .launch = true, QUANTITY_ROWS(balance)},
 };

@@ -10,6 +10,8 @@
 #include "launchdyn/study.h"
 #include "simulation/study_results.h"
 #include "studies/sensitivity.h"
+#include "studies/show_measured.h"
+#include "studies/show_numbers.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
 
@@ -17,6 +19,7 @@ typedef struct shown {
     const study_data *data;
     const ld_study_view *view;
     FILE *stream;
+    measured shots;              // beside which the study is shown, or none
     const study_column **column; // [count] what is shown
     int count;
     group_statistics *of; // [points][count]
@@ -134,14 +137,6 @@ static ld_status compute(shown *self, ld_error *error)
 
 // ---- a point
 
-static void print_name(FILE *stream, const study_column *column)
-{
-    char name[192];
-    snprintf(name, sizeof name, "%s%s%s%s", column->name, column->unit[0] ? " [" : "", column->unit,
-             column->unit[0] ? "]" : "");
-    fprintf(stream, "%-26s", VISIBLE(name));
-}
-
 static ld_status print_counts(const shown *self, const study_point *point, ld_error *error)
 {
     enum { MOST = 20 };
@@ -160,52 +155,6 @@ static ld_status print_counts(const shown *self, const study_point *point, ld_er
     return status;
 }
 
-// What was not found is printed as "-", a negative zero as 0.
-static void number_text(char text[32], double value, int digits)
-{
-    if (isnan(value))
-        strcpy(text, "-");
-    else
-        snprintf(text, 32, "%.*g", digits, value + 0.0);
-}
-
-static void print_number(FILE *stream, int width, double value, int digits)
-{
-    char text[32];
-    number_text(text, value, digits);
-    fprintf(stream, " %*s", width, text);
-}
-
-// "37.125 +- 0.02": so many digits, or as many as show half the interval and have room.
-static void print_half(FILE *stream, int width, const estimate *e, int least)
-{
-    char text[64], value[32];
-    double half = 0.5 * (e->high - e->low);
-    int digits = printed_digits(e->value, half, least), length;
-    do {
-        number_text(value, e->value, digits);
-        length = snprintf(text, sizeof text, isfinite(half) ? "%s +- %.2g" : "%s", value, half);
-    } while (length > width && digits-- > least);
-    fprintf(stream, " %-*s", width, text);
-}
-
-// "8.31 [8.24, 8.37]": four digits, or as many as show two of the spread and have room.
-static void print_estimate(FILE *stream, int width, const estimate *e, double spread)
-{
-    enum { ROOM = 31 }; // of what ends a line
-    char text[128], value[32], low[32], high[32];
-    double largest = fmax(fabs(e->value), fmax(fabs(e->low), fabs(e->high)));
-    int digits = printed_digits(largest, spread, 4), length;
-    do {
-        number_text(value, e->value, digits);
-        number_text(low, e->low, digits);
-        number_text(high, e->high, digits);
-        length =
-            snprintf(text, sizeof text, isnan(e->low) ? "%s" : "%s [%s, %s]", value, low, high);
-    } while (length > (width ? width : ROOM) && digits-- > 4);
-    fprintf(stream, " %-*s", width, text);
-}
-
 static void print_statistics(const shown *self, const group_statistics *of)
 {
     FILE *stream = self->stream;
@@ -215,22 +164,22 @@ static void print_statistics(const shown *self, const group_statistics *of)
         const group_statistics *s = &of[i];
         if (s->count == 0)
             continue;
-        print_name(stream, self->column[i]);
-        print_half(stream, 25, &s->mean, 6);
-        print_estimate(stream, 33, &s->deviation, NAN);
-        print_number(stream, 8, s->skewness, 3);
-        print_number(stream, 11, s->least, printed_digits(s->least, s->deviation.value, 6));
-        print_number(stream, 11, s->greatest, printed_digits(s->greatest, s->deviation.value, 6));
+        show_name(stream, self->column[i]->name, self->column[i]->unit);
+        show_half(stream, 25, &s->mean, 6);
+        show_estimate(stream, 33, &s->deviation, NAN);
+        show_number(stream, 8, s->skewness, 3);
+        show_number(stream, 11, s->least, printed_digits(s->least, s->deviation.value, 6));
+        show_number(stream, 11, s->greatest, printed_digits(s->greatest, s->deviation.value, 6));
         fputc('\n', stream);
     }
     fprintf(stream, "\n%-26s %-30s %-30s %s\n", "", "5 %", "median", "95 %");
     for (int i = 0; i < self->count; i++) {
         if (of[i].count == 0)
             continue;
-        print_name(stream, self->column[i]);
+        show_name(stream, self->column[i]->name, self->column[i]->unit);
         for (int k = 0; k < STATISTICS_QUANTILES; k++)
-            print_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &of[i].quantile[k],
-                           of[i].deviation.value);
+            show_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &of[i].quantile[k],
+                          of[i].deviation.value);
         fputc('\n', stream);
     }
 }
@@ -255,8 +204,8 @@ static void print_values(const shown *self, const group_statistics *of)
         if (of[i].count == 0)
             continue;
         char value[32];
-        number_text(value, of[i].mean.value, 6);
-        print_name(self->stream, self->column[i]);
+        show_text(value, of[i].mean.value, 6);
+        show_name(self->stream, self->column[i]->name, self->column[i]->unit);
         fprintf(self->stream, " %s\n", value);
     }
 }
@@ -288,9 +237,9 @@ static void print_ellipse(FILE *stream, const study_column *const pair[2],
     fprintf(stream, "%s and %s [%s]: centre %.6g, %.6g; %zu rockets\n", VISIBLE(pair[0]->name),
             VISIBLE(pair[1]->name), VISIBLE(pair[0]->unit), e->mean[0], e->mean[1], count);
     fputs("    semi-axes of one standard deviation", stream);
-    print_estimate(stream, 0, &axis[0], NAN);
+    show_estimate(stream, 0, &axis[0], NAN);
     fputs(" and", stream);
-    print_estimate(stream, 0, &axis[1], NAN);
+    show_estimate(stream, 0, &axis[1], NAN);
     fprintf(stream,
             "\n    of 95 %% of a normal distribution %.4g and %.4g; the long one %.4g deg from %s "
             "towards %s\n",
@@ -429,6 +378,8 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
         fputc('\n', self->stream);
     }
     ld_status status = print_counts(self, point, error);
+    if (!status && self->view->measured)
+        return show_measured(self->stream, &self->shots, data, point, &self->values, error);
     const group_statistics *of = statistics_at(self, point), *most = most_values(self, of);
     if (status || !most)
         return status;
@@ -468,14 +419,14 @@ static void print_beside(const shown *self, int from, int to)
     }
     for (int c = 0; c < self->count; c++) {
         fputc('\n', self->stream);
-        print_name(self->stream, self->column[c]);
+        show_name(self->stream, self->column[c]->name, self->column[c]->unit);
         for (int i = from; i < to; i++)
-            print_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].mean, 6);
+            show_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].mean, 6);
         if (!column_scatters(self, c, from, to))
             continue;
         fprintf(self->stream, "\n%-26s", "    deviation");
         for (int i = from; i < to; i++)
-            print_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].deviation, 4);
+            show_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].deviation, 4);
     }
     fputc('\n', self->stream);
 }
@@ -495,12 +446,16 @@ static void print_side_by_side(const shown *self)
 static ld_status print_all(shown *self, ld_error *error)
 {
     const study_data *data = self->data;
-    ld_status status = choose_columns(self, error);
-    if (!status)
+    const char *file = self->view->measured;
+    ld_status status =
+        file ? measured_read(file, data, &self->shots, error) : choose_columns(self, error);
+    if (!status && file)
+        show_shots(self->stream, file, &self->shots);
+    else if (!status)
         status = compute(self, error);
     for (int i = 0; i < data->point_count && !status; i++)
         status = print_point(self, &data->point[i], error);
-    if (!status && data->point_count > 1 && !self->view->sensitivity)
+    if (!status && data->point_count > 1 && !self->view->sensitivity && !file)
         print_side_by_side(self);
     return status;
 }
@@ -519,6 +474,7 @@ ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *str
     numeric_locale_leave(before);
     free(self.column);
     free(self.of);
+    measured_free(&self.shots);
     study_values_free(&self.values);
     study_data_close(&data);
     return status;

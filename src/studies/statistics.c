@@ -290,10 +290,26 @@ static double skewness(const grouped *self, double mean)
     return third / n / pow(self->all.second / n, 1.5) * sqrt(n * (n - 1)) / (n - 2);
 }
 
+// Counts the groups and sums over them; mean and variance of all values, of which there is one or
+// more.
+static ld_status gather(grouped *self, double *mean, double *squares)
+{
+    for (size_t i = 0; i < self->count; i++)
+        self->groups += i == 0 || self->group[i] != self->group[i - 1];
+    *mean = mean_of(self->value, self->count);
+    ld_status status = sum_groups(self, *mean);
+    if (status)
+        return status;
+    *squares = self->count > 1 ? variance(self->all) : NAN;
+    *squares = *squares < 0 ? 0 : *squares; // that of infinite values stays NaN
+    return LD_OK;
+}
+
 // All but the order of the values; *reach: how many independent ones would tell the mean as well.
 static ld_status moments(grouped *self, group_statistics *result, double *reach)
 {
     static const estimate none = {NAN, NAN, NAN};
+    double squares;
     *result = (group_statistics){.count = self->count, .mean = none, .deviation = none};
     result->skewness = result->least = result->greatest = NAN;
     for (int k = 0; k < STATISTICS_QUANTILES; k++)
@@ -301,16 +317,11 @@ static ld_status moments(grouped *self, group_statistics *result, double *reach)
     *reach = 0;
     if (self->count == 0)
         return LD_OK;
-    for (size_t i = 0; i < self->count; i++)
-        self->groups += i == 0 || self->group[i] != self->group[i - 1];
-    result->groups = self->groups;
-    result->mean.value = mean_of(self->value, self->count);
-    ld_status status = sum_groups(self, result->mean.value);
+    ld_status status = gather(self, &result->mean.value, &squares);
     if (status)
         return status;
+    result->groups = self->groups;
     result->skewness = skewness(self, result->mean.value);
-    double squares = self->count > 1 ? variance(self->all) : NAN;
-    squares = squares < 0 ? 0 : squares; // that of infinite values stays NaN
     result->deviation.value = sqrt(squares);
     if (self->groups > 1) {
         mean_interval(self, &result->mean);
@@ -319,6 +330,19 @@ static ld_status moments(grouped *self, group_statistics *result, double *reach)
     if (self->groups > 2 && squares > 0)
         deviation_interval(self, &result->deviation);
     return LD_OK;
+}
+
+ld_status uncertain_mean_of(const double *value, const int64_t *group, size_t count,
+                            uncertain *mean)
+{
+    grouped self = {.value = value, .group = group, .count = count};
+    double squares;
+    *mean = (uncertain){NAN, NAN, NAN};
+    ld_status status = count > 0 ? gather(&self, &mean->value, &squares) : LD_OK;
+    if (!status && self.groups > 1)
+        *mean = (uncertain){mean->value, variance_of_mean(&self), (double)self.groups - 1};
+    free(self.of);
+    return status;
 }
 
 ld_status moments_of(const double *value, const int64_t *group, size_t count,

@@ -27,6 +27,17 @@ ld_status statistics_of(const double *value, const int64_t *group, size_t count,
 ld_status moments_of(const double *value, const int64_t *group, size_t count,
                      group_statistics *result);
 
+// An estimate with its variance, which is known with so many degrees of freedom; the variance is
+// NaN where there are less than two groups.
+typedef struct uncertain {
+    double value, variance, freedom;
+} uncertain;
+
+// The mean of values as in statistics_of(), with the variance of its interval.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status uncertain_mean_of(const double *value, const int64_t *group, size_t count,
+                            uncertain *mean);
+
 // Sorts values, the least first.
 void sort_values(double *value, size_t count);
 // Quantile of sorted values, linear between them.

@@ -13,7 +13,7 @@
 #include "systems/vehicle.h"
 
 enum {
-    BASE_MOST_STATES = ORIENTATING_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1,
+    BASE_MOST_STATES = ORIENTATING_MOST_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1,
     BASE_MOST_WORKS = ORIENTATING_POWERS + MARCHING_POWERS,
     BASE_MOST_EVENTS = LD_MAX_WHEELS,
     BASE_MOST_SPEEDS = ORIENTATING_SPEEDS,
@@ -61,8 +61,8 @@ typedef union base_rest {
 typedef struct base_load {
     v3 force, moment; // [N], [N m] of the tube, about T's origin, in T
     base_rest rest;
-    bool held;         // it carries what `rest` says, whatever drives it (equilibrium)
-    bool frictionless; // Coulomb friction off (equilibrium, linearisation)
+    bool held;   // it carries what `rest` says, whatever drives it (equilibrium)
+    bool linear; // no Coulomb friction, its drives linear (equilibrium, linearisation)
 } base_load;
 
 typedef struct base_output {
@@ -125,6 +125,10 @@ struct base_interface {
     void (*span)(const base_system *self, double *first, double *last);
     // The first instant [s] after t at which a step must end, and the equations change; NULL: none.
     double (*next_corner)(const base_system *self, double t);
+    // The first instant [s] after t at which it changes its state by itself, as a digital loop
+    // does, infinity: none; what it makes of the state at such an instant. NULL: there are none.
+    double (*next_sample)(const base_system *self, double t);
+    void (*sample)(const base_system *self, double t, double *state);
     // Takes frame T of the instant t [s], the present one, into the state; `first`: nothing of
     // before goes on. NULL: nobody tells it.
     void (*tell)(const base_system *self, double t, bool first, const base_frame *now,

@@ -24,6 +24,12 @@ static const marching_system *marching_of(const base_system *self)
     return self->level ? &vehicle->level : &vehicle->marching;
 }
 
+static int marching_at(const base_system *self)
+{
+    const vehicle_system *vehicle = self->own;
+    return vehicle->marching_at;
+}
+
 // ---- life
 
 // The stretch of road [m] that the wheels will see in a launch.
@@ -80,14 +86,15 @@ static ld_status build(base_system *base, ld_error *error)
     if (!status)
         status = build_marching(self, error);
     int wheels = self->marching.wheel_count;
-    base->state_count = ORIENTATING_STATES + self->marching.state_count;
+    self->marching_at = self->of_tube[0].state_count;
+    base->state_count = self->marching_at + self->marching.state_count;
     base->work_count = ORIENTATING_POWERS + MARCHING_POWERS;
     base->event_count = wheels;
     base->speed_at = ORIENTATING_V;
     base->speed_count = ORIENTATING_SPEEDS;
     base->freedom_count = 3 + 2 * HINGES + 3 * wheels;
     base->displacement_count = 6 + HINGES + 3 * wheels;
-    base->extra_count = HINGES + 2 * wheels + 1;
+    base->extra_count = HINGES + 2 * wheels + 1 + self->marching_at - ORIENTATING_DRIVE;
     return status;
 }
 
@@ -143,6 +150,16 @@ static double next_corner(const base_system *self, double t)
                 corner_after(&platform->elevation.stabiliser.command, t));
 }
 
+static double next_sample(const base_system *self, double t)
+{
+    return orientating_next_sample(orientating_of(self), t);
+}
+
+static void sample(const base_system *self, double t, double *state)
+{
+    orientating_sample(orientating_of(self), t, state);
+}
+
 static int evaluate(const base_system *self, const base_found *found, const base_load *load,
                     const double *state, base_output *output)
 {
@@ -150,8 +167,8 @@ static int evaluate(const base_system *self, const base_found *found, const base
     marching_output *marching = &report->marching;
     orientating_output orientating;
     orientating_motion motion = found->vehicle;
-    marching_evaluate(marching_of(self), &motion.chassis, load->held, state + VEHICLE_MARCHING,
-                      output->rate + VEHICLE_MARCHING, marching);
+    marching_evaluate(marching_of(self), &motion.chassis, load->held, state + marching_at(self),
+                      output->rate + marching_at(self), marching);
     orientating_input wrenches = {
         .chassis_force = marching->force,
         .chassis_moment = marching->moment,
@@ -159,7 +176,7 @@ static int evaluate(const base_system *self, const base_found *found, const base
         .tube_moment = load->moment,
         .rest = {load->rest.hinge[0], load->rest.hinge[1]},
         .held = load->held,
-        .frictionless = load->frictionless,
+        .linear = load->linear,
     };
     int outcome = orientating_evaluate(orientating_of(self), &wrenches, state, &motion,
                                        output->rate, &orientating);
@@ -175,16 +192,16 @@ static int evaluate(const base_system *self, const base_found *found, const base
 static double kinetic_energy(const base_system *self, const double *state)
 {
     return orientating_kinetic_energy(orientating_of(self), state) +
-           marching_kinetic_energy(marching_of(self), state + VEHICLE_MARCHING);
+           marching_kinetic_energy(marching_of(self), state + marching_at(self));
 }
 
 static void tolerances(const base_system *self, double tolerance, double *atol, bool *absolute)
 {
-    double *wheel = atol + VEHICLE_MARCHING;
-    for (int i = 0; i < ORIENTATING_STATES; i++)
+    double *wheel = atol + marching_at(self);
+    for (int i = 0; i < ORIENTATING_Z; i++)
         atol[i] = i < ORIENTATING_V ? 1e-2 * tolerance : tolerance;
-    for (int i = 0; i < HINGES; i++)
-        atol[ORIENTATING_Z + i] = 1e2 * tolerance;
+    for (int i = ORIENTATING_Z; i < marching_at(self); i++)
+        atol[i] = 1e2 * tolerance; // torques
     for (int i = 0; i < 3; i++)
         absolute[ORIENTATING_R + i] = true;
     for (int j = 0; j < marching_of(self)->wheel_count; j++, wheel += WHEEL_STATES)
@@ -199,9 +216,10 @@ static void tolerances(const base_system *self, double tolerance, double *atol, 
 static void set_off(const base_system *self, double *state)
 {
     double speed = self->model->base.vehicle.speed;
+    orientating_rest(orientating_of(self), state);
     state[ORIENTATING_V] = speed;
     for (int j = 0; j < marching_of(self)->wheel_count; j++)
-        state[VEHICLE_MARCHING + WHEEL_STATES * j + WHEEL_V] = speed;
+        state[marching_at(self) + WHEEL_STATES * j + WHEEL_V] = speed;
 }
 
 // ---- equilibrium
@@ -216,7 +234,7 @@ static void guess(const base_system *self, double tube, double rocket, double *s
     weight *= self->model->gravity / vehicle->wheel_count;
     double tyre = weight / vehicle->tyre.stiffness[1];
     double spring = weight / vehicle->suspension.stiffness[1];
-    double *wheel = state + VEHICLE_MARCHING;
+    double *wheel = state + marching_at(self);
     double mount = 0, ground = 0, slope;
     state[ORIENTATING_R] = vehicle->speed * t;
     for (int j = 0; j < vehicle->wheel_count; j++) {
@@ -243,7 +261,6 @@ static void guess(const base_system *self, double tube, double rocket, double *s
 // Unknowns: chassis y, pitch, roll; hinge angles, hinge torques; wheel positions.
 static void displace(const base_system *self, int freedom, double change, double *state)
 {
-    (void)self;
     if (freedom == 0) {
         state[ORIENTATING_R + 1] += change;
     } else if (freedom < 3) {
@@ -258,7 +275,7 @@ static void displace(const base_system *self, int freedom, double change, double
         state[ORIENTATING_Z + freedom - 3 - HINGES] += 1e6 * change; // held torque
     } else {
         int k = freedom - 3 - 2 * HINGES;
-        state[VEHICLE_MARCHING + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
+        state[marching_at(self) + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
     }
 }
 
@@ -273,7 +290,7 @@ static void rest_of(const double *state, base_rest *rest)
 // Accelerations but those that are neutral, and the errors of yaw and pitch.
 static void residual(const base_system *self, const base_output *output, double *r)
 {
-    const double *rate = output->rate, *wheel = rate + VEHICLE_MARCHING;
+    const double *rate = output->rate, *wheel = rate + marching_at(self);
     *r++ = rate[ORIENTATING_V + 1];
     *r++ = rate[ORIENTATING_W + 2];
     *r++ = rate[ORIENTATING_W];
@@ -303,7 +320,7 @@ static ld_status check_rest(const base_system *self, const base_found *found, co
     const ld_platform *platform = &self->model->platform;
     const ld_turret *turret[HINGES] = {&platform->azimuth, &platform->elevation};
     static const char *const names[HINGES] = {"azimuth", "elevation"};
-    marching_evaluate(marching_of(self), &found->vehicle.chassis, true, state + VEHICLE_MARCHING,
+    marching_evaluate(marching_of(self), &found->vehicle.chassis, true, state + marching_at(self),
                       unused, &marching);
     for (int j = 0; j < marching_of(self)->wheel_count; j++)
         if (!(marching.wheel[j].normal > 0))
@@ -362,7 +379,6 @@ static const char *const groups[GROUPS + 1] = {
 static void displace_slightly(const base_system *self, int displacement, double change,
                               double *state)
 {
-    (void)self;
     if (displacement < 3) {
         state[ORIENTATING_R + displacement] += change;
     } else if (displacement < 6) {
@@ -375,28 +391,30 @@ static void displace_slightly(const base_system *self, int displacement, double 
         state[ORIENTATING_ANGLE + displacement - 6] += change;
     } else {
         int k = displacement - 8;
-        state[VEHICLE_MARCHING + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
+        state[marching_at(self) + WHEEL_STATES * (k / 3) + WHEEL_R + k % 3] += change;
     }
 }
 
 static int speed_of(const base_system *self, int displacement)
 {
-    (void)self;
     if (displacement < 8)
         return ORIENTATING_V + displacement;
     int k = displacement - 8;
-    return VEHICLE_MARCHING + WHEEL_STATES * (k / 3) + WHEEL_V + k % 3;
+    return marching_at(self) + WHEEL_STATES * (k / 3) + WHEEL_V + k % 3;
 }
 
-// The stabilisers' integrals, eta and xi of each wheel, the drive's integral.
+// The stabilisers' integrals, eta and xi of each wheel, the drive's integral, the stabilisers'
+// drives.
 static int extra_of(const base_system *self, int extra)
 {
     if (extra < HINGES)
         return ORIENTATING_Z + extra;
     int k = extra - HINGES, wheels = marching_of(self)->wheel_count;
     if (k < 2 * wheels)
-        return VEHICLE_MARCHING + WHEEL_STATES * (k / 2) + WHEEL_ETA + k % 2;
-    return VEHICLE_MARCHING + WHEEL_STATES * wheels;
+        return marching_at(self) + WHEEL_STATES * (k / 2) + WHEEL_ETA + k % 2;
+    if (k == 2 * wheels)
+        return marching_at(self) + WHEEL_STATES * wheels;
+    return ORIENTATING_DRIVE + k - 2 * wheels - 1;
 }
 
 static const char *holder_of(int displacement)
@@ -508,7 +526,7 @@ static void find(const base_system *base, const base_found *found, const base_ou
 {
     const vehicle_system *self = base->own;
     vehicle_instant *now = &instant->vehicle;
-    const double *wheel = state + VEHICLE_MARCHING;
+    const double *wheel = state + self->marching_at;
     memcpy(now->chassis.r, state + ORIENTATING_R, sizeof now->chassis.r);
     memcpy(now->chassis.u, state + ORIENTATING_V, sizeof now->chassis.u);
     m3_yaw_pitch_roll(&found->vehicle.chassis.A, now->chassis.angles);
@@ -524,6 +542,8 @@ const base_interface base_vehicle = {
     .share = share,
     .place = place,
     .next_corner = next_corner,
+    .next_sample = next_sample,
+    .sample = sample,
     .quantities = &quantities,
     .find = find,
     .dynamics = &dynamics,

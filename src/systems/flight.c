@@ -142,13 +142,18 @@ static v3 wind_velocity(const flight_system *self, double t, v3 r, double altitu
     return m3_apply(A_CE, m3_apply(globe->A_EI, wind_at(moving, t, altitude - self->ground)));
 }
 
+// Height of the point r of C over the ground, as turbulence counts it.
+static double height_over_ground(const flight_system *self, v3 r, double altitude)
+{
+    return (self->earth.flat ? r.y : altitude) - self->ground;
+}
+
 // Velocity of the air by turbulence, in C, and its scales at the point r of C.
 static v3 turbulence_at(const flight_system *self, double t, v3 r, double altitude,
                         const double xi[2], turbulence_scales *scales)
 {
     const earth *globe = &self->earth;
-    double height = globe->flat ? r.y : altitude;
-    *scales = turbulence_scales_at(&self->turbulence, height - self->ground);
+    *scales = turbulence_scales_at(&self->turbulence, height_over_ground(self, r, altitude));
     v3 v = turbulence_velocity(&self->turbulence, scales, xi[0], xi[1]);
     return globe->flat ? v : m3_apply(earth_turn(globe, t), m3_apply(globe->A_EI, v));
 }
@@ -202,6 +207,27 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
         out.wind = m3_apply_transposed(A_CI, w);
     }
     return out;
+}
+
+static m3 ground_axes(const flight_system *self, double t)
+{
+    return m3_mul(earth_turn(&self->earth, t), self->earth.A_EI); // A_CI
+}
+
+moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
+{
+    v3 v = v3_zero(), place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
+    double altitude = earth_altitude(&self->earth, place);
+    if (self->wind.present)
+        v = wind_velocity(self, t, place, altitude);
+    if (self->turbulence.present) {
+        turbulence_scales scales =
+            turbulence_scales_at(&self->turbulence, height_over_ground(self, place, altitude));
+        double xi[2] = {-left / scales.L_u, -left / scales.L_w};
+        v = v3_add(v, turbulence_at(self, t, place, altitude, xi, &scales));
+    }
+    return (moving_air){m3_apply_transposed(ground_axes(self, t), v),
+                        atmosphere_at(&self->atmosphere, altitude).density};
 }
 
 // ---- the equations of motion
@@ -283,11 +309,6 @@ void flight_rates(const flight_system *self, flight_phase *phase, double t, cons
 }
 
 // ---- in and out
-
-static m3 ground_axes(const flight_system *self, double t)
-{
-    return m3_mul(earth_turn(&self->earth, t), self->earth.A_EI); // A_CI
-}
 
 void flight_enter(const flight_system *self, const flight_phase *phase, double t,
                   const flight_pose *pose, double *state)

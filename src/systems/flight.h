@@ -126,6 +126,10 @@ typedef struct flight_flow {
 
 flight_flow flight_flow_at(const flight_system *self, double t, const double *state);
 
+// The air where a rocket in its tube has its mass centre r [m] of I: as it will be when the flight
+// begins, its turbulence that of `left` [m] before the mouth, the way that the rocket has to go.
+moving_air flight_air_at(const flight_system *self, double t, v3 r, double left);
+
 // Mass data and thrust now.
 rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t);
 double flight_thrust(const flight_system *self, const flight_phase *phase, double t);

@@ -16,7 +16,7 @@ ld_status launcher_build(launcher_system *self, const ld_model *model, launching
     }
     self->base_at = self->launching.layout.count;
     self->work_at = self->base_at + self->base.state_count;
-    self->work_count = POWER_COUNT + self->base.work_count;
+    self->work_count = self->launching.work_count + self->base.work_count;
     self->state_count = self->work_at + self->work_count;
     return LD_OK;
 }
@@ -60,7 +60,7 @@ int launcher_evaluate_base(const launcher_system *self, const launcher_input *in
         .moment = output->launching.base_moment,
         .rest = input->rest,
         .held = input->held,
-        .frictionless = phase->frictionless,
+        .linear = phase->frictionless,
     };
     return self->base.kind->dynamics->evaluate(&self->base, &input->found, &load,
                                                state + self->base_at, &output->base);
@@ -93,13 +93,14 @@ void launcher_rates(const launcher_system *self, const double *state, const laun
 {
     launching_rates(&self->launching, state, &output->launching, rocket, state_dot);
     double *base = state_dot + self->base_at, *work = state_dot + self->work_at;
-    memcpy(work, output->launching.power, sizeof output->launching.power);
+    int launching = self->launching.work_count;
+    memcpy(work, output->launching.power, (size_t)launching * sizeof *work);
     if (!self->base.kind->dynamics) {
         memset(base, 0, (size_t)self->base.state_count * sizeof *base);
         return;
     }
     memcpy(base, output->base.rate, (size_t)self->base.state_count * sizeof *base);
-    memcpy(work + POWER_COUNT, output->base.power, (size_t)self->base.work_count * sizeof *work);
+    memcpy(work + launching, output->base.power, (size_t)self->base.work_count * sizeof *work);
 }
 
 double launcher_kinetic_energy(const launcher_system *self, const launcher_input *input,

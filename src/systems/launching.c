@@ -32,6 +32,8 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
     adaptors_build(rocket, &self->adaptors);
     slot_build(&self->model->tubes.slot, rocket, &self->slot);
     lock_build(&rocket->lock, &self->model->tubes.slot, &self->lock);
+    crossflow_build(&rocket->aerodynamics, &self->crossflow);
+    self->work_count = model_has_crossflow(self->model) ? POWER_COUNT : POWER_ALWAYS;
 }
 
 // Modes and coefficients follow from all keys of `tubes` but those of the slot and of where the

@@ -6,6 +6,7 @@
 
 #include "elements/adaptor.h"
 #include "elements/breech.h"
+#include "elements/crossflow.h"
 #include "elements/lock.h"
 #include "elements/slot.h"
 #include "elements/support.h"
@@ -21,6 +22,8 @@ typedef struct launching_system {
     adaptor_set adaptors;
     slot_system slot;
     lock_system lock;
+    crossflow_body crossflow;
+    int work_count;         // of the powers: the first so many
     bool wide_instructions; // AVX2 is there
 } launching_system;
 

@@ -69,6 +69,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     rocket_load(&self->tube, &self->layout, state, &now.tube, &now.rocket, out);
     rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
     rocket_forces(&self->rocket->motor, &now);
+    crossflow_add(&self->crossflow, &self->tube, &now);
     adaptors_add(lanes, &self->adaptors, &self->tube, &now);
     breech_add(lanes, &self->adaptors.law, &self->tube, &now);
 

@@ -97,6 +97,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
         rocket_load(&self->tube, at, state, &now->tube, &now->rocket, out);
         rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
         rocket_forces(&self->rocket->motor, now);
+        crossflow_add(&self->crossflow, &self->tube, now);
         adaptors_add(lanes, &self->adaptors, &self->tube, now);
         breech_add(lanes, &self->adaptors.law, &self->tube, now);
         tube_section_state at_rocket;

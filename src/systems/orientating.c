@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/random.h"
 #include "elements/motor.h"
 #include "math/sine_cosine.h"
 
@@ -126,12 +127,21 @@ static void hang(ld_mstmm_element *element, const double at[3], v3 axis)
     v3_store(element->axis, axis);
 }
 
+static bool has_drive(const ld_turret *turret)
+{
+    return !turret->lock.present && stabiliser_has_drive(&turret->stabiliser);
+}
+
 ld_status orientating_build(orientating_system *self, const ld_model *model, int launching,
                             const int *fired, int fired_count, ld_error *error)
 {
     const ld_platform *given = &model->platform;
     const ld_turret *azimuth = &given->azimuth;
-    *self = (orientating_system){.model = model, .formulation = model->run.formulation};
+    *self = (orientating_system){.model = model,
+                                 .formulation = model->run.formulation,
+                                 .state_count = has_drive(azimuth) || has_drive(&given->elevation)
+                                                    ? ORIENTATING_MOST_STATES
+                                                    : ORIENTATING_STATES};
     gathered_mass elevation;
     ld_status status = gather_elevation(&elevation, model, launching, fired, fired_count, error);
     if (status)
@@ -281,28 +291,31 @@ void orientating_motion_at(const orientating_system *self, double t, const doubl
     }
 }
 
-// Torques on the outboard body of hinge i; rate of its stabiliser's integral z.
-static double drive_hinge(const ld_turret *turret, const orientating_input *input, int i, double z,
-                          hinge_report *hinge)
+// Torques on the outboard body of hinge i; rates of what its stabiliser has in the state.
+static void drive_hinge(const ld_turret *turret, const orientating_input *input, int i,
+                        const double *state, hinge_report *hinge, double *state_dot)
 {
     const hinge_rest *rest = &input->rest[i];
     double b_dot = hinge->rate;
     hinge->limited = false;
     hinge->friction = 0;
+    state_dot[ORIENTATING_Z + i] = 0;
     if (input->held) {
         hinge->torque = rest->torque;
-        return 0;
+        return;
     }
     const ld_hinge_friction *friction = &turret->friction;
     hinge->friction = -friction->viscous * b_dot;
-    if (!input->frictionless)
+    if (!input->linear)
         hinge->friction -=
             friction->coulomb * b_dot / sqrt(b_dot * b_dot + friction->rate * friction->rate);
-    if (!turret->lock.present)
-        return stabiliser_drive(&turret->stabiliser, z, hinge);
-    hinge->torque = rest->torque - turret->lock.stiffness * (hinge->angle - rest->angle) -
-                    turret->lock.damping * b_dot;
-    return 0;
+    int drive = ORIENTATING_DRIVE + DRIVE_STATES * i;
+    if (turret->lock.present)
+        hinge->torque = rest->torque - turret->lock.stiffness * (hinge->angle - rest->angle) -
+                        turret->lock.damping * b_dot;
+    else
+        stabiliser_evaluate(&turret->stabiliser, input->linear, state[ORIENTATING_Z + i],
+                            state + drive, hinge, state_dot + ORIENTATING_Z + i, state_dot + drive);
 }
 
 // Accelerations of the chain by the form that the model asks for.
@@ -329,10 +342,11 @@ int orientating_evaluate(const orientating_system *self, const orientating_input
     double tau[SPEEDS] = {0}, wrench[6 * BODIES] = {0};
     output->power[ORIENTATING_STABILISER] = output->power[ORIENTATING_FRICTION] = 0;
     output->power[ORIENTATING_GRAVITY] = -self->model->gravity * motion->momentum.y;
+    for (int k = ORIENTATING_DRIVE; k < self->state_count; k++)
+        state_dot[k] = 0;
     for (int i = 0; i < HINGES; i++) {
         hinge_report *hinge = &motion->hinge[i];
-        state_dot[ORIENTATING_Z + i] =
-            drive_hinge(turret[i], input, i, state[ORIENTATING_Z + i], hinge);
+        drive_hinge(turret[i], input, i, state, hinge, state_dot);
         tau[6 + i] = hinge->torque + hinge->friction;
         output->power[ORIENTATING_STABILISER] += hinge->torque * hinge->rate;
         output->power[ORIENTATING_FRICTION] += hinge->friction * hinge->rate;
@@ -362,6 +376,40 @@ int orientating_evaluate(const orientating_system *self, const orientating_input
     for (int i = 0; i < HINGES; i++)
         state_dot[ORIENTATING_ANGLE + i] = state[ORIENTATING_RATE + i];
     return 0;
+}
+
+void orientating_rest(const orientating_system *self, double *state)
+{
+    for (int i = 0; i < HINGES && self->state_count > ORIENTATING_DRIVE; i++)
+        stabiliser_rest(state[ORIENTATING_Z + i], state + ORIENTATING_DRIVE + DRIVE_STATES * i);
+}
+
+// The next instant of hinge i.
+static double next_sample(const ld_turret *turret, double t)
+{
+    return turret->lock.present ? INFINITY : stabiliser_next_sample(&turret->stabiliser, t);
+}
+
+double orientating_next_sample(const orientating_system *self, double t)
+{
+    const ld_platform *given = &self->model->platform;
+    return fmin(next_sample(&given->azimuth, t), next_sample(&given->elevation, t));
+}
+
+void orientating_sample(const orientating_system *self, double t, double *state)
+{
+    const ld_platform *given = &self->model->platform;
+    const ld_turret *turret[HINGES] = {&given->azimuth, &given->elevation};
+    static const char *const stream[HINGES] = {"platform.azimuth.stabiliser.noise",
+                                               "platform.elevation.stabiliser.noise"};
+    double before = nextafter(t, -INFINITY);
+    orientating_motion motion;
+    orientating_motion_at(self, t, state, &motion);
+    for (int i = 0; i < HINGES; i++)
+        if (next_sample(turret[i], before) == t)
+            stabiliser_sample(&turret[i]->stabiliser, t, random_stream(stream[i]), &motion.hinge[i],
+                              state + ORIENTATING_Z + i,
+                              state + ORIENTATING_DRIVE + DRIVE_STATES * i);
 }
 
 double orientating_kinetic_energy(const orientating_system *self, const double *state)

@@ -4,7 +4,8 @@
 //
 // State: q [9]: r_C [3] mass centre of the chassis in I, q_IC [4] its quaternion, azimuth and
 // elevation angle; u [8]: velocity of r_C in I, angular velocity of the chassis in its own axes,
-// rates of the two angles; z [2]: integrals of the stabilisers (azimuth, elevation) [N m].
+// rates of the two angles; z [2]: integrals of the stabilisers (azimuth, elevation) [N m]; where
+// one of them has a drive of its own, what both drives have [DRIVE_STATES each] (stabiliser.h).
 #ifndef LD_SYSTEMS_ORIENTATING_H
 #define LD_SYSTEMS_ORIENTATING_H
 
@@ -24,7 +25,9 @@ enum {
     ORIENTATING_RATE = 15, // of the two angles
     ORIENTATING_SPEEDS = 8,
     ORIENTATING_Z = 17,
-    ORIENTATING_STATES = 19
+    ORIENTATING_STATES = 19, // without drives
+    ORIENTATING_DRIVE = 19,
+    ORIENTATING_MOST_STATES = ORIENTATING_DRIVE + HINGES * DRIVE_STATES
 };
 
 // Powers [W] by kind of force, and their works [J].
@@ -45,6 +48,7 @@ typedef struct orientating_system {
     const ld_model *model;
     ld_formulation formulation;
     ld_mstmm *chain;
+    int state_count;
     double mass; // [kg] of the three bodies, carried tubes included
     // elevation platform with the tubes that it carries: mass [kg]; mass centre and undeformed
     // launching tube's rear end [m] from its hinge, its axes
@@ -63,8 +67,8 @@ typedef struct orientating_input {
     v3 chassis_force, chassis_moment; // in I, about the chassis' mass centre
     v3 tube_force, tube_moment;       // in T, about T's origin
     hinge_rest rest[HINGES];          // of locked or held hinges
-    bool frictionless;                // Coulomb friction off (equilibrium, linearisation)
-    bool held; // hinges carry rest[].torque, whatever stabilisers and friction say (equilibrium)
+    bool linear; // no Coulomb friction, digital loops as continuous ones (linearisation)
+    bool held;   // hinges carry rest[].torque, whatever stabilisers and friction say (equilibrium)
 } orientating_input;
 
 typedef struct orientating_output {
@@ -90,6 +94,14 @@ void orientating_motion_at(const orientating_system *self, double t, const doubl
 int orientating_evaluate(const orientating_system *self, const orientating_input *input,
                          const double *state, orientating_motion *motion, double *state_dot,
                          orientating_output *output);
+
+// Puts the drives at rest under the torques z.
+void orientating_rest(const orientating_system *self, double *state);
+
+// The first instant [s] after t at which a digital loop changes the state; infinity: none. What it
+// makes of the state at such an instant.
+double orientating_next_sample(const orientating_system *self, double t);
+void orientating_sample(const orientating_system *self, double t, double *state);
 
 // [J] kinetic energy of chassis and platforms.
 double orientating_kinetic_energy(const orientating_system *self, const double *state);

@@ -7,12 +7,11 @@
 #include "systems/marching.h"
 #include "systems/orientating.h"
 
-enum { VEHICLE_MARCHING = ORIENTATING_STATES }; // where the marching subsystem's states begin
-
 typedef struct vehicle_system {
     const ld_model *model;
     orientating_system of_tube[LD_MAX_FIRINGS]; // while that tube launches, in the order of firing
     int tube_count;
+    int marching_at; // where the marching subsystem's states begin
     marching_system marching;
     marching_system level; // the same wheels on a flat road
     bool roads_of_another;

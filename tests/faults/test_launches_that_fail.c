@@ -71,6 +71,11 @@ STOPS(contacts_like_tar, 0.0002, LD_ERR_NUMERIC,
       "the steps became too short to go on: more than 20000 within a millisecond, up to t = # s",
       model.rocket.contact.reference_speed = 1e-7)
 
+STOPS(contacts_like_honey, 0.00458, LD_ERR_NUMERIC,
+      "the steps are too short to go on: # for # s, up to t = # s; is a contact, a damper or a "
+      "friction far too hard?",
+      model.rocket.contact.reference_speed = 3e-6)
+
 STOPS(thrust_not_a_number, 0.01, LD_ERR_NUMERIC,
       "the equations of motion gave no finite result at t = # s",
       model.rocket.motor.thrust.data[5] = NAN)
@@ -204,6 +209,7 @@ int main(void)
         cmocka_unit_test(tube_like_rope),
         cmocka_unit_test(violent_base),
         cmocka_unit_test(contacts_like_tar),
+        cmocka_unit_test(contacts_like_honey),
         cmocka_unit_test(thrust_not_a_number),
         cmocka_unit_test(base_table_too_short),
         cmocka_unit_test(caller_says_no),

@@ -372,6 +372,30 @@ static void say_slot(instant *at, double power[LAUNCHER_MOST_WORKS])
     power[POWER_SLOT_FRICTION] = drag * along;
 }
 
+// The power of the air's force per length, by Simpson's rule along what is out of the tube.
+static void say_crossflow(instant *at, double power[LAUNCHER_MOST_WORKS])
+{
+    enum { STRETCHES = 64 };
+    const ld_model *model = at->run->model;
+    const ld_aerodynamics *given = &model->rocket.aerodynamics;
+    column_book *book = &at->run->book;
+    const dense_launch_output *out = &at->out;
+    expect(book, "crossflow.length", out->emerged);
+    expect(book, "crossflow.y", out->crossflow[1]);
+    expect(book, "crossflow.z", out->crossflow[2]);
+    moving rocket = rocket_frame(at);
+    v3 axis = m3_column(rocket.A, 0), breeze = v3_from(at->input.conditions.air);
+    double half = 0.5 * at->input.conditions.density * given->emerged.drag;
+    for (int k = 0; k <= STRETCHES; k++) {
+        double x = given->emerged.nose - out->emerged * k / STRETCHES;
+        double share = (k == 0 || k == STRETCHES ? 1 : k % 2 ? 4 : 2) / (3.0 * STRETCHES);
+        v3 v = velocity_at(&rocket, v3_axpy(rocket.r, x, axis)), slip = v3_sub(v, breeze);
+        v3 lateral = v3_axpy(slip, -v3_dot(slip, axis), axis);
+        double per_length = -half * given->emerged.diameter * v3_norm(lateral);
+        power[POWER_CROSSFLOW] += share * out->emerged * per_length * v3_dot(lateral, v);
+    }
+}
+
 static double kinetic_of(const dense_conditions *on, const moving *rocket)
 {
     m3 J = m3_diagonal(on->inertia[0], on->inertia[1], on->inertia[2]);
@@ -542,17 +566,35 @@ static void say_vehicle(instant *at, double power[LAUNCHER_MOST_WORKS])
 
 // The names in the order of launching_power, orientating_power and marching_power.
 static const char *const work_name[LAUNCHER_MOST_WORKS] = {
-    "thrust",         "gravity_rocket",
-    "contact_normal", "contact_friction",
-    "slot",           "slot_friction",
-    "lock",           "support_damping",
-    "modal_damping",  "base",
-    "mass_change",    "stabilisers",
-    "hinge_friction", "gravity_platform",
-    "gravity_wheels", "suspension_damping",
-    "tyre",           "tyre_side",
+    "thrust",
+    "gravity_rocket",
+    "contact_normal",
+    "contact_friction",
+    "slot",
+    "slot_friction",
+    "lock",
+    "support_damping",
+    "modal_damping",
+    "base",
+    "mass_change",
+    "crossflow",
+    "stabilisers",
+    "hinge_friction",
+    "gravity_platform",
+    "gravity_wheels",
+    "suspension_damping",
+    "tyre",
+    "tyre_side",
     "drive",
 };
+
+// Whether a run has work i.
+static bool has_work(const ld_model *model, int i)
+{
+    if (i == POWER_CROSSFLOW)
+        return model_has_crossflow(model);
+    return i < POWER_COUNT || model_has_vehicle(model);
+}
 
 // Elastic energy: what is left of the potential without gravity.
 static void say_energies(instant *at)
@@ -584,8 +626,10 @@ static void say_energies(instant *at)
     if (run->rows == 0)
         run->energy = kinetic + potential + elastic;
     double balance = kinetic + potential + elastic - run->energy;
-    for (int i = 0; i < at->self->launcher.work_count; i++) {
+    for (int i = 0; i < LAUNCHER_MOST_WORKS; i++) {
         char name[64];
+        if (!has_work(run->model, i))
+            continue;
         snprintf(name, sizeof name, "work.%s", work_name[i]);
         balance -= vehicle && i == POWER_BASE ? 0 : column_value(book, name);
     }
@@ -602,7 +646,9 @@ static void say_works(instant *at, const double *power)
         heights(at, sum);
     if (run->rows == 0)
         memcpy(run->height, sum, sizeof sum);
-    for (int i = 0; i < (vehicle ? LAUNCHER_MOST_WORKS : POWER_COUNT); i++) {
+    for (int i = 0; i < LAUNCHER_MOST_WORKS; i++) {
+        if (!has_work(run->model, i))
+            continue;
         if (run->rows > 0)
             run->work[i] += 0.5 * (power[i] + run->power[i]) * (at->t - run->t);
         if (i == POWER_COUNT + ORIENTATING_GRAVITY)
@@ -634,13 +680,14 @@ static void load(instant *at)
     memcpy(in->V, y + where->V, sizeof in->V);
     double since = at->t - at->self->t_ignition;
     dense_rocket_at(at->run->model, since, since - 1e-9, on);
+    dense_air_at(at->run->model, on);
     on->locked = at->self->phase.locked;
     memcpy(on->passed, at->self->phase.passed, sizeof on->passed);
     memcpy(on->touch_speed, at->self->phase.touch_speed, sizeof on->touch_speed);
     on->breech = at->run->model->rocket.start_at;
     on->breech_speed = at->self->phase.breech_speed;
     at->orientating = y + at->self->launcher.base_at;
-    at->marching = at->orientating + VEHICLE_MARCHING;
+    at->marching = at->orientating + ORIENTATING_STATES;
     if (at->run->model->base.kind != LD_BASE_VEHICLE) {
         dense_base_at(at->run->model, at->t, &on->base);
         return;
@@ -682,6 +729,8 @@ static void look_at_row(observer *run, const launch_state *self, double t, const
     breech_power(&at, power);
     say_slot(&at, power);
     rocket_powers(&at, power);
+    if (model_has_crossflow(run->model))
+        say_crossflow(&at, power);
     tube_powers(&at, power);
     if (run->model->base.kind == LD_BASE_VEHICLE) {
         at.on = (dense_vehicle_input){.t = t,
@@ -758,6 +807,23 @@ static void make_uneven(ld_model *model)
     rocket->motor.thrust.data[4] = 0.3;
     rocket->motor.thrust.data[6] = 0.35;
     rocket->motor.thrust.data[3] = rocket->motor.thrust.data[5] = 3e4;
+}
+
+// Wind across, and a nose that is out of the tube before the rocket moves.
+static void let_the_wind_blow(ld_model *model)
+{
+    ld_aerodynamics *given = &model->rocket.aerodynamics;
+    given->present = given->emerged.present = true;
+    given->model = LD_AERODYNAMICS_BODY;
+    given->emerged.nose = 2.5;
+    given->emerged.drag = 1.2;
+    given->emerged.diameter = 0.122;
+    model->environment.atmosphere.kind = LD_ATMOSPHERE_UNIFORM;
+    model->environment.atmosphere.density = 1.21;
+    model->environment.atmosphere.speed_of_sound = 340;
+    model->environment.wind.present = true;
+    model->environment.wind.speed = 25;
+    model->environment.wind.heading = 1.1;
 }
 
 static void watch_run(const ld_model *model, const column_bound *bound, size_t bounds)
@@ -844,6 +910,7 @@ static void test_prescribed_base(void **state)
     model.run.lead_in = 0.02;
     model.tubes.slot.angle.data[1] *= -1; // a negative slot force
     move_base(&model.base);
+    let_the_wind_blow(&model);
     watch_run(&model, bounds, sizeof bounds / sizeof *bounds);
     reference_model_free(&model);
 }
@@ -862,6 +929,7 @@ static void test_vehicle(void **state)
     given->bump_count = 1;
     given->bump[0] = (ld_bump){1.5, 2, 0.04, LD_TRACK_LEFT};
     model.platform.azimuth.stabiliser.command.data[1] = 0.3;
+    let_the_wind_blow(&model);
     watch_run(&model, bounds, sizeof bounds / sizeof *bounds);
     reference_model_free(&model);
 }

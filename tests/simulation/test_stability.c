@@ -57,11 +57,38 @@ static void bound_of_the_integral_gain(void **state)
     reference_model_free(&model);
 }
 
+// Of a platform on a base that stands still, by PD through a lag of time T: J T s^3 + J s^2 + kd s
+// + kp is stable for kd > T kp, whatever the inertia.
+static void bound_of_the_lag(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    reference_vehicle(&model, 0);
+    ld_stabiliser *stabiliser = &model.platform.elevation.stabiliser;
+    stabiliser->ki = 0;
+    double stable = 100, unstable = 0.1;
+    while (stable / unstable > 1.01) {
+        double middle = sqrt(stable * unstable);
+        stabiliser->bandwidth = middle;
+        if (start(&model, &error)) {
+            assert_non_null(strstr(error.text, "platform.elevation.stabiliser: unstable"));
+            unstable = middle;
+        } else {
+            stable = middle;
+        }
+    }
+    double ratio = 2 * 3.14159265358979324 * stable * stabiliser->kd / stabiliser->kp;
+    CHECK_WITHIN("bandwidth over kp/kd", ratio, 0.9, 1.1);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unstable_stabiliser),
         cmocka_unit_test(bound_of_the_integral_gain),
+        cmocka_unit_test(bound_of_the_lag),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

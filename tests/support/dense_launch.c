@@ -735,6 +735,46 @@ static void add_thrust(equations *eq, const jet_scene *scene, double thrust)
     add_force(eq->other, &point, f);
 }
 
+// The air on what lies between the tip and the nose, by Simpson's rule: the force per length goes
+// with the lateral velocity of a point against the air, which is linear along the rocket. Put on at
+// O1 and at a point one metre before it, so that force and moment are right.
+static void add_crossflow(equations *eq, const jet_scene *scene, const dense_conditions *on,
+                          double s, dense_launch_output *output)
+{
+    const ld_aerodynamics *air = &scene->dense->model->rocket.aerodynamics;
+    double from = scene->dense->model->tubes.length - s, length = air->emerged.nose - from;
+    if (!air->present || !air->emerged.present || length <= 0)
+        return;
+    enum { STRETCHES = 4000 };
+    jet3 one = jet3_constant((double[]){1, 0, 0}), ahead = point_in(&scene->B, &one);
+    double per_length = 0.5 * on->density * air->emerged.drag * air->emerged.diameter;
+    double force[3] = {0}, moment[3] = {0};
+    for (int k = 0; k <= STRETCHES; k++) {
+        double x = from + length * k / STRETCHES, along = 0, v[3];
+        double weight = (k == 0 || k == STRETCHES ? 1 : k % 2 ? 4 : 2) * length / (3 * STRETCHES);
+        for (int i = 0; i < 3; i++) {
+            v[i] = (1 - x) * scene->B.r.c[i].e + x * ahead.c[i].e - on->air[i];
+            along += v[i] * scene->B.A.c[i][0].v;
+        }
+        for (int i = 0; i < 3; i++)
+            v[i] -= along * scene->B.A.c[i][0].v;
+        double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        for (int i = 0; i < 3; i++) {
+            force[i] -= weight * per_length * speed * v[i];
+            moment[i] -= weight * per_length * speed * v[i] * x;
+        }
+    }
+    double rest[3];
+    for (int i = 0; i < 3; i++)
+        rest[i] = force[i] - moment[i];
+    add_force(eq->h, &scene->B.r, rest);
+    add_force(eq->h, &ahead, moment);
+    add_force(eq->other, &scene->B.r, rest);
+    add_force(eq->other, &ahead, moment);
+    output->emerged = length;
+    turn_back(output->crossflow, scene->state->A_R[0], force);
+}
+
 // The slot's angle at s and its slope: linear between the table's points, constant outside.
 static double slot_angle(const ld_table *table, int piece, double s, double *slope)
 {
@@ -979,6 +1019,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
     jet s = foot_of(&moving, &still, &moving.B.r, state->s);
     add_breech(&eq, &moving, conditions, s, output);
+    add_crossflow(&eq, &moving, conditions, s.v, output);
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)

@@ -59,6 +59,7 @@ typedef struct dense_conditions {
     bool passed[LD_MAX_ADAPTORS];        // adaptor has left the tube
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] of Lankarani-Nikravesh; 0: the reference speed
     double breech, breech_speed;         // [m] station of the breech; [m/s] touched at, likewise
+    double air[3], density;              // [m/s] velocity of the air, in I; [kg/m3]
 } dense_conditions;
 
 // State as the program has it: rocket relative to the tube, speeds absolute, in R axes.
@@ -84,6 +85,8 @@ typedef struct dense_launch_output {
     double lock_force;   // [N] carried along +x (minus the force on the rocket); 0 when open
     double lock_moment;  // [N m] on the rocket along e_x of S (slot none, locked)
     double breech_force; // [N] on the rocket along e_x of S
+    double emerged;      // [m] of the rocket out of the tube, where it feels the air
+    double crossflow[3]; // [N] of the air on it, in R
     double slot_drift;   // [m/s] n . v_rel
     double lock_drift;   // [m/s] e_x . v_rel at its point, locked
     double lock_roll;    // [rad/s] about e_x of S against the tube there (slot none, locked)

@@ -149,6 +149,16 @@ void dense_rocket_at(const ld_model *model, double since, double middle, dense_c
     on->center[2] += rocket->eccentricity[1];
 }
 
+void dense_air_at(const ld_model *model, dense_conditions *on)
+{
+    const ld_wind *wind = &model->environment.wind;
+    double speed = wind->present ? wind->scale * wind->speed : 0;
+    on->air[0] = speed * cos(wind->heading);
+    on->air[1] = 0;
+    on->air[2] = speed * sin(wind->heading);
+    on->density = model->environment.atmosphere.density;
+}
+
 // What acts at time t of the run and state x, on the piece of the thrust table that holds time
 // `middle`.
 static void conditions_at(const launch_run *launch, double t, double middle, const double *x,
@@ -157,6 +167,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, con
     memset(on, 0, sizeof *on);
     base_at(launch, t, x, &on->base);
     dense_rocket_at(launch->model, t - launch->ignition, middle - launch->ignition, on);
+    dense_air_at(launch->model, on);
     on->locked = launch->locked;
     on->breech = launch->model->rocket.start_at;
     on->frictionless = launch->frictionless;

@@ -43,6 +43,9 @@ void dense_base_at(const ld_model *model, double t, dense_base *base);
 // of the thrust table that holds `middle`.
 void dense_rocket_at(const ld_model *model, double since, double middle, dense_conditions *on);
 
+// The air about the rocket: a steady wind of one speed at every height, in uniform air.
+void dense_air_at(const ld_model *model, dense_conditions *on);
+
 // Runs `model` (base fixed, prescribed by sines and a velocity, or a vehicle that starts in its
 // equilibrium on a flat road, sines or bumps; not by a table) with steps of at most `step` [s].
 // Returns false where the equilibrium or the dense system fails or the rocket is still in the tube

@@ -136,6 +136,8 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     memcpy(conditions->passed, c->phase.passed, sizeof conditions->passed);
     memcpy(conditions->touch_speed, c->phase.touch_speed, sizeof conditions->touch_speed);
     conditions->breech = c->phase.breech;
+    v3_store(conditions->air, c->input.air.v);
+    conditions->density = c->input.air.density;
     conditions->breech_speed = c->phase.breech_speed;
 }
 

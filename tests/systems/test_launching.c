@@ -6,7 +6,7 @@
 #include "support/reference_model.h"
 
 typedef struct agreement {
-    double eta, V, slot, lock, contact, breech, base;
+    double eta, V, slot, lock, contact, breech, base, crossflow;
 } agreement;
 
 static double relative3(const double *a, v3 b, double scale)
@@ -51,6 +51,7 @@ static void compare(const launching_system *system, const launching_case *c,
         if (!c->phase.passed[i])
             worst->contact = fmax(worst->contact,
                                   fabs(dense->contact[i].normal - out->adaptor[i].normal) / force);
+    worst->crossflow = fmax(worst->crossflow, relative3(dense->crossflow, out->crossflow, force));
     worst->base =
         fmax(worst->base, relative3(dense->base_force, out->base_force, norm3(dense->base_force)));
     worst->base = fmax(worst->base,
@@ -77,6 +78,20 @@ static void put_on_breech(const launching_system *system, int k, launching_case 
         launching_project(system, &c->input, &c->phase, y);
 }
 
+// A wind across the rocket, stronger than its own lateral speed anywhere.
+static void blow(const launching_system *system, uint64_t *seed, launching_case *c)
+{
+    const launching_layout *at = &system->layout;
+    launching_pose pose;
+    launching_output unused;
+    launching_rocket_pose(system, c->state, &pose, &unused);
+    double angle = 3 * draw(seed);
+    v3 across = m3_apply(pose.A_RB, v3_make(9, 120 * cos(angle), 120 * sin(angle)));
+    m3 A_IR = q_matrix(q_from(c->state + at->quaternion));
+    c->input.air.v = m3_apply(A_IR, v3_add(pose.v_O1, across));
+    c->input.air.density = 1.2 + 0.1 * draw(seed);
+}
+
 static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name)
 {
     launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
@@ -86,7 +101,7 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
     dense_launch_create(&dense, model, &system->tube.flexible);
     uint64_t seed = 20261121;
     agreement worst = {0};
-    int pressed = 0;
+    int pressed = 0, emerged = 0;
     for (int k = 0; k < count; k++) {
         launching_case c;
         launching_output out;
@@ -96,11 +111,14 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
             c.phase.passed[i] = true;
         if (k % 4 == 1 || k % 4 == 2)
             put_on_breech(system, k, &c);
+        if (model_has_crossflow(model))
+            blow(system, &seed, &c);
         copy_to_dense(system, &c);
         assert_int_equal(evaluate(system, &c.input, &c.phase, c.state, &out), LAUNCHING_OK);
         assert_true(dense_launch_evaluate(&dense, &c.dense, &reference));
         compare(system, &c, &out, &reference, &worst);
         pressed += reference.breech_force > 0;
+        emerged += reference.emerged > 0;
     }
     printf("  %s, %d states:\n", name, count);
     CHECK_BELOW("tube accelerations", worst.eta, 1e-11);
@@ -111,6 +129,10 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
     CHECK_BELOW("breech force", worst.breech, 6e-11);
     CHECK_WITHIN("share of states on the breech", (double)pressed / count, 0.4, 0.5);
     CHECK_BELOW("force and moment on the base", worst.base, 1e-12);
+    if (model_has_crossflow(model)) {
+        CHECK_BELOW("force of the air", worst.crossflow, 1e-12);
+        CHECK_WITHIN("share of states in the air", (double)emerged / count, 0.5, 0.9);
+    }
     dense_launch_free(&dense);
     launching_free(system);
     free(system);
@@ -218,6 +240,23 @@ static void options_equal_dense(void **state)
     reference_model_free(&model);
 }
 
+static void air_on_the_emerged_part_equals_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    model.rocket.aerodynamics.present = true;
+    model.rocket.aerodynamics.emerged.present = true;
+    model.rocket.aerodynamics.emerged.nose = 2.55;
+    model.rocket.aerodynamics.emerged.drag = 1.2;
+    model.rocket.aerodynamics.emerged.diameter = 0.3;
+    check_agreement(&model, launching_evaluate, 200, "air, reduced");
+    check_agreement(&model, general, 200, "air, reduced from the general matrix");
+    check_agreement(&model, overall, 200, "air, overall");
+    reference_model_free(&model);
+}
+
 // The wider instructions give the same bits.
 static void wide_instructions_give_the_same_bits(void **state)
 {
@@ -254,6 +293,7 @@ int main(void)
         cmocka_unit_test(reduced_equals_dense),
         cmocka_unit_test(overall_equals_dense),
         cmocka_unit_test(options_equal_dense),
+        cmocka_unit_test(air_on_the_emerged_part_equals_dense),
         cmocka_unit_test(wide_instructions_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -581,7 +581,7 @@ static void test_friction_and_locks(void **context)
     CHECK_NEAR("azimuth torque [N m]", azimuth->torque, 5e4, 0);
     CHECK_NEAR("power of friction [W]", output.power[ORIENTATING_FRICTION],
                1e-3 * azimuth->friction - 2e-3 * elevation->friction, 1e-15);
-    input.frictionless = true;
+    input.linear = true;
     at_rest(&f, 0, angle, rate, z, &input, &motion, dot);
     CHECK_NEAR("viscous part alone [N m]", elevation->friction, 1.6, 1e-15);
 

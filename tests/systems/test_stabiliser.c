@@ -14,7 +14,7 @@ typedef struct fixture {
     ld_model model;
     orientating_system system;
     ld_stabiliser *given; // the elevation's
-    double state[ORIENTATING_STATES];
+    double state[ORIENTATING_MOST_STATES];
 } fixture;
 
 static void set_up(fixture *f)
@@ -73,10 +73,10 @@ static void follow(fixture *f, double from, double to)
 {
     ld_error error;
     integrator *stepper;
-    double atol[ORIENTATING_STATES];
-    for (int i = 0; i < ORIENTATING_STATES; i++)
+    double atol[ORIENTATING_MOST_STATES];
+    for (int i = 0; i < f->system.state_count; i++)
         atol[i] = 1e-13;
-    integrator_settings settings = {.n = ORIENTATING_STATES,
+    integrator_settings settings = {.n = (size_t)f->system.state_count,
                                     .method = INTEGRATOR_CASH_KARP,
                                     .rtol = 1e-11,
                                     .atol = atol,
@@ -88,15 +88,8 @@ static void follow(fixture *f, double from, double to)
     while (outcome == INTEGRATOR_STEPPED)
         outcome = integrator_step(stepper, to, &error);
     assert_int_equal(outcome, INTEGRATOR_STOPPED);
-    memcpy(f->state, integrator_state(stepper), sizeof f->state);
+    memcpy(f->state, integrator_state(stepper), settings.n * sizeof *f->state);
     integrator_free(stepper);
-}
-
-static orientating_motion motion_of(const fixture *f, double t)
-{
-    orientating_motion motion;
-    orientating_motion_at(&f->system, t, f->state, &motion);
-    return motion;
 }
 
 enum { MOST = 6 };
@@ -121,6 +114,47 @@ static void go_on(int n, double A[MOST][MOST], double t, double *x)
     }
 }
 
+static hinge_report hinge_of(const fixture *f, double t)
+{
+    orientating_motion motion;
+    orientating_output output;
+    double unused[ORIENTATING_MOST_STATES];
+    const orientating_input input = {0};
+    orientating_motion_at(&f->system, t, f->state, &motion);
+    orientating_evaluate(&f->system, &input, f->state, &motion, unused, &output);
+    return motion.hinge[HINGE_ELEVATION];
+}
+
+// The elevation's drive.
+static double *drive_of(fixture *f)
+{
+    return f->state + ORIENTATING_DRIVE + HINGE_ELEVATION * DRIVE_STATES;
+}
+
+// The platform from now on for 0.4 s against x' = A x of n unknowns, the first three of which are
+// pitch, its rate and z, the fourth the torque of a drive where there is one; the largest error of
+// the angle.
+static double compare(fixture *f, int n, double A[MOST][MOST], double *x)
+{
+    double pitch = 0, rate = 0, torque = 0, largest = 0;
+    for (int i = 0; i < 20; i++) {
+        follow(f, 0.02 * i, 0.02 * (i + 1));
+        go_on(n, A, 0.02, x);
+        const hinge_report hinge = hinge_of(f, 1);
+        pitch = fmax(pitch, fabs(hinge.measured - x[0]));
+        rate = fmax(rate, fabs(hinge.measured_rate - x[1]));
+        torque = fmax(torque, fabs(f->state[ORIENTATING_Z + HINGE_ELEVATION] - x[2]));
+        if (f->system.state_count > ORIENTATING_DRIVE)
+            torque = fmax(torque, fabs(drive_of(f)[DRIVE_TORQUE] - x[3]));
+        largest = fmax(largest, fabs(hinge.error));
+    }
+    printf("  error up to %.3g mrad\n", 1e3 * largest);
+    CHECK_BELOW("pitch [rad]", pitch, 1e-12);
+    CHECK_BELOW("its rate [rad/s]", rate, 1e-11);
+    CHECK_BELOW("torques in the state [N m]", torque, 2e-7);
+    return largest;
+}
+
 // ---- feedforward
 
 // Friction drags the platform along with its base, the feedforward pushes it back: with a share of
@@ -136,35 +170,192 @@ static void feedforward(void **context)
         f.given->feedforward = share[k];
         begin(&f);
         // pitch, its rate, z, 1
-        double x[MOST] = {0, W, 0, 1}, drag = (C - share[k] * kd) * W / J, largest = 0;
-        double pitch = 0, rate = 0, integral = 0; // largest differences
+        double x[MOST] = {0, W, 0, 1}, drag = (C - share[k] * kd) * W / J;
         double A[MOST][MOST] = {{0, 1}, {-kp / J, -(kd + C) / J, 1 / J, drag}, {-ki}, {0}};
-        f.state[ORIENTATING_RATE + HINGE_ELEVATION] = 0;
         if (k == 2) // nothing drags: at rest in I it stays there
             x[1] = 0, f.state[ORIENTATING_RATE + HINGE_ELEVATION] = -W;
-        for (int i = 0; i < 20; i++) {
-            follow(&f, 0.02 * i, 0.02 * (i + 1));
-            go_on(4, A, 0.02, x);
-            const hinge_report hinge = motion_of(&f, 1).hinge[HINGE_ELEVATION];
-            pitch = fmax(pitch, fabs(hinge.measured - x[0]));
-            rate = fmax(rate, fabs(hinge.measured_rate - x[1]));
-            integral = fmax(integral, fabs(f.state[ORIENTATING_Z + HINGE_ELEVATION] - x[2]));
-            largest = fmax(largest, fabs(hinge.measured));
-        }
-        printf("  share %g: error up to %.3g mrad\n", share[k], 1e3 * largest);
-        CHECK_BELOW("pitch [rad]", pitch, 1e-12);
-        CHECK_BELOW("its rate [rad/s]", rate, 1e-11);
-        CHECK_BELOW("integral [N m]", integral, 1e-7);
+        double error = compare(&f, 4, A, x);
         if (k == 2)
-            CHECK_BELOW("error without drag [rad]", largest, 1e-14);
+            CHECK_BELOW("error without drag [rad]", error, 1e-14);
         tear_down(&f);
     }
+}
+
+// ---- cascade and lag
+
+// A step of the command, 2 mrad, by PID or by a cascade, whose torque is
+// rate_kp (kp e + e_dot) + z, z_dot = rate_ki (kp e + e_dot), each at once or after a lag.
+static void loops(void **context)
+{
+    (void)context;
+    for (int k = 0; k < 4; k++) {
+        fixture f;
+        set_up(&f);
+        bool cascade = k % 2, lags = k / 2;
+        double step = f.given->command.data[1] = 2e-3, kp = 8e5, ki = 4e6, kd = 2e4, z[4];
+        f.given->kp = kp, f.given->ki = ki, f.given->kd = kd;
+        if (cascade) {
+            f.given->cascade = (ld_cascade){true, 25, 2.2e4, 3e5};
+            kp = 25 * 2.2e4, kd = 2.2e4, ki = 25 * 3e5;
+            memcpy(z, (double[]){-ki, -3e5, 0, ki * step}, sizeof z);
+        } else {
+            memcpy(z, (double[]){-ki, 0, 0, ki * step}, sizeof z);
+        }
+        double rate = 2 * 3.14159265358979324 * 12;
+        f.given->bandwidth = lags ? 12 : 0;
+        begin(&f);
+        orientating_rest(&f.system, f.state);
+        double x[MOST] = {0, W, 0, 0, 1};
+        if (lags) { // pitch, rate, z, torque, 1
+            double A[MOST][MOST] = {{0, 1},
+                                    {0, -C / J, 0, 1 / J, C * W / J},
+                                    {z[0], z[1], 0, 0, z[3]},
+                                    {-rate * kp, -rate * kd, rate, -rate, rate * kp * step},
+                                    {0}};
+            compare(&f, 5, A, x);
+        } else { // pitch, rate, z, -, 1
+            double A[MOST][MOST] = {{0, 1},
+                                    {-kp / J, -(kd + C) / J, 1 / J, 0, (kp * step + C * W) / J},
+                                    {z[0], z[1], 0, 0, z[3]},
+                                    {0},
+                                    {0}};
+            compare(&f, 5, A, x);
+        }
+        tear_down(&f);
+    }
+}
+
+// On a platform that hardly moves the torque asked for jumps and stays: the actuator's goes up a
+// ramp until its lag alone is slower, then on as a lag.
+static void slew(void **context)
+{
+    (void)context;
+    fixture f;
+    set_up(&f);
+    const double asked = 8e3, rate = 2 * 3.14159265358979324 * 20;
+    for (int i = 0; i < 3; i++)
+        f.model.platform.elevation.inertia[i] = 1e15;
+    *f.given = (ld_stabiliser){
+        .command = f.given->command, .kp = 8e5, .torque_limit = 1e9, .bandwidth = 20, .slew = 4e5};
+    f.given->command.data[1] = asked / 8e5;
+    f.model.platform.elevation.friction.viscous = 0;
+    begin(&f);
+    f.state[ORIENTATING_W + 2] = 0;
+    orientating_rest(&f.system, f.state);
+    double corner = (asked - 4e5 / rate) / 4e5, worst = 0;
+    for (int i = 0; i < 20; i++) {
+        double t = 2e-3 * (i + 1), expected = 4e5 * t;
+        follow(&f, 2e-3 * i, t);
+        if (t > corner)
+            expected = asked - 4e5 / rate * exp(-rate * (t - corner));
+        worst = fmax(worst, fabs(hinge_of(&f, t).torque - expected));
+    }
+    printf("  ramp of %.3g ms\n", 1e3 * corner);
+    CHECK_BELOW("torque [N m]", worst, 1e-6);
+    tear_down(&f);
+}
+
+// ---- digital loop
+
+// A rigid inertia without friction on a base at rest.
+static void let_go(fixture *f)
+{
+    f->model.platform.elevation.friction.viscous = 0;
+    begin(f);
+    f->state[ORIENTATING_W + 2] = 0;
+}
+
+// A step of the command, 2 mrad, by a sampled PID with a delay: between the instants the torque
+// stays, so that angle and rate are known exactly.
+static void sampled(void **context)
+{
+    (void)context;
+    static const double late[] = {0, 0.4, 1}; // of the period
+    for (int k = 0; k < 3; k++) {
+        fixture f;
+        set_up(&f);
+        const double T = 5e-3, d = late[k] * T, kp = 8e5, ki = 4e6, kd = 2e4, quantum = 1e-4;
+        f.given->kp = kp, f.given->ki = ki, f.given->kd = kd;
+        f.given->sample = T, f.given->delay = d;
+        f.given->resolution.angle = quantum;
+        f.given->command.data[1] = 2e-3;
+        let_go(&f);
+        double t = 0, angle = 0, rate = 0, z = 0, held = 0, computed = 0, worst = 0;
+        for (int n = 1; n <= 60; n++) {
+            // the equations' way, until sample n has been taken
+            while (t < n * T) {
+                double next = orientating_next_sample(&f.system, t);
+                follow(&f, t, next);
+                orientating_sample(&f.system, next, f.state);
+                t = next;
+            }
+            // by hand: until the torque of sample n - 1 comes, and on
+            angle += rate * d + 0.5 * held / J * d * d;
+            rate += held / J * d;
+            held = computed;
+            angle += rate * (T - d) + 0.5 * held / J * (T - d) * (T - d);
+            rate += held / J * (T - d);
+            double error = 2e-3 - quantum * round(angle / quantum);
+            computed = kp * error - kd * rate + z;
+            z += T * ki * error;
+            if (d == 0)
+                held = computed;
+            const hinge_report hinge = hinge_of(&f, t);
+            worst = fmax(worst, fabs(hinge.measured - angle));
+            worst = fmax(worst, fabs(hinge.measured_rate - rate) * T);
+            worst = fmax(worst, fabs(f.state[ORIENTATING_Z + HINGE_ELEVATION] - z) / kp);
+        }
+        printf("  delay %g ms: after %g ms at %.4g mrad\n", 1e3 * d, 1e3 * t, 1e3 * angle);
+        CHECK_BELOW("angle, rate x period, z/kp [rad]", worst, 1e-12);
+        tear_down(&f);
+    }
+}
+
+// What a sensor adds: its rms, white, of both channels, neither of them the other's.
+static void noise(void **context)
+{
+    (void)context;
+    enum { SAMPLES = 20000 };
+    static double heard[2][SAMPLES];
+    fixture f;
+    set_up(&f);
+    for (int channel = 0; channel < 2; channel++) {
+        *f.given = (ld_stabiliser){.command = f.given->command,
+                                   .kp = channel == 0,
+                                   .kd = channel == 1,
+                                   .torque_limit = 1e9,
+                                   .sample = 1e-3,
+                                   .noise = {0.03, 0.2, 7}};
+        const hinge_report still = {0};
+        for (int k = 0; k < SAMPLES; k++) {
+            double z = 0, drive[DRIVE_STATES] = {0};
+            stabiliser_sample(f.given, (k - SAMPLES / 2) * 1e-3, 12, &still, &z, drive);
+            heard[channel][k] = -drive[DRIVE_HELD];
+        }
+    }
+    double squares[2] = {0}, next[2] = {0}, both = 0;
+    for (int k = 0; k < SAMPLES; k++) {
+        for (int i = 0; i < 2; i++) {
+            squares[i] += heard[i][k] * heard[i][k];
+            next[i] += heard[i][k] * heard[i][(k + 1) % SAMPLES];
+        }
+        both += heard[0][k] * heard[1][k];
+    }
+    // five standard errors
+    const double far = 5 / sqrt(SAMPLES);
+    CHECK_BELOW("rms of the angle, over 0.03", fabs(sqrt(squares[0] / SAMPLES) / 0.03 - 1), far);
+    CHECK_BELOW("rms of the rate, over 0.2", fabs(sqrt(squares[1] / SAMPLES) / 0.2 - 1), far);
+    CHECK_BELOW("next samples' correlation, angle", fabs(next[0] / squares[0]), far);
+    CHECK_BELOW("next samples' correlation, rate", fabs(next[1] / squares[1]), far);
+    CHECK_BELOW("angle's with rate", fabs(both) / sqrt(squares[0] * squares[1]), far);
+    tear_down(&f);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(feedforward),
+        cmocka_unit_test(feedforward), cmocka_unit_test(loops), cmocka_unit_test(slew),
+        cmocka_unit_test(sampled),     cmocka_unit_test(noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,7 +130,7 @@ static void compare(fast_vehicle *fast, const dense_vehicle *vehicle, const vehi
                                .chassis_moment = wheel_forces.moment,
                                .tube_force = c->tube_force,
                                .tube_moment = c->tube_moment,
-                               .frictionless = c->frictionless};
+                               .linear = c->frictionless};
     memcpy(input.rest, c->rest, sizeof input.rest);
     assert_int_equal(orientating_evaluate(&fast->orientating, &input, c->orientating, &motion,
                                           orientating, &hinge_forces),

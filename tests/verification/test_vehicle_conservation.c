@@ -84,7 +84,7 @@ static void tear_down(flight *f)
 static void throw_vehicle(flight *f, uint64_t *seed)
 {
     double *base = f->state + f->system->base_at;
-    double *wheel = f->state + f->system->base_at + VEHICLE_MARCHING;
+    double *wheel = f->state + f->system->base_at + ORIENTATING_STATES;
     quat q =
         q_from_matrix(m3_mul(m3_rotation_y(0.7), m3_mul(m3_rotation_z(0.3), m3_rotation_x(-0.2))));
     v3_store(base + ORIENTATING_R, v3_make(1, 4, -1));
@@ -179,13 +179,13 @@ static sums sums_of(flight *f)
     dense_vehicle_output vehicle;
     // vehicle
     add_bodies(f, &s);
-    const double *wheel = f->state + f->system->base_at + VEHICLE_MARCHING;
+    const double *wheel = f->state + f->system->base_at + ORIENTATING_STATES;
     for (int j = 0; j < f->model.base.vehicle.wheel_count; j++, wheel += WHEEL_STATES)
         add_point(&s, f->model.base.vehicle.wheel[j].mass, v3_from(wheel + WHEEL_R),
                   v3_from(wheel + WHEEL_V));
     const double *base = f->state + f->system->base_at;
     dense_vehicle_input given = {.orientating = base,
-                                 .marching = f->state + f->system->base_at + VEHICLE_MARCHING};
+                                 .marching = f->state + f->system->base_at + ORIENTATING_STATES};
     assert_true(dense_vehicle_evaluate(&f->vehicle, &given, &vehicle));
     s.energy = vehicle.kinetic + vehicle.potential;
     for (int i = 0; i < HINGES; i++) {

@@ -1,0 +1,56 @@
+#include "studies/show_numbers.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/printed.h"
+
+void show_name(FILE *stream, const char *result, const char *unit)
+{
+    char name[192];
+    snprintf(name, sizeof name, "%s%s%s%s", result, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+    fprintf(stream, "%-26s", VISIBLE(name));
+}
+
+void show_text(char text[32], double value, int digits)
+{
+    if (isnan(value))
+        strcpy(text, "-");
+    else
+        snprintf(text, 32, "%.*g", digits, value + 0.0);
+}
+
+void show_number(FILE *stream, int width, double value, int digits)
+{
+    char text[32];
+    show_text(text, value, digits);
+    fprintf(stream, " %*s", width, text);
+}
+
+void show_half(FILE *stream, int width, const estimate *e, int least)
+{
+    char text[64], value[32];
+    double half = 0.5 * (e->high - e->low);
+    int digits = printed_digits(e->value, half, least), length;
+    do {
+        show_text(value, e->value, digits);
+        length = snprintf(text, sizeof text, isfinite(half) ? "%s +- %.2g" : "%s", value, half);
+    } while (length > width && digits-- > least);
+    fprintf(stream, " %-*s", width, text);
+}
+
+void show_estimate(FILE *stream, int width, const estimate *e, double spread)
+{
+    enum { ROOM = 31 }; // of what ends a line
+    char text[128], value[32], low[32], high[32];
+    double largest = fmax(fabs(e->value), fmax(fabs(e->low), fabs(e->high)));
+    int digits = printed_digits(largest, spread, 4), length;
+    do {
+        show_text(value, e->value, digits);
+        show_text(low, e->low, digits);
+        show_text(high, e->high, digits);
+        length =
+            snprintf(text, sizeof text, isnan(e->low) ? "%s" : "%s [%s, %s]", value, low, high);
+    } while (length > (width ? width : ROOM) && digits-- > 4);
+    fprintf(stream, " %-*s", width, text);
+}

@@ -1,0 +1,23 @@
+// Numbers of a study as its tables print them.
+#ifndef LD_STUDIES_SHOW_NUMBERS_H
+#define LD_STUDIES_SHOW_NUMBERS_H
+
+#include <stdio.h>
+
+#include "studies/statistics.h"
+
+// "t_front [s]", 26 characters wide.
+void show_name(FILE *stream, const char *result, const char *unit);
+
+// What was not found is printed as "-", a negative zero as 0.
+void show_text(char text[32], double value, int digits);
+void show_number(FILE *stream, int width, double value, int digits);
+
+// "37.125 +- 0.02": so many digits, or as many as show half the interval and have room.
+void show_half(FILE *stream, int width, const estimate *e, int least);
+
+// "8.31 [8.24, 8.37]": four digits, or as many as show two of the spread and have room; width 0:
+// what ends a line.
+void show_estimate(FILE *stream, int width, const estimate *e, double spread);
+
+#endif
