@@ -14,9 +14,11 @@ const MORE = [
   ["tip.yaw_rate", "tip of the tube, yaw rate", "mrad/s", 1e3],
   ["downrange", "downrange", "m", 1],
   ["t_impact", "impact, from ignition", "s", 1],
+  ["measure.*", "%s", null, 1],
 ];
 
 const PARTS = [
+  ["Measures of the scenario", /^measure\./],
   ["Attitude and rates at the exit", /^(pitch|yaw)/],
   ["Speeds at the exit", /speed$|^spin/],
   ["Flight", /^(apogee|downrange|drift|range|t_impact|time_of_flight|impact|max_mach|max_angle)/],
@@ -36,9 +38,10 @@ export function describe({ name, unit, ...rest }) {
   const row = [...ROCKET, ...MORE].find(([key]) => isOf(key, name));
   const [key, pattern, shown, factor] = row ?? [name, name, unit, 1];
   const label = pattern.replace("%s", () => name.slice(key.length - 1).replaceAll("_", " "));
+  const own = shown ?? unit;
   const text = label[0].toUpperCase() + label.slice(1);
-  const part = /^(impact|t_impact)/.test(name) ? 2 : PARTS.findIndex(([, pattern]) => pattern.test(name));
-  return { ...rest, name, si: unit, label: text, unit: shown, factor, part, axis: shown ? `${label} [${shown}]` : label };
+  const part = /^(impact|t_impact)/.test(name) ? 3 : PARTS.findIndex(([, pattern]) => pattern.test(name));
+  return { ...rest, name, si: unit, label: text, unit: own, factor, part, axis: own ? `${label} [${own}]` : label };
 }
 
 export const partName = (index) => (index < 0 ? "Other results" : PARTS[index][0]);

@@ -66,6 +66,9 @@ function tableOf(heading, rows, heads) {
     element("div", { className: "scroll" }, element("table", {}, head, ...body)));
 }
 
+// What the scenario's measures are, each with its own unit.
+const measures = (list) => (list ?? []).map(({ name, unit }) => [`measure.${name}`, name.replaceAll("_", " "), unit === "1" ? "" : unit, 1]);
+
 function modes(list) {
   const rows = (list ?? []).map((mode, i) => [String(mode.shape), "",
     [readable(mode.frequency), readable(100 * mode.damping)]]);
@@ -75,7 +78,7 @@ function modes(list) {
 export function showSummary(summary) {
   const rockets = summary.rockets ?? [];
   return element("div", { id: "tables" },
-    tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, ROCKET),
+    tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...measures(summary.measures)]),
       rockets.length > 1 ? rockets.map((_, i) => String(i + 1)) : null),
     tableOf("Energy balance at the end", rowsOf([summary.energy ?? {}], ENERGY)),
     tableOf("Equilibrium at the start", rowsOf([summary.equilibrium ?? {}], EQUILIBRIUM)),

@@ -1,6 +1,16 @@
 #include "elements/motor.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+// The shortest rotation of x onto (1, y, z): of columns in the turned axes to B.
+static m3 turned(double y, double z)
+{
+    double cosine = 1 / sqrt(1 + y * y + z * z);
+    m3 across = m3_skew((v3){0, -z * cosine, y * cosine});
+    m3 square = m3_scale(1 / (1 + cosine), m3_mul(across, across));
+    return m3_add(m3_identity(), m3_add(across, square));
+}
 
 static rocket_mass mass_of(const ld_rocket *rocket, const ld_mass_data *data)
 {
@@ -11,6 +21,11 @@ static rocket_mass mass_of(const ld_rocket *rocket, const ld_mass_data *data)
     mass.J.a[0][1] = mass.J.a[1][0] = rocket->products[0];
     mass.J.a[0][2] = mass.J.a[2][0] = rocket->products[1];
     mass.J.a[1][2] = mass.J.a[2][1] = rocket->products[2];
+    const double *delta = rocket->dynamic_imbalance;
+    if (delta[0] != 0 || delta[1] != 0) {
+        m3 turn = turned(delta[0], delta[1]);
+        mass.J = m3_mul(m3_mul(turn, mass.J), m3_transpose(turn));
+    }
     return mass;
 }
 

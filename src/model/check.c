@@ -210,6 +210,10 @@ static void check_field(model_checker *checker, const char *path, const field_ro
         if (!memchr(field_at_const(base, f), '\0', LD_MAX_NAME))
             refuse(checker, path, "not ended by a zero");
         break;
+    case FIELD_QUANTITY:
+        if (!memchr(field_at_const(base, f), '\0', LD_MAX_QUANTITY))
+            refuse(checker, path, "not ended by a zero");
+        break;
     case FIELD_FACTORS:
         check_factors(checker, base);
         break;

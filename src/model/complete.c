@@ -60,16 +60,24 @@ static void complete_flight(ld_model *model)
         model->run.end = LD_END_LANDING;
 }
 
-// What is not said of the empty rocket is as of the full one.
-static void complete_empty(ld_rocket *rocket)
+// Where there is none fills in the value, which is then one that was completed.
+static void complete_number(double *number, double value, bool *completed)
 {
-    if (isnan(rocket->empty.mass))
-        rocket->empty.mass = rocket->full.mass;
+    if (!isnan(*number))
+        return;
+    *number = value;
+    *completed = true;
+}
+
+// What is not said of the empty rocket is as of the full one.
+static void complete_empty(ld_model *model)
+{
+    ld_mass_data *empty = &model->rocket.empty;
+    const ld_mass_data *full = &model->rocket.full;
+    complete_number(&empty->mass, full->mass, &model->completed.empty_mass);
     for (int i = 0; i < 3; i++) {
-        if (isnan(rocket->empty.center[i]))
-            rocket->empty.center[i] = rocket->full.center[i];
-        if (isnan(rocket->empty.inertia[i]))
-            rocket->empty.inertia[i] = rocket->full.inertia[i];
+        complete_number(&empty->center[i], full->center[i], &model->completed.empty_center[i]);
+        complete_number(&empty->inertia[i], full->inertia[i], &model->completed.empty_inertia[i]);
     }
 }
 
@@ -85,33 +93,58 @@ static void complete_firing(ld_model *model)
 
 // A step's error grows with its fifth power; at 1e-5 and below the step that touches need is
 // enough. Many modes allow no longer one, for stability.
-static void complete_max_step(ld_run_settings *run)
+static double longest_step(double tolerance)
 {
-    if (!isnan(run->max_step))
-        return;
-    run->max_step = 2e-4 * pow(fmax(1, run->tolerance / 1e-5), 0.2);
-    run->max_step_completed = run->max_step;
+    return 2e-4 * pow(fmax(1, tolerance / 1e-5), 0.2);
+}
+
+static void complete_run(ld_model *model)
+{
+    ld_run_settings *run = &model->run;
+    const ld_motor *motor = &model->rocket.motor;
+    const ld_table *thrust = &motor->thrust;
+    if (thrust->rows > 0)
+        complete_number(&run->stuck_time,
+                        thrust->data[(thrust->rows - 1) * thrust->columns] * motor->time_scale + 1,
+                        &model->completed.stuck_time);
+    complete_number(&run->max_step, longest_step(run->tolerance), &model->completed.max_step);
 }
 
 void model_complete(ld_model *model)
 {
     ld_environment *environment = &model->environment;
-    if (isnan(environment->ground_height))
-        environment->ground_height =
-            environment->earth.kind == LD_EARTH_FLAT ? 0 : environment->site.altitude;
+    bool flat = environment->earth.kind == LD_EARTH_FLAT;
+    complete_number(&environment->ground_height, flat ? 0 : environment->site.altitude,
+                    &model->completed.ground_height);
     complete_firing(model);
     ld_tubes *tubes = &model->tubes;
     ld_rocket *rocket = &model->rocket;
-    const ld_table *thrust = &rocket->motor.thrust;
     for (int i = 0; i < tubes->section_count; i++)
         complete_section(&tubes->section[i], &tubes->material);
     if (!model_has_launcher(model))
         complete_flight(model);
-    complete_empty(rocket);
-    if (isnan(rocket->propellant))
-        rocket->propellant = rocket->full.mass - rocket->empty.mass;
-    if (isnan(model->run.stuck_time) && thrust->rows > 0)
-        model->run.stuck_time =
-            thrust->data[(thrust->rows - 1) * thrust->columns] * rocket->motor.time_scale + 1;
-    complete_max_step(&model->run);
+    complete_empty(model);
+    complete_number(&rocket->propellant, rocket->full.mass - rocket->empty.mass,
+                    &model->completed.propellant);
+    complete_run(model);
+}
+
+static void forget(double *number, bool *completed)
+{
+    *number = *completed ? NAN : *number;
+    *completed = false;
+}
+
+void model_forget(ld_model *model)
+{
+    ld_mass_data *empty = &model->rocket.empty;
+    forget(&model->environment.ground_height, &model->completed.ground_height);
+    forget(&empty->mass, &model->completed.empty_mass);
+    for (int i = 0; i < 3; i++) {
+        forget(&empty->center[i], &model->completed.empty_center[i]);
+        forget(&empty->inertia[i], &model->completed.empty_inertia[i]);
+    }
+    forget(&model->rocket.propellant, &model->completed.propellant);
+    forget(&model->run.stuck_time, &model->completed.stuck_time);
+    forget(&model->run.max_step, &model->completed.max_step);
 }

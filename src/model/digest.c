@@ -55,6 +55,7 @@ static uint64_t of_field(uint64_t digest, const field_row *f, const void *base)
         digest = of_int(digest, field_switch(base, f));
         return digest_bytes(digest, at, (size_t)field_switch(base, f) * sizeof(int));
     case FIELD_WORD:
+    case FIELD_QUANTITY:
         return of_text(digest, at);
     case FIELD_TEXT:
         return of_text(digest, *(char *const *)at);

@@ -350,6 +350,9 @@ void field_expectation(const field_row *field, char *text, size_t size)
     case FIELD_WORD:
         snprintf(text, size, "a name of letters, digits, - and _ that begins with a letter");
         return;
+    case FIELD_QUANTITY:
+        snprintf(text, size, "a name of letters, digits, - and _, or several joined by points");
+        return;
     case FIELD_TEXT:
         snprintf(text, size, "a text");
         return;

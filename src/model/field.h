@@ -16,6 +16,7 @@ typedef enum field_kind {
     FIELD_INTEGER,    // int
     FIELD_INTEGERS,   // array of int, their number at `other`
     FIELD_WORD,       // char[LD_MAX_NAME], a name
+    FIELD_QUANTITY,   // char[LD_MAX_QUANTITY], names joined by points
     FIELD_TEXT,       // char *, owned by the model
     FIELD_CHOICE,     // enum: one of `words`
     FIELD_BLOCK,      // keys of `block`
@@ -75,6 +76,7 @@ typedef struct field_row {
     size_t mark;             // selection: place of the mark in an entry
     int count;               // number: how many; list, integers: most entries
     int least;               // list, integers: fewest entries
+    bool silent;             // list: not printed where it is empty
     const char *unit;        // SI, "" without
     double initial;          // default in SI; NaN: none
     const double *initials;  // number: default of each, where they differ

@@ -35,6 +35,8 @@ enum {
     LD_MAX_TOGETHER = 8,
     LD_MAX_CHOICES = 32,
     LD_MAX_UNTIL = 16,
+    LD_MAX_MEASURES = 24,
+    LD_MAX_QUANTITY = 96,
     LD_MAX_CORRELATED = 16,
     LD_MAX_POINTS = 10000,
 };
@@ -512,10 +514,12 @@ typedef struct ld_rocket {
     double start_at; ///< [m] s of the rear adaptor at the start
     ld_mass_data full;
     ld_mass_data empty;
-    double propellant;      ///< [kg] burnt mass; NaN: see model_complete()
-    double products[3];     ///< [kg m2] J_xy, J_xz, J_yz of the matrix, full and empty
-    double mass_error;      ///< [kg] at the mass centre, added to full and empty
-    double eccentricity[2]; ///< [m] y, z, added to full and empty
+    double propellant;           ///< [kg] burnt mass; NaN: see model_complete()
+    double products[3];          ///< [kg m2] J_xy, J_xz, J_yz of the matrix, full and empty
+    double dynamic_imbalance[2]; ///< [-] delta_y, delta_z: the inertia's x axis points along
+                                 ///< (1, delta_y, delta_z) of B, turned the shortest way
+    double mass_error;           ///< [kg] at the mass centre, added to full and empty
+    double eccentricity[2];      ///< [m] y, z, added to full and empty
     int adaptor_count;
     ld_adaptor adaptor[LD_MAX_ADAPTORS]; ///< the first is the rear one
     ld_contact contact;
@@ -582,7 +586,6 @@ typedef struct ld_run_settings {
     double tolerance;           ///< [-] relative tolerance of the integrator
     double max_step;            ///< [s] longest step until the last rocket has left its tube; NaN:
                                 ///< see model_complete()
-    double max_step_completed;  ///< [s] what model_complete() has put there; 0: nothing
     double output_step_lead_in; ///< [s]
     double output_step_tube;    ///< [s]
     double output_step_flight;  ///< [s]
@@ -644,6 +647,19 @@ typedef struct ld_together {
     int count; ///< 0: not several
     char path[LD_MAX_TOGETHER][LD_MAX_PATH];
 } ld_together;
+
+typedef enum ld_take { LD_TAKE_VALUE, LD_TAKE_PEAK, LD_TAKE_RMS, LD_TAKE_MEAN } ld_take;
+
+/// A result that the scenario asks for: what a column of the launch is at an instant of a rocket,
+/// or in a window between two. Instants: start, t_ignition, t_release, t_front, t_middle, t_rear,
+/// t_exit.NAME, end.
+typedef struct ld_measure {
+    char name[LD_MAX_NAME];     ///< the result is called measure.NAME
+    char of[LD_MAX_QUANTITY];   ///< column
+    ld_take take;               ///< its value, largest magnitude, root mean square, mean
+    char from[LD_MAX_QUANTITY]; ///< instant of a value, or at which the window begins
+    char to[LD_MAX_QUANTITY];   ///< instant at which it ends; of a value ""
+} ld_measure;
 
 /// One scattered number of the scenario. Units are those of the key, in SI.
 typedef struct ld_factor {
@@ -742,13 +758,19 @@ struct ld_model {
     const ld_rocket *salvo; ///< [firing_count] rocket of each firing where they differ in numbers,
                             ///< not owned; NULL: each is `rocket`
     ld_run_settings run;
+    int measure_count;
+    ld_measure measure[LD_MAX_MEASURES];
     ld_scatter scatter; ///< for studies
     int sweep_count;
     ld_sweep_axis *sweep; ///< for studies, owned by the model; its points are read by
                           ///< scenario_read_point()
     ld_source *source;    ///< what it was read from, shared; NULL: filled by hand
-    int point;            ///< of the sweep that its values are those of; 0: nominal
-    int sample;           ///< whose drawn numbers it has, of its point; 0: nominal
+    struct {
+        bool ground_height, empty_mass, empty_center[3], empty_inertia[3], propellant, stuck_time,
+            max_step;
+    } completed; ///< what model_complete() has filled in: model_forget()
+    int point;   ///< of the sweep that its values are those of; 0: nominal
+    int sample;  ///< whose drawn numbers it has, of its point; 0: nominal
 };
 
 /// False: a flight alone.
@@ -780,6 +802,10 @@ void model_init(ld_model *model);
 /// tip (landing); the ground's height where it is NaN (0, on a round Earth the site's altitude).
 /// The scenario reader has done it already.
 void model_complete(ld_model *model);
+
+/// Makes NaN again what model_complete() has filled in, so that it follows from other numbers when
+/// that is called again.
+void model_forget(ld_model *model);
 
 /// Frees the title, the tables, what `model` owns for studies and its share of `source`, and resets
 /// it to the defaults.

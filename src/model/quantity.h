@@ -20,6 +20,7 @@ typedef enum quantity_each {
     EACH_ADAPTOR,
     EACH_HINGE, // azimuth, elevation
     EACH_WHEEL,
+    EACH_MEASURE, // that the scenario asks for
     EACH_COUNT
 } quantity_each;
 
@@ -62,7 +63,7 @@ typedef struct quantity_line {
 
 typedef struct quantity {
     const char *name; // %s: of which
-    const char *unit; // SI; "" or "1": none
+    const char *unit; // SI; "" or "1": none; NULL: each has one of its own (quantity_unit)
     const char *description;
     quantity_place at;
     const char *json; // path in summary.json, where that is not the name; [] at its end: in a list

@@ -7,6 +7,7 @@
 #define INTEGER(type, member, least_, most_)                                                       \
     .kind = FIELD_INTEGER, .offset = offsetof(type, member), .range = {least_, most_, 0, 0}
 #define WORD(type, member) .kind = FIELD_WORD, .offset = offsetof(type, member)
+#define QUANTITY(type, member) .kind = FIELD_QUANTITY, .offset = offsetof(type, member)
 #define CHOICE(type, member, words_)                                                               \
     .kind = FIELD_CHOICE, .offset = offsetof(type, member), .words = (words_)
 #define BLOCK(type, member, block_)                                                                \
@@ -882,6 +883,10 @@ static const field_row rocket_fields[] = {
      .doc = "about the mass centre"},
     {"products_of_inertia", VECTOR(ld_model, rocket.products, "kg.m2", 3), ANY, DEFAULT(0),
      .doc = "elements J_xy, J_xz, J_yz of the matrix, full and empty"},
+    {"dynamic_imbalance", VECTOR(ld_model, rocket.dynamic_imbalance, "rad", 2), FROM_TO(-1, 1),
+     DEFAULT(0),
+     .doc = "delta_y, delta_z: inertia and products, full and empty, are about axes of which x "
+            "points along (1, delta_y, delta_z) of B"},
     {"mass_error", NUMBER(ld_model, rocket.mass_error, "kg"), ANY, DEFAULT(0),
      .doc = "added to the full and the empty mass, at the mass centre"},
     {"eccentricity", VECTOR(ld_model, rocket.eccentricity, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
@@ -1057,6 +1062,32 @@ static const field_row run_fields[] = {
     {0}};
 static const field_block run_block = {.fields = run_fields};
 
+// ---- results that are asked for
+
+static const field_word take_words[] = {{"value", LD_TAKE_VALUE},
+                                        {"peak", LD_TAKE_PEAK},
+                                        {"rms", LD_TAKE_RMS},
+                                        {"mean", LD_TAKE_MEAN},
+                                        {NULL, 0}};
+#define IN_WINDOW .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN)
+static const field_row measure_fields[] = {
+    {"name", WORD(ld_measure, name), .required = true, .doc = "the result is called measure.NAME"},
+    {"of", QUANTITY(ld_measure, of), .required = true,
+     .doc = "a column of the launch (quantities.md)"},
+    {"take", CHOICE(ld_measure, take, take_words), .required = true,
+     .doc = "its value at an instant; its largest magnitude, root mean square or mean in a window"},
+    {"at", QUANTITY(ld_measure, from), .required = true, .forms = FORM(LD_TAKE_VALUE),
+     .doc = "instant (Measures, above)"},
+    {"from", QUANTITY(ld_measure, from), .required = true, IN_WINDOW,
+     .doc = "instant at which the window begins"},
+    {"to", QUANTITY(ld_measure, to), .required = true, IN_WINDOW,
+     .doc = "instant at which it ends"},
+    {0}};
+static const field_block measure_block = {.fields = measure_fields,
+                                          .form = take_words,
+                                          .form_offset = offsetof(ld_measure, take),
+                                          .form_key = "take"};
+
 // ---- studies
 
 static const field_word plan_words[] = {
@@ -1109,6 +1140,9 @@ static const field_row scenario_fields[] = {
      .doc = "which tube fires when, one after the other"},
     {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
      .doc = "how it is simulated"},
+    {"measures", LIST(ld_model, measure, measure_count, measure_block, 0, LD_MAX_MEASURES), IN_TUBE,
+     .silent = true, .initial_doc = "none",
+     .doc = "results besides those that every run has (Measures, above)"},
     {"flight", BLOCK(ld_model, flight, flight_block), .required = true, .forms = IN_FLIGHT,
      .doc = "flight alone, in place of base, platform, tubes, firing and what the rocket has for "
             "the tube"},

@@ -41,7 +41,7 @@ static void write_plan(FILE *json, const ld_model *model)
         write_line(json, &first, "seed", "%d", scatter->seed);
     for (int i = 0; i < scatter->until_count; i++) {
         char text[256];
-        scenario_until_text(&scatter->until[i], text, sizeof text);
+        scenario_until_text(model, &scatter->until[i], text, sizeof text);
         write_line(json, &first, "until half the 95 % interval is at most", "%s", text);
     }
     for (int i = 0; i < model->sweep_count; i++)

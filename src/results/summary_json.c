@@ -13,6 +13,7 @@
 #include "launchdyn/version.h"
 #include "results/json_text.h"
 #include "results/origin.h"
+#include "simulation/measures.h"
 #include "simulation/summary.h"
 #include "simulation/summary_quantities.h"
 
@@ -166,6 +167,28 @@ static void write_modes(json_writer *json, const ld_summary *summary, const quan
     json_close(json, ']');
 }
 
+// What each number of `measure` is, where there are such.
+static void write_measures(json_writer *json, const ld_model *model)
+{
+    static const char *const takes[] = {"value", "peak", "rms", "mean"};
+    if (model->measure_count == 0)
+        return;
+    json_open(json, "measures", '[');
+    for (int i = 0; i < model->measure_count; i++) {
+        const ld_measure *measure = &model->measure[i];
+        json_open(json, NULL, '{');
+        json_text(json, "name", measure->name);
+        json_text(json, "unit", measure_unit(model, i));
+        json_text(json, "of", measure->of);
+        json_text(json, "take", takes[measure->take]);
+        json_text(json, measure->take == LD_TAKE_VALUE ? "at" : "from", measure->from);
+        if (measure->take != LD_TAKE_VALUE)
+            json_text(json, "to", measure->to);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
 // ---- the whole
 
 static void write_end(json_writer *json, const ld_summary *summary)
@@ -223,6 +246,7 @@ static void write_summary(json_writer *json, const ld_model *model, const ld_sum
     origin_write_program(json->file, origin);
     write_end(json, summary);
     write_rockets(json, summary, &things);
+    write_measures(json, model);
     write_numbers(json, &run_quantities, &things, summary);
     if (model_has_launcher(model))
         write_modes(json, summary, &things);

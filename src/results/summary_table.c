@@ -3,6 +3,7 @@
 
 #include "base/printed.h"
 #include "launchdyn/output.h"
+#include "simulation/measures.h"
 #include "simulation/summary.h"
 #include "simulation/summary_quantities.h"
 
@@ -24,7 +25,8 @@ static void print_line(const quantity_walk *at, const void *from, FILE *stream)
     }
     if (isfinite(value) && !(line->nonzero && value == 0))
         fprintf(stream, "  %-22s %12.*f%s %s\n", label, line->digits,
-                printed_fixed(value * line->factor, line->digits), second, line->unit);
+                printed_fixed(value * line->factor, line->digits), second,
+                line->unit ? line->unit : quantity_unit(at));
 }
 
 // The lines of one block.
@@ -65,7 +67,7 @@ static void print_rocket(const quantity_things *things, const ld_rocket_summary 
                          FILE *stream)
 {
     fprintf(stream, "\nRocket of tube %d, instants from its ignition\n", rocket->tube);
-    for (int block = SHOWN_CHANGE; block <= SHOWN_PEAKS; block++)
+    for (int block = SHOWN_CHANGE; block <= SHOWN_MEASURES; block++)
         print_block(&rocket_quantities, things, rocket, block, stream);
 }
 

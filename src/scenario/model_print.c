@@ -5,6 +5,7 @@
 #include "model/field.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/scenario_text.h"
+#include "simulation/measures.h"
 #include "simulation/study_results.h"
 
 #include <string.h>
@@ -96,6 +97,7 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
         print_choice(stream, f, base);
         return;
     case FIELD_WORD:
+    case FIELD_QUANTITY:
         fprintf(stream, "%s", (const char *)field_at_const(base, f));
         return;
     case FIELD_INTEGERS:
@@ -119,6 +121,8 @@ static bool has_value(const field_row *f, const void *base)
     if (f->kind == FIELD_TABLE)
         return ((const ld_table *)field_at_const(base, f))->rows > 0;
     if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP)
+        return field_switch(base, f) > 0;
+    if (f->kind == FIELD_LIST && f->silent)
         return field_switch(base, f) > 0;
     return f->kind != FIELD_LATER;
 }
@@ -232,15 +236,19 @@ static void print_factor(FILE *stream, const ld_model *model, const ld_factor *f
     print_distribution(stream, factor, place.row && place.row->unit ? place.row->unit : "");
 }
 
+// The model that the scatter is a part of.
+static const ld_model *model_of(const ld_scatter *scatter)
+{
+    return (const void *)((const char *)scatter - offsetof(ld_model, scatter));
+}
+
 static void print_factors(FILE *stream, const field_row *f, const ld_scatter *scatter, int depth)
 {
     fputc('\n', stream);
     for (int i = 0; i < field_switch(scatter, f); i++) {
         const ld_factor *factor = &scatter->factor[i];
-        // scatter is a part of the model whose numbers it names
-        const ld_model *model = (const void *)((const char *)scatter - offsetof(ld_model, scatter));
         fprintf(stream, "%*s%s: {", depth * 2, "", factor->path);
-        print_factor(stream, model, factor);
+        print_factor(stream, model_of(scatter), factor);
         fprintf(stream, "%s}\n",
                 factor_may_be_per_rocket(factor) && !factor->per_rocket ? ", per: sample" : "");
     }
@@ -276,13 +284,17 @@ static double percent(double share)
     return low / 100 == share ? low : high;
 }
 
-static void print_statistic(FILE *stream, const ld_until *until)
+static void print_statistic(FILE *stream, const ld_model *model, const ld_until *until)
 {
-    const quantity *result = study_result_like(until->result);
+    const quantity_things things = quantity_things_of(model);
+    const quantity_walk result = study_result_find(&things, until->result);
     double value = until->relative ? percent(until->half_width) : until->half_width;
     fprintf(stream, "%s.%s: ", until->result,
             until->statistic == LD_STATISTIC_MEAN ? "mean" : "deviation");
-    print_number(stream, &value, 1, until->relative ? "%" : result ? result->unit : "");
+    print_number(stream, &value, 1,
+                 until->relative ? "%"
+                 : result.row    ? quantity_unit(&result)
+                                 : "");
 }
 
 static void print_until(FILE *stream, const ld_scatter *scatter, int depth)
@@ -290,7 +302,7 @@ static void print_until(FILE *stream, const ld_scatter *scatter, int depth)
     fputc('\n', stream);
     for (int i = 0; i < scatter->until_count; i++) {
         fprintf(stream, "%*s", depth * 2, "");
-        print_statistic(stream, &scatter->until[i]);
+        print_statistic(stream, model_of(scatter), &scatter->until[i]);
         fputc('\n', stream);
     }
 }
@@ -385,12 +397,12 @@ void scenario_factor_text(const ld_model *model, const ld_factor *factor, char *
     fclose(stream);
 }
 
-void scenario_until_text(const ld_until *until, char *text, size_t size)
+void scenario_until_text(const ld_model *model, const ld_until *until, char *text, size_t size)
 {
     FILE *stream = open_text(text, size);
     if (!stream)
         return;
-    print_statistic(stream, until);
+    print_statistic(stream, model, until);
     fclose(stream);
 }
 

@@ -7,6 +7,7 @@
 #include "base/suggestion.h"
 #include "model/field.h"
 #include "scenario/scenario_reader.h"
+#include "simulation/measures.h"
 
 enum { PATH = READER_MAX_PATH };
 
@@ -183,12 +184,14 @@ static void read_word(scenario_reader *reader, const field_row *f, const tree_no
                       void *base, const char *path)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-    static const char others[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    static const char others[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+    bool joined = f->kind == FIELD_QUANTITY;
     if (!is_scalar(reader, f, value, path))
         return;
-    size_t length = strlen(value->text);
-    if (length >= LD_MAX_NAME || strspn(value->text, letters) == 0 ||
-        strspn(value->text, others) != length)
+    size_t length = strlen(value->text), most = joined ? LD_MAX_QUANTITY : LD_MAX_NAME;
+    if (length >= most || strspn(value->text, letters) == 0 ||
+        strspn(value->text, others) != length || (!joined && strchr(value->text, '.')))
         refuse_value(reader, f, value, path);
     else
         memcpy(field_at(base, f), value->text, length + 1);
@@ -483,6 +486,7 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
         read_choice(reader, f, value, base, path);
         break;
     case FIELD_WORD:
+    case FIELD_QUANTITY:
         read_word(reader, f, value, base, path);
         break;
     case FIELD_TEXT:
@@ -719,6 +723,7 @@ void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *mod
         return;
     context.messages = reader->messages->count;
     model_check_rules(model, refuse_rule, &context);
+    measures_check(model, refuse_rule, &context);
     if (reader->complaint)
         refuse_complaint(&context, reader->complaint);
 }

@@ -9,7 +9,7 @@
 // A factor's distribution, "normal: 0.2 kg, within: 3"; what is too long is cut.
 void scenario_factor_text(const ld_model *model, const ld_factor *factor, char *text, size_t size);
 // A statistic with the half width that it is run until, "range.mean: 2 m".
-void scenario_until_text(const ld_until *until, char *text, size_t size);
+void scenario_until_text(const ld_model *model, const ld_until *until, char *text, size_t size);
 // A value as it is printed where that is a line, "" where it is not given; false: it is more.
 bool scenario_value_text(const field_value *value, char *text, size_t size);
 

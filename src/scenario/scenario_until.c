@@ -6,6 +6,7 @@
 #include "base/suggestion.h"
 #include "model/field.h"
 #include "scenario/scenario_reader.h"
+#include "simulation/measures.h"
 #include "simulation/study_results.h"
 
 static const char *const statistic_names[] = {"mean", "deviation"};
@@ -35,10 +36,9 @@ static void refuse_name(scenario_reader *reader, const tree_node *node, const ch
 }
 
 static void read_half_width(scenario_reader *reader, const tree_node *node, const char *path,
-                            const quantity *result, ld_until *until)
+                            const char *unit, ld_until *until)
 {
-    field_row row = {
-        .kind = FIELD_NUMBER, .unit = result->unit, .range = {0, INFINITY, 1, 1}, .count = 1};
+    field_row row = {.kind = FIELD_NUMBER, .unit = unit, .range = {0, INFINITY, 1, 1}, .count = 1};
     char expected[192];
     if (node->kind != NODE_SCALAR || tree_is_empty(node)) {
         field_expectation(&row, expected, sizeof expected);
@@ -47,7 +47,7 @@ static void read_half_width(scenario_reader *reader, const tree_node *node, cons
     }
     size_t length = strlen(node->text);
     until->relative = node->text[length - 1] == '%';
-    row.unit = until->relative ? "" : result->unit;
+    row.unit = until->relative ? "" : unit;
     quantity_read(reader, &row, node->at, path, node->text, &until->half_width, 1);
 }
 
@@ -62,14 +62,14 @@ static void read_until(scenario_reader *reader, const tree_node *node,
     snprintf(name, sizeof name, "%.*s", (int)length, node->key);
     while (point && statistic < STATISTICS && strcmp(point + 1, statistic_names[statistic]) != 0)
         statistic++;
-    const quantity *result = study_result_find(things, name).row;
-    if (!point || statistic == STATISTICS || !result) {
+    const quantity_walk result = study_result_find(things, name);
+    if (!point || statistic == STATISTICS || !result.row) {
         refuse_name(reader, node, path, name, things);
         return;
     }
     memcpy(until->result, name, sizeof name);
     until->statistic = (ld_statistic)statistic;
-    read_half_width(reader, node, path, result, until);
+    read_half_width(reader, node, path, quantity_unit(&result), until);
 }
 
 void fill_until(scenario_reader *reader, const tree_node *map, ld_model *model)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "simulation/launch_quantities.h"
 #include "simulation/launch_state.h"
 #include "simulation/quantity_table.h"
 

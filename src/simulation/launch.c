@@ -6,7 +6,7 @@
 #include "simulation/summary_quantities.h"
 
 // Rocket i of the firing comes next: its lock closed, its motor not yet lit.
-static void set_up_rocket(ld_run *run, int i)
+static void set_up_rocket(ld_run *run, int i, double t)
 {
     const ld_firing *firing = &run->launch.model->firing[i];
     launch_state_select(&run->launch, i);
@@ -16,6 +16,7 @@ static void set_up_rocket(ld_run *run, int i)
     rocket_clear(rocket, true);
     rocket->t_ignition = firing->at;
     rocket->tube = firing->tube;
+    launch_begin_measures(run, t);
 }
 
 static ld_status find_start(ld_run *run, double *y)
@@ -61,7 +62,8 @@ static ld_status change_tube(ld_run *run, double t)
     memcpy(y, propagator_state(run->propagator),
            (size_t)self->launcher.state_count * sizeof(double));
     launch_energy_at(self, t, y, run->energy_start, &before);
-    set_up_rocket(run, next);
+    launch_end_measures(run);
+    set_up_rocket(run, next, t);
     ld_status status = simulation_change_tube(self, next, t, y, &run->error);
     if (status)
         return status;
@@ -73,6 +75,7 @@ static ld_status change_tube(ld_run *run, double t)
     launch_restart_output(run, t);
     launch_tell(run, LD_EVENT_TUBE, t, -1);
     run->last_row = NAN;
+    launch_measure_instant(run, t, y);
     status = propagator_start(run->propagator, t, y, true, &run->error);
     return status ? status : launch_write_row(run, t, y);
 }
@@ -98,6 +101,7 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
         launch_record_ignition(run, t, y); // the row of this instant wants it
     ld_status status = launch_write_rows(run);
     launch_watch_forces(run, t, y);
+    launch_measure_step(run, outcome != INTEGRATOR_STEPPED);
     if (!status && outcome != INTEGRATOR_STEPPED)
         status = launch_write_row(run, t, y);
     bool changed = outcome == INTEGRATOR_EVENT && launch_switch_phase(run, t, y);
@@ -112,6 +116,8 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
         launch_let_go_at_once(run, t, y);
         status = propagator_start(run->propagator, t, y, false, &run->error);
     }
+    if (outcome != INTEGRATOR_STEPPED)
+        launch_measure_instant(run, t, y);
     return status;
 }
 
@@ -142,8 +148,10 @@ static ld_status arrive(ld_run *run)
         status = launch_sample_base(run);
     if (!status)
         status = change_tube(run, propagator_time(run->propagator));
-    if (!status && launch_is_finished(run))
+    if (!status && launch_is_finished(run)) {
+        launch_end_measures(run);
         launch_tell(run, LD_EVENT_END, propagator_time(run->propagator), -1);
+    }
     return status;
 }
 
@@ -186,6 +194,7 @@ ld_status launch_ignite(ld_run *run)
     launch_pass_stop(run, t);
     launch_restart_output(run, t);
     launch_let_go_at_once(run, t, y);
+    launch_measure_instant(run, t, y);
     if (!run->status)
         run->status = propagator_start(run->propagator, t, y, false, &run->error);
     return run->status;
@@ -203,7 +212,7 @@ ld_status launch_begin(ld_run *run)
     run->t_input = INFINITY;
     run->last_row = NAN;
     run->summary.t_end = run->t_start;
-    set_up_rocket(run, 0);
+    set_up_rocket(run, 0, run->t_start);
     ld_status status = launch_check_base(run, run->t_start);
     if (!status)
         status = launch_begin_base(run);
@@ -222,6 +231,7 @@ ld_status launch_begin(ld_run *run)
     }
     self->phase.locked = self->rocket->lock.present;
     launch_let_go_at_once(run, run->t_start, y);
+    launch_measure_instant(run, run->t_start, y);
     launch_restart_output(run, run->t_start);
     run->next_progress = run->t_start;
     status = propagator_create(&run->launch, &run->propagator, &run->error);

@@ -75,6 +75,24 @@ static void archive_summary(archive *bytes, ld_run *run)
         archive_text(bytes, summary->note[i], sizeof summary->note[i]);
 }
 
+// Measures as far as they have been taken; nothing where there are none.
+static void archive_measures(archive *bytes, ld_run *run)
+{
+    if (run->launch.model->measure_count == 0)
+        return;
+    archive_double(bytes, &run->t_rocket);
+    archive_double(bytes, &run->t_measured);
+    for (int i = 0; i < run->launch.model->measure_count; i++) {
+        measure_so_far *measure = &run->measure[i];
+        archive_bool(bytes, &measure->open);
+        archive_bool(bytes, &measure->done);
+        archive_double(bytes, &measure->t_from);
+        archive_double(bytes, &measure->value);
+        archive_double(bytes, &measure->sum);
+        archive_double(bytes, &measure->peak);
+    }
+}
+
 // Where the run stands, and what its events are that have not been told.
 static void archive_present(archive *bytes, ld_run *run)
 {
@@ -113,6 +131,7 @@ void launch_archive(ld_run *run, archive *bytes)
     archive_present(bytes, run);
     archive_output(bytes, run);
     archive_summary(bytes, run);
+    archive_measures(bytes, run);
     propagator_archive(run->propagator, bytes);
     check_instants(run, bytes);
 }

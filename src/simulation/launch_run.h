@@ -7,6 +7,15 @@
 #include "simulation/propagator.h"
 #include "systems/flight.h"
 
+// A measure of the rocket that is in its tube, as far as it has been taken.
+typedef struct measure_so_far {
+    bool open, done;
+    double t_from; // [s] where its window began
+    double value;  // of its column where the last step ended; since then after what happened there
+    double sum;    // integral since t_from of the column, for rms of its square
+    double peak;   // largest magnitude since then
+} measure_so_far;
+
 enum { MOST_EVENTS = 2 * LD_MAX_ADAPTORS + LD_MAX_WHEELS + 8 }; // at one instant
 
 struct ld_run {
@@ -38,6 +47,9 @@ struct ld_run {
     int64_t steps_since_progress;
     bool sink_failed;
     double greatest_lock_force;
+    double t_rocket;   // [s] start of the current rocket's instants
+    double t_measured; // [s] where the last step ended
+    measure_so_far measure[LD_MAX_MEASURES];
     double point[LD_MAX_FIRINGS][2]; // [m] x and z of the rear adaptors at their ignition
     flight_system flight;            // of the rocket that flies now
     quantity_columns flight_columns; // its, where rows are wanted
@@ -114,6 +126,18 @@ void launch_watch_forces(ld_run *run, double t, const double *y);
 void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,
                       ld_energy *energy);
 void launch_summarise(ld_run *run);
+
+// ---- measures (launch_measures.c)
+
+// At t a rocket's instants begin; those of the one before have ended.
+void launch_begin_measures(ld_run *run, double t);
+// Takes the step that has just ended, before anything that happens at its end has; only there, at
+// an event or a stop (`lands`), are instants looked for.
+void launch_measure_step(ld_run *run, bool lands);
+// What has happened at t, in the state y: windows begin and end.
+void launch_measure_instant(ld_run *run, double t, const double *y);
+// The rocket's last instant, at the end of the last step.
+void launch_end_measures(ld_run *run);
 
 // ---- saving and loading (launch_archive.c)
 

@@ -129,6 +129,22 @@ static void note_formulation(const launch_state *self, ld_summary *summary)
                         (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
 }
 
+// Of a launch that came to its end, the first measure that has no value.
+static void note_measures(ld_run *run)
+{
+    const ld_model *model = run->launch.model;
+    for (int i = 0; i < run->summary.rocket_count && run->summary.complete; i++)
+        for (int k = 0; k < model->measure_count; k++)
+            if (isnan(run->summary.rocket[i].measure[k])) {
+                simulation_note(&run->summary,
+                                "measure.%s of tube %d has no value: its window did not come, or "
+                                "%s is not there in all of it",
+                                model->measure[k].name, run->summary.rocket[i].tube,
+                                model->measure[k].of);
+                return;
+            }
+}
+
 void launch_summarise(ld_run *run)
 {
     launch_state *self = &run->launch;
@@ -155,6 +171,7 @@ void launch_summarise(ld_run *run)
         if (summary->rocket[i].t_release < 0)
             simulation_note(summary, "the lock of tube %d let go %.4g s before its ignition",
                             summary->rocket[i].tube, -summary->rocket[i].t_release);
+    note_measures(run);
     if (self->system->growing.real > 0)
         simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
                         self->system->growing.real, self->system->growing.shape);

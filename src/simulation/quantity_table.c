@@ -17,14 +17,18 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_CROSSFLOW] = model_has_crossflow(model),
                   [EACH_ADAPTOR] = model->rocket.adaptor_count,
                   [EACH_HINGE] = vehicle ? 2 : 0,
-                  [EACH_WHEEL] = vehicle ? model->base.vehicle.wheel_count : 0},
+                  [EACH_WHEEL] = vehicle ? model->base.vehicle.wheel_count : 0,
+                  [EACH_MEASURE] = model->measure_count},
         .name = {[EACH_ADAPTOR] = model->rocket.adaptor[0].name,
                  [EACH_HINGE] = hinges[0],
-                 [EACH_WHEEL] = model->base.vehicle.wheel[0].name},
+                 [EACH_WHEEL] = model->base.vehicle.wheel[0].name,
+                 [EACH_MEASURE] = model->measure[0].name},
         .stride = {[EACH_ADAPTOR] = sizeof model->rocket.adaptor[0],
                    [EACH_HINGE] = sizeof hinges[0],
-                   [EACH_WHEEL] = sizeof model->base.vehicle.wheel[0]},
+                   [EACH_WHEEL] = sizeof model->base.vehicle.wheel[0],
+                   [EACH_MEASURE] = sizeof model->measure[0]},
         .launcher = model_has_launcher(model),
+        .model = model,
     };
 }
 

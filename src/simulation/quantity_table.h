@@ -14,6 +14,7 @@ typedef struct quantity_things {
     const char *name[EACH_COUNT];
     size_t stride[EACH_COUNT]; // [bytes]
     bool launcher;             // there is one
+    const ld_model *model;     // whose they are
 } quantity_things;
 
 // Those of a model, which must outlive them (NULL: none); coordinates are of the tube as built.

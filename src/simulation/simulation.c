@@ -44,6 +44,8 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
     if (status)
         return status;
     status = history_build(self, error);
+    if (!status)
+        status = measures_build(model, &self->columns, self->measure, error);
     if (!status && self->launcher.base.kind->dynamics)
         self->stability = simulation_check_stability(self, &self->growing, &self->unstable);
     return status;

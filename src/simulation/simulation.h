@@ -4,6 +4,7 @@
 #define LD_SIMULATION_SIMULATION_H
 
 #include "elements/motor.h"
+#include "simulation/measures.h"
 #include "simulation/quantity_table.h"
 #include "simulation/summary.h"
 #include "systems/flight.h"
@@ -33,7 +34,8 @@ struct ld_simulation {
     int mode_count;
     ld_mode mode[6 + LD_MAX_MODES]; // tube and tail on their supports
 
-    quantity_columns columns; // of the history; of a flight alone: of its flight
+    quantity_columns columns;              // of the history; of a flight alone: of its flight
+    measure_plan measure[LD_MAX_MEASURES]; // of the model's measures
 };
 
 // Makes *simulation (NULL: a new one) that of `model`, as ld_simulation_create does but without the
@@ -62,8 +64,6 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
 
 // Names the columns of the history, once.
 ld_status history_build(ld_simulation *self, ld_error *error);
-// The columns' tables, before and after those of the base.
-extern const quantity_table launch_quantities, balance_quantities;
 
 // ld_simulation_tube_modes(), found: LD_ERR_MEMORY, LD_ERR_NUMERIC.
 ld_status simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity, int *count,

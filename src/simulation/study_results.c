@@ -66,6 +66,12 @@ const quantity *study_result_like(const char *name)
     return row && row->studied ? row : NULL;
 }
 
+bool study_result_is_measure(const char *name)
+{
+    const quantity *row = study_result_like(name);
+    return row && !row->unit;
+}
+
 const study_pair study_pairs[STUDY_PAIRS] = {
     {"Landing points", {"downrange", "drift"}, "m"},
     {"Attitude at the exit", {"pitch", "yaw"}, "rad"},

@@ -17,6 +17,9 @@ void study_result_near(const quantity_things *things, const char *name, char nea
 // The row of a result with that name, whatever the adaptors are called; NULL: none.
 const quantity *study_result_like(const char *name);
 
+// Whether the scenario itself asks for the result of that name.
+bool study_result_is_measure(const char *name);
+
 // Two results of one unit that scatter together.
 typedef struct study_pair {
     const char *title;

@@ -99,7 +99,8 @@ typedef struct ld_rocket_summary {
     double max_slot_force;                     ///< [N] |N|
     double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
                            ///< moved against the platform
-    bool flown;            ///< it has left the tube and flown: what follows is there
+    double measure[LD_MAX_MEASURES]; ///< in the model's order; NaN: its instants did not all come
+    bool flown;                      ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
     ld_final_state final;
 } ld_rocket_summary;

@@ -6,6 +6,7 @@
 
 #include "base/suggestion.h"
 #include "launchdyn/summary.h"
+#include "simulation/measures.h"
 #include "simulation/summary_quantities.h"
 
 ld_summary *ld_summary_new(void)
@@ -74,7 +75,8 @@ static void take_section(const section *s, const quantity_things *things,
         snprintf(name, sizeof name, "%s%s", s->prefix, text);
         quantity_text(at.row->description, at.group->each, at.item, things, description,
                       sizeof description);
-        take(to, &(ld_quantity){name, at.row->unit, description, quantity_value(&at, s->from)});
+        take(to,
+             &(ld_quantity){name, quantity_unit(&at), description, quantity_value(&at, s->from)});
     }
 }
 

@@ -106,6 +106,9 @@ static const quantity contact_peaks[] = {
 static const quantity slot_peak[] = {
     {"max_slot_force", "N", "largest magnitude of the slot force N", ROCKET(max_slot_force), KEPT, .from_zero = true, LINE("largest slot force", "N", 1, 1)},
 };
+static const quantity measures[] = {
+    {"measure.%s", NULL, "what the scenario's measure %s takes; unit of the column that it is of", .at = QUANTITY_EACH_OF(ld_rocket_summary, measure), KEPT, .line = {.label = "%s", .factor = 1, .digits = 6}},
+};
 static const quantity change[] = {
     {"energy_dropped", "J", "kinetic energy that went when its tube took the place of the one before; 0 of the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
 };
@@ -171,6 +174,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "the same against where that stood at the ignition", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(aim)},
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
     {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
+    {.title = "of each measure of the scenario", .each = EACH_MEASURE, .launch = true, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
     {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},
@@ -278,7 +282,9 @@ void rocket_clear(ld_rocket_summary *rocket, bool launched)
         const quantity_group *group = &rocket_groups[i];
         for (int k = 0; k < group->rows; k++) {
             const quantity *row = &group->row[k];
-            int items = group->each == EACH_ADAPTOR ? LD_MAX_ADAPTORS : 1;
+            int items = group->each == EACH_ADAPTOR   ? LD_MAX_ADAPTORS
+                        : group->each == EACH_MEASURE ? LD_MAX_MEASURES
+                                                      : 1;
             for (int item = 0; item < items && row->at.type == QUANTITY_NUMBER; item++)
                 quantity_put(&row->at, item, row->from_zero && launched ? 0 : NAN, rocket);
         }

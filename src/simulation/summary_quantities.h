@@ -16,6 +16,14 @@ extern const quantity_table cost_quantities;   // of ld_summary
 void rocket_clear(ld_rocket_summary *rocket, bool launched);
 
 // Blocks of the table after a run.
-enum { SHOWN_EQUILIBRIUM = 1, SHOWN_CHANGE, SHOWN_LAUNCH, SHOWN_TIP, SHOWN_PEAKS, SHOWN_FLIGHT };
+enum {
+    SHOWN_EQUILIBRIUM = 1,
+    SHOWN_CHANGE,
+    SHOWN_LAUNCH,
+    SHOWN_TIP,
+    SHOWN_PEAKS,
+    SHOWN_MEASURES,
+    SHOWN_FLIGHT
+};
 
 #endif

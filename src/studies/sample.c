@@ -1,5 +1,6 @@
 #include "studies/sample.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "studies/draw.h"
@@ -100,22 +101,26 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
     int rockets = sampler->nominal->firing_count;
     self->model = *sampler->nominal;
     self->model.sample = (int)number;
-    if (self->model.run.max_step == self->model.run.max_step_completed)
-        self->model.run.max_step = NAN; // it follows the tolerance drawn
+    model_forget(&self->model); // it follows from what is drawn, for each rocket
     double *drawn = draw_row(self, sampler, number, 0, self->drawn);
     ld_rocket shared = self->model.rocket;
     ld_status status = LD_OK;
+    double stuck_time = NAN;
     for (int i = 1; i <= rockets; i++) {
+        model_forget(&self->model);
         self->model.rocket = shared;
         drawn = draw_row(self, sampler, number, i, drawn);
         model_complete(&self->model);
         if (!status)
             status = model_check(&self->model, error);
         self->salvo[i - 1] = self->model.rocket;
+        stuck_time = fmax(stuck_time, self->model.run.stuck_time);
     }
+    self->model.run.stuck_time = stuck_time;
     // a vehicle carries more rockets than are fired, which are as the scenario says
     bool apart = rockets > 1 || model_has_vehicle(&self->model);
     self->model.rocket = apart ? shared : self->salvo[0];
     self->model.salvo = apart ? self->salvo : NULL;
+    model_complete(&self->model);
     return status;
 }

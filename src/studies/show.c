@@ -73,6 +73,9 @@ static ld_status choose_columns(shown *self, ld_error *error)
         status = what ? status : LD_OK; // of the choice, what there is
     }
     free(names);
+    for (int i = 0; i < data->result_count && !what; i++)
+        if (study_result_is_measure(data->column[i].name))
+            self->column[self->count++] = &data->column[i];
     if (!status && what && self->count == 0)
         return ld_fail(error, LD_ERR_INPUT, "\"%s\" names no result", what);
     return status;

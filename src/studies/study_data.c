@@ -6,6 +6,7 @@
 #include "base/suggestion.h"
 #include "model/field.h"
 #include "scenario/scenario.h"
+#include "simulation/measures.h"
 #include "simulation/study_results.h"
 #include "studies/statistics.h"
 #include "studies/store.h"
@@ -92,8 +93,9 @@ static ld_status list_table(study_data *data, const char *table, bool factors, l
         if (!kept)
             status = no_memory(error);
         else
-            column[data->column_count++] = (study_column){kept, result ? result->unit : "", !result,
-                                                          strcmp(table, "rocket") == 0, false};
+            column[data->column_count++] =
+                (study_column){kept, result && result->unit ? result->unit : "", !result,
+                               strcmp(table, "rocket") == 0, false};
     }
     sqlite3_finalize(row);
     data->column = self->column;
@@ -107,6 +109,17 @@ static const ld_factor *factor_named(const ld_model *model, const char *name)
         if (strcmp(model->scatter.factor[i].path, name) == 0)
             return &model->scatter.factor[i];
     return NULL;
+}
+
+// Units of the results that the scenario itself asks for.
+static void name_units(study_data *data, const ld_model *model)
+{
+    const quantity_things things = quantity_things_of(model);
+    for (int i = 0; i < data->result_count; i++) {
+        const quantity_walk result = study_result_find(&things, data->column[i].name);
+        if (result.row)
+            data->reader->column[i].unit = quantity_unit(&result);
+    }
 }
 
 // Units and kinds of the factors and the title, from the scenario itself; without them where it
@@ -123,6 +136,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
         ld_messages_free(&messages);
         return status == LD_ERR_MEMORY ? no_memory(error) : LD_OK;
     }
+    name_units(data, &model);
     for (int i = data->result_count; i < data->column_count; i++) {
         const ld_factor *factor = factor_named(&model, data->column[i].name);
         field_place place;

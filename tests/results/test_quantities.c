@@ -9,6 +9,7 @@
 #include "base/text_file.h"
 #include "launchdyn/output.h"
 #include "simulation/free_flight.h"
+#include "simulation/launch_quantities.h"
 #include "simulation/simulation.h"
 #include "simulation/study_results.h"
 #include "support/reference_model.h"
@@ -265,8 +266,8 @@ static void write_names(FILE *stream, const quantity *row, int count)
 static bool are_alike(const quantity *a, const quantity *b)
 {
     bool same_json = a->json && b->json ? strcmp(a->json, b->json) == 0 : !a->json && !b->json;
-    return same_json && strcmp(a->unit, b->unit) == 0 && a->studied == b->studied &&
-           strcmp(a->description, b->description) == 0;
+    return same_json && a->unit && b->unit && strcmp(a->unit, b->unit) == 0 &&
+           a->studied == b->studied && strcmp(a->description, b->description) == 0;
 }
 
 // heading NULL: it goes on under that of before.
@@ -299,7 +300,11 @@ static void write_table(FILE *stream, const char *heading, const quantity_table 
                 snprintf(path, sizeof path, "%.*s%s", (int)(mark - row->json), row->json, mark + 3);
             fputs("| ", stream);
             write_names(stream, row, next - k);
-            fprintf(stream, " | %s | %s |", *row->unit ? row->unit : "1", is);
+            fprintf(stream, " | %s | %s |",
+                    !row->unit   ? "its own"
+                    : *row->unit ? row->unit
+                                 : "1",
+                    is);
             if (of_summary)
                 fprintf(stream, " %s%s%s | %s |", *path ? "`" : "", path, *path ? "`" : "",
                         row->studied ? "yes" : "");
@@ -316,8 +321,9 @@ static void write_document(FILE *stream)
           "All is in SI and radians; frames and signs are those of [model.md](model.md); T is the "
           "undeformed tube on its base\n"
           "([results.md](results.md#against-the-launcher)). NAME: of each adaptor, wheel, hinge "
-          "(`azimuth`, `elevation`) or modal\n"
-          "coordinate. Instants count from the rocket's ignition; what did not happen is `null` or "
+          "(`azimuth`, `elevation`), modal\n"
+          "coordinate or [measure](scenario.md#measures). Instants count from the rocket's "
+          "ignition; what did not happen is `null` or "
           "NaN. In `summary.json` a quantity\n"
           "stands under its name, where nothing else is said; `study`: [studies](study.md) keep "
           "it.\n",

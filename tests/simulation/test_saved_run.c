@@ -12,7 +12,13 @@
 #include "simulation/summary.h"
 #include "support/check.h"
 
-enum { MOST_SETS = 4, MOST_BYTES = 1 << 16, SPREAD = 145, MOST_INSTANTS = 300 };
+enum { MOST_SETS = 5, MOST_BYTES = 1 << 16, SPREAD = 145, MOST_INSTANTS = 300 };
+
+#define MEASURES                                                                                   \
+    "measures=[{name: lit, of: tip.pitch, take: value, at: t_ignition}, "                          \
+    "{name: in, of: contact.rear.force, take: rms, from: t_ignition, to: t_rear}, "                \
+    "{name: all, of: tip.inertial_vy, take: mean, from: start, to: end}, "                         \
+    "{name: most, of: tip.pitch_rate, take: peak, from: t_front, to: t_rear}]"
 
 static const struct saved_case {
     const char *name, *example, *sets[MOST_SETS];
@@ -35,12 +41,12 @@ static const struct saved_case {
     {"touching",
      "ship.yaml",
      {"rocket.contact={stiffness: 5e7 N/m, law: lankarani-nikravesh, restitution: 0.6}",
-      "rocket.lock=none", "run.lead_in=50 ms", "run.output_step.tube=0.5 ms"},
+      "rocket.lock=none", "run.lead_in=50 ms", "run.output_step.tube=0.5 ms", MEASURES},
      0.01},
     {"sequence",
      "marching/30-kmh.yaml",
      {"firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.45 s}]", "run.lead_in=20 ms",
-      "run.output_step.tube=0.5 ms", "rocket.lock=none"},
+      "run.output_step.tube=0.5 ms", "rocket.lock=none", MEASURES},
      0},
 };
 enum { CASES = sizeof cases / sizeof *cases };

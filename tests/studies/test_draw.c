@@ -286,7 +286,7 @@ static double longest_step(const char *factors, double given, double *tolerance)
     ld_error error;
     if (given > 0) {
         model.run.max_step = given;
-        model.run.max_step_completed = 0;
+        model.completed.max_step = false;
     }
     assert_int_equal(sampler_create(&sampler, &model, &error), LD_OK);
     study_sample *sample = sample_create(&sampler);
@@ -316,6 +316,98 @@ static void test_longest_step(void **state)
     assert_true(longest_step(neither, 0, &drawn) == 2e-4 && drawn == 1e-5);
 }
 
+// Sample 3 of a scenario beside the examples, of which `number` tells something.
+static double drawn_number(const char *text, double (*number)(const study_sample *sample))
+{
+    ld_model model;
+    ld_messages messages;
+    study_sampler sampler;
+    ld_error error;
+    ld_status status = scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples",
+                                          NULL, 0, &model, &messages);
+    ld_messages_print(&messages, stdout);
+    assert_int_equal(status, LD_OK);
+    assert_int_equal(sampler_create(&sampler, &model, &error), LD_OK);
+    study_sample *sample = sample_create(&sampler);
+    if (sample_draw(sample, &sampler, 3, &error))
+        fail_msg("%s", error.text);
+    double found = number(sample);
+    sample_free(sample);
+    sampler_free(&sampler);
+    model_clear(&model);
+    return found;
+}
+
+static double propellant_fired(const study_sample *sample)
+{
+    return sample->salvo[0].propellant;
+}
+static double propellant_aboard(const study_sample *sample)
+{
+    return sample->model.rocket.propellant;
+}
+static double empty_mass(const study_sample *sample)
+{
+    return sample->salvo[0].empty.mass;
+}
+static double empty_center(const study_sample *sample)
+{
+    return sample->salvo[0].empty.center[0];
+}
+static double stuck_time(const study_sample *sample)
+{
+    return sample->model.run.stuck_time;
+}
+static double ground(const study_sample *sample)
+{
+    return sample->model.environment.ground_height;
+}
+
+// What the scenario leaves to follow from other numbers follows from those that are drawn: of every
+// rocket, of those aboard that are not fired, of the sample; what it says stays.
+static void test_what_follows(void **state)
+{
+    (void)state;
+#define SCATTERED "scatter:\n  samples: 3\n  factors:\n"
+#define MASS_63 SCATTERED "    rocket.mass: {discrete: [63 kg]}\n"
+#define EMPTY_42 "    rocket.empty.mass: {discrete: [42 kg], per: sample}\n"
+#define ROUND                                                                                      \
+    "environment: {earth: round, site: {latitude: 0 deg, longitude: 0 deg, altitude: 9 m}}\n"
+    static const struct {
+        const char *what, *text;
+        double (*number)(const study_sample *sample);
+        double expected;
+    } all[] = {
+        {"propellant of masses drawn [kg]", "include: fixed.yaml\n" MASS_63 EMPTY_42,
+         propellant_fired, 21},
+        {"the same of a salvo", "include: salvo.yaml\n" MASS_63 "    rocket.propellant:\n",
+         propellant_fired, 23},
+        {"aboard, the full mass its own [kg]",
+         "include: salvo.yaml\n" MASS_63 EMPTY_42 "    rocket.propellant:\n", propellant_aboard,
+         18},
+        {"where it is given [kg]", "include: fixed.yaml\nrocket: {propellant: 19 kg}\n" MASS_63,
+         propellant_fired, 19},
+        {"where it is drawn itself [kg]",
+         "include: fixed.yaml\n" MASS_63 "    rocket.propellant: {discrete: [18.5 kg]}\n",
+         propellant_fired, 18.5},
+        {"without an empty rocket: its mass [kg]",
+         "include: fixed.yaml\nrocket: {empty: }\n" MASS_63, empty_mass, 63},
+        {"its mass centre [m]",
+         "include: fixed.yaml\nrocket: {empty: }\n" SCATTERED
+         "    rocket.center.x: {discrete: [1.15 m]}\n",
+         empty_center, 1.15},
+        {"time to give up, the thrust's times drawn [s]",
+         "include: fixed.yaml\n" SCATTERED "    rocket.motor.time_scale: {discrete: [2]}\n",
+         stuck_time, 6.1},
+        {"ground, the site's altitude drawn [m]",
+         "include: flight.yaml\n" ROUND SCATTERED
+         "    environment.site.altitude: {discrete: [11 m]}\n",
+         ground, 11},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        CHECK_NEAR(all[i].what, drawn_number(all[i].text, all[i].number), all[i].expected, 1e-14);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,7 +415,7 @@ int main(void)
         cmocka_unit_test(test_between_anywhere),      cmocka_unit_test(test_possible_far_out),
         cmocka_unit_test(test_permutation),           cmocka_unit_test(test_hypercube),
         cmocka_unit_test(test_factors_of_a_scenario), cmocka_unit_test(test_several_keys),
-        cmocka_unit_test(test_longest_step),
+        cmocka_unit_test(test_longest_step),          cmocka_unit_test(test_what_follows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,7 +66,8 @@ static inline bool same_model(const ld_model *left, const ld_model *right)
     a.title = b.title = NULL;
     a.source = b.source = NULL;
     a.point = b.point = 0;
-    a.run.max_step_completed = b.run.max_step_completed = 0; // where it is from, no value
+    memset(&a.completed, 0, sizeof a.completed); // where values are from, no value
+    memset(&b.completed, 0, sizeof b.completed);
     bool tables = same_tables(&scenario_block, &a, &b);
     return titles && tables && memcmp(&a, &b, sizeof a) == 0;
 }

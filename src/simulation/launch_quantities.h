@@ -1,0 +1,9 @@
+// The tables of a launch's columns, of which those of the base stand between (systems/base.h).
+#ifndef LD_SIMULATION_LAUNCH_QUANTITIES_H
+#define LD_SIMULATION_LAUNCH_QUANTITIES_H
+
+#include "model/quantity.h"
+
+extern const quantity_table launch_quantities, balance_quantities;
+
+#endif

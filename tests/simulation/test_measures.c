@@ -1,0 +1,281 @@
+// Measures against closed forms, against rows of 2 us of the same run, and against what the summary
+// tells otherwise; on the march, in a sequence, with windows that begin and end with the run.
+#include "support/check.h"
+
+#include "launchdyn/simulation.h"
+#include "scenario/scenario.h"
+#include "simulation/measures.h"
+#include "simulation/summary.h"
+
+enum { MOST = LD_MAX_MEASURES };
+
+// ---- a run, its measures by a second route
+
+// Integral and largest magnitude by the trapezoid rule on rows, whose windows are those of the
+// summary.
+typedef struct reference {
+    const ld_model *model;
+    int t, column[MOST];
+    double from[MOST], to[MOST], before[MOST], t_before[MOST], sum[MOST], length[MOST], peak[MOST];
+} reference;
+
+static ld_status begin_rows(void *user, const ld_column *columns, size_t count, ld_error *error)
+{
+    (void)error;
+    reference *self = user;
+    for (int k = 0; k < self->model->measure_count; k++)
+        for (size_t i = 0; i < count; i++)
+            if (strcmp(columns[i].name, self->model->measure[k].of) == 0)
+                self->column[k] = (int)i;
+    return LD_OK;
+}
+
+static ld_status take_row(void *user, const double *row, size_t count, ld_error *error)
+{
+    (void)error, (void)count;
+    reference *self = user;
+    for (int k = 0; k < self->model->measure_count; k++) {
+        double value = row[self->column[k]], h = row[0] - self->t_before[k];
+        bool squares = self->model->measure[k].take == LD_TAKE_RMS;
+        double now = squares ? value * value : value;
+        if (row[0] < self->from[k] - 1e-12 || row[0] > self->to[k] + 1e-12)
+            continue;
+        if (self->length[k] > 0 || row[0] > self->from[k] + 1e-12) {
+            self->sum[k] += h * (now + self->before[k]) / 2;
+            self->length[k] += h;
+        }
+        self->peak[k] = fmax(self->peak[k], fabs(value));
+        self->t_before[k] = row[0];
+        self->before[k] = now;
+    }
+    return LD_OK;
+}
+
+static double result_of(const reference *self, int k)
+{
+    double mean = self->sum[k] / self->length[k];
+    ld_take take = self->model->measure[k].take;
+    return take == LD_TAKE_RMS ? sqrt(mean) : take == LD_TAKE_PEAK ? self->peak[k] : mean;
+}
+
+static void read_example(const char *file, const char *const *sets, size_t count, ld_model *model)
+{
+    char path[256];
+    ld_messages messages = {0};
+    snprintf(path, sizeof path, "%s/examples/%s", LD_SOURCE_DIR, file);
+    if (scenario_read(path, sets, count, model, &messages)) {
+        ld_messages_print(&messages, stderr);
+        fail_msg("%s", file);
+    }
+}
+
+static void run_model(const ld_model *model, ld_sink *sink, ld_summary *summary)
+{
+    ld_simulation *simulation;
+    ld_error error;
+    if (ld_simulation_create(model, &simulation, &error) ||
+        ld_simulation_run(simulation, &(ld_run_options){.sink = sink}, summary, &error))
+        fail_msg("%s", error.text);
+    ld_simulation_free(simulation);
+}
+
+static ld_summary first, second; // of a run without rows, of one with them
+
+// The measure of that name of rocket i.
+static double measured(const ld_model *model, int i, const char *name)
+{
+    for (int k = 0; k < model->measure_count; k++)
+        if (strcmp(model->measure[k].name, name) == 0)
+            return first.rocket[i].measure[k];
+    fail_msg("no measure %s", name);
+    return NAN;
+}
+
+// ---- tests
+
+// What is a derivative has the mean that follows from what it is the derivative of; t itself has an
+// rms of its own, and thrust, linear between its corners, its mean.
+static void test_closed_forms(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "measures=[{name: speed, of: rocket.s_dot, take: mean, from: t_ignition, to: t_rear}, "
+        "{name: s_0, of: rocket.s, take: value, at: t_ignition}, "
+        "{name: s_1, of: rocket.s, take: value, at: t_rear}, "
+        "{name: rate, of: tip.pitch_rate, take: mean, from: t_middle, to: t_rear}, "
+        "{name: pitch_0, of: tip.pitch, take: value, at: t_middle}, "
+        "{name: pitch_1, of: tip.pitch, take: value, at: t_exit.rear}, "
+        "{name: rate_rms, of: tip.pitch_rate, take: rms, from: t_middle, to: t_rear}, "
+        "{name: t, of: t, take: rms, from: t_ignition, to: end}, "
+        "{name: thrust, of: thrust, take: mean, from: start, to: t_exit.front}, "
+        "{name: thrust_peak, of: thrust, take: peak, from: start, to: t_front}, "
+        "{name: lock, of: lock.force, take: value, at: t_release}, "
+        "{name: loose, of: lock.force, take: peak, from: t_release, to: t_rear}, "
+        "{name: loose_mean, of: lock.force, take: mean, from: t_release, to: t_rear}, "
+        "{name: off, of: tip_off.pitch_rate, take: value, at: t_rear}]"};
+    static ld_model model;
+    read_example("fixed.yaml", sets, 1, &model);
+    run_model(&model, NULL, &first);
+    const ld_rocket_summary *rocket = &first.rocket[0];
+    double T = rocket->t_rear, out = T - rocket->t_middle;
+    double way = measured(&model, 0, "s_1") - measured(&model, 0, "s_0");
+    double turn = measured(&model, 0, "pitch_1") - measured(&model, 0, "pitch_0");
+    CHECK_NEAR("mean speed [m/s]", measured(&model, 0, "speed"), way / T, 1e-8);
+    CHECK_BELOW("mean tip rate less its angle's change, of its rms",
+                (measured(&model, 0, "rate") - turn / out) / measured(&model, 0, "rate_rms"), 1e-5);
+    CHECK_NEAR("rms of t [s]", measured(&model, 0, "t"), T / sqrt(3), 1e-15);
+    CHECK_NEAR("mean thrust [N]", measured(&model, 0, "thrust"),
+               15e3 * (1 - 0.005 / rocket->t_front), 1e-7);
+    CHECK_NEAR("peak thrust [N]", measured(&model, 0, "thrust_peak"), 15e3, 0);
+    CHECK_NEAR("lock as it lets go [N]", measured(&model, 0, "lock"), 5e3, 1e-6);
+    CHECK_NEAR("lock from there on [N]", measured(&model, 0, "loose"), 0, 0);
+    CHECK_NEAR("mean of that [N]", measured(&model, 0, "loose_mean"), 0, 0);
+    CHECK_NEAR("tip-off rate [rad/s]", measured(&model, 0, "off"), rocket->tip_off.pitch_rate,
+               1e-12);
+    model_clear(&model);
+}
+
+// A base that swings by a sine, over whole periods of it.
+static void test_sine(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "base={kind: prescribed, azimuth: 0 deg, elevation: 30 deg, motion: {heave: [{amplitude: "
+        "20 mm, frequency: 25 Hz}]}}",
+        "base.motion.heave=[{amplitude: 20 mm, frequency: 25 Hz}]", "run.lead_in=0.4 s",
+        "measures=[{name: rms, of: base.y, take: rms, from: start, to: t_ignition}, "
+        "{name: mean, of: base.y, take: mean, from: start, to: t_ignition}, "
+        "{name: peak, of: base.y, take: peak, from: start, to: t_ignition}]"};
+    static ld_model model;
+    read_example("fixed.yaml", sets, 4, &model);
+    run_model(&model, NULL, &first);
+    // the tube's rear end lies off the base's origin by what does not move
+    double off = measured(&model, 0, "mean"), a = 0.02;
+    CHECK_BELOW("rms of a sine", measured(&model, 0, "rms") / sqrt(a * a / 2 + off * off) - 1,
+                1e-6);
+    CHECK_BELOW("peak of a sine", measured(&model, 0, "peak") / (fabs(off) + a) - 1, 1e-4);
+    model_clear(&model);
+}
+
+// Each measure against the rows, of its rms.
+static void test_rows(void **state)
+{
+    (void)state;
+    static const char *const columns[] = {"tip.pitch_rate",     "tip.yaw_rate", "rocket.pitch_rate",
+                                          "contact.rear.force", "slot.force",   "tip.vy",
+                                          "azimuth.angle"};
+    enum { COLUMNS = sizeof columns / sizeof *columns };
+    static const char *const takes[] = {"rms", "mean", "peak"};
+    static ld_model model;
+    char text[4096] = "measures=[";
+    for (int i = 0; i < 3 * COLUMNS; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "%s{name: m%d, of: %s, take: %s, from: t_front, to: t_rear}", i ? ", " : "", i,
+                 columns[i / 3], takes[i % 3]);
+    strcat(text, "]");
+    const char *sets[] = {text, "run={lead_in: 0.2 s, end: tip, output_step: {tube: 2 us}}"};
+    read_example("marching/30-kmh.yaml", sets, 2, &model);
+    run_model(&model, NULL, &first);
+    reference rows = {.model = &model};
+    for (int k = 0; k < model.measure_count; k++) {
+        rows.from[k] = first.rocket[0].t_front;
+        rows.to[k] = first.rocket[0].t_rear;
+    }
+    ld_sink sink = {.self = &rows, .begin = begin_rows, .row = take_row};
+    run_model(&model, &sink, &second);
+    assert_memory_equal(first.rocket, second.rocket, sizeof first.rocket);
+    for (int k = 0; k < 3 * COLUMNS; k += 3) {
+        double rms = result_of(&rows, k);
+        for (int i = 0; i < 3; i++) {
+            char what[80];
+            snprintf(what, sizeof what, "%s of %s, of its rms", takes[i], columns[k / 3]);
+            CHECK_BELOW(what, (first.rocket[0].measure[k + i] - result_of(&rows, k + i)) / rms,
+                        i < 2 ? 5e-6 : 2e-2);
+        }
+    }
+    model_clear(&model);
+}
+
+// Of a sequence each rocket has its own; the windows from the start and to the end meet where the
+// next tube takes the place of the one before, 0.2 s before its firing.
+static void test_sequence(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.45 s}]", "run={lead_in: 0.1 s, end: 0.3 s}",
+        "measures=[{name: begins, of: t, take: value, at: start}, "
+        "{name: ends, of: t, take: value, at: end}, "
+        "{name: middle, of: t, take: mean, from: start, to: end}, "
+        "{name: lit, of: t, take: value, at: t_ignition}, "
+        "{name: tip, of: tip.pitch_rate, take: value, at: t_rear}, "
+        "{name: thrust, of: thrust, take: mean, from: t_ignition, to: t_rear}, "
+        "{name: let_go, of: rocket.s, take: rms, from: t_ignition, to: t_release}]"};
+    static const double begins[] = {-0.1, 0.25}, ends[] = {0.25, 0.75}, lit[] = {0, 0.45};
+    static ld_model model;
+    read_example("fixed.yaml", sets, 3, &model);
+    run_model(&model, NULL, &first);
+    for (int i = 0; i < 2; i++) {
+        CHECK_NEAR("start [s]", measured(&model, i, "begins"), begins[i], 1e-12);
+        CHECK_NEAR("end [s]", measured(&model, i, "ends"), ends[i], 1e-12);
+        CHECK_NEAR("middle [s]", measured(&model, i, "middle"), (begins[i] + ends[i]) / 2, 1e-12);
+        CHECK_NEAR("ignition [s]", measured(&model, i, "lit"), lit[i], 1e-12);
+        CHECK_NEAR("tip rate at the exit [rad/s]", measured(&model, i, "tip"),
+                   first.rocket[i].tip.pitch_rate, 1e-12);
+        CHECK_NEAR("mean thrust [N]", measured(&model, i, "thrust"),
+                   15e3 * (1 - 0.005 / first.rocket[i].t_rear), 1e-6);
+        CHECK_NEAR("travel on the lock [m]", measured(&model, i, "let_go"), 0.1, 1e-12);
+    }
+    assert_int_equal(first.note_count, 0);
+    model_clear(&model);
+}
+
+// What is asked for changes nothing else, and a window that does not come is noted.
+static void test_nothing_else(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "run.end=0.1 s",
+        "measures=[{name: late, of: tip.pitch, take: rms, from: t_front, to: t_rear}, "
+        "{name: soon, of: tip.pitch, take: rms, from: t_ignition, to: t_front}]"};
+    static ld_model model;
+    read_example("fixed.yaml", sets, 2, &model);
+    run_model(&model, NULL, &first);
+    assert_true(isnan(measured(&model, 0, "late")));
+    assert_true(measured(&model, 0, "soon") > 0);
+    assert_int_equal(first.note_count, 1);
+    assert_string_equal(first.note[0], "measure.late of tube 8 has no value: its window did not "
+                                       "come, or tip.pitch is not there in all of it");
+    model_clear(&model);
+    read_example("fixed.yaml", sets, 1, &model);
+    run_model(&model, NULL, &second);
+    assert_memory_equal(&first.energy, &second.energy, sizeof first.energy);
+    assert_int_equal(first.statistics.steps, second.statistics.steps);
+    assert_int_equal(first.statistics.rhs_evaluations, second.statistics.rhs_evaluations);
+    model_clear(&model);
+}
+
+// A model filled by hand is held to the same.
+static void test_by_hand(void **state)
+{
+    (void)state;
+    static ld_model model;
+    ld_simulation *simulation = NULL;
+    ld_error error;
+    read_example("fixed.yaml", NULL, 0, &model);
+    model.measure_count = 1;
+    model.measure[0] = (ld_measure){.name = "x", .of = "tip.pich", .from = "t_rear"};
+    assert_int_equal(ld_simulation_create(&model, &simulation, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "measures.1.of: found \"tip.pich\", no column of the launch; "
+                                    "did you mean \"tip.pitch\"?");
+    model_clear(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_closed_forms), cmocka_unit_test(test_sine),
+        cmocka_unit_test(test_rows),         cmocka_unit_test(test_sequence),
+        cmocka_unit_test(test_nothing_else), cmocka_unit_test(test_by_hand),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
