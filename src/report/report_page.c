@@ -1,4 +1,5 @@
 // The page of a report: what it shows as JSON, and the page around that.
+#include "base/memory_stream.h"
 #include "launchdyn/version.h"
 #include "report/report_origin.h"
 #include "report/report_parts.h"
@@ -94,17 +95,21 @@ static ld_status write_replay(FILE *page, const report_source *source, ld_error 
     return status;
 }
 
-void report_write_run_origin(FILE *page, const char *name, const report_source *source, size_t room)
+ld_status report_write_run_origin(FILE *page, const char *name, const report_source *source,
+                                  size_t room, ld_error *error)
 {
     char *json = NULL;
     size_t length = 0;
-    FILE *stream = source->has_origin ? open_memstream(&json, &length) : NULL;
-    if (!stream)
-        return;
-    report_write_origin(stream, &source->origin, room);
-    if (fclose(stream) == 0)
-        report_write_json(page, name, json, length);
+    if (!source->has_origin)
+        return LD_OK;
+    FILE *stream = memory_stream(&json, &length);
+    if (stream)
+        report_write_origin(stream, &source->origin, room);
+    if (!stream || fclose(stream) != 0)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    report_write_json(page, name, json, length);
     free(json);
+    return LD_OK;
 }
 
 ld_status report_write_page(FILE *page, const report_source *source, const char *data,
@@ -116,8 +121,9 @@ ld_status report_write_page(FILE *page, const report_source *source, const char 
     if (source->summary)
         report_write_json(page, "summary", source->summary, source->summary_length);
     report_write_json(page, "data", data, length);
-    report_write_run_origin(page, "origin", source, REPORT_ORIGIN_BYTES);
-    ld_status status = write_replay(page, source, error);
+    ld_status status = report_write_run_origin(page, "origin", source, REPORT_ORIGIN_BYTES, error);
+    if (!status)
+        status = write_replay(page, source, error);
     report_end_page(page, &run_bundle);
     return status;
 }

@@ -76,8 +76,8 @@ ld_status report_write_run(FILE *json, const report_source *source, const report
                            ld_error *error);
 
 // Writes where a run comes from under this name, where that is known; `room`: for texts [bytes].
-void report_write_run_origin(FILE *page, const char *name, const report_source *source,
-                             size_t room);
+ld_status report_write_run_origin(FILE *page, const char *name, const report_source *source,
+                                  size_t room, ld_error *error);
 
 // Writes all that the page shows beside the summary as JSON.
 ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "base/numeric_locale.h"
 #include "launchdyn/report.h"
 #include "launchdyn/version.h"
@@ -21,6 +22,7 @@ typedef struct report_runs {
     int count;
     report_run run[REPORT_RUNS];
     ld_report *report; // takes the notes of all
+    ld_error problem;  // the first folder that is damaged or holds nothing
 } report_runs;
 
 // ---- the results
@@ -34,10 +36,12 @@ static ld_status add_run(report_runs *self, const char *folder, ld_error *error)
     report_folder_name(folder, run->name, sizeof run->name);
     ld_status status = report_read_folder(&run->source, folder, &why);
     bool there = run->source.has_history || run->source.summary;
+    if (!status && !there)
+        status = ld_fail(&why, LD_ERR_INPUT, "no results in %.200s", folder);
     if (status)
         report_take_note(self->report, "%.230s.", why.text);
-    else if (!there)
-        report_take_note(self->report, "No results in %.200s.", folder);
+    if (status && !self->problem.status)
+        self->problem = why;
     for (int i = 0; i < run->notes.note_count && there; i++)
         report_take_note(self->report, "%.60s: %.180s", run->name, run->notes.note[i]);
     if (there && status != LD_ERR_MEMORY) {
@@ -60,7 +64,7 @@ static ld_status read_runs(report_runs *self, const char *const *folder, size_t 
         status = add_run(self, folder[i], error);
     }
     if (!status && self->count == 0)
-        status = ld_fail(error, LD_ERR_INPUT, "no run to report: %s", self->report->note[0]);
+        status = ld_fail(error, LD_ERR_INPUT, "no run to report: %s", self->problem.text);
     return status;
 }
 
@@ -89,22 +93,26 @@ static ld_status write_data(FILE *json, const report_runs *self, const report_de
     return status;
 }
 
-static void write_page(FILE *page, const report_runs *self, const char *data, size_t length)
+static ld_status write_page(FILE *page, const report_runs *self, const char *data, size_t length,
+                            ld_error *error)
 {
+    ld_status status = LD_OK;
     report_begin_page(page, &runs_bundle, "Runs laid over each other",
                       "This report draws its plots with JavaScript; summary.json and history.h5 "
                       "of each run hold the same numbers.");
     report_write_json(page, "data", data, length);
-    for (int i = 0; i < self->count; i++) {
+    for (int i = 0; i < self->count && !status; i++) {
         const report_source *source = &self->run[i].source;
         char name[24];
         snprintf(name, sizeof name, "summary-%d", i);
         if (source->summary)
             report_write_json(page, name, source->summary, source->summary_length);
         snprintf(name, sizeof name, "origin-%d", i);
-        report_write_run_origin(page, name, source, REPORT_ORIGIN_BYTES / REPORT_RUNS);
+        status =
+            report_write_run_origin(page, name, source, REPORT_ORIGIN_BYTES / REPORT_RUNS, error);
     }
     report_end_page(page, &runs_bundle);
+    return status;
 }
 
 // The page in memory, to be freed.
@@ -113,13 +121,13 @@ static ld_status make_page(const report_runs *self, const report_detail *detail,
 {
     char *data = NULL;
     size_t data_length = 0;
-    FILE *json = open_memstream(&data, &data_length), *page = open_memstream(text, length);
+    FILE *json = memory_stream(&data, &data_length), *page = memory_stream(text, length);
     ld_status status = json && page ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
     if (!status)
         status = write_data(json, self, detail, error);
     bool wrong = json && fclose(json) != 0;
     if (!status && !wrong)
-        write_page(page, self, data, data_length);
+        status = write_page(page, self, data, data_length, error);
     wrong |= page && fclose(page) != 0;
     free(data);
     return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;
@@ -134,7 +142,6 @@ static ld_status make_page_that_fits(const report_runs *self, char **text, size_
     for (;;) {
         ld_status status = make_page(self, &detail, text, length, error);
         self->report->pixels = detail.whole ? 0 : detail.pixel * 4000;
-        self->report->bytes = *length;
         if (status || *length <= REPORT_BYTES)
             return status;
         free(*text);
@@ -155,6 +162,7 @@ static ld_status write_report(const report_runs *self, const char *file, ld_erro
     numeric_locale_leave(before);
     if (!status)
         status = report_write_file(file, text, length, error);
+    self->report->bytes = status ? 0 : length;
     free(text);
     return status;
 }
@@ -172,6 +180,8 @@ ld_status ld_report_write_runs(const char *const *folder, size_t count, const ch
     ld_status status = read_runs(self, folder, count, error);
     if (!status)
         status = write_report(self, file, error);
+    if (!status && self->problem.status)
+        status = ld_fail(error, LD_ERR_INPUT, "%s; the report shows the rest", self->problem.text);
     for (int i = 0; i < self->count; i++)
         report_free_source(&self->run[i].source);
     free(self);
