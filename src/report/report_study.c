@@ -4,21 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "base/numeric_locale.h"
 
 // ---- what is laid side by side
-
-// The last part of a folder's path.
-static void name_of(const char *folder, char *name, size_t size)
-{
-    size_t end = strlen(folder);
-    while (end > 1 && folder[end - 1] == '/')
-        end--;
-    size_t from = end;
-    while (from > 0 && folder[from - 1] != '/')
-        from--;
-    snprintf(name, size, "%.*s", (int)(end - from), folder + from);
-}
 
 // "speed = 15 km/h" where one key is swept, else the point's number.
 static void point_name(const study_data *data, const study_point *point, char *name, size_t size)
@@ -55,13 +44,20 @@ static void add_series(study_source *source, const study_data *data, const char 
         study_series *series = &source->series[source->series_count++];
         *series = (study_series){.data = data, .point = &data->point[i]};
         char name[100], point[140] = "";
-        name_of(folder, name, sizeof name);
+        report_folder_name(folder, name, sizeof name);
         point_name(data, series->point, point, sizeof point);
         bool both = point[0] && source->several;
         snprintf(series->label, sizeof series->label, "%s%s%s", point[0] ? point : name,
                  both ? ", " : "", both ? name : "");
         number_label(source, series);
     }
+}
+
+void study_take_problem(study_source *source, const char *what, const ld_error *error)
+{
+    report_take_note(source->report, "%s%.230s.", what, error->text);
+    if (!source->problem.status)
+        source->problem = *error;
 }
 
 // LD_ERR_FILE, LD_ERR_MEMORY: one could not be read; what is none, or damaged, is noted.
@@ -78,18 +74,15 @@ static ld_status open_studies(study_source *source, const char *const *folder, s
         }
         ld_status status = study_data_open(folder[i], data, error);
         if (status == LD_ERR_INPUT) {
-            report_take_note(source->report, "%.230s.", error->text);
+            study_take_problem(source, "", error);
             continue;
         }
         if (status)
             return status;
-        // a study of an earlier version keeps none
-        status = ld_study_read_origin(folder[i], &source->origin[source->study_count], error);
-        if (status)
-            source->origin[source->study_count] = (ld_origin){0};
+        status = study_data_origin(data, &source->origin[source->study_count], error);
         source->folder[source->study_count++] = folder[i];
         add_series(source, data, folder[i]);
-        if (status && status != LD_ERR_INPUT)
+        if (status)
             return status;
     }
     return LD_OK;
@@ -120,10 +113,8 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
 {
     char *data = NULL;
     size_t data_length = 0;
-    FILE *json = open_memstream(&data, &data_length), *page = open_memstream(text, length);
-    bool fine = json && page;
-    if (fine)
-        fine = study_write_data(json, source) == LD_OK;
+    FILE *json = memory_stream(&data, &data_length), *page = memory_stream(text, length);
+    bool fine = json && page && study_write_data(json, source) == LD_OK;
     fine &= json && fclose(json) == 0;
     if (fine) {
         report_begin_page(page, &study_bundle, title_of(source),
@@ -134,6 +125,8 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
     }
     fine &= page && fclose(page) == 0;
     free(data);
+    if (source->problem.status && source->problem.status != LD_ERR_INPUT)
+        return ld_fail(error, source->problem.status, "%s", source->problem.text);
     return fine ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
 }
 
@@ -167,7 +160,7 @@ static ld_status write_report(study_source *source, const char *file, ld_error *
     numeric_locale_leave(before);
     if (!status)
         status = report_write_file(file, text, length, error);
-    source->report->bytes = length;
+    source->report->bytes = status ? 0 : length;
     free(text);
     return status;
 }
@@ -188,6 +181,9 @@ ld_status ld_report_write_studies(const char *const *folder, size_t count, const
                          report->note_count ? report->note[0] : "nothing is named that has points");
     if (!status)
         status = write_report(source, file, error);
+    if (!status && source->problem.status)
+        status = ld_fail(error, source->problem.status, "%s; the report shows the rest",
+                         source->problem.text);
     close_studies(source);
     free(source);
     return status;
