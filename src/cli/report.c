@@ -39,7 +39,8 @@ int command_write_report(const char *folder, const char *file, bool quiet)
     return finish(status, &error, &report, place_of(folder, file, usual), quiet);
 }
 
-static int write_studies(const char *const *folder, size_t count, const char *file)
+static int write_studies(const char *const *folder, size_t count, const char *shots,
+                         const char *file)
 {
     static ld_report report;
     ld_error error;
@@ -49,7 +50,7 @@ static int write_studies(const char *const *folder, size_t count, const char *fi
         return EXIT_INPUT;
     }
     file = place_of(folder[0], file, usual);
-    ld_status status = ld_report_write_studies(folder, count, file, &report, &error);
+    ld_status status = ld_report_write_measured(folder, count, shots, file, &report, &error);
     return finish(status, &error, &report, file, false);
 }
 
@@ -62,18 +63,24 @@ static bool holds_study(const char *folder)
 
 int command_report(const command *self, int argc, char **argv)
 {
-    char *file = NULL;
+    char *file = NULL, *shots = NULL;
     const command_option options[] = {
         {"output", 'o', OPTION_TEXT, &file, "The report (DIR/report.html)", "FILE"},
+        {"measured", '\0', OPTION_TEXT, &shots, "Of studies: beside the shots in this CSV file",
+         "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
-        if (line.count > 1 || holds_study(line.word[0]))
-            code = write_studies(line.word, line.count, file);
-        else
+        if (line.count > 1 || holds_study(line.word[0])) {
+            code = write_studies(line.word, line.count, shots, file);
+        } else if (shots) {
+            command_complain("--measured is an option of reports of studies");
+            code = EXIT_INPUT;
+        } else {
             code = command_write_report(line.word[0], file, false);
+        }
         options_end(&line);
     }
     return code;
