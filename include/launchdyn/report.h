@@ -26,16 +26,17 @@ typedef struct ld_report {
 /// was killed) and summary.json; of one of the two, if the other is missing or broken.
 /// @param file   NULL: report.html in the folder
 /// @param report filled; may be NULL
-/// @return LD_OK; LD_ERR_INPUT: neither can be read, or a file in the folder is not as it was
-///         written: then report->bytes is not 0, and the report shows the rest; LD_ERR_FILE (the
-///         report cannot be written; an earlier one stands) or LD_ERR_MEMORY
+/// @return LD_OK; LD_ERR_INPUT: neither can be read, or a file in the folder may not be read or is
+///         not as it was written: then report->bytes is not 0, and the report shows the rest;
+///         LD_ERR_FILE (the report cannot be written; an earlier one stands) or LD_ERR_MEMORY
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error);
 
 /// Writes the report of studies (launchdyn/study.h) side by side: of each folder its study, or each
 /// point of its sweep. What is broken or not there is noted and left out.
 /// @param report filled; may be NULL
-/// @return LD_OK, LD_ERR_INPUT (no folder holds a study that can be read), LD_ERR_FILE (the report
-///         cannot be written; an earlier one stands) or LD_ERR_MEMORY
+/// @return LD_OK; LD_ERR_INPUT: one of the folders holds no study, or a damaged one; where
+///         report->bytes is not 0, the report shows the others; LD_ERR_FILE (a study cannot be read
+///         or the report written; an earlier one stands) or LD_ERR_MEMORY
 ld_status ld_report_write_studies(const char *const *folder, size_t count, const char *file,
                                   ld_report *report, ld_error *error);
 

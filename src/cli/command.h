@@ -55,6 +55,7 @@ int command_modes(const command *self, int argc, char **argv);
 int command_plot(const command *self, int argc, char **argv);
 void command_plot_help(void);
 int command_report(const command *self, int argc, char **argv);
+int command_response(const command *self, int argc, char **argv);
 int command_road(const command *self, int argc, char **argv);
 int command_wind(const command *self, int argc, char **argv);
 

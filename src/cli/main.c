@@ -23,6 +23,9 @@ static const command commands[] = {
      command_report, true},
     {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road,
      true},
+    {"response", "FILE",
+     "Show what the launcher answers to road, base, commands and forces, linear", NULL,
+     command_response, true},
     {"wind", "FILE", "Show profile, gusts and turbulence of the wind", NULL, command_wind, true},
     {"version", "", "Print the version", NULL, command_version, false},
     {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help, false},
@@ -57,7 +60,7 @@ static void print_commands(FILE *stream)
     fputs("launchdyn simulates how a rocket leaves a flexible tube on a fixed or moving base.\n\n"
           "Usage: launchdyn COMMAND [OPTION...] ...\n\n",
           stream);
-    enum { NAME = 8, ARGUMENTS = 11 };
+    enum { NAME = 10, ARGUMENTS = 11 };
     for (int i = 0; i < COMMANDS; i++) {
         const command *c = &commands[i];
         fprintf(stream, "  %-*s%-*s", NAME, c->name, ARGUMENTS, c->arguments);

@@ -9,7 +9,7 @@
 static int finish(ld_status status, const ld_error *error, const ld_report *report,
                   const char *file, bool quiet)
 {
-    bool written = !status || (status == LD_ERR_INPUT && report->bytes > 0);
+    bool written = report->bytes > 0;
     for (int i = 0; written && i < report->note_count; i++)
         command_complain("%s", report->note[i]);
     if (status)

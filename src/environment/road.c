@@ -47,27 +47,49 @@ static double coherent_share(const ld_table *table, double n)
     return row[1] + (row[3] - row[1]) * (n - row[0]) / (row[2] - row[0]);
 }
 
+static double share_at(const ld_road *model, double n)
+{
+    switch (model->tracks) {
+    case LD_TRACKS_INDEPENDENT:
+        return 0;
+    case LD_TRACKS_COHERENT:
+        return coherent_share(&model->coherence, n);
+    case LD_TRACKS_SAME:
+        break;
+    }
+    return 1;
+}
+
+// A sine of the random part: n [1/m], its amplitude [m], and how much of the right track's is the
+// left one's.
+typedef struct harmonic {
+    double n, a, share;
+} harmonic;
+
 // Bands between the inverse wavelengths, equal in log n; a_i^2/2 is the integral of G_d over its
 // band, G_d(0.1/m) 0.1^2 (1/n_lo - 1/n_hi).
+static harmonic harmonic_of(const ld_road *model, int i)
+{
+    double longest = model->wavelengths[1];
+    double band = log(longest / model->wavelengths[0]) / model->harmonics;
+    double density = road_class_density(model->iso_class, 1);
+    double n = exp((i + 0.5) * band) / longest;
+    return (harmonic){.n = n,
+                      .a = sqrt(2 * density * -expm1(-band) * longest * exp(-i * band)),
+                      .share = share_at(model, n)};
+}
+
 static void set_harmonics(road *self)
 {
     const ld_road *model = self->model;
     uint64_t seed = (uint64_t)model->seed, stream = random_stream("road");
-    double longest = model->wavelengths[1];
-    double band = log(longest / model->wavelengths[0]) / model->harmonics;
-    double density = road_class_density(model->iso_class, 1);
     for (int i = 0; i < model->harmonics; i++) {
-        double n = exp((i + 0.5) * band) / longest;
-        double a = sqrt(2 * density * -expm1(-band) * longest * exp(-i * band));
+        harmonic it = harmonic_of(model, i);
+        double a = it.a, share = it.share;
         double phase = TWO_PI * random_uniform(seed, stream, 0, (uint64_t)i, 0);
         double other = TWO_PI * random_uniform(seed, stream, 1, (uint64_t)i, 0);
-        double share = 1;
-        if (model->tracks == LD_TRACKS_INDEPENDENT)
-            share = 0;
-        else if (model->tracks == LD_TRACKS_COHERENT)
-            share = coherent_share(&model->coherence, n);
         double rest = sqrt(1 - share * share);
-        self->k[i] = TWO_PI * n;
+        self->k[i] = TWO_PI * it.n;
         self->c[ROAD_LEFT][0][i] = a * cos(phase);
         self->c[ROAD_LEFT][1][i] = a * sin(phase);
         self->c[ROAD_RIGHT][0][i] = a * (share * cos(phase) + rest * cos(other));
@@ -287,6 +309,60 @@ ld_status road_profile(const road *self, road_track track, double from, double s
     }
     free(turns);
     return LD_OK;
+}
+
+// ---- as a spectrum ----
+
+// Mean square of the given sines of one wavelength together, which are the same on both tracks.
+static double square_of_sines(const ld_road *model, double wavelength)
+{
+    double re = 0, im = 0;
+    for (int i = 0; i < model->sine_count; i++) {
+        const ld_road_sine *sine = &model->sine[i];
+        if (sine->wavelength == wavelength) {
+            re += sine->amplitude * cos(sine->phase);
+            im += sine->amplitude * sin(sine->phase);
+        }
+    }
+    return (re * re + im * im) / 2;
+}
+
+static bool is_first_of_its_wavelength(const ld_road *model, int i)
+{
+    for (int k = 0; k < i; k++)
+        if (model->sine[k].wavelength == model->sine[i].wavelength)
+            return false;
+    return true;
+}
+
+ld_status road_lines(const ld_road *model, road_line **lines, size_t *count, ld_error *error)
+{
+    bool flat = model->form == LD_ROAD_FLAT;
+    int harmonics = flat || model->iso_class == LD_ROAD_SMOOTH ? 0 : model->harmonics;
+    int sines = flat ? 0 : model->sine_count;
+    *count = 0;
+    *lines = malloc(((size_t)harmonics + (size_t)sines + 1) * sizeof **lines);
+    if (!*lines)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the spectrum of a road");
+    for (int i = 0; i < harmonics; i++) {
+        harmonic it = harmonic_of(model, i);
+        (*lines)[(*count)++] = (road_line){it.n, it.a * it.a / 2, it.share};
+    }
+    for (int i = 0; i < sines; i++)
+        if (is_first_of_its_wavelength(model, i)) {
+            double wavelength = model->sine[i].wavelength;
+            (*lines)[(*count)++] =
+                (road_line){1 / wavelength, square_of_sines(model, wavelength), 1};
+        }
+    return LD_OK;
+}
+
+double road_density(const ld_road *model, double n, double *shared)
+{
+    *shared = share_at(model, n);
+    bool random = model->form != LD_ROAD_FLAT && model->iso_class != LD_ROAD_SMOOTH;
+    bool within = n * model->wavelengths[1] >= 1 && n * model->wavelengths[0] <= 1;
+    return random && within ? road_class_density(model->iso_class, n) : 0;
 }
 
 static ld_status build_random(road *self, double x0, double x1, ld_error *error)

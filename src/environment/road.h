@@ -19,6 +19,18 @@ void road_free(road *self);
 // Height h(x) [m] and slope h'(x) of a track at x [m] of I; slope may be NULL.
 double road_height(const road *self, road_track track, double x, double *slope);
 
+// A sine of the road, random or given: how often it comes [1/m], its mean square [m2] on each
+// track, and how much of the right track's is the left one's (from 0, independent, to 1, the same).
+typedef struct road_line {
+    double n, square, shared;
+} road_line;
+
+// All sines of a road, as a spectrum; bumps and profiles are not in it. *lines is to be freed.
+ld_status road_lines(const ld_road *model, road_line **lines, size_t *count, ld_error *error);
+
+// Density [m3] of the random part at n [1/m], 0 beyond its wavelengths, and how much is shared.
+double road_density(const ld_road *model, double n, double *shared);
+
 // Heights [m] at the places from + i step [m], i < count.
 ld_status road_profile(const road *self, road_track track, double from, double step, size_t count,
                        double *height, ld_error *error);

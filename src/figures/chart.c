@@ -44,8 +44,8 @@ static void set_values(drawn_curve *drawn, const chart *self, const chart_curve 
     drawn->count = curve->count;
     for (size_t i = 0; i < curve->count; i++) {
         double x = curve->x[i] * self->x_factor, y = curve->y[i] * self->y_factor;
-        drawn->x[i] = self->logarithmic ? log10(x) : x;
-        drawn->y[i] = self->logarithmic ? log10(y) : y;
+        drawn->x[i] = self->log_x ? log10(x) : x;
+        drawn->y[i] = self->log_y ? log10(y) : y;
     }
 }
 
@@ -74,6 +74,8 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
         room = 1;
     if (!(y[1] >= y[0]))
         y[0] = y[1] = 0;
+    if (self->log_y && self->decades > 0)
+        y[0] = fmax(y[0], y[1] - self->decades);
     y[0] -= room, y[1] += room;
 }
 
@@ -101,27 +103,29 @@ static void write_data(FILE *script, size_t index, int j, drawn_curve *drawn, co
 }
 
 // The name of a faint curve where it leaves the chart on the right or below.
-static void write_faint_label(FILE *script, const drawn_curve *drawn, const char *label,
-                              const double x[2], const double y[2], bool logarithmic)
+static void write_faint_label(FILE *script, const drawn_curve *drawn, const chart *self, int j,
+                              const double x[2], const double y[2])
 {
+    const char *label = self->curve[j].label;
     for (size_t i = *label ? drawn->count : 0; i-- > 0;)
         if (drawable(drawn, i) && drawn->x[i] >= x[0] && drawn->x[i] <= x[1] &&
             drawn->y[i] >= y[0] && drawn->y[i] <= y[1]) {
             fputs("set label ", script);
             plot_write_quoted(script, label);
             fprintf(script, " at %.6g,%.6g right offset 0,0.9 font ',9' tc rgb '#909090'\n",
-                    logarithmic ? pow(10, drawn->x[i]) : drawn->x[i],
-                    logarithmic ? pow(10, drawn->y[i]) : drawn->y[i]);
+                    self->log_x ? pow(10, drawn->x[i]) : drawn->x[i],
+                    self->log_y ? pow(10, drawn->y[i]) : drawn->y[i]);
             return;
         }
 }
 
 static void write_axes(FILE *script, const chart *self, const double x[2], const double y[2])
 {
-    bool log = self->logarithmic;
-    fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", log ? pow(10, x[0]) : x[0],
-            log ? pow(10, x[1]) : x[1], log ? pow(10, y[0]) : y[0], log ? pow(10, y[1]) : y[1]);
-    fputs(log ? "set logscale xy\n" : "unset logscale\n", script);
+    fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\nunset logscale\n",
+            self->log_x ? pow(10, x[0]) : x[0], self->log_x ? pow(10, x[1]) : x[1],
+            self->log_y ? pow(10, y[0]) : y[0], self->log_y ? pow(10, y[1]) : y[1]);
+    fputs(self->log_x ? "set logscale x\n" : "", script);
+    fputs(self->log_y ? "set logscale y\n" : "", script);
     fputs("set title ", script);
     plot_write_quoted(script, self->title);
     fputs(" font ',12' offset 0,-0.3\nset xlabel ", script);
@@ -160,7 +164,7 @@ static void write_chart(FILE *script, const chart *self, size_t index, drawn_cur
         set_values(drawn, self, &self->curve[j]);
         write_data(script, index, j, drawn, self, x[1] - x[0], y[1] - y[0]);
         if (self->curve[j].faint)
-            write_faint_label(script, drawn, self->curve[j].label, x, y, self->logarithmic);
+            write_faint_label(script, drawn, self, j, x, y);
     }
     write_axes(script, self, x, y);
 }

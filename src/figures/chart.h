@@ -19,7 +19,8 @@ typedef struct chart_curve {
 typedef struct chart {
     const char *title, *x_label, *y_label;
     double x_factor, y_factor; // to the units that the labels name
-    bool logarithmic;          // both axes; values > 0 only
+    bool log_x, log_y;         // values > 0 only
+    double decades;            // a logarithmic y axis shows of those below its top; 0: all
     int count;
     chart_curve curve[CHART_CURVES];
 } chart;

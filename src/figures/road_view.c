@@ -217,7 +217,8 @@ ld_status ld_road_view_draw(const ld_road_view *view, const char *file, ld_error
          .y_label = "10⁻⁶ m³",
          .x_factor = 1,
          .y_factor = 1e6,
-         .logarithmic = true}};
+         .log_x = true,
+         .log_y = true}};
     bool same = memcmp(view->height[0], view->height[1], view->count * sizeof(double)) == 0;
     for (size_t i = 0; i < view->bands; i++)
         middle[i] = sqrt(view->edge[i] * view->edge[i + 1]);

@@ -371,7 +371,7 @@ ld_status ld_wind_view_draw(const ld_wind_view *view, const char *file, ld_error
             middle[i] = sqrt(view->edge[i] * view->edge[i + 1]);
         charts[count] =
             new_chart("Power spectral density, grey: Dryden's", "Ω [rad/m]", "m³/s²/rad");
-        charts[count].logarithmic = true;
+        charts[count].log_x = charts[count].log_y = true;
         for (int k = 0; k < AXES; k++)
             charts[count].curve[charts[count].count++] =
                 (chart_curve){"", view->bands, middle, view->line[k], true};

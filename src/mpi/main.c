@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "base/random.h"
 #include "cli/command.h"
 #include "cli/progress.h"
@@ -39,7 +40,7 @@ static uint64_t identity(const ld_study *study)
 {
     char *text = NULL;
     size_t length;
-    FILE *stream = open_memstream(&text, &length);
+    FILE *stream = memory_stream(&text, &length);
     if (!stream)
         return 0;
     ld_model_print(ld_study_model(study), stream);

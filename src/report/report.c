@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/memory_stream.h"
 #include "base/numeric_locale.h"
 #include "report/report_parts.h"
 #include "results/manifest.h"
@@ -18,20 +19,36 @@ static void join(char *path, const char *folder, const char *name)
     snprintf(path, REPORT_PATH_SIZE, "%s/%s", folder, name);
 }
 
-// LD_ERR_INPUT, of the one after the last, is no failure.
 static ld_status read_rockets(report_source *source, const char *path, ld_error *error)
 {
     ld_status status = LD_OK;
-    while (source->rocket_count < REPORT_ROCKETS && !status) {
+    int there = source->history.rockets;
+    while (source->rocket_count < there && source->rocket_count < REPORT_ROCKETS && !status) {
         history_data *next = &source->rocket[source->rocket_count];
         status = history_read_rocket(path, source->rocket_count + 1, next, error);
         source->rocket_count += !status;
     }
-    return status == LD_ERR_INPUT ? LD_OK : status;
+    return status;
 }
 
-// Reads the history, of a folder in which it is not damaged. LD_ERR_FILE, LD_ERR_MEMORY: it could
-// not be read; what else keeps from it is noted.
+// What there is of the history. LD_ERR_INPUT: the file is not to be read, or not all of it.
+static ld_status read_history_file(report_source *source, const char *path, ld_error *error)
+{
+    ld_status status = history_read(path, &source->history, error);
+    if (status)
+        return status;
+    source->has_history = true;
+    if (source->history.rows == 0 && source->history.flights == 0)
+        report_take_note(source->report, "The history has no rows.");
+    status = read_rockets(source, path, error);
+    if (!status)
+        status = origin_read_history(path, &source->origin, error);
+    source->has_origin = !status && source->origin.scenario; // an earlier version keeps none
+    return status;
+}
+
+// Reads the history, of a folder in which it is not damaged, where there is one. LD_ERR_INPUT, with
+// a note; LD_ERR_FILE, LD_ERR_MEMORY.
 static ld_status read_history(report_source *source, const char *folder, ld_error *error)
 {
     char path[REPORT_PATH_SIZE];
@@ -45,21 +62,11 @@ static ld_status read_history(report_source *source, const char *folder, ld_erro
         report_take_note(source->report, "The run did not come to its end: the plots are of "
                                          "history.h5.part, up to its last block.");
     }
-    ld_status status = history_read(path, &source->history, error);
+    ld_status status = read_history_file(source, path, error);
     if (status == LD_ERR_INPUT)
-        report_take_note(source->report, "No plots: %s.", error->text);
-    if (status)
-        return status == LD_ERR_INPUT ? LD_OK : status;
-    source->has_history = true;
-    status = read_rockets(source, path, error);
-    if (status)
-        return status;
-    // results of an earlier version keep none
-    status = origin_read_history(path, &source->origin, error);
-    source->has_origin = !status;
-    if (source->history.rows == 0 && source->history.flights == 0)
-        report_take_note(source->report, "The history has no rows.");
-    return status == LD_ERR_INPUT ? LD_OK : status;
+        report_take_note(source->report, "%s%s.",
+                         source->has_history ? "" : "No plots: ", error->text);
+    return status;
 }
 
 // Takes the summary over, or says why there is none; also where it does not say what is whole.
@@ -114,11 +121,11 @@ static ld_status read_folder(report_source *source, const char *folder, ld_error
     ld_status read = history ? read_history(source, folder, error) : LD_OK;
     take_summary(source, &found);
     manifest_free(&found);
-    if (read)
+    if (read && read != LD_ERR_INPUT)
         return read;
     if (status == LD_ERR_INPUT)
         return ld_fail(error, status, "%.300s is damaged: %s", folder, first.text);
-    return status ? ld_fail(error, status, "%.300s/%s", folder, first.text) : LD_OK;
+    return status ? ld_fail(error, status, "%.300s/%s", folder, first.text) : read;
 }
 
 static void free_source(report_source *source)
@@ -138,7 +145,7 @@ static ld_status make_page(const report_source *source, const report_detail *det
 {
     char *data = NULL;
     size_t data_length = 0;
-    FILE *json = open_memstream(&data, &data_length), *page = open_memstream(text, length);
+    FILE *json = memory_stream(&data, &data_length), *page = memory_stream(text, length);
     ld_status status = json && page ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
     if (!status)
         status = report_write_data(json, source, detail, error);
@@ -172,7 +179,6 @@ static ld_status make_page_that_fits(report_source *source, char **text, size_t 
     for (;;) {
         ld_status status = make_page(source, &detail, text, length, error);
         source->report->pixels = detail.whole ? 0 : detail.pixel * 4000;
-        source->report->bytes = *length;
         if (status || *length <= REPORT_BYTES)
             return status;
         free(*text);
@@ -193,6 +199,7 @@ static ld_status write_report(report_source *source, const char *file, ld_error 
     numeric_locale_leave(before);
     if (!status)
         status = report_write_file(file, text, length, error);
+    source->report->bytes = status ? 0 : length;
     free(text);
     return status;
 }

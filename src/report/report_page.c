@@ -1,4 +1,5 @@
 // The page of a report: what it shows as JSON, and the page around that.
+#include "base/memory_stream.h"
 #include "launchdyn/version.h"
 #include "report/report_origin.h"
 #include "report/report_parts.h"
@@ -85,17 +86,18 @@ static ld_status write_replay(FILE *page, const report_source *source, ld_error 
     return status;
 }
 
-static void write_origin(FILE *page, const ld_origin *origin)
+static ld_status write_origin(FILE *page, const ld_origin *origin, ld_error *error)
 {
     char *json = NULL;
     size_t length = 0;
-    FILE *stream = open_memstream(&json, &length);
-    if (!stream)
-        return;
-    report_write_origin(stream, origin, REPORT_ORIGIN_BYTES);
-    if (fclose(stream) == 0)
-        report_write_json(page, "origin", json, length);
+    FILE *stream = memory_stream(&json, &length);
+    if (stream)
+        report_write_origin(stream, origin, REPORT_ORIGIN_BYTES);
+    if (!stream || fclose(stream) != 0)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
+    report_write_json(page, "origin", json, length);
     free(json);
+    return LD_OK;
 }
 
 ld_status report_write_page(FILE *page, const report_source *source, const char *data,
@@ -107,9 +109,9 @@ ld_status report_write_page(FILE *page, const report_source *source, const char 
     if (source->summary)
         report_write_json(page, "summary", source->summary, source->summary_length);
     report_write_json(page, "data", data, length);
-    if (source->has_origin)
-        write_origin(page, &source->origin);
-    ld_status status = write_replay(page, source, error);
+    ld_status status = source->has_origin ? write_origin(page, &source->origin, error) : LD_OK;
+    if (!status)
+        status = write_replay(page, source, error);
     report_end_page(page, &run_bundle);
     return status;
 }

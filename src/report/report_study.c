@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "base/numeric_locale.h"
 
 // ---- what is laid side by side
@@ -64,6 +65,13 @@ static void add_series(study_source *source, const study_data *data, const char 
     }
 }
 
+void study_take_problem(study_source *source, const char *what, const ld_error *error)
+{
+    report_take_note(source->report, "%s%.230s.", what, error->text);
+    if (!source->problem.status)
+        source->problem = *error;
+}
+
 // LD_ERR_FILE, LD_ERR_MEMORY: one could not be read; what is none, or damaged, is noted.
 static ld_status open_studies(study_source *source, const char *const *folder, size_t count,
                               ld_error *error)
@@ -78,18 +86,15 @@ static ld_status open_studies(study_source *source, const char *const *folder, s
         }
         ld_status status = study_data_open(folder[i], data, error);
         if (status == LD_ERR_INPUT) {
-            report_take_note(source->report, "%.230s.", error->text);
+            study_take_problem(source, "", error);
             continue;
         }
         if (status)
             return status;
-        // a study of an earlier version keeps none
-        status = ld_study_read_origin(folder[i], &source->origin[source->study_count], error);
-        if (status)
-            source->origin[source->study_count] = (ld_origin){0};
+        status = study_data_origin(data, &source->origin[source->study_count], error);
         source->folder[source->study_count++] = folder[i];
         add_series(source, data, folder[i]);
-        if (status && status != LD_ERR_INPUT)
+        if (status)
             return status;
     }
     return LD_OK;
@@ -121,10 +126,8 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
 {
     char *data = NULL;
     size_t data_length = 0;
-    FILE *json = open_memstream(&data, &data_length), *page = open_memstream(text, length);
-    bool fine = json && page;
-    if (fine)
-        fine = study_write_data(json, source) == LD_OK;
+    FILE *json = memory_stream(&data, &data_length), *page = memory_stream(text, length);
+    bool fine = json && page && study_write_data(json, source) == LD_OK;
     fine &= json && fclose(json) == 0;
     if (fine) {
         report_begin_page(page, &study_bundle, title_of(source),
@@ -135,6 +138,8 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
     }
     fine &= page && fclose(page) == 0;
     free(data);
+    if (source->problem.status && source->problem.status != LD_ERR_INPUT)
+        return ld_fail(error, source->problem.status, "%s", source->problem.text);
     return fine ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
 }
 
@@ -168,7 +173,7 @@ static ld_status write_report(study_source *source, const char *file, ld_error *
     numeric_locale_leave(before);
     if (!status)
         status = report_write_file(file, text, length, error);
-    source->report->bytes = length;
+    source->report->bytes = status ? 0 : length;
     free(text);
     return status;
 }
@@ -192,6 +197,9 @@ ld_status ld_report_write_measured(const char *const *folder, size_t count, cons
         status = measured_read(shots, source->series[0].data, &source->shots, error);
     if (!status)
         status = write_report(source, file, error);
+    if (!status && source->problem.status)
+        status = ld_fail(error, source->problem.status, "%s; the report shows the rest",
+                         source->problem.text);
     close_studies(source);
     free(source);
     return status;

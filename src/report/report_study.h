@@ -32,7 +32,11 @@ typedef struct study_source {
     const char *measured; // file with shots to lay beside, or NULL
     measured shots;       // what it holds
     ld_report *report;    // takes notes
+    ld_error problem;     // what could not be read, the first; status 0: all could
 } study_source;
+
+// Notes what could not be read: `what` it is about, and why.
+void study_take_problem(study_source *source, const char *what, const ld_error *error);
 
 // Bins of the same width for all series.
 typedef struct study_bins {
@@ -65,7 +69,8 @@ void study_read(study_source *source, study_series *series, const study_column *
                 int columns);
 
 // Writes what study number `index` was asked to do and where it comes from, an item of a list.
-void study_write_plan(FILE *json, const study_source *source, int index);
+// @return LD_OK, LD_ERR_MEMORY
+ld_status study_write_plan(FILE *json, const study_source *source, int index);
 
 // Writes the sensitivities of chosen results to all factors, as items of a list.
 // @return LD_OK, LD_ERR_MEMORY

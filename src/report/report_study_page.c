@@ -67,9 +67,11 @@ void study_read(study_source *source, study_series *series, const study_column *
     if (!study_data_read(series->data, series->point, column, columns, &series->values, &error) ||
         series->broken)
         return;
+    char what[128];
     series->broken = true;
-    report_take_note(source->report, "%.60s is broken, the numbers are of what could be read: %s.",
-                     series->label, error.text);
+    snprintf(what, sizeof what,
+             "%.60s is broken, the numbers are of what could be read: ", series->label);
+    study_take_problem(source, what, &error);
 }
 
 // One or two results of a series.
@@ -335,10 +337,11 @@ static void write_failures(FILE *json, study_source *source, const study_series 
     int most = MOST_FAILURES / source->series_count, count = 0;
     most = most > LEAST_EACH ? most : LEAST_EACH;
     study_failed *failed = malloc((size_t)most * sizeof *failed);
-    ld_error error = {.text = "no memory"};
+    ld_error error = {.status = LD_ERR_MEMORY, .text = "no memory"};
+    char what[128];
+    snprintf(what, sizeof what, "%.60s: failed samples cannot be read: ", series->label);
     if (!failed || study_data_failed(series->data, series->point, failed, most, &count, &error))
-        report_take_note(source->report, "%.60s: failed samples cannot be read: %s.", series->label,
-                         error.text);
+        study_take_problem(source, what, &error);
     fputs(",\"failures\":[", json);
     for (int i = 0; i < count; i++) {
         fprintf(json, "%s[%" PRId64 ",", i ? "," : "", failed[i].sample);
@@ -388,13 +391,15 @@ ld_status study_write_data(FILE *json, study_source *source)
         fputs(i ? ",\n" : "\n", json);
         write_series(json, source, &source->series[i]);
     }
+    ld_status status = LD_OK;
     fputs("],\"studies\":[", json);
-    for (int i = 0; i < source->study_count; i++) {
+    for (int i = 0; i < source->study_count && !status; i++) {
         fputs(i ? ",\n" : "\n", json);
-        study_write_plan(json, source, i);
+        status = study_write_plan(json, source, i);
     }
     fputs("],\"results\":[", json);
-    ld_status status = write_results(json, source);
+    if (!status)
+        status = write_results(json, source);
     fputs("],\"pairs\":[", json);
     if (!status)
         status = write_pairs(json, source);

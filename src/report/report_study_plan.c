@@ -76,7 +76,7 @@ static void write_factors(FILE *json, const ld_model *model)
     fputc(']', json);
 }
 
-void study_write_plan(FILE *json, const study_source *source, int index)
+ld_status study_write_plan(FILE *json, const study_source *source, int index)
 {
     const study_data *data = &source->study[index];
     const ld_origin *origin = &source->origin[index];
@@ -85,7 +85,9 @@ void study_write_plan(FILE *json, const study_source *source, int index)
     ld_messages messages;
     fputs("{\"label\":", json);
     json_write_text(json, data->title && *data->title ? data->title : source->folder[index]);
-    if (!scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages)) {
+    ld_status status =
+        scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages);
+    if (!status) {
         fputc(',', json);
         write_plan(json, &model);
         write_factors(json, &model);
@@ -98,4 +100,5 @@ void study_write_plan(FILE *json, const study_source *source, int index)
         report_write_origin(json, origin, REPORT_ORIGIN_BYTES / (size_t)source->study_count);
     }
     fputc('}', json);
+    return status == LD_ERR_MEMORY ? status : LD_OK;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "report/report_parts.h"
 #include "results/json_text.h"
 
@@ -275,7 +276,7 @@ static ld_status write_segment(thinned *table, const segment *part, ld_error *er
     size_t rows = part->last - part->first + 1, kept = thin_all(table, part), length = 0;
     fprintf(table->json, "{\"name\":\"%s\",\"of\":%zu,\"from\":%.17g,\"count\":%zu,\"data\":\"",
             part->name, rows, table->t[part->first], kept);
-    table->bytes = open_memstream(&bytes, &length);
+    table->bytes = memory_stream(&bytes, &length);
     if (!table->bytes)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     write_times(table, part);

@@ -28,13 +28,15 @@ static ld_status write_file(const char *path, const ld_column *columns, const do
     ld_status status = history_csv_create(path, &csv, error);
     if (status)
         return status;
-    status = history_csv_begin(csv, columns, width, error);
+    double *row = malloc(width * sizeof *row);
+    status = row ? history_csv_begin(csv, columns, width, error)
+                 : ld_fail(error, LD_ERR_MEMORY, "no memory for a row of %zu columns", width);
     for (size_t i = 0; i < rows && !status; i++) {
-        double row[COLUMNS_MOST];
         for (size_t j = 0; j < width; j++)
             row[j] = values[j][i];
         status = history_csv_row(csv, row, width, error);
     }
+    free(row);
     ld_status closed = history_csv_close(csv, status ? NULL : error);
     return status ? status : closed;
 }

@@ -7,8 +7,6 @@
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
 
-enum { COLUMNS_MOST = 16 };
-
 // Writes the file `name` in the folder, which is made where it is not there: `width` columns with
 // `rows` values each.
 ld_status columns_write(const char *folder, const char *name, const ld_column *columns,

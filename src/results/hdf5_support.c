@@ -29,10 +29,17 @@ static herr_t see_entry(unsigned depth, const H5E_error2_t *entry, void *unused)
     return 0;
 }
 
-// Called by HDF5 where a call fails.
+// Called by HDF5 where a call fails. Without memory it may have none for the entries either.
 static herr_t see_failure(hid_t stack, void *unused)
 {
+    why.memory |= errno == ENOMEM;
     return H5Ewalk2(stack, H5E_WALK_UPWARD, see_entry, unused);
+}
+
+// Whether HDF5, or who uses it, has lacked memory since hdf5_quiet_begin().
+static bool lacks_memory(void)
+{
+    return why.memory || errno == ENOMEM;
 }
 
 hdf5_quiet hdf5_quiet_begin(void)
@@ -42,6 +49,7 @@ hdf5_quiet hdf5_quiet_begin(void)
     // where the library crashes on it; what is to be kept has been closed by hand
     H5dont_atexit();
     memset(&why, 0, sizeof why);
+    errno = 0;
     why.memory = H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data) < 0; // it cannot begin
     H5Eset_auto2(H5E_DEFAULT, see_failure, NULL);
     return quiet;
@@ -49,8 +57,9 @@ hdf5_quiet hdf5_quiet_begin(void)
 
 ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *error)
 {
+    const bool memory = lacks_memory();
     H5Eset_auto2(H5E_DEFAULT, quiet->function, quiet->data);
-    if (why.memory && status != LD_ERR_MEMORY)
+    if (memory && status != LD_ERR_MEMORY)
         return ld_fail(error, LD_ERR_MEMORY, "HDF5 has no memory");
     return status;
 }
@@ -106,7 +115,7 @@ hid_t hdf5_open_dataset(hid_t group, const char *name)
 
 ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const char *path)
 {
-    if (why.memory)
+    if (lacks_memory())
         return ld_fail(error, LD_ERR_MEMORY, "cannot %s %s: HDF5 has no memory", what, path);
     if (why.number && status == LD_ERR_INPUT)
         status = text_file_status(why.number);
@@ -115,7 +124,7 @@ ld_status hdf5_failed(ld_error *error, ld_status status, const char *what, const
     if (strcmp(why.text, "unable to open file") == 0)
         status = LD_ERR_FILE;
     return ld_fail(error, status, "cannot %s %s: %s", what, path,
-                   why.text[0] ? why.text : "HDF5 gives no reason, as where there is no memory");
+                   why.text[0] ? why.text : "HDF5 gives no reason");
 }
 
 hid_t hdf5_create_file(const char *path)
@@ -168,14 +177,6 @@ hid_t hdf5_create_piece(hid_t group, const char *name, hid_t type, int rank, con
     return create_dataset(group, name, type, rank, size, true);
 }
 
-hid_t hdf5_text_type(void)
-{
-    hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    return type;
-}
-
 static bool write_attribute(hid_t object, const char *name, hid_t type, const void *value)
 {
     hid_t space = H5Screate(H5S_SCALAR);
@@ -183,14 +184,6 @@ static bool write_attribute(hid_t object, const char *name, hid_t type, const vo
     bool fine = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
     fine = attribute >= 0 && H5Aclose(attribute) >= 0 && fine;
     H5Sclose(space);
-    return fine;
-}
-
-bool hdf5_write_text(hid_t object, const char *name, const char *text)
-{
-    hid_t type = hdf5_text_type();
-    bool fine = write_attribute(object, name, type, &text);
-    H5Tclose(type);
     return fine;
 }
 
@@ -223,8 +216,7 @@ double hdf5_read_number(hid_t object, const char *name)
     return read_attribute(object, name, H5T_NATIVE_DOUBLE, &value) ? value : NAN;
 }
 
-// Padded by zeros, which no text ends with; an empty one is a single zero.
-static hid_t string_type(size_t length)
+hid_t hdf5_string_type(size_t length)
 {
     hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, length > 0 ? length : 1);
@@ -235,7 +227,7 @@ static hid_t string_type(size_t length)
 
 bool hdf5_write_string(hid_t object, const char *name, const char *text)
 {
-    hid_t type = string_type(strlen(text));
+    hid_t type = hdf5_string_type(strlen(text));
     bool fine = write_attribute(object, name, type, text);
     H5Tclose(type);
     return fine;
@@ -245,7 +237,7 @@ bool hdf5_write_document(hid_t group, const char *key, const char *name, const c
                          size_t length)
 {
     hsize_t one = 1;
-    hid_t type = string_type(length);
+    hid_t type = hdf5_string_type(length);
     hid_t dataset = hdf5_create_piece(group, key, type, 1, &one);
     bool fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
                 (!name || hdf5_write_string(dataset, "name", name));
@@ -269,7 +261,9 @@ static char *room_for(hid_t type, hid_t space)
 static char *read_variable(hid_t attribute)
 {
     char *text = NULL;
-    hid_t type = hdf5_text_type();
+    hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, H5T_VARIABLE);
+    H5Tset_cset(type, H5T_CSET_UTF8);
     bool fine = H5Aread(attribute, type, &text) >= 0 && text;
     H5Tclose(type);
     char *copy = fine ? strdup(text) : NULL;

@@ -34,11 +34,11 @@ hid_t hdf5_create_group(hid_t parent, const char *name);
 // An array of fixed size; one that is written in one piece and has a checksum.
 hid_t hdf5_create_dataset(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size);
 hid_t hdf5_create_piece(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size);
-// UTF-8 text of variable length, to be closed.
-hid_t hdf5_text_type(void);
+// UTF-8 text of so many bytes, to be closed: padded by zeros, which no text ends with; an empty one
+// is a single zero.
+hid_t hdf5_string_type(size_t length);
 
-// Attributes of an open object: UTF-8 text of variable length, integer, double.
-bool hdf5_write_text(hid_t object, const char *name, const char *text);
+// Attributes of an open object: integer, double.
 bool hdf5_write_integer(hid_t object, const char *name, int value);
 bool hdf5_write_number(hid_t object, const char *name, double value);
 

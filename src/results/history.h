@@ -63,6 +63,7 @@ typedef struct history_data {
     int tube, number; // of a flight: its tube (0: none) and its place in the firing order
     struct history_data *flight; // [flights] in the order of firing
     size_t flights;
+    int rockets;             // that the file tells of, flown or not: history_read_rocket()
     history_array *geometry; // [arrays]; none where the file holds none
     size_t arrays;
     int complete;  // 0: the run ended early, or was killed

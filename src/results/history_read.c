@@ -214,6 +214,19 @@ static bool read_flights(hid_t file, history_data *history)
     return fine;
 }
 
+// How many rockets the file tells of; -1: it cannot be read.
+static int count_rockets(hid_t file)
+{
+    hid_t rocket;
+    for (int number = 1; number <= LD_MAX_FIRINGS; number++) {
+        htri_t there = open_rocket(file, number, &rocket);
+        if (there <= 0)
+            return there < 0 ? -1 : number - 1;
+        H5Gclose(rocket);
+    }
+    return LD_MAX_FIRINGS;
+}
+
 // What to read from an open file.
 typedef ld_status file_reader(hid_t file, const char *path, int number, history_data *history,
                               ld_error *error);
@@ -237,8 +250,9 @@ static ld_status read_launcher(hid_t file, const char *path, int number, history
     read_instants(rocket, history);
     if (there > 0)
         H5Gclose(rocket);
-    if (there < 0 || !read_table(file, "history", history) || !read_flights(file, history) ||
-        !read_geometry(file, history))
+    history->rockets = count_rockets(file);
+    if (there < 0 || history->rockets < 0 || !read_table(file, "history", history) ||
+        !read_flights(file, history) || !read_geometry(file, history))
         return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     if (history->columns == 0 && history->flights == 0)
         return ld_fail(error, LD_ERR_INPUT, "%s holds no history", path);

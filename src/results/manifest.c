@@ -100,6 +100,7 @@ static const char *const wrongs[] = {
     " WHERE type = 'text' AND key NOT IN ('name', 'shape')"
     " AND path NOT IN ('$', '$.program', '$.notes')"
     " AND path NOT GLOB '$.source*' AND path NOT GLOB '$.files*'",
+    "SELECT '\"format\" is no whole number' WHERE json_type(?1, '$.format') <> 'integer'",
     "SELECT 'it is of format ' || json_extract(?1, '$.format') ||"
     " ', and this program reads " MANIFEST_FORMAT "'"
     " WHERE json_extract(?1, '$.format') <> " MANIFEST_FORMAT,

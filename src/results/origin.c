@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "model/source.h"
 #include "results/json_text.h"
 #include "results/program.h"
@@ -43,7 +44,7 @@ ld_status ld_origin_of(const ld_model *model, ld_origin *origin, ld_error *error
     *origin = (ld_origin){.point = model->point, .sample = model->sample};
     origin->source = source_hold(model->source);
     program_describe(gather, &to);
-    FILE *stream = open_memstream(&origin->scenario, &length);
+    FILE *stream = memory_stream(&origin->scenario, &length);
     if (stream)
         ld_model_print(model, stream);
     if (stream && fclose(stream) == 0 && to.fine)
@@ -80,9 +81,12 @@ static void compare(void *self, const char *name, const char *text)
     for (size_t i = 0; i < origin->fact_count; i++)
         if (strcmp(origin->fact[i].name, name) == 0)
             before = origin->fact[i].text;
-    if (strcmp(before, text) != 0)
-        fprintf(between->stream, "%s%s %s, here %s", between->count++ ? "; " : "", name, before,
+    if (strcmp(before, text) == 0)
+        return;
+    if (between->stream)
+        fprintf(between->stream, "%s%s %s, here %s", between->count ? "; " : "", name, before,
                 text);
+    between->count++;
 }
 
 bool ld_origin_differs(const ld_origin *origin, char *text, size_t size)
@@ -90,12 +94,11 @@ bool ld_origin_differs(const ld_origin *origin, char *text, size_t size)
     comparison between = {.origin = origin};
     char *whole = NULL;
     size_t length;
-    between.stream = open_memstream(&whole, &length);
-    if (between.stream) {
-        program_describe(compare, &between);
+    between.stream = memory_stream(&whole, &length);
+    program_describe(compare, &between);
+    if (between.stream)
         fclose(between.stream);
-    }
-    snprintf(text, size, "%s", whole ? whole : "");
+    snprintf(text, size, "%s", whole ? whole : "no memory to say in what");
     free(whole);
     return between.count > 0;
 }

@@ -18,7 +18,8 @@ void origin_write_source(FILE *json, const ld_origin *origin);
 // The groups program and source and the text scenario of an open file.
 bool origin_write_hdf5(hid_t file, const ld_origin *origin);
 
-// ld_origin_read() of the history at `path`, whatever its digest.
+// ld_origin_read() of the history at `path`, whatever its digest; an origin without a scenario
+// where it is of an earlier version, which did not say.
 ld_status origin_read_history(const char *path, ld_origin *origin, ld_error *error);
 
 #endif

@@ -149,26 +149,22 @@ static bool read_source(hid_t file, ld_origin *origin)
     return (origin->source->name = strdup(origin->source->file[0]->name)) != NULL;
 }
 
-// Reads the file at `path`.
+// Reads the file at `path`; nothing where it is of an earlier version.
 static ld_status read_history(const char *path, ld_origin *origin, ld_error *error)
 {
     size_t length;
     hid_t file = hdf5_open(path);
     if (file < 0)
         return hdf5_failed(error, LD_ERR_INPUT, "read", path);
-    bool old = H5Lexists(file, "program", H5P_DEFAULT) <= 0;
+    bool old = H5Lexists(file, "program", H5P_DEFAULT) == 0;
     bool fine = !old && read_program(file, origin) &&
                 (origin->scenario = hdf5_read_document(file, "scenario", NULL, &length)) != NULL;
     bool by_hand = fine && H5Lexists(file, "source", H5P_DEFAULT) <= 0;
     fine = fine && (by_hand || read_source(file, origin));
     H5Fclose(file);
-    if (old)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "%.300s does not say where it comes from: it is of an earlier version",
-                       path);
-    return fine ? LD_OK
-                : ld_fail(error, LD_ERR_INPUT,
-                          "%.300s is damaged: where it comes from cannot be read", path);
+    return fine || old ? LD_OK
+                       : ld_fail(error, LD_ERR_INPUT,
+                                 "%.300s is damaged: where it comes from cannot be read", path);
 }
 
 ld_status origin_read_history(const char *path, ld_origin *origin, ld_error *error)
@@ -196,5 +192,10 @@ ld_status ld_origin_read(const char *folder, ld_origin *origin, ld_error *error)
         snprintf(path, sizeof path, "%.4000s/history.h5.part", folder);
     if (access(path, F_OK) != 0)
         return ld_fail(error, LD_ERR_INPUT, "no results in %.300s: there is no history.h5", folder);
-    return origin_read_history(path, origin, error);
+    status = origin_read_history(path, origin, error);
+    if (!status && !origin->scenario)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "%.300s does not say where it comes from: it is of an earlier version",
+                       path);
+    return status;
 }

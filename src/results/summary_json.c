@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/memory_stream.h"
 #include "base/numeric_locale.h"
 #include "launchdyn/output.h"
 #include "launchdyn/version.h"
@@ -263,7 +264,7 @@ static ld_status make_text(const ld_model *model, const ld_summary *summary,
     ld_status status = ld_origin_of(model, &origin, error);
     if (status)
         return status;
-    json_writer json = {.file = open_memstream(text, length)};
+    json_writer json = {.file = memory_stream(text, length)};
     locale_t before = numeric_locale_enter();
     if (json.file)
         write_summary(&json, model, summary, &origin, file);

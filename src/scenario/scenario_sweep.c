@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "model/field.h"
 #include "scenario/scenario_reader.h"
 
@@ -233,7 +234,7 @@ static char *value_text(const tree_node *value)
 {
     char *text = NULL;
     size_t length;
-    FILE *stream = open_memstream(&text, &length);
+    FILE *stream = memory_stream(&text, &length);
     if (!stream)
         return NULL;
     write_value(stream, value);

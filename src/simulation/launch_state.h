@@ -9,7 +9,7 @@
 typedef struct run_conditions {
     double t, t_ignition;    // [s]
     int piece, rocket, tube; // of the thrust curve; selected
-    bool level;
+    const base_disturbance *disturbed;
     launching_phase phase;
     base_rest rest;
 } run_conditions;
@@ -88,6 +88,9 @@ launching_phase simulation_start_phase(const launch_state *self);
 // Speeds in the same order: v, w, q_dot, V, ... Then what has a rate alone: the stabilisers'
 // integrals, eta and xi of each wheel, the drive's integral. d/dt of all: the Jacobian J.
 typedef struct linear_system {
+    double t; // [s] about what: time, phase, state
+    launching_phase phase;
+    double y[LD_MAX_STATES];
     int tube, rocket, base; // displacements of each
     int half, count;        // displacements in all; unknowns in all
     double *J;              // count x count, by columns; to be freed
@@ -96,8 +99,16 @@ typedef struct linear_system {
 } linear_system;
 
 // Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching
-// speed; lock closed, no Coulomb friction.
+// speed; lock closed, no Coulomb friction. A base that goes where it is told rests in the origin.
 ld_status simulation_linearise(launch_state *self, linear_system *system, ld_error *error);
+
+// Changes an unknown in the state y. By how much in a difference [its unit].
+void linear_displace(const launch_state *self, const linear_system *system, int unknown,
+                     double change, double *y);
+double linear_step(const linear_system *system, int unknown);
+// d/dt of the unknowns [count] in the state y, behind them what holds the base's displacements
+// [base]. Other than 0: there are none.
+int linear_rates(const launch_state *self, const linear_system *system, const double *y, double *r);
 
 // A row of the history.
 void history_row(const launch_state *self, double t, const double *y, double energy_start,

@@ -30,7 +30,7 @@ static int base_extra_at(const launcher_system *launcher, int extra)
     return launcher->base_at + base->kind->dynamics->extra_of(base, extra);
 }
 
-static void displace(const launch_state *self, const linear_system *system, int unknown,
+void linear_displace(const launch_state *self, const linear_system *system, int unknown,
                      double change, double *y)
 {
     const launcher_system *launcher = &self->launcher;
@@ -55,24 +55,20 @@ static void displace(const launch_state *self, const linear_system *system, int 
         y[base_extra_at(launcher, unknown - 2 * half)] += change;
 }
 
-// d/dt of the state of the whole, without thrust, and what holds the base's displacements still; a
-// base without a motion of its own is held in its attitude in the origin.
-static int rates_of_whole(const launch_state *self, double t, const launching_phase *phase,
-                          const double *y, double *y_dot, double *held)
+// d/dt of the state of the whole, without thrust, and what holds the base's displacements still.
+static int rates_of_whole(const launch_state *self, const linear_system *system, const double *y,
+                          double *y_dot, double *held)
 {
     const launcher_system *launcher = &self->launcher;
     const base_system *moving = &launcher->base;
     launcher_input input;
     launcher_output out;
-    simulation_input(self, t, y, &input);
+    simulation_input(self, system->t, y, &input);
     input.formulation = LD_FORMULATION_REDUCED;
     input.launching.thrust = 0;
-    base_frame *base = &input.launching.base;
-    if (!launcher->base.kind->dynamics)
-        base->r = base->v = base->w = v3_zero();
-    if (launcher_evaluate(launcher, &input, phase, y, &out))
+    if (launcher_evaluate(launcher, &input, &system->phase, y, &out))
         return -1;
-    launcher_rates(launcher, y, &out, phase->rocket, y_dot);
+    launcher_rates(launcher, y, &out, system->phase.rocket, y_dot);
     for (int i = 0; i < moving->displacement_count; i++)
         held[i] = moving->kind->dynamics->held_by(&out.base, i);
     return 0;
@@ -92,15 +88,14 @@ static int rates_of_tube(const launching_system *tube, const launching_phase *ph
 
 // Rates of the unknowns at state y, in the same order; then what holds the base's displacements.
 static int rates(const launch_state *self, const linear_system *system,
-                 const launching_system *alone, double t, const launching_phase *phase,
-                 const double *y, double *r)
+                 const launching_system *alone, const double *y, double *r)
 {
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
     double y_dot[LD_MAX_STATES];
     double *held = r + system->count;
-    if (alone ? rates_of_tube(alone, phase, y, y_dot)
-              : rates_of_whole(self, t, phase, y, y_dot, held))
+    if (alone ? rates_of_tube(alone, &system->phase, y, y_dot)
+              : rates_of_whole(self, system, y, y_dot, held))
         return -1;
     int tube = system->tube, both = tube + system->rocket, half = system->half;
     memcpy(r, y_dot + at->r, 3 * sizeof(double));
@@ -108,7 +103,7 @@ static int rates(const launch_state *self, const linear_system *system,
     memcpy(r + 6, y_dot + at->q, (size_t)at->nq * sizeof(double));
     memcpy(r + half, y_dot + at->v, 6 * sizeof(double));
     memcpy(r + half + 6, y_dot + at->q_dot, (size_t)at->nq * sizeof(double));
-    if (phase->rocket) {
+    if (system->phase.rocket) {
         memcpy(r + tube, y_dot + at->x, X_COUNT * sizeof(double));
         memcpy(r + half + tube, y_dot + at->V, 6 * sizeof(double));
     }
@@ -122,19 +117,28 @@ static int rates(const launch_state *self, const linear_system *system,
     return 0;
 }
 
-// Counts the unknowns and finds the Jacobian by central differences, of the whole or of the tube
-// `alone`.
-static ld_status linearise(const launch_state *self, const launching_system *alone, double t,
-                           const launching_phase *phase, const double *y, linear_system *system,
-                           ld_error *error)
+int linear_rates(const launch_state *self, const linear_system *system, const double *y, double *r)
+{
+    return rates(self, system, NULL, y, r);
+}
+
+double linear_step(const linear_system *system, int unknown)
+{
+    return unknown < system->half ? 1e-7 : 1e-5;
+}
+
+// Counts the unknowns and finds the Jacobian by central differences about what stands in `system`,
+// of the whole or of the tube `alone`.
+static ld_status linearise(const launch_state *self, const launching_system *alone,
+                           linear_system *system, ld_error *error)
 {
     const base_system *base = &self->launcher.base;
     system->tube = 6 + self->launcher.launching.layout.nq;
-    system->rocket = phase->rocket ? 6 : 0;
+    system->rocket = system->phase.rocket ? 6 : 0;
     system->base = alone ? 0 : base->displacement_count;
     system->half = system->tube + system->rocket + system->base;
     system->count = 2 * system->half + (alone ? 0 : base->extra_count);
-    int n = system->count, half = system->half;
+    int n = system->count;
     double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], trial[LD_MAX_STATES];
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
     system->J = calloc((size_t)n * (size_t)(n + system->base), sizeof(double));
@@ -142,13 +146,13 @@ static ld_status linearise(const launch_state *self, const launching_system *alo
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
     system->held = system->J + n * n;
     for (int j = 0; j < n; j++) {
-        double h = j < half ? 1e-7 : 1e-5;
-        memcpy(trial, y, size);
-        displace(self, system, j, h, trial);
-        int bad = rates(self, system, alone, t, phase, trial, plus);
-        memcpy(trial, y, size);
-        displace(self, system, j, -h, trial);
-        if (bad || rates(self, system, alone, t, phase, trial, minus))
+        double h = linear_step(system, j);
+        memcpy(trial, system->y, size);
+        linear_displace(self, system, j, h, trial);
+        int bad = rates(self, system, alone, trial, plus);
+        memcpy(trial, system->y, size);
+        linear_displace(self, system, j, -h, trial);
+        if (bad || rates(self, system, alone, trial, minus))
             return ld_fail(error, LD_ERR_NUMERIC, "the equations cannot be linearised");
         for (int i = 0; i < n; i++)
             system->J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
@@ -484,10 +488,8 @@ static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes,
 ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
                                 int *count, ld_error *error)
 {
-    double y[LD_MAX_STATES];
     launch_state state, *self = &state;
-    linear_system system = {0};
-    launching_phase phase = {.rocket = false};
+    linear_system system = {0}; // without a rocket
     *count = 0;
     if (!model_has_launcher(simulation->model))
         return LD_OK; // a flight alone has no tube
@@ -497,8 +499,8 @@ ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes,
     // straight it rests without gravity alone, and no pose of the base counts
     launching_system weightless = self->launcher.launching;
     weightless.tube.gravity = 0;
-    simulation_straight(self, &ORIGIN, y);
-    status = linearise(self, &weightless, 0, &phase, y, &system, error);
+    simulation_straight(self, &ORIGIN, system.y);
+    status = linearise(self, &weightless, &system, error);
     if (!status)
         status = undamped_modes(self, &system, modes, capacity, count, error);
     free(system.J);
@@ -513,33 +515,21 @@ int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, in
     return count;
 }
 
-// The equilibrium, and the equations linearised about it.
-static ld_status linearise_at_rest(launch_state *self, linear_system *system, ld_error *error)
-{
-    double y[LD_MAX_STATES], t = -self->model->run.lead_in;
-    ld_equilibrium_summary unused;
-    launching_phase phase = simulation_start_phase(self);
-    phase.frictionless = true;
-    self->piece = -1;
-    ld_status status = simulation_equilibrium(self, t, y, &unused, error);
-    if (!status && self->launcher.base.kind->dynamics) {
-        simulation_move_with_base(self, t, y);
-    } else if (!status) {
-        // in the origin, where differences are finest
-        launcher_input input;
-        simulation_input(self, t, y, &input);
-        double *r = y + self->launcher.launching.layout.r;
-        v3_store(r, v3_sub(v3_from(r), input.launching.base.r));
-    }
-    return status ? status : linearise(self, NULL, t, &phase, y, system, error);
-}
-
 ld_status simulation_linearise(launch_state *self, linear_system *system, ld_error *error)
 {
-    *system = (linear_system){0};
-    self->launcher.base.level = true;
-    ld_status status = linearise_at_rest(self, system, error);
-    self->launcher.base.level = false;
+    static const base_disturbance none;
+    ld_equilibrium_summary unused;
+    *system =
+        (linear_system){.t = -self->model->run.lead_in, .phase = simulation_start_phase(self)};
+    system->phase.frictionless = true;
+    self->piece = -1;
+    self->launcher.base.disturbed = &none;
+    ld_status status = simulation_equilibrium(self, system->t, system->y, &unused, error);
+    if (!status)
+        simulation_move_with_base(self, system->t, system->y);
+    if (!status)
+        status = linearise(self, NULL, system, error);
+    self->launcher.base.disturbed = NULL;
     return status;
 }
 

@@ -63,7 +63,7 @@ static void find_conditions(const launch_state *self, double t, run_conditions *
     conditions->piece = self->piece;
     conditions->rocket = self->current;
     conditions->tube = self->launcher.base.tube;
-    conditions->level = self->launcher.base.level;
+    conditions->disturbed = self->launcher.base.disturbed;
     memcpy(&conditions->phase, &self->phase, sizeof self->phase);
     memcpy(&conditions->rest, &self->rest, sizeof self->rest);
 }
@@ -284,7 +284,7 @@ static int marching_rhs(double t, const double *y, double *y_dot, void *user)
     marching_output out;
     base_frame chassis;
     held_frame_at(&self->chassis, t - self->t, &chassis);
-    marching_evaluate(marching, &chassis, false, y, y_dot, &out);
+    marching_evaluate(marching, &chassis, false, NULL, y, y_dot, &out);
     memcpy(y_dot + marching->state_count, out.power, sizeof out.power);
     return all_finite(self->marching_count, y_dot) ? 0 : -1;
 }

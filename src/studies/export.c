@@ -36,27 +36,25 @@ const char *export_unit(const export_table *table, int column)
     return column < table->keys ? "" : column_at(table->data, column - table->keys)->unit;
 }
 
-static char *select_rows(const study_data *data)
+static sqlite3_stmt *select_rows(const study_data *data, ld_error *error)
 {
-    char *query = NULL;
-    size_t length;
-    FILE *text = open_memstream(&query, &length);
-    if (!text)
-        return NULL;
-    fputs("SELECT sample.sample, rocket.rocket, rocket.tube, sample.status", text);
+    study_store *store = study_data_store(data);
+    sqlite3_str *text = sqlite3_str_new(store->database);
+    sqlite3_str_appendall(text, "SELECT sample.sample, rocket.rocket, rocket.tube, sample.status");
     if (data->swept_count > 0)
-        fputs(", sample.point", text);
+        sqlite3_str_appendall(text, ", sample.point");
     for (int i = 0; i < data->swept_count; i++)
-        fprintf(text, ", point.\"%s\"", data->swept[i]);
+        sqlite3_str_appendf(text, ", point.\"%w\"", data->swept[i]);
     for (int i = 0; i < data->column_count; i++) {
         const study_column *column = column_at(data, i);
-        fprintf(text, ", %s.\"%s\"", column->per_rocket ? "rocket" : "sample", column->name);
+        sqlite3_str_appendf(text, ", %s.\"%w\"", column->per_rocket ? "rocket" : "sample",
+                            column->name);
     }
-    fprintf(text,
-            " FROM sample JOIN rocket USING (sample)%s WHERE sample.sample = ? ORDER BY "
-            "rocket.rocket",
-            data->swept_count > 0 ? " JOIN point USING (point)" : "");
-    return fclose(text) == 0 ? query : NULL;
+    sqlite3_str_appendf(text,
+                        " FROM sample JOIN rocket USING (sample)%s WHERE sample.sample = ? "
+                        "ORDER BY rocket.rocket",
+                        data->swept_count > 0 ? " JOIN point USING (point)" : "");
+    return store_prepare_built(store, text, error);
 }
 
 ld_status export_next(export_table *self, bool *there, ld_error *error)
@@ -180,13 +178,9 @@ static ld_status export_rows(const study_data *data, const char *csv, const char
     study_store *store = study_data_store(data);
     const store_view view = store_main(store);
     export_table table = {.data = data, .keys = EXPORT_KEYS};
-    char *query = select_rows(data);
-    if (!query)
-        return no_memory(error);
-    table.row = store_prepare(store, query, error);
-    free(query);
+    table.row = select_rows(data, error);
     if (!table.row)
-        return store_status(store);
+        return error->status;
     table.keys += data->swept_count > 0 ? 1 + data->swept_count : 0;
     table.columns = sqlite3_column_count(table.row);
     ld_status status = store_walk_begin(&table.walk, &view, &store->kept, error);

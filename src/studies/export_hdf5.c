@@ -31,14 +31,14 @@ static bool is_text_of_point(const export_table *table, int column)
 static bool create_file(hdf5_writer *self, const char *file)
 {
     const study_data *data = self->table->data;
-    self->file = H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    self->file = hdf5_create_file(file);
     if (self->file < 0)
         return false;
     self->group = hdf5_create_group(self->file, "rockets");
-    return self->group >= 0 && hdf5_write_integer(self->file, "format", 1) &&
-           hdf5_write_text(self->file, "title", data->title) &&
-           hdf5_write_text(self->file, "version", data->version) &&
-           hdf5_write_text(self->file, "scenario", data->scenario) &&
+    return self->group >= 0 && hdf5_write_integer(self->file, "format", 2) &&
+           hdf5_write_string(self->file, "title", data->title) &&
+           hdf5_write_string(self->file, "version", data->version) &&
+           hdf5_write_string(self->file, "scenario", data->scenario) &&
            hdf5_write_integer(self->file, "strata", (int)data->strata);
 }
 
@@ -60,7 +60,8 @@ static bool create_columns(hdf5_writer *self)
             return false;
         }
         column->dataset = hdf5_create_dataset(self->group, name, column->type, 1, &rows);
-        if (column->dataset < 0 || !hdf5_write_text(column->dataset, "unit", export_unit(table, i)))
+        if (column->dataset < 0 ||
+            !hdf5_write_string(column->dataset, "unit", export_unit(table, i)))
             return false;
     }
     return true;
@@ -122,23 +123,35 @@ static bool write_rows(hdf5_writer *self)
     return fine && !self->read && (used == 0 || write_block(self, written, used));
 }
 
+// The texts of a swept key, as long as the longest.
+static bool write_swept(hid_t group, const study_data *data, int key)
+{
+    size_t longest = 1;
+    hsize_t points = (hsize_t)data->point_count;
+    for (hsize_t i = 0; i < points; i++)
+        if (strlen(data->point[i].text[key]) > longest)
+            longest = strlen(data->point[i].text[key]);
+    char *cells = calloc(points, longest);
+    for (hsize_t i = 0; cells && i < points; i++)
+        memcpy(cells + i * longest, data->point[i].text[key], strlen(data->point[i].text[key]));
+    hid_t type = hdf5_string_type(longest);
+    hid_t dataset =
+        cells ? hdf5_create_piece(group, data->swept[key], type, 1, &points) : H5I_INVALID_HID;
+    bool fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, cells) >= 0;
+    fine = dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
+    H5Tclose(type);
+    free(cells);
+    return fine;
+}
+
 // A dataset of texts for each swept key.
 static bool write_points(const hdf5_writer *self)
 {
     const study_data *data = self->table->data;
-    hsize_t points = (hsize_t)data->point_count;
-    hid_t group = hdf5_create_group(self->file, "points"), type = hdf5_text_type();
-    const char **text = calloc(points, sizeof *text);
-    bool fine = group >= 0 && text;
-    for (int k = 0; k < data->swept_count && fine; k++) {
-        for (hsize_t i = 0; i < points; i++)
-            text[i] = data->point[i].text[k];
-        hid_t dataset = hdf5_create_dataset(group, data->swept[k], type, 1, &points);
-        fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
-        fine = dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
-    }
-    free(text);
-    H5Tclose(type);
+    hid_t group = hdf5_create_group(self->file, "points");
+    bool fine = group >= 0;
+    for (int k = 0; k < data->swept_count && fine; k++)
+        fine = write_swept(group, data, k);
     if (group >= 0)
         H5Gclose(group);
     return fine;

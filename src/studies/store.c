@@ -14,9 +14,10 @@
 #include "results/folder.h"
 #include "studies/row_digest.h"
 
-ld_status store_status(const study_store *self)
+// Of a result of SQLite's.
+static ld_status status_of(int code)
 {
-    switch (self->database ? sqlite3_errcode(self->database) : SQLITE_NOMEM) {
+    switch (code) {
     case SQLITE_NOMEM:
         return LD_ERR_MEMORY;
     case SQLITE_NOTADB:
@@ -31,14 +32,34 @@ ld_status store_status(const study_store *self)
     }
 }
 
+static int latest_code(const study_store *self)
+{
+    return self->database ? sqlite3_errcode(self->database) : SQLITE_NOMEM;
+}
+
+ld_status store_status(const study_store *self)
+{
+    return status_of(latest_code(self));
+}
+
+ld_status store_fail_by(const study_store *self, int code, const char *path, const char *what,
+                        ld_error *error)
+{
+    sqlite3 *database = self->database;
+    const char *why =
+        code == latest_code(self) && database ? sqlite3_errmsg(database) : sqlite3_errstr(code);
+    bool of_system = database && (code == SQLITE_IOERR || code == SQLITE_CANTOPEN);
+    int number = of_system ? sqlite3_system_errno(database) : 0;
+    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB)
+        return ld_fail(error, status_of(code), "%s is damaged: %s", path, why);
+    return ld_fail(error, status_of(code), "cannot %s %s: %s%s%s%s", what, path, why,
+                   number ? " (" : "", number ? strerror(number) : "", number ? ")" : "");
+}
+
 ld_status store_fail_at(const study_store *self, const char *path, const char *what,
                         ld_error *error)
 {
-    const int code = self->database ? sqlite3_errcode(self->database) : SQLITE_NOMEM;
-    const char *why = self->database ? sqlite3_errmsg(self->database) : "no memory";
-    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB)
-        return ld_fail(error, store_status(self), "%s is damaged: %s", path, why);
-    return ld_fail(error, store_status(self), "cannot %s %s: %s", what, path, why);
+    return store_fail_by(self, latest_code(self), path, what, error);
 }
 
 ld_status store_fail(const study_store *self, const char *what, ld_error *error)
@@ -51,6 +72,16 @@ sqlite3_stmt *store_prepare(study_store *self, const char *text, ld_error *error
     sqlite3_stmt *statement = NULL;
     if (sqlite3_prepare_v2(self->database, text, -1, &statement, NULL) != SQLITE_OK)
         store_fail(self, "use", error);
+    return statement;
+}
+
+sqlite3_stmt *store_prepare_built(study_store *self, sqlite3_str *text, ld_error *error)
+{
+    char *whole = sqlite3_str_finish(text);
+    sqlite3_stmt *statement = whole ? store_prepare(self, whole, error) : NULL;
+    if (!whole)
+        ld_fail(error, LD_ERR_MEMORY, "no memory to use %s", self->path);
+    sqlite3_free(whole);
     return statement;
 }
 
@@ -70,32 +101,16 @@ ld_status store_commit(study_store *self, ld_status status, ld_error *error)
     return status;
 }
 
-static void no_memory(const char *table, ld_error *error)
-{
-    ld_fail(error, LD_ERR_MEMORY, "no memory to write the table %s", table);
-}
-
 // "INSERT INTO table VALUES (?, ?, ...)"
 sqlite3_stmt *store_prepare_insert(study_store *self, const char *table, int columns,
                                    ld_error *error)
 {
-    char *text = NULL;
-    size_t length;
-    FILE *stream = open_memstream(&text, &length);
-    if (!stream) {
-        no_memory(table, error);
-        return NULL;
-    }
-    fprintf(stream, "INSERT INTO %s VALUES (", table);
+    sqlite3_str *text = sqlite3_str_new(self->database);
+    sqlite3_str_appendf(text, "INSERT INTO %s VALUES (", table);
     for (int i = 0; i < columns; i++)
-        fputs(i ? ", ?" : "?", stream);
-    fputs(")", stream);
-    bool whole = fclose(stream) == 0 && text;
-    sqlite3_stmt *statement = whole ? store_prepare(self, text, error) : NULL;
-    if (!whole)
-        no_memory(table, error);
-    free(text);
-    return statement;
+        sqlite3_str_appendall(text, i ? ", ?" : "?");
+    sqlite3_str_appendall(text, ")");
+    return store_prepare_built(self, text, error);
 }
 
 bool store_step(sqlite3_stmt *statement)
@@ -409,19 +424,18 @@ ld_status store_open_to_merge(study_store *self, const char *folder, ld_error *e
     return status;
 }
 
-// The file as a URI with a query, to be freed; NULL: no memory.
+// The file as a URI with a query, for sqlite3_free(); NULL: no memory.
 static char *file_uri(const char *path, const char *query)
 {
-    char *text = NULL;
-    size_t length;
-    FILE *stream = open_memstream(&text, &length);
-    if (!stream)
-        return NULL;
-    fputs("file:", stream);
+    sqlite3_str *text = sqlite3_str_new(NULL);
+    sqlite3_str_appendall(text, "file:");
     for (; *path; path++)
-        fprintf(stream, strchr("%?#", *path) ? "%%%02x" : "%c", (unsigned char)*path);
-    fprintf(stream, "?%s", query);
-    return fclose(stream) == 0 ? text : NULL;
+        if (strchr("%?#", *path))
+            sqlite3_str_appendf(text, "%%%02x", (unsigned char)*path);
+        else
+            sqlite3_str_appendchar(text, 1, *path);
+    sqlite3_str_appendf(text, "?%s", query);
+    return sqlite3_str_finish(text);
 }
 
 // A database in WAL mode wants its side files, which a reader may have to make; where it may not
@@ -438,7 +452,7 @@ static int open_to_read(study_store *self, const char *folder)
     int result =
         name ? sqlite3_open_v2(name, &self->database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, NULL)
              : SQLITE_NOMEM;
-    free(name);
+    sqlite3_free(name);
     return result;
 }
 

@@ -79,11 +79,18 @@ ld_status store_settle(study_store *self, bool now, ld_error *error);
 ld_status store_status(const study_store *self);
 // Fails so, with the database's own words.
 ld_status store_fail(const study_store *self, const char *what, ld_error *error);
+// By a result that may not be SQLite's latest, of the database at `path`: the store's own, or one
+// attached to it.
+ld_status store_fail_by(const study_store *self, int code, const char *path, const char *what,
+                        ld_error *error);
 // Of the database at `path`, which is attached.
 ld_status store_fail_at(const study_store *self, const char *path, const char *what,
                         ld_error *error);
 // A statement, NULL after an error.
 sqlite3_stmt *store_prepare(study_store *self, const char *text, ld_error *error);
+// Of a text that SQLite has put together, which is freed. Names of columns stand in it as
+// "\"%w\"": what a forged database calls them is a name and no more.
+sqlite3_stmt *store_prepare_built(study_store *self, sqlite3_str *text, ld_error *error);
 ld_status store_execute(study_store *self, const char *text, ld_error *error);
 // Ends a transaction: commits it, or, after a failure, takes it back.
 ld_status store_commit(study_store *self, ld_status status, ld_error *error);

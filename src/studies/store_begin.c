@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "base/random.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/version.h"
@@ -18,7 +19,7 @@ static char *identity_of(const ld_model *model)
     char *text = NULL;
     size_t length;
     ld_model same = *model;
-    FILE *stream = open_memstream(&text, &length);
+    FILE *stream = memory_stream(&text, &length);
     if (!stream)
         return NULL;
     if (same.scatter.plan == LD_PLAN_RANDOM)
@@ -31,39 +32,38 @@ static char *identity_of(const ld_model *model)
 static ld_status make_tables(study_store *self, ld_error *error)
 {
     const ld_scatter *scatter = &self->study->nominal->scatter;
-    char *text = NULL;
-    size_t length;
-    FILE *stream = open_memstream(&text, &length);
-    if (!stream)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
-    fputs("CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-          "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER NOT NULL, "
-          "status TEXT NOT NULL, reason TEXT",
-          stream);
+    sqlite3_str *text = sqlite3_str_new(self->database);
+    sqlite3_str_appendall(
+        text, "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+              "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER NOT NULL, "
+              "status TEXT NOT NULL, reason TEXT");
     for (int i = 0; i < scatter->factor_count; i++)
         if (!store_is_of_rocket(self, i))
-            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
-    fputs(", digest INTEGER NOT NULL); CREATE TABLE point (point INTEGER PRIMARY KEY", stream);
+            sqlite3_str_appendf(text, ", \"%w\" REAL", scatter->factor[i].path);
+    sqlite3_str_appendall(
+        text, ", digest INTEGER NOT NULL); CREATE TABLE point (point INTEGER PRIMARY KEY");
     for (int i = 0; i < self->study->nominal->sweep_count; i++)
-        fprintf(stream, ", \"%s\" TEXT NOT NULL", self->study->nominal->sweep[i].path);
-    fputs("); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER",
-          stream);
+        sqlite3_str_appendf(text, ", \"%w\" TEXT NOT NULL", self->study->nominal->sweep[i].path);
+    sqlite3_str_appendall(
+        text,
+        "); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER");
     for (int i = 0; i < scatter->factor_count; i++)
         if (store_is_of_rocket(self, i))
-            fprintf(stream, ", \"%s\" REAL", scatter->factor[i].path);
+            sqlite3_str_appendf(text, ", \"%w\" REAL", scatter->factor[i].path);
     quantity_walk at = study_result_first(&self->study->things);
     for (; at.row; study_result_next(&at)) {
         char name[QUANTITY_NAME];
         study_result_name(&at, name);
-        fprintf(stream, ", \"%s\" REAL", name);
+        sqlite3_str_appendf(text, ", \"%w\" REAL", name);
     }
-    fputs(", PRIMARY KEY (sample, rocket)) WITHOUT ROWID; CREATE TABLE origin (kind TEXT NOT NULL, "
-          "name TEXT NOT NULL, text BLOB NOT NULL)",
-          stream);
-    ld_status status = fclose(stream) == 0 && text
-                           ? store_execute(self, text, error)
-                           : ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
-    free(text);
+    sqlite3_str_appendall(
+        text,
+        ", PRIMARY KEY (sample, rocket)) WITHOUT ROWID; CREATE TABLE origin (kind TEXT NOT NULL, "
+        "name TEXT NOT NULL, text BLOB NOT NULL)");
+    char *whole = sqlite3_str_finish(text);
+    ld_status status = whole ? store_execute(self, whole, error)
+                             : ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
+    sqlite3_free(whole);
     return status;
 }
 

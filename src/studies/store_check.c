@@ -228,7 +228,7 @@ bool store_walk_next(store_walk *self, ld_error *error)
         if (result == SQLITE_DONE || (is_damage(result) && self->number > self->kept.greatest))
             return false;
         if (result != SQLITE_ROW && !is_damage(result)) {
-            self->status = fail(&self->view, error);
+            self->status = store_fail_by(self->view.store, result, self->view.path, "read", error);
         } else if (intact) {
             self->intact++;
             self->sum += self->digest;

@@ -476,25 +476,16 @@ static void append(const study_data *data, sqlite3_stmt *row, int columns, study
 static sqlite3_stmt *select_values(study_reader *self, const study_column *const *column,
                                    int columns, ld_error *error)
 {
-    char *query = NULL;
-    size_t length;
-    FILE *text = open_memstream(&query, &length);
-    if (!text) {
-        no_memory(error);
-        return NULL;
-    }
-    fputs("SELECT rocket.sample, rocket.rocket", text);
+    sqlite3_str *text = sqlite3_str_new(self->store.database);
+    sqlite3_str_appendall(text, "SELECT rocket.sample, rocket.rocket");
     for (int i = 0; i < columns; i++)
-        fprintf(text, ", %s.\"%s\"", column[i]->per_rocket ? "rocket" : "sample", column[i]->name);
-    fprintf(text,
-            " FROM sample JOIN rocket USING (sample) WHERE sample.status = 'ok' AND sample.point = "
-            "? AND sample.sample <= ? ORDER BY sample.sample, rocket.rocket");
-    bool whole = fclose(text) == 0 && query;
-    sqlite3_stmt *row = whole ? store_prepare(&self->store, query, error) : NULL;
-    if (!whole)
-        no_memory(error);
-    free(query);
-    return row;
+        sqlite3_str_appendf(text, ", %s.\"%w\"", column[i]->per_rocket ? "rocket" : "sample",
+                            column[i]->name);
+    sqlite3_str_appendall(
+        text,
+        " FROM sample JOIN rocket USING (sample) WHERE sample.status = 'ok' AND sample.point = "
+        "? AND sample.sample <= ? ORDER BY sample.sample, rocket.rocket");
+    return store_prepare_built(&self->store, text, error);
 }
 
 // Of the samples numbered up to `last`.

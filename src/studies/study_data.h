@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "launchdyn/origin.h"
 #include "launchdyn/status.h"
 #include "launchdyn/study_data.h"
 #include "model/model.h"
@@ -35,6 +36,9 @@ ld_status study_data_open_damaged(const char *folder, study_data *data, ld_error
 void study_data_close(study_data *data);
 // The database that it reads.
 struct study_store *study_data_store(const study_data *data);
+
+// Where the study comes from; without a scenario where it does not say.
+ld_status study_data_origin(const study_data *data, ld_origin *origin, ld_error *error);
 
 // The column of that name; else NULL, with *nearest the name that may be meant, or NULL.
 const study_column *study_data_find(const study_data *data, const char *name, const char **nearest);

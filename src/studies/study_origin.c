@@ -5,6 +5,7 @@
 #include "model/source.h"
 #include "results/origin.h"
 #include "studies/store.h"
+#include "studies/study_data.h"
 
 static char *copy_of(const char *text, size_t length)
 {
@@ -55,6 +56,7 @@ static ld_status read_rows(study_store *store, ld_origin *origin, ld_error *erro
     return result == SQLITE_DONE ? LD_OK : store_fail(store, "read", error);
 }
 
+// Without a scenario where the study does not say.
 static ld_status read_origin(study_store *store, ld_origin *origin, ld_error *error)
 {
     origin->source = source_new("", NULL);
@@ -64,20 +66,32 @@ static ld_status read_origin(study_store *store, ld_origin *origin, ld_error *er
     ld_status status = store_view_text(&view, "resolved", &origin->scenario, error);
     if (!status)
         status = read_rows(store, origin, error);
-    if (status)
+    if (status || (origin->scenario && origin->source->file_count > 0))
         return status;
-    if (!origin->scenario)
-        return ld_fail(error, LD_ERR_INPUT, "%.300s is damaged: its scenario cannot be read",
-                       store->path);
-    if (origin->source->file_count == 0) {
-        source_free(origin->source);
-        origin->source = NULL;
-        return LD_OK;
+    source_free(origin->source);
+    origin->source = NULL;
+    return LD_OK;
+}
+
+// The same, with the scenario's name.
+static ld_status read_named_origin(study_store *store, ld_origin *origin, ld_error *error)
+{
+    *origin = (ld_origin){0};
+    ld_status status = read_origin(store, origin, error);
+    if (!status && origin->source) {
+        free(origin->source->name);
+        origin->source->name = strdup(origin->source->file[0]->name);
+        if (!origin->source->name)
+            status = ld_fail(error, LD_ERR_MEMORY, "no memory for the study's name");
     }
-    free(origin->source->name);
-    origin->source->name = strdup(origin->source->file[0]->name);
-    return origin->source->name ? LD_OK
-                                : ld_fail(error, LD_ERR_MEMORY, "no memory for the study's name");
+    if (status)
+        ld_origin_free(origin);
+    return status;
+}
+
+ld_status study_data_origin(const study_data *data, ld_origin *origin, ld_error *error)
+{
+    return read_named_origin(study_data_store(data), origin, error);
 }
 
 ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *error)
@@ -87,9 +101,12 @@ ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *
     ld_status status = store_open_to_read(&store, folder, error);
     if (status)
         return status;
-    status = read_origin(&store, origin, error);
-    store_close(&store);
-    if (status)
+    status = read_named_origin(&store, origin, error);
+    if (!status && !origin->scenario) {
         ld_origin_free(origin);
+        status = ld_fail(error, LD_ERR_INPUT, "%.300s is damaged: its scenario cannot be read",
+                         store.path);
+    }
+    store_close(&store);
     return status;
 }

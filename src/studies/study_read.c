@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory_stream.h"
 #include "scenario/scenario.h"
 #include "simulation/study_results.h"
 #include "studies/study.h"
@@ -11,7 +12,7 @@ static void name_point(ld_message *message, const ld_model *model, int point)
 {
     char *text = NULL;
     size_t length;
-    FILE *stream = open_memstream(&text, &length);
+    FILE *stream = memory_stream(&text, &length);
     if (!stream)
         return;
     fprintf(stream, "%s (point %d of the sweep", message->text, point);

@@ -65,6 +65,37 @@ void base_span(const base_system *self, double *first, double *last)
         self->kind->span(self, first, last);
 }
 
+// clang-format off
+static const quantity motions[] = {
+    {"base.x", "m", "place of the base in I", .at = QUANTITY_AT(base_inputs, motion[0])},
+    {"base.y", "m", "place of the base in I", .at = QUANTITY_AT(base_inputs, motion[1])},
+    {"base.z", "m", "place of the base in I", .at = QUANTITY_AT(base_inputs, motion[2])},
+    {"base.yaw", "rad", "yaw of the base", .at = QUANTITY_AT(base_inputs, motion[3])},
+    {"base.pitch", "rad", "pitch of the base", .at = QUANTITY_AT(base_inputs, motion[4])},
+    {"base.roll", "rad", "roll of the base", .at = QUANTITY_AT(base_inputs, motion[5])},
+};
+// clang-format on
+static const quantity_group motion_groups[] = {
+    {.title = "motion of the base", QUANTITY_ROWS(motions)},
+};
+const quantity_table base_motion_inputs = {motion_groups, 1};
+
+void base_frame_at(const double x[6], const double u[6], const m3 *mount, base_frame *tube)
+{
+    // A_base = Ry(yaw) Rz(pitch) Rx(roll); w = yaw' e_y + Ry (pitch' e_z + Rz roll' e_x)
+    m3 Ry = m3_rotation_y(x[3]), Rz = m3_rotation_z(x[4]), Rx = m3_rotation_x(x[5]);
+    m3 A = m3_mul(Ry, m3_mul(Rz, Rx));
+    v3 w = m3_apply(Rz, v3_make(u[5], 0, 0));
+    w.z += u[4];
+    w = m3_apply(Ry, w);
+    w.y += u[3];
+    tube->r = v3_make(x[0], x[1], x[2]);
+    tube->v = v3_make(u[0], u[1], u[2]);
+    tube->A = m3_mul(A, *mount);
+    tube->q = q_from_matrix(tube->A);
+    tube->w = w;
+}
+
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3])
 {
     if (self->kind->angles)

@@ -23,13 +23,28 @@ enum {
 
 typedef struct base_interface base_interface;
 
-// A base as it was built; a run has a copy (base_share) with `tube` and `level` of its own.
+// What may act on a base from outside, by name.
+typedef struct base_inputs {
+    double motion[6]; // [m], [rad] x, y, z, yaw, pitch, roll of a base that goes where it is told
+    double road[LD_MAX_WHEELS]; // [m] height under each wheel
+    double command[HINGES];     // [rad]
+    v3 force, moment;           // [N], [N m] on the chassis, in I, about its mass centre
+    v3 tube_force, tube_moment; // [N], [N m] on what holds the tube, in T, about its origin
+} base_inputs;
+
+// A base that is linearised is at rest on flat ground, whatever the scenario moves it by; what is
+// added to that, and its rate.
+typedef struct base_disturbance {
+    base_inputs input, rate;
+} base_disturbance;
+
+// A base as it was built; a run has a copy (base_share) with `tube` and `disturbed` of its own.
 typedef struct base_system {
     const base_interface *kind;
     const ld_model *model;
-    void *own;  // what the kind made of the model; constant but for its workspace
-    int tube;   // that launches now, in the order of firing
-    bool level; // on flat ground, whatever the road (linearisation)
+    void *own; // what the kind made of the model; constant but for its workspace
+    int tube;  // that launches now, in the order of firing
+    const base_disturbance *disturbed; // linearised; NULL: it goes as the scenario says
     int state_count, work_count, event_count;
     int speed_at, speed_count; // in the state: generalised speeds of what carries the tube
     int freedom_count;         // unknowns of its equilibrium
@@ -138,7 +153,11 @@ struct base_interface {
     void (*find)(const base_system *self, const base_found *found, const base_output *output,
                  const double *state, base_instant *instant);
     const base_dynamics *dynamics; // NULL: it has no motion of its own
+    const quantity_table *inputs;  // which of the base_inputs it has; NULL: none
 };
+
+// Those of a base that goes where it is told.
+extern const quantity_table base_motion_inputs;
 
 extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external;
 
@@ -154,6 +173,10 @@ void base_free_share(base_system *self);
 
 // First and last time [s] at which the base knows where it is.
 void base_span(const base_system *self, double *first, double *last);
+
+// Frame T of a base with these coordinates, x, y, z [m], yaw, pitch, roll [rad], and their rates u,
+// its tube mounted so: A_base,tube.
+void base_frame_at(const double x[6], const double u[6], const m3 *mount, base_frame *tube);
 
 // Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);

@@ -25,14 +25,23 @@ static void place(const base_system *self, double t, const double *state, base_f
 {
     (void)t, (void)state, (void)found;
     const base_frame *still = self->own;
-    *tube = *still;
+    const base_disturbance *disturbed = self->disturbed;
+    if (disturbed)
+        base_frame_at(disturbed->input.motion, disturbed->rate.motion, &still->A, tube);
+    else
+        *tube = *still;
 }
 
 static void angles(const base_system *self, double t, double angles[3])
 {
-    (void)self, (void)t;
-    angles[0] = angles[1] = angles[2] = 0;
+    (void)t;
+    for (int i = 0; i < 3; i++)
+        angles[i] = self->disturbed ? self->disturbed->input.motion[3 + i] : 0;
 }
 
-const base_interface base_fixed = {
-    .kind = LD_BASE_FIXED, .build = build, .free = release, .place = place, .angles = angles};
+const base_interface base_fixed = {.kind = LD_BASE_FIXED,
+                                   .build = build,
+                                   .free = release,
+                                   .place = place,
+                                   .angles = angles,
+                                   .inputs = &base_motion_inputs};

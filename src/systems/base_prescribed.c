@@ -1,6 +1,7 @@
 // A base that moves over time as the scenario says, at constant velocity, in sines and by a table.
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "math/spline.h"
 #include "systems/base.h"
@@ -44,26 +45,27 @@ static double coordinate(const base_motion *self, int i, double t, double *rate)
     return value;
 }
 
+// Where it is at time t; linearised it rests in the attitude of t, in the origin.
+static void coordinates(const base_system *base, double t, double x[6], double u[6])
+{
+    const base_disturbance *disturbed = base->disturbed;
+    for (int i = 0; i < 6; i++) {
+        x[i] = coordinate(base->own, i, t, &u[i]);
+        if (!disturbed)
+            continue;
+        x[i] = (i < 3 ? 0 : x[i]) + disturbed->input.motion[i];
+        u[i] = disturbed->rate.motion[i];
+    }
+}
+
 static void place(const base_system *base, double t, const double *state, base_frame *frame,
                   base_found *found)
 {
     (void)state, (void)found;
     const base_motion *self = base->own;
     double x[6], u[6];
-    for (int i = 0; i < 6; i++)
-        x[i] = coordinate(self, i, t, &u[i]);
-    // A_base = Ry(yaw) Rz(pitch) Rx(roll); w = yaw' e_y + Ry (pitch' e_z + Rz roll' e_x)
-    m3 Ry = m3_rotation_y(x[3]), Rz = m3_rotation_z(x[4]), Rx = m3_rotation_x(x[5]);
-    m3 A = m3_mul(Ry, m3_mul(Rz, Rx));
-    v3 w = m3_apply(Rz, v3_make(u[5], 0, 0));
-    w.z += u[4];
-    w = m3_apply(Ry, w);
-    w.y += u[3];
-    frame->r = v3_make(x[0], x[1], x[2]);
-    frame->v = v3_make(u[0], u[1], u[2]);
-    frame->A = m3_mul(A, self->mount);
-    frame->q = q_from_matrix(frame->A);
-    frame->w = w;
+    coordinates(base, t, x, u);
+    base_frame_at(x, u, &self->mount, frame);
 }
 
 static ld_status build_paths(base_motion *self, ld_error *error)
@@ -107,9 +109,9 @@ static void release(base_system *base)
 // Of the base itself, without azimuth and elevation.
 static void angles(const base_system *base, double t, double angles[3])
 {
-    double rate;
-    for (int i = 0; i < 3; i++)
-        angles[i] = coordinate(base->own, 3 + i, t, &rate);
+    double x[6], u[6];
+    coordinates(base, t, x, u);
+    memcpy(angles, x + 3, 3 * sizeof *angles);
 }
 
 static void span(const base_system *base, double *first, double *last)
@@ -125,4 +127,5 @@ const base_interface base_prescribed = {.kind = LD_BASE_PRESCRIBED,
                                         .free = release,
                                         .place = place,
                                         .angles = angles,
-                                        .span = span};
+                                        .span = span,
+                                        .inputs = &base_motion_inputs};

@@ -21,7 +21,7 @@ static const orientating_system *orientating_of(const base_system *self)
 static const marching_system *marching_of(const base_system *self)
 {
     const vehicle_system *vehicle = self->own;
-    return self->level ? &vehicle->level : &vehicle->marching;
+    return self->disturbed ? &vehicle->level : &vehicle->marching;
 }
 
 static int marching_at(const base_system *self)
@@ -150,6 +150,22 @@ static double next_corner(const base_system *self, double t)
                 corner_after(&platform->elevation.stabiliser.command, t));
 }
 
+// Adds what disturbs chassis and platforms.
+static void disturb(const base_disturbance *by, orientating_motion *motion,
+                    orientating_input *wrenches)
+{
+    const base_inputs *input = &by->input;
+    for (int i = 0; i < HINGES; i++) {
+        motion->hinge[i].command += input->command[i];
+        motion->hinge[i].command_rate += by->rate.command[i];
+        motion->hinge[i].error += input->command[i];
+    }
+    wrenches->chassis_force = v3_add(wrenches->chassis_force, input->force);
+    wrenches->chassis_moment = v3_add(wrenches->chassis_moment, input->moment);
+    wrenches->tube_force = v3_add(wrenches->tube_force, input->tube_force);
+    wrenches->tube_moment = v3_add(wrenches->tube_moment, input->tube_moment);
+}
+
 static double next_sample(const base_system *self, double t)
 {
     return orientating_next_sample(orientating_of(self), t);
@@ -167,8 +183,11 @@ static int evaluate(const base_system *self, const base_found *found, const base
     marching_output *marching = &report->marching;
     orientating_output orientating;
     orientating_motion motion = found->vehicle;
-    marching_evaluate(marching_of(self), &motion.chassis, load->held, state + marching_at(self),
-                      output->rate + marching_at(self), marching);
+    const base_disturbance *disturbed = self->disturbed;
+    road_disturbance ground = {disturbed ? disturbed->input.road : NULL,
+                               disturbed ? disturbed->rate.road : NULL};
+    marching_evaluate(marching_of(self), &motion.chassis, load->held, disturbed ? &ground : NULL,
+                      state + marching_at(self), output->rate + marching_at(self), marching);
     orientating_input wrenches = {
         .chassis_force = marching->force,
         .chassis_moment = marching->moment,
@@ -178,6 +197,8 @@ static int evaluate(const base_system *self, const base_found *found, const base
         .held = load->held,
         .linear = load->linear,
     };
+    if (disturbed)
+        disturb(disturbed, &motion, &wrenches);
     int outcome = orientating_evaluate(orientating_of(self), &wrenches, state, &motion,
                                        output->rate, &orientating);
     memcpy(report->hinge, motion.hinge, sizeof report->hinge);
@@ -320,8 +341,8 @@ static ld_status check_rest(const base_system *self, const base_found *found, co
     const ld_platform *platform = &self->model->platform;
     const ld_turret *turret[HINGES] = {&platform->azimuth, &platform->elevation};
     static const char *const names[HINGES] = {"azimuth", "elevation"};
-    marching_evaluate(marching_of(self), &found->vehicle.chassis, true, state + marching_at(self),
-                      unused, &marching);
+    marching_evaluate(marching_of(self), &found->vehicle.chassis, true, NULL,
+                      state + marching_at(self), unused, &marching);
     for (int j = 0; j < marching_of(self)->wheel_count; j++)
         if (!(marching.wheel[j].normal > 0))
             return ld_fail(
@@ -521,6 +542,37 @@ static const quantity_group quantity_groups[] = {
 static const quantity_table quantities = {quantity_groups,
                                           sizeof quantity_groups / sizeof *quantity_groups};
 
+// clang-format off
+#define INPUT(member) .at = QUANTITY_AT(base_inputs, member)
+#define INPUT_OF(array) .at = QUANTITY_EACH_OF(base_inputs, array)
+static const quantity roads[] = {
+    {"wheel.%s.road", "m", "height of the road under wheel %s", INPUT_OF(road)},
+};
+static const quantity commands[] = {
+    {"%s.command", "rad", "%s: commanded yaw or pitch", INPUT_OF(command)},
+};
+static const quantity forces[] = {
+    {"chassis.force_x", "N", "force on the chassis at its mass centre, in I", INPUT(force.x)},
+    {"chassis.force_y", "N", "force on the chassis at its mass centre, in I", INPUT(force.y)},
+    {"chassis.force_z", "N", "force on the chassis at its mass centre, in I", INPUT(force.z)},
+    {"chassis.moment_x", "N.m", "moment on the chassis, in I", INPUT(moment.x)},
+    {"chassis.moment_y", "N.m", "moment on the chassis, in I", INPUT(moment.y)},
+    {"chassis.moment_z", "N.m", "moment on the chassis, in I", INPUT(moment.z)},
+    {"platform.force_x", "N", "force on the elevation platform at the tube's rear end, along the tube", INPUT(tube_force.x)},
+    {"platform.force_y", "N", "force on the elevation platform at the tube's rear end, upwards from it", INPUT(tube_force.y)},
+    {"platform.force_z", "N", "force on the elevation platform at the tube's rear end, to its right", INPUT(tube_force.z)},
+    {"platform.moment_x", "N.m", "moment on the elevation platform about the tube's x", INPUT(tube_moment.x)},
+    {"platform.moment_y", "N.m", "moment on the elevation platform about the tube's y", INPUT(tube_moment.y)},
+    {"platform.moment_z", "N.m", "moment on the elevation platform about the tube's z", INPUT(tube_moment.z)},
+};
+// clang-format on
+static const quantity_group input_groups[] = {
+    {.title = "road", .each = EACH_WHEEL, QUANTITY_ROWS(roads)},
+    {.title = "commands", .each = EACH_HINGE, QUANTITY_ROWS(commands)},
+    {.title = "forces", .each = EACH_VEHICLE, QUANTITY_ROWS(forces)},
+};
+static const quantity_table inputs = {input_groups, sizeof input_groups / sizeof *input_groups};
+
 static void find(const base_system *base, const base_found *found, const base_output *output,
                  const double *state, base_instant *instant)
 {
@@ -547,4 +599,5 @@ const base_interface base_vehicle = {
     .quantities = &quantities,
     .find = find,
     .dynamics = &dynamics,
+    .inputs = &inputs,
 };

@@ -6,6 +6,7 @@ typedef struct carrier {
     const base_frame *frame;
     double x, z;
     double drive; // [N] on each driven wheel
+    const road_disturbance *disturbed;
 } carrier;
 
 ld_status marching_build(marching_system *self, const ld_vehicle *model, double gravity, double x0,
@@ -84,7 +85,12 @@ static v3 tyre_force(const marching_system *self, const carrier *on, int j, cons
 
     // vertical, also on a slope
     double h = road_height(self->road, self->track[j], r.x, &report->slope);
-    double p = h + tyre->radius - r.y, p_dot = report->slope * v.x - v.y;
+    double h_dot = report->slope * v.x;
+    if (on->disturbed) {
+        h += on->disturbed->height[j];
+        h_dot += on->disturbed->rate[j];
+    }
+    double p = h + tyre->radius - r.y, p_dot = h_dot - v.y;
     double normal = tyre->stiffness[1] * p + tyre->damping[1] * p_dot;
     normal = p > 0 && normal > 0 ? normal : 0;
     report->height = h;
@@ -122,7 +128,8 @@ static v3 tyre_force(const marching_system *self, const carrier *on, int j, cons
 }
 
 void marching_evaluate(const marching_system *self, const base_frame *chassis, bool held,
-                       const double *state, double *state_dot, marching_output *output)
+                       const road_disturbance *disturbed, const double *state, double *state_dot,
+                       marching_output *output)
 {
     int drive_at = WHEEL_STATES * self->wheel_count;
     output->force = output->moment = v3_zero();
@@ -131,7 +138,7 @@ void marching_evaluate(const marching_system *self, const base_frame *chassis, b
         output->power[k] = 0;
 
     // heading; drive F = kp (speed - v) + ki z_d, no force while parked
-    carrier on = {.frame = chassis};
+    carrier on = {.frame = chassis, .disturbed = disturbed};
     double x = chassis->A.a[0][0], z = chassis->A.a[2][0], length = sqrt(x * x + z * z);
     on.x = x / length;
     on.z = z / length;

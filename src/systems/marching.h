@@ -58,10 +58,18 @@ ld_status marching_build(marching_system *self, const ld_vehicle *model, double 
                          double x1, ld_error *error);
 void marching_free(marching_system *self);
 
+// What is added to the road's height under each wheel [m], and the rate [m/s] at which it meets
+// that.
+typedef struct road_disturbance {
+    const double *height, *rate; // [wheel_count]
+} road_disturbance;
+
 // Rates of the state, and the wrench on the chassis, whose frame (r: mass centre) is given; `held`:
-// the drive gives nothing (equilibrium, where all stands still).
+// the drive gives nothing (equilibrium, where all stands still). `disturbed`: of the linearised
+// equations; NULL: the road is as it is.
 void marching_evaluate(const marching_system *self, const base_frame *chassis, bool held,
-                       const double *state, double *state_dot, marching_output *output);
+                       const road_disturbance *disturbed, const double *state, double *state_dot,
+                       marching_output *output);
 
 // [J] of the wheels.
 double marching_kinetic_energy(const marching_system *self, const double *state);

@@ -9,6 +9,7 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
 #include "launchdyn/report.h"
+#include "launchdyn/response_view.h"
 #include "launchdyn/results.h"
 #include "launchdyn/run.h"
 #include "launchdyn/scenario.h"
@@ -26,6 +27,7 @@
 
 // Asked for by the caller: may grow into what is reserved.
 SIZE(ld_picture, 80);
+SIZE(ld_response_wish, 96);
 SIZE(ld_run_options, 64);
 SIZE(ld_sink, 72);
 SIZE(ld_study_options, 72);
@@ -56,6 +58,7 @@ SIZE(ld_message, 40);
 SIZE(ld_messages, 16);
 SIZE(ld_mode, 88);
 SIZE(ld_origin, 40);
+SIZE(ld_phasor, 16);
 SIZE(ld_pole, 80);
 SIZE(ld_report, 2072);
 SIZE(ld_section, 96);

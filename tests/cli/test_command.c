@@ -26,7 +26,7 @@ static void test_help_and_version(void **state)
     assert_int_equal(run("launchdyn --version"), 0);
     assert_memory_equal(shell.out, "launchdyn ", 10);
     assert_int_equal(run("launchdyn help"), 0);
-    expect_in(shell.out, "  modes   FILE       List natural frequencies");
+    expect_in(shell.out, "  modes     FILE       List natural frequencies");
     assert_string_equal(shell.err, "");
     assert_int_equal(run("launchdyn help >a; launchdyn --help >b; cmp a b"), 0);
     assert_int_equal(run("launchdyn help run"), 0);
@@ -42,8 +42,8 @@ static void test_help_and_version(void **state)
     // a space at least between a command's arguments and what it does
     assert_int_equal(run("launchdyn help | grep -E 'DIR[A-Z]|FILE[A-Z]|\\][A-Z]'"), 1);
     assert_int_equal(run("launchdyn help"), 0);
-    expect_in(shell.out, "  study   FILE | show DIR | export DIR | merge DIR\n"
-                         "                     Run the samples of a scattered scenario");
+    expect_in(shell.out, "  study     FILE | show DIR | export DIR | merge DIR\n"
+                         "                       Run the samples of a scattered scenario");
 }
 
 static void test_wrong_words(void **state)
@@ -378,6 +378,87 @@ static void test_modes_table(void **state)
                  50);
 }
 
+// The number that stands in the line of a quantity after its unit.
+static double number_of(const char *name)
+{
+    const char *row = strstr(shell.out, name);
+    assert_non_null(row);
+    row += strcspn(row, " ");
+    row += strspn(row, " ");
+    return strtod(row + strcspn(row, " "), NULL);
+}
+
+static void test_response(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn response examples/reference.yaml --out a/c --plot a/c/s.svg "
+                         "--what chassis.vy,elevation.torque"),
+                     0);
+    expect_in(shell.out, "Response to a road of class A, tracks same, 30 km/h; linear about the "
+                         "equilibrium, no Coulomb friction\n");
+    CHECK_WITHIN("rms of chassis.vy [mm/s]", number_of("chassis.vy"), 12.2, 12.3);
+    CHECK_WITHIN("of elevation.torque [N m]", number_of("elevation.torque"), 274, 276);
+    assert_int_equal(run("launchdyn response examples/reference.yaml --speeds '0:60:20 km/h' "
+                         "--what chassis.vy --out a/d"),
+                     0);
+    expect_in(shell.out, "at               0 km/h      60 km/h     greatest  at [km/h]\n");
+    assert_int_equal(run("launchdyn response examples/fixed.yaml -i base.y -w tip.inertial_y "
+                         "--from 0.01 --to 10 -o a/d -p a/d/g.svg"),
+                     0);
+    expect_in(shell.out, "Response to base.y; linear");
+    assert_int_equal(run("ls a/c a/d; for f in a/c/*.csv a/d/*.csv; do head -n 1 $f; done; "
+                         "wc -l <a/d/response-rms.csv; sed -n 2p a/d/response-rms.csv"),
+                     0);
+    assert_string_equal(shell.out,
+                        "a/c:\nresponse-rms.csv\nresponse-spectrum.csv\ns.svg\n\n"
+                        "a/d:\ng.svg\nresponse-frequency.csv\nresponse-rms.csv\n"
+                        "speed [m/s],chassis.vy [m/s],elevation.torque [N.m]\n"
+                        "frequency [Hz],chassis.vy [(m/s)2/Hz],elevation.torque [(N.m)2/Hz]\n"
+                        "frequency [Hz],tip.inertial_y.amplitude [m per m],"
+                        "tip.inertial_y.phase [rad]\n"
+                        "speed [m/s],chassis.vy [m/s]\n5\n0,0\n");
+    assert_int_equal(run("launchdyn response examples/reference.yaml --list"), 0);
+    expect_in(shell.out, "Inputs\n  road ");
+    expect_in(shell.out, "  elevation.command                rad        elevation: commanded");
+    expect_in(shell.out, "\n\nQuantities\n  t ");
+}
+
+static void test_response_of_what_is_not_there(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *said;
+    } wrong[] = {
+        {"examples/reference.yaml --speeds 0:60",
+         "launchdyn: --speeds wants FROM:TO:STEP in km/h, such as 0:60:1, and not \"0:60\"\n"},
+        {"examples/reference.yaml --speeds 10:60:0",
+         "launchdyn: speeds from 10 km/h to 60 km/h by 0 km/h are none, or more than 10000\n"},
+        {"examples/reference.yaml --speeds 10:60:5 -i road",
+         "launchdyn: a frequency response is one at one speed: speeds go with the road alone\n"},
+        {"examples/reference.yaml -w tip.pich",
+         "launchdyn: unknown quantity \"tip.pich\", did you mean \"tip.pitch\"?\n"},
+        {"examples/reference.yaml -i elevation.comand",
+         "launchdyn: unknown input \"elevation.comand\", did you mean \"elevation.command\"?\n"},
+        {"examples/reference.yaml -i road --from 5 --to 2",
+         "launchdyn: 5 Hz to 2 Hz is no range of frequencies: it goes up, from above 0\n"},
+        {"examples/fixed.yaml",
+         "launchdyn: the base is no vehicle on a road: a response wants the name of an input "
+         "(launchdyn response --list lists them)\n"},
+        {"examples/flight.yaml", "launchdyn: a flight alone has no launcher, and no response\n"},
+        {"examples/reference.yaml --set base.speed='0 km/h'",
+         "launchdyn: the road does nothing to a vehicle that stands: it takes a speed above 0\n"},
+        {"examples/reference.yaml -w all -p a.svg",
+         "launchdyn: a page has room for 8 charts of 6 quantities of one unit each: name fewer "
+         "quantities\n"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char line[256];
+        snprintf(line, sizeof line, "launchdyn response %s", wrong[i].line);
+        assert_int_equal(run(line), 2);
+        assert_string_equal(shell.err, wrong[i].said);
+    }
+}
+
 static void test_road(void **state)
 {
     (void)state;
@@ -480,6 +561,8 @@ int main(void)
         TEST(test_interrupted),
         TEST(test_killed_at_work),
         TEST(test_modes_table),
+        TEST(test_response),
+        TEST(test_response_of_what_is_not_there),
         TEST(test_road),
         TEST(test_wind),
     };

@@ -44,6 +44,7 @@ typedef struct verb {
 
 static const verb verbs[] = {
     {"check", SCENARIO, "check s.yaml", "", NULL},
+    {"modes", SCENARIO, "modes s.yaml", "", NULL},
     {"run", SCENARIO, "run s.yaml --out o --csv", "memory", NULL},
     {"run again", RUN, "run --again o --out p", "memory", NULL},
     {"plot", RUN, "plot o -o x.svg", "memory", NULL},
@@ -478,8 +479,8 @@ static void test_commands(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_no_more_memory, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(test_commands, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(test_no_more_memory, shell_make, shell_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -561,8 +561,13 @@ static void test_truncated(void **state)
     assert_int_equal(run("truncate -s 150000 cut/study.db"), 0);
     const char *folders[] = {in("cut"), in("whole")};
     ld_report report;
-    char *page = report_of(folders, 2, &report);
-    assert_true(report.note_count > 0);
+    ld_error error = {.text = ""};
+    assert_int_equal(ld_report_write_studies(folders, 2, in("report.html"), &report, &error),
+                     LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "cut/study.db is damaged: "));
+    assert_non_null(strstr(error.text, "; the report shows the rest"));
+    char *page = read_page(in("report.html"));
+    assert_true(report.bytes > 0 && report.note_count > 0);
     for (int i = 0; i < report.note_count; i++)
         printf("    %s\n", report.note[i]);
     assert_non_null(strstr(report.note[0], "cut"));

@@ -17,6 +17,7 @@
 #include "launchdyn/simulation.h"
 #include "launchdyn/summary.h"
 #include "results/history.h"
+#include "results/manifest.h"
 
 // HDF5 itself loses memory on some damage.
 const char *__lsan_default_suppressions(void);
@@ -263,6 +264,30 @@ static void test_a_history_alone(void **state)
     free(whole.at);
 }
 
+// The bit that led HDF5 into a heap of texts that was none: byte 4125 of a run's history.
+static void test_byte_4125(void **state)
+{
+    (void)state;
+    char path[128];
+    ld_error error;
+    int code = CRASHED;
+    snprintf(path, sizeof path, "%s", in("run/history.h5"));
+    bytes whole = read_bytes(path);
+    assert_int_equal(history_read(path, &intact, NULL), LD_OK);
+    whole.at[4125] ^= 0x40;
+    write_bytes(path, whole.at, whole.count);
+    assert_int_equal(look(report), LD_ERR_INPUT);
+    assert_int_equal(look(plot), LD_ERR_INPUT);
+    assert_int_equal(look(read_origin), LD_ERR_INPUT);
+    if (ld_child_run(read_alone, path, &code, &error))
+        fail_msg("%s", error.text);
+    assert_in_range(code, SAME, REFUSED);
+    whole.at[4125] ^= 0x40;
+    write_bytes(path, whole.at, whole.count);
+    history_free(&intact);
+    free(whole.at);
+}
+
 // ---- what is said
 
 static void expect_report(const char *line, ld_status status, const char *text, const char *note)
@@ -334,6 +359,38 @@ static void test_earlier_version(void **state)
                   "No summary");
     expect_report(EARLIER " && printf '\\0' >>run/summary.json", LD_ERR_INPUT, "it is no text",
                   "No summary");
+    // no digest is kept of the history, which HDF5 then refuses
+    expect_report(EARLIER " && truncate -s 70000 run/history.h5", LD_ERR_INPUT,
+                  "/run/history.h5: truncated file", "No plots: cannot read ");
+}
+
+// A summary under a digest that holds, written by hand.
+static void seal_summary(const char *text)
+{
+    FILE *file = fopen(in("sealed.json"), "w");
+    assert_non_null(file);
+    manifest_seal(file, text, strlen(text));
+    assert_int_equal(fclose(file), 0);
+}
+
+static void test_other_formats(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *format, *text;
+    } formats[] = {{"\"2\"", "summary.json is damaged: \"format\" is no whole number"},
+                   {"2.5", "summary.json is damaged: \"format\" is no whole number"},
+                   {"99", "summary.json is damaged: it is of format 99, and this program reads 2"}};
+    for (int i = 0; i < 3; i++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "{\n  \"format\": %s,\n  \"title\": \"x\", \"version\": \"0.1\", "
+                 "\"complete\": true, \"t_end\": 1, \"rockets\": [],\n",
+                 formats[i].format);
+        seal_summary(text);
+        expect_report("cp sealed.json run/summary.json", LD_ERR_INPUT, formats[i].text,
+                      "No summary");
+    }
 }
 
 // What a killed run left goes to no other one.
@@ -362,6 +419,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_flips_and_cuts),        cmocka_unit_test(test_a_history_alone),
         cmocka_unit_test(test_what_is_said),          cmocka_unit_test(test_earlier_version),
+        cmocka_unit_test(test_other_formats),         cmocka_unit_test(test_byte_4125),
         cmocka_unit_test(test_parts_of_a_killed_run),
     };
     return cmocka_run_group_tests(tests, make_runs, scratch_remove);

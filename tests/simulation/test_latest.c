@@ -85,6 +85,7 @@ static void other_states_are_seen(void **state)
 
 static void other_conditions_are_seen(void **state)
 {
+    static const base_disturbance none;
     (void)state;
     bench b;
     reference_vehicle(&b.model, 8);
@@ -106,7 +107,7 @@ static void other_conditions_are_seen(void **state)
     assert_true(SEEN_AFTER(&b, self->phase.locked = false));
     assert_true(SEEN_AFTER(&b, self->rest.hinge[HINGE_ELEVATION].angle += 1e-4));
     assert_true(SEEN_AFTER(&b, self->rest.hinge[HINGE_ELEVATION].torque += 10));
-    assert_true(SEEN_AFTER(&b, self->launcher.base.level = true));
+    assert_true(SEEN_AFTER(&b, self->launcher.base.disturbed = &none));
     assert_true(SEEN_AFTER(&b, self->piece = -1));
     assert_true(SEEN_AFTER(&b, self->piece = 0));
     assert_true(SEEN_AFTER(&b, self->t_ignition += 0.295));

@@ -123,7 +123,7 @@ static int check_state(const fixture *f, const flight *path, const double *state
     const base_frame *chassis = &path->frame;
     double dot[STATES], near[STATES], scratch[STATES];
     marching_output out, side[2];
-    marching_evaluate(&f->system, chassis, false, state, dot, &out);
+    marching_evaluate(&f->system, chassis, false, NULL, state, dot, &out);
 
     // elastic energy and travel a little before and after
     const double h = 1e-6;
@@ -136,7 +136,7 @@ static int check_state(const fixture *f, const flight *path, const double *state
                      v3_axpy(v3_from(near + WHEEL_STATES * j), 0.5 * step * step,
                              v3_from(dot + WHEEL_STATES * j + WHEEL_V)));
         base_frame frame = frame_after(path, step);
-        marching_evaluate(&f->system, &frame, false, near, scratch, &side[k]);
+        marching_evaluate(&f->system, &frame, false, NULL, near, scratch, &side[k]);
     }
     double change = (side[1].elastic - side[0].elastic) / (2 * h), elastic = 0;
     double size = fabs(change), power = 0;
@@ -232,15 +232,15 @@ static void test_tyre_on_slope(void **context)
         draw_wheels(&f, &seed, &chassis, state);
         for (int j = 0; j < WHEELS; j++)
             state[WHEEL_STATES * j + WHEEL_R + 1] = 0.4;
-        marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+        marching_evaluate(&f.system, &chassis, false, NULL, state, dot, &out);
         const double h = 1e-6;
-        double moved[STATES], scratch[STATES], change[WHEELS];
+        double moved[STATES], scratch[STATES], change[WHEELS] = {0};
         for (int k = -1; k <= 1; k += 2) {
             for (int i = 0; i < STATES; i++)
                 moved[i] = state[i] + k * h * dot[i];
-            marching_evaluate(&f.system, &chassis, false, moved, scratch, &near);
+            marching_evaluate(&f.system, &chassis, false, NULL, moved, scratch, &near);
             for (int j = 0; j < WHEELS; j++)
-                change[j] = (k < 0 ? 0 : change[j]) + k * near.wheel[j].deflection / (2 * h);
+                change[j] += k * near.wheel[j].deflection / (2 * h);
         }
         for (int j = 0; j < WHEELS; j++) {
             double p_dot = (out.wheel[j].normal - 1.1e6 * out.wheel[j].deflection) / 4e3;
@@ -264,7 +264,7 @@ static void test_tracks(void **context)
     double state[STATES], dot[STATES];
     marching_output out;
     marching_place(&f.system, &chassis, state);
-    marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+    marching_evaluate(&f.system, &chassis, false, NULL, state, dot, &out);
     for (int j = 0; j < WHEELS; j++) {
         double x = f.vehicle->wheel[j].mount[0];
         double bump = 0.015 * (1 - cos(2 * PI * (x + 4) / 8));
@@ -301,7 +301,7 @@ static void test_unilateral(void **context)
         state[WHEEL_R + 1] = row[k].y;
         state[WHEEL_V + 1] = row[k].v;
         state[WHEEL_ETA] = 0.01;
-        marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+        marching_evaluate(&f.system, &chassis, false, NULL, state, dot, &out);
         CHECK_NEAR("normal force [N]", out.wheel[0].normal, row[k].normal, 2e-10);
         if (row[k].normal == 0)
             CHECK_BELOW("no side force either", fabs(out.wheel[0].side), 0);
@@ -324,7 +324,7 @@ static void test_static_deflection(void **context)
     marching_place(&f.system, &chassis, state);
     for (int j = 0; j < WHEELS; j++)
         state[WHEEL_STATES * j + WHEEL_R + 1] += spring;
-    marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+    marching_evaluate(&f.system, &chassis, false, NULL, state, dot, &out);
     for (int k = 0; k < STATES; k++)
         fastest = worst(fastest, dot[k]);
     CHECK_BELOW("acceleration of wheels [m/s2]", fastest, 1e-11);
@@ -357,7 +357,7 @@ static void test_quarter_car(void **context)
                 chassis.r.y += change;
             for (int j = 0; j < WHEELS && column == 1; j++)
                 state[WHEEL_STATES * j + WHEEL_R + 1] += change;
-            marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+            marching_evaluate(&f.system, &chassis, false, NULL, state, dot, &out);
             acceleration[k][0] = out.force.y / M;
             acceleration[k][1] = dot[WHEEL_V + 1];
         }
@@ -393,7 +393,7 @@ static void test_bump_stops(void **context)
     for (int k = 0; k < 5; k++) {
         marching_place(&f.system, &chassis, state);
         state[WHEEL_R + 2] -= travel[k];
-        marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+        marching_evaluate(&f.system, &chassis, false, NULL, state, dot, &out);
         double force = -4e5 * travel[k] + stop[k];
         CHECK_NEAR("travel [m]", out.wheel[0].travel.y, travel[k], 1e-15);
         CHECK_NEAR("force along the chassis' y axis [N]", out.wheel[0].suspension.y, force, 1e-8);
@@ -418,7 +418,7 @@ static double side_by_side(const fixture *f, v3 v, double eta, double xi, double
         state[WHEEL_STATES * j + WHEEL_ETA] = eta;
         state[WHEEL_STATES * j + WHEEL_XI] = xi;
     }
-    marching_evaluate(&f->system, &chassis, false, state, dot, out);
+    marching_evaluate(&f->system, &chassis, false, NULL, state, dot, out);
     *eta_dot = dot[WHEEL_ETA];
     assert_true(f->system.parked || dot[WHEEL_XI] == 0);
     return out->wheel[0].side;
@@ -558,7 +558,7 @@ static void test_drive_step(void **context)
             for (int j = 0; j < WHEELS; j++)
                 state[WHEEL_STATES * j + WHEEL_R + 1] = 0.54;
             state[Z_D] = z;
-            marching_evaluate(&f.system, &chassis, false, state, dot, &out);
+            marching_evaluate(&f.system, &chassis, false, NULL, state, dot, &out);
             k[stage][0] = out.drive_force / M;
             k[stage][1] = dot[Z_D];
             for (int j = 0; j < WHEELS; j++) {
@@ -576,7 +576,7 @@ static void test_drive_step(void **context)
     double state[STATES], dot[STATES];
     marching_output out;
     marching_place(&f.system, &chassis, state);
-    marching_evaluate(&f.system, &chassis, true, state, dot, &out);
+    marching_evaluate(&f.system, &chassis, true, NULL, state, dot, &out);
     CHECK_BELOW("force of a held drive [N]", out.drive_force + out.wheel[5].along, 0);
     CHECK_BELOW("speed's lag against the closed form [m/s]", error, 1e-8);
     CHECK_BELOW("half the force on each of two driven wheels [N]", share_error, 1e-8);

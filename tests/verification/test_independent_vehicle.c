@@ -124,7 +124,7 @@ static void compare(fast_vehicle *fast, const dense_vehicle *vehicle, const vehi
     orientating_output hinge_forces;
     double marching[DENSE_MARCHING_STATES], orientating[ORIENTATING_STATES];
     orientating_motion_at(&fast->orientating, c->t, c->orientating, &motion);
-    marching_evaluate(&fast->marching, &motion.chassis, false, c->marching, marching,
+    marching_evaluate(&fast->marching, &motion.chassis, false, NULL, c->marching, marching,
                       &wheel_forces);
     orientating_input input = {.chassis_force = wheel_forces.force,
                                .chassis_moment = wheel_forces.moment,

@@ -1,0 +1,130 @@
+// launchdyn response: what a scenario's launcher answers to small motions of its road, its base,
+// its commands and to forces.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "launchdyn/response_view.h"
+
+enum { MOST = 1024 };
+
+typedef struct response_wishes {
+    char **sets;
+    char *what, *speeds;
+    char *folder, *picture; // NULL: not wanted
+    int list;
+    ld_response_wish wish;
+} response_wishes;
+
+static void print_names(const char *title, const ld_column *columns, size_t count)
+{
+    puts(title);
+    for (size_t i = 0; i < count; i++)
+        printf("  %-32s %-10s %s\n", columns[i].name, columns[i].unit, columns[i].description);
+}
+
+static int list_names(const ld_model *model)
+{
+    ld_response *response;
+    ld_error error;
+    const ld_column *columns;
+    ld_status status = ld_response_create(model, NAN, NAN, &response, &error);
+    if (status)
+        return command_fail_on(model, status, &error);
+    size_t count = ld_response_inputs(response, &columns);
+    print_names("Inputs", columns, count);
+    count = ld_response_columns(response, &columns);
+    print_names("\nQuantities", columns, count);
+    ld_response_free(response);
+    return 0;
+}
+
+static int show_response(const ld_model *model, void *data)
+{
+    const response_wishes *wishes = data;
+    ld_response_view *view = NULL;
+    ld_error error;
+    if (wishes->list)
+        return list_names(model);
+    ld_status status = ld_response_view_create(model, &wishes->wish, &view, &error);
+    if (!status && wishes->folder)
+        status = ld_response_view_write(view, wishes->folder, &error);
+    if (!status && wishes->picture)
+        status = ld_response_view_draw(view, wishes->picture, &error);
+    if (!status)
+        ld_response_view_print(view, stdout);
+    ld_response_view_free(view);
+    return status ? command_fail_on(model, status, &error) : 0;
+}
+
+// Parts the list at its commas, in place.
+static size_t split(char *list, const char *names[MOST])
+{
+    size_t count = 0;
+    for (char *name = list ? strtok(list, ",") : NULL; name && count < MOST;
+         name = strtok(NULL, ","))
+        names[count++] = name;
+    return count;
+}
+
+// FROM:TO:STEP in km/h.
+static bool read_speeds(const char *text, ld_response_wish *wish)
+{
+    double number[3];
+    char *end;
+    for (int i = 0; i < 3; i++) {
+        number[i] = strtod(text, &end) / 3.6;
+        if (end == text || !isfinite(number[i]) || (i < 2 && *end != ':'))
+            return false;
+        text = end + 1;
+    }
+    wish->slowest = number[0];
+    wish->fastest = number[1];
+    wish->step = number[2];
+    return *end == '\0' || strcmp(end, " km/h") == 0 || strcmp(end, "km/h") == 0;
+}
+
+int command_response(const command *self, int argc, char **argv)
+{
+    response_wishes wishes = {.wish = {.from = NAN, .to = NAN, .step = NAN}};
+    char *input = NULL;
+    const command_option options[] = {
+        COMMAND_SETS(&wishes.sets),
+        {"what", 'w', OPTION_TEXT, &wishes.what,
+         "Quantities: columns of the history (all: all of them; without: a choice)", "NAME,..."},
+        {"input", 'i', OPTION_TEXT, &input,
+         "Frequency response from this input, in place of what the road does", "NAME"},
+        {"speeds", '\0', OPTION_TEXT, &wishes.speeds,
+         "Root mean squares at these speeds in km/h, such as 0:60:1", "FROM:TO:STEP"},
+        {"from", '\0', OPTION_NUMBER, &wishes.wish.from, "Lowest frequency in Hz (0.2)", "HZ"},
+        {"to", '\0', OPTION_NUMBER, &wishes.wish.to, "Highest frequency in Hz (50)", "HZ"},
+        {"list", 'l', OPTION_FLAG, &wishes.list, "List inputs and quantities by name, and stop",
+         NULL},
+        {"out", 'o', OPTION_TEXT, &wishes.folder,
+         "Write response-rms.csv and response-spectrum.csv, or response-frequency.csv, into this "
+         "folder",
+         "DIR"},
+        {"plot", 'p', OPTION_TEXT, &wishes.picture,
+         "Draw it with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
+        COMMAND_HELP,
+        COMMAND_END};
+    static const char *names[MOST];
+    command_line line;
+    int code = 0;
+    if (!command_line_read(&line, self, argc, argv, options, 1, &code))
+        return code;
+    wishes.wish.input = input;
+    wishes.wish.what = names;
+    wishes.wish.what_count = split(wishes.what, names);
+    if (wishes.speeds && !read_speeds(wishes.speeds, &wishes.wish)) {
+        command_complain("--speeds wants FROM:TO:STEP in km/h, such as 0:60:1, and not \"%s\"",
+                         wishes.speeds);
+        code = EXIT_INPUT;
+    } else {
+        code = command_on_file(line.word[0], wishes.sets, show_response, &wishes);
+    }
+    options_end(&line);
+    return code;
+}

@@ -1,0 +1,598 @@
+// Linear responses to look at: as tables, files and charts.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "figures/chart.h"
+#include "launchdyn/response_view.h"
+#include "model/model.h"
+#include "results/columns.h"
+
+enum { POINTS = 600, MOST_SPEEDS = 10000, CHARTS = 8, CURVES = 6, NAME = 128 };
+
+static const double KMH = 3.6, PI = 3.141592653589793238462643383280;
+static const double DEGREE = 57.295779513082320876798154814105;
+
+typedef enum view_kind { FREQUENCY, SPECTRUM, SPEEDS } view_kind;
+
+struct ld_response_view {
+    const ld_model *model;
+    ld_response *response;
+    view_kind kind;
+    const ld_column *input; // of a frequency response
+    const ld_column **column;
+    size_t columns;
+    double slowest, fastest; // [m/s]
+    size_t count, speeds;
+    double *x;                 // [count] frequencies [Hz]
+    double *value, *phase;     // [columns][count] amplitude and phase, or density
+    double *speed, *rms, *top; // [speeds] [m/s], [columns][speeds], and where most comes from [Hz]
+};
+
+// ---- what is looked at ----
+
+static const char *const on_vehicle[] = {
+    "chassis.vy",
+    "chassis.pitch",
+    "chassis.roll",
+    "elevation.error",
+    "azimuth.error",
+    "elevation.torque",
+    "azimuth.torque",
+    "tip.inertial_vy",
+    "tip.inertial_vz",
+    "tip.inertial_pitch_rate",
+    "tip.inertial_yaw_rate",
+    "tip.y",
+    "tip.z",
+    "rocket.psi",
+    "rocket.theta",
+    "lock.force",
+};
+static const char *const on_others[] = {
+    "tip.y",        "tip.z",        "tip.pitch_rate", "tip.yaw_rate", "rocket.psi",
+    "rocket.theta", "rocket.pitch", "rocket.yaw",     "lock.force",
+};
+
+static ld_status no_memory(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for the linear response");
+}
+
+static ld_status choose_all(ld_response_view *view, ld_error *error)
+{
+    const ld_column *columns;
+    size_t count = ld_response_columns(view->response, &columns);
+    const char **names = malloc(count * sizeof *names);
+    if (!names)
+        return no_memory(error);
+    // all but the clock and the phase of the launch
+    for (size_t i = 2; i < count; i++)
+        names[i - 2] = columns[i].name;
+    view->columns = count - 2;
+    ld_status status = ld_response_choose(view->response, names, view->columns, error);
+    view->column = malloc(view->columns * sizeof *view->column);
+    for (size_t i = 0; i < view->columns && view->column; i++)
+        view->column[i] = &columns[i + 2];
+    free(names);
+    return status || view->column ? status : no_memory(error);
+}
+
+static ld_status choose(ld_response_view *view, const char *const *names, size_t count,
+                        ld_error *error)
+{
+    const ld_column *columns;
+    size_t all = ld_response_columns(view->response, &columns);
+    ld_status status = ld_response_choose(view->response, names, count, error);
+    if (status)
+        return status;
+    view->column = malloc((count + 1) * sizeof *view->column);
+    if (!view->column)
+        return no_memory(error);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < all; k++)
+            if (strcmp(columns[k].name, names[i]) == 0)
+                view->column[i] = &columns[k];
+    view->columns = count;
+    return LD_OK;
+}
+
+static ld_status choose_wished(ld_response_view *view, const ld_response_wish *wish,
+                               ld_error *error)
+{
+    if (wish->what_count == 1 && strcmp(wish->what[0], "all") == 0)
+        return choose_all(view, error);
+    if (wish->what_count > 0)
+        return choose(view, wish->what, wish->what_count, error);
+    if (model_has_vehicle(view->model))
+        return choose(view, on_vehicle, sizeof on_vehicle / sizeof *on_vehicle, error);
+    return choose(view, on_others, sizeof on_others / sizeof *on_others, error);
+}
+
+static ld_status find_input(ld_response_view *view, const char *name, ld_error *error)
+{
+    const ld_column *inputs;
+    size_t count = ld_response_inputs(view->response, &inputs);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(inputs[i].name, name) == 0)
+            view->input = &inputs[i];
+    if (view->input)
+        return LD_OK;
+    // its sentence says which one may be meant
+    return ld_response_gain(view->response, view->slowest, name, NULL, 0, NULL, error);
+}
+
+// ---- numbers ----
+
+// Frequencies, equal in their logarithm.
+static ld_status set_frequencies(ld_response_view *view, double from, double to, ld_error *error)
+{
+    from = isnan(from) ? 0.2 : from;
+    to = isnan(to) ? 50 : to;
+    if (!(from > 0 && to > from && isfinite(to)))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "%g Hz to %g Hz is no range of frequencies: it goes up, from above 0", from,
+                       to);
+    view->count = POINTS;
+    view->x = malloc((1 + 2 * view->columns) * POINTS * sizeof(double));
+    if (!view->x)
+        return no_memory(error);
+    view->value = view->x + POINTS;
+    view->phase = view->value + view->columns * POINTS;
+    for (int i = 0; i < POINTS; i++)
+        view->x[i] = from * pow(to / from, i / (POINTS - 1.0));
+    return LD_OK;
+}
+
+static ld_status fill_frequency(ld_response_view *view, ld_error *error)
+{
+    ld_phasor *gain = malloc((view->columns * POINTS + 1) * sizeof *gain);
+    if (!gain)
+        return no_memory(error);
+    ld_status status = ld_response_gain(view->response, view->slowest, view->input->name, view->x,
+                                        POINTS, gain, error);
+    for (size_t i = 0; i < view->columns && !status; i++)
+        for (size_t k = 0; k < POINTS; k++) {
+            ld_phasor g = gain[k * view->columns + i];
+            view->value[i * POINTS + k] = hypot(g.real, g.imaginary);
+            view->phase[i * POINTS + k] = atan2(g.imaginary, g.real);
+        }
+    free(gain);
+    return status;
+}
+
+static ld_status fill_spectrum(ld_response_view *view, ld_error *error)
+{
+    double *density = malloc((view->columns * POINTS + 1) * sizeof *density);
+    if (!density)
+        return no_memory(error);
+    ld_status status =
+        ld_response_density(view->response, view->slowest, view->x, POINTS, density, error);
+    for (size_t i = 0; i < view->columns && !status; i++)
+        for (size_t k = 0; k < POINTS; k++)
+            view->value[i * POINTS + k] = density[k * view->columns + i];
+    free(density);
+    return status;
+}
+
+static ld_status set_speeds(ld_response_view *view, double step, ld_error *error)
+{
+    double count = floor((view->fastest - view->slowest) / step * (1 + 1e-12)) + 1;
+    if (view->kind == SPECTRUM)
+        count = 1;
+    if (!(count >= 1 && count <= MOST_SPEEDS))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "speeds from %g km/h to %g km/h by %g km/h are none, or more than %d",
+                       KMH * view->slowest, KMH * view->fastest, KMH * step, MOST_SPEEDS);
+    view->speeds = (size_t)count;
+    view->speed = malloc((1 + 2 * view->columns) * view->speeds * sizeof(double));
+    if (!view->speed)
+        return no_memory(error);
+    view->rms = view->speed + view->speeds;
+    view->top = view->rms + view->columns * view->speeds;
+    for (size_t i = 0; i < view->speeds; i++)
+        view->speed[i] =
+            fmin(view->slowest + (double)i * (view->speeds > 1 ? step : 0), view->fastest);
+    return LD_OK;
+}
+
+static ld_status fill_speeds(ld_response_view *view, ld_error *error)
+{
+    double *rms = malloc((2 * view->columns + 1) * sizeof *rms), *top = rms + view->columns;
+    ld_status status = rms ? LD_OK : no_memory(error);
+    for (size_t k = 0; k < view->speeds && !status; k++) {
+        // the road does nothing to what stands
+        bool stands = view->speed[k] == 0 && view->kind == SPEEDS;
+        if (!stands)
+            status = ld_response_on_road(view->response, view->speed[k], rms, top, error);
+        for (size_t i = 0; i < view->columns && !status; i++) {
+            view->rms[i * view->speeds + k] = stands ? 0 : rms[i];
+            view->top[i * view->speeds + k] = stands ? NAN : top[i];
+        }
+    }
+    free(rms);
+    return status;
+}
+
+static ld_status fill(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
+{
+    ld_status status = choose_wished(view, wish, error);
+    if (!status && view->kind == FREQUENCY)
+        status = find_input(view, wish->input, error);
+    if (!status && view->kind != SPEEDS)
+        status = set_frequencies(view, wish->from, wish->to, error);
+    if (!status && view->kind == FREQUENCY)
+        return fill_frequency(view, error);
+    if (!status && view->kind == SPECTRUM)
+        status = fill_spectrum(view, error);
+    if (!status)
+        status = set_speeds(view, wish->step, error);
+    return status ? status : fill_speeds(view, error);
+}
+
+ld_status ld_response_view_create(const ld_model *model, const ld_response_wish *wish,
+                                  ld_response_view **view, ld_error *error)
+{
+    bool over_speeds = !isnan(wish->step);
+    *view = NULL;
+    if (wish->input && over_speeds)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a frequency response is one at one speed: speeds go with the road alone");
+    if (!wish->input && model_has_launcher(model) && !model_has_vehicle(model))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the base is no vehicle on a road: a response wants the name of an input "
+                       "(launchdyn response --list lists them)");
+    ld_response_view *self = calloc(1, sizeof *self);
+    if (!self)
+        return no_memory(error);
+    double own = model_has_vehicle(model) ? model->base.vehicle.speed : 0;
+    self->model = model;
+    self->kind = wish->input ? FREQUENCY : over_speeds ? SPEEDS : SPECTRUM;
+    self->slowest = over_speeds ? wish->slowest : own;
+    self->fastest = over_speeds ? wish->fastest : own;
+    ld_status status =
+        ld_response_create(model, self->slowest, self->fastest, &self->response, error);
+    if (!status)
+        status = fill(self, wish, error);
+    if (status)
+        ld_response_view_free(self);
+    else
+        *view = self;
+    return status;
+}
+
+void ld_response_view_free(ld_response_view *view)
+{
+    if (!view)
+        return;
+    ld_response_free(view->response);
+    free(view->column);
+    free(view->x);
+    free(view->speed);
+    free(view);
+}
+
+// ---- as a table ----
+
+// A unit as it is shown, and what values in SI are multiplied by.
+static const char *shown_unit(const char *unit, double *factor)
+{
+    static const char *const units[][2] = {
+        {"m", "mm"}, {"rad", "mrad"}, {"m/s", "mm/s"}, {"rad/s", "mrad/s"}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (strcmp(unit, units[i][0]) == 0) {
+            *factor = 1e3;
+            return units[i][1];
+        }
+    *factor = 1;
+    return unit;
+}
+
+// The unit of amplitudes or densities of what has this unit.
+static void value_unit(const ld_response_view *view, const char *unit, char text[NAME])
+{
+    if (view->kind == FREQUENCY)
+        snprintf(text, NAME, "%s per %s", unit, view->input->unit);
+    else if (strpbrk(unit, "./"))
+        snprintf(text, NAME, "(%s)2/Hz", unit);
+    else
+        snprintf(text, NAME, "%s2/Hz", unit);
+}
+
+static void describe(const ld_response_view *view, char *text, size_t size)
+{
+    static const char *const tracks[] = {"same", "independent", "coherent"};
+    const ld_road *road = &view->model->base.vehicle.road;
+    int at = view->kind == FREQUENCY ? snprintf(text, size, "Response to %s", view->input->name)
+             : road->iso_class == LD_ROAD_SMOOTH
+                 ? snprintf(text, size, "Response to the sines of the road")
+                 : snprintf(text, size, "Response to a road of class %c, tracks %s",
+                            'A' + road->iso_class, tracks[road->tracks]);
+    if (model_has_vehicle(view->model) && view->kind != SPEEDS)
+        snprintf(text + at, size - (size_t)at, ", %g km/h", KMH * view->slowest);
+}
+
+static size_t greatest(const double *value, size_t count)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < count; i++)
+        if (value[i] > value[best])
+            best = i;
+    return best;
+}
+
+static void print_frequency(const ld_response_view *view, FILE *stream)
+{
+    fprintf(stream, "\n%-28s %-16s %12s %10s %12s\n", "Greatest amplitude", "", "", "at [Hz]",
+            "phase [deg]");
+    for (size_t i = 0; i < view->columns; i++) {
+        const double *value = view->value + i * view->count;
+        size_t k = greatest(value, view->count);
+        char unit[NAME];
+        if (isnan(value[k]))
+            continue;
+        value_unit(view, view->column[i]->unit, unit);
+        fprintf(stream, "  %-26s %-16s %12.4g %10.4g %12.1f\n", view->column[i]->name, unit,
+                value[k], view->x[k], DEGREE * view->phase[i * view->count + k]);
+    }
+}
+
+static void print_spectrum(const ld_response_view *view, FILE *stream)
+{
+    fprintf(stream, "\n%-28s %-8s %12s %18s\n", "Root mean square", "", "", "strongest at [Hz]");
+    for (size_t i = 0; i < view->columns; i++) {
+        double factor;
+        const char *unit = shown_unit(view->column[i]->unit, &factor);
+        if (!isnan(view->rms[i]))
+            fprintf(stream, "  %-26s %-8s %12.4g %18.4g\n", view->column[i]->name, unit,
+                    factor * view->rms[i], view->top[i]);
+    }
+}
+
+static void print_speeds(const ld_response_view *view, FILE *stream)
+{
+    size_t last = view->speeds - 1;
+    fprintf(stream, "\n%-28s %-8s %9.4g km/h %7.4g km/h %12s %10s\n", "Root mean square", "at",
+            KMH * view->speed[0], KMH * view->speed[last], "greatest", "at [km/h]");
+    for (size_t i = 0; i < view->columns; i++) {
+        double factor;
+        const char *unit = shown_unit(view->column[i]->unit, &factor);
+        const double *rms = view->rms + i * view->speeds;
+        size_t k = greatest(rms, view->speeds);
+        if (!isnan(rms[last]))
+            fprintf(stream, "  %-26s %-8s %14.4g %12.4g %12.4g %10.4g\n", view->column[i]->name,
+                    unit, factor * rms[0], factor * rms[last], factor * rms[k],
+                    KMH * view->speed[k]);
+    }
+}
+
+void ld_response_view_print(const ld_response_view *view, FILE *stream)
+{
+    char text[NAME];
+    const ld_road *road = &view->model->base.vehicle.road;
+    describe(view, text, sizeof text);
+    fprintf(stream, "%s; linear about the equilibrium, no Coulomb friction\n", text);
+    if (view->kind != FREQUENCY && (road->bump_count > 0 || road->profile.rows > 0))
+        fputs("Bumps and profile of the road are left out: they come once\n", stream);
+    if (view->kind == FREQUENCY)
+        print_frequency(view, stream);
+    else if (view->kind == SPECTRUM)
+        print_spectrum(view, stream);
+    else
+        print_speeds(view, stream);
+}
+
+// ---- as files ----
+
+// Names and values of a file's columns: `per` of them for each quantity, behind one of x.
+typedef struct table {
+    size_t width;
+    ld_column *column;
+    const double **value;
+    char (*text)[2][NAME]; // [width] names and units
+} table;
+
+static ld_status table_make(table *self, size_t width, ld_error *error)
+{
+    *self = (table){.column = calloc(width, sizeof *self->column),
+                    .value = calloc(width, sizeof *self->value),
+                    .text = calloc(width, sizeof *self->text)};
+    return self->column && self->value && self->text ? LD_OK : no_memory(error);
+}
+
+static void table_free(table *self)
+{
+    free(self->column);
+    free(self->value);
+    free(self->text);
+}
+
+static void table_add(table *self, const char *name, const char *of, const char *unit,
+                      const double *value)
+{
+    char(*text)[NAME] = self->text[self->width];
+    snprintf(text[0], NAME, "%s%s", name, of);
+    snprintf(text[1], NAME, "%s", unit);
+    self->column[self->width] = (ld_column){.name = text[0], .unit = text[1]};
+    self->value[self->width++] = value;
+}
+
+static ld_status table_write(const table *self, const char *folder, const char *file, size_t rows,
+                             ld_error *error)
+{
+    return columns_write(folder, file, self->column, self->value, self->width, rows, error);
+}
+
+static ld_status write_frequencies(const ld_response_view *view, const char *folder,
+                                   ld_error *error)
+{
+    table all;
+    bool gain = view->kind == FREQUENCY;
+    ld_status status = table_make(&all, 1 + 2 * view->columns, error);
+    if (!status)
+        table_add(&all, "frequency", "", "Hz", view->x);
+    for (size_t i = 0; i < view->columns && !status; i++) {
+        const char *name = view->column[i]->name;
+        char unit[NAME];
+        value_unit(view, view->column[i]->unit, unit);
+        table_add(&all, name, gain ? ".amplitude" : "", unit, view->value + i * view->count);
+        if (gain)
+            table_add(&all, name, ".phase", "rad", view->phase + i * view->count);
+    }
+    if (!status)
+        status =
+            table_write(&all, folder, gain ? "response-frequency.csv" : "response-spectrum.csv",
+                        view->count, error);
+    table_free(&all);
+    return status;
+}
+
+static ld_status write_speeds(const ld_response_view *view, const char *folder, ld_error *error)
+{
+    table all;
+    ld_status status = table_make(&all, 1 + view->columns, error);
+    if (!status)
+        table_add(&all, "speed", "", "m/s", view->speed);
+    for (size_t i = 0; i < view->columns && !status; i++)
+        table_add(&all, view->column[i]->name, "", view->column[i]->unit,
+                  view->rms + i * view->speeds);
+    if (!status)
+        status = table_write(&all, folder, "response-rms.csv", view->speeds, error);
+    table_free(&all);
+    return status;
+}
+
+ld_status ld_response_view_write(const ld_response_view *view, const char *folder, ld_error *error)
+{
+    ld_status status = view->kind == SPEEDS ? LD_OK : write_frequencies(view, folder, error);
+    return status || view->kind == FREQUENCY ? status : write_speeds(view, folder, error);
+}
+
+// ---- as charts ----
+
+// Charts of quantities of one unit each; the unit's name and that of the axis.
+typedef struct chart_page {
+    size_t count;
+    chart charts[CHARTS];
+    const char *unit[CHARTS];
+    char label[CHARTS][NAME];
+    double *phase; // as drawn
+} chart_page;
+
+static ld_status too_many(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_INPUT,
+                   "a page has room for %d charts of %d quantities of one unit each: name fewer "
+                   "quantities",
+                   CHARTS, CURVES);
+}
+
+// The chart of a unit that has room for one more, begun where there is none; NULL: no room.
+static chart *chart_of(chart_page *page, const char *unit)
+{
+    for (size_t i = 0; i < page->count; i++)
+        if (strcmp(page->unit[i], unit) == 0 && page->charts[i].count < CURVES)
+            return &page->charts[i];
+    if (page->count == CHARTS)
+        return NULL;
+    page->unit[page->count] = unit;
+    page->charts[page->count] = (chart){.x_factor = 1, .y_factor = 1};
+    return &page->charts[page->count++];
+}
+
+static void name_chart(const ld_response_view *view, chart_page *page, size_t i)
+{
+    chart *it = &page->charts[i];
+    double factor;
+    const char *unit = shown_unit(page->unit[i], &factor);
+    it->y_label = page->label[i];
+    it->log_x = it->log_y = view->kind != SPEEDS;
+    it->decades = view->kind == SPECTRUM ? 8 : 5;
+    if (view->kind == FREQUENCY) {
+        it->title = "Amplitude";
+        value_unit(view, page->unit[i], page->label[i]);
+    } else if (view->kind == SPECTRUM) {
+        it->title = "Power spectral density";
+        it->y_factor = factor * factor;
+        snprintf(page->label[i], NAME, "(%s)²/Hz", unit);
+    } else {
+        it->title = "Root mean square";
+        it->y_factor = factor;
+        it->x_factor = KMH;
+        snprintf(page->label[i], NAME, "%s", unit);
+    }
+    it->x_label = view->kind == SPEEDS ? "km/h" : "Hz";
+}
+
+// Amplitudes, densities or root mean squares.
+static ld_status add_values(const ld_response_view *view, chart_page *page, ld_error *error)
+{
+    bool speeds = view->kind == SPEEDS;
+    size_t count = speeds ? view->speeds : view->count;
+    const double *x = speeds ? view->speed : view->x, *all = speeds ? view->rms : view->value;
+    for (size_t i = 0; i < view->columns; i++) {
+        chart *it = chart_of(page, view->column[i]->unit);
+        if (!it)
+            return too_many(error);
+        it->curve[it->count++] =
+            (chart_curve){view->column[i]->name, count, x, all + i * count, false};
+    }
+    for (size_t i = 0; i < page->count; i++)
+        name_chart(view, page, i);
+    return LD_OK;
+}
+
+// Phases with gaps where they go on from the other end of the circle.
+static ld_status part_phases(const ld_response_view *view, chart_page *page, ld_error *error)
+{
+    size_t count = view->columns * view->count;
+    page->phase = malloc((count + 1) * sizeof *page->phase);
+    if (!page->phase)
+        return no_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        bool jumps = i % view->count > 0 && fabs(view->phase[i] - view->phase[i - 1]) > PI;
+        page->phase[i] = jumps ? NAN : view->phase[i];
+    }
+    return LD_OK;
+}
+
+// A chart of phases below each chart of amplitudes.
+static ld_status add_phases(const ld_response_view *view, chart_page *page, ld_error *error)
+{
+    const double *phase = page->phase;
+    size_t count = page->count;
+    if (2 * count > CHARTS)
+        return too_many(error);
+    for (size_t i = count; i-- > 0;) {
+        chart *above = &page->charts[2 * i], *below = above + 1;
+        *above = page->charts[i];
+        *below = *above;
+        below->title = "Phase";
+        below->y_label = "degrees";
+        below->y_factor = DEGREE;
+        below->log_y = false;
+        for (int k = 0; k < below->count; k++)
+            below->curve[k].y = phase + (above->curve[k].y - view->value);
+    }
+    page->count = 2 * count;
+    return LD_OK;
+}
+
+ld_status ld_response_view_draw(const ld_response_view *view, const char *file, ld_error *error)
+{
+    char heading[NAME];
+    chart_page *page = calloc(1, sizeof *page);
+    if (!page)
+        return no_memory(error);
+    ld_status status = add_values(view, page, error);
+    if (!status && view->kind == FREQUENCY)
+        status = part_phases(view, page, error);
+    if (!status && view->kind == FREQUENCY)
+        status = add_phases(view, page, error);
+    describe(view, heading, sizeof heading);
+    if (!status)
+        status = charts_draw(file, heading, page->charts, page->count, error);
+    free(page->phase);
+    free(page);
+    return status;
+}

@@ -1,0 +1,30 @@
+// The launcher linearised, with what may act on its base and with the columns of a history:
+//   x' = A x + B u + B' u',   y = C x + D u + D' u'
+// x: the unknowns of linear_system; u: the base_inputs that the base has; y: all columns.
+#ifndef LD_SIMULATION_PLANT_H
+#define LD_SIMULATION_PLANT_H
+
+#include "simulation/simulation.h"
+
+typedef struct plant {
+    int states, inputs, outputs;
+    // [states][states], [states][inputs] and [outputs][states], [outputs][inputs], by columns; a
+    // column that has no value: not a number
+    double *A, *B, *B_rate, *C, *D, *D_rate;
+    double *rest; // [outputs] columns in the equilibrium
+} plant;
+
+// Names of the inputs; in base_inputs stands where their cells say.
+ld_status plant_inputs(const ld_simulation *simulation, quantity_columns *inputs, ld_error *error);
+
+// Free with plant_free(), also after a failure.
+ld_status plant_make(plant *self, const ld_simulation *simulation, const quantity_columns *inputs,
+                     ld_error *error);
+void plant_free(plant *self);
+
+// Room for a plant as large as another.
+ld_status plant_make_room(plant *self, const plant *as, ld_error *error);
+// a + share (b - a), number by number.
+void plant_between(const plant *a, const plant *b, double share, plant *to);
+
+#endif

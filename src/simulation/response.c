@@ -1,0 +1,516 @@
+// Linear response: frequency responses, spectra and root mean squares from the linearised
+// equations.
+#include "launchdyn/response.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/suggestion.h"
+#include "environment/road.h"
+#include "math/hessenberg.h"
+#include "simulation/plant.h"
+
+static const double TWO_PI = 6.283185307179586476925286766559;
+
+// Inputs that move together, each as the road that is `along` in front of the chassis.
+typedef struct excitation {
+    int count, input[LD_MAX_WHEELS];
+    double along[LD_MAX_WHEELS]; // [m]
+} excitation;
+
+// Those of the road, in front of the others.
+enum { ROAD_OF_BOTH, ROAD_OF_LEFT, ROAD_OF_RIGHT, ROAD_INPUTS };
+static const ld_column road_inputs[ROAD_INPUTS] = {
+    {"road", "m", "height of the road, both tracks, as it is under the chassis' mass centre"},
+    {"road.left", "m", "height of its left track, as it is there"},
+    {"road.right", "m", "height of its right track, as it is there"},
+};
+
+struct ld_response {
+    const ld_model *model;
+    ld_model at[2]; // on a flat road, at both ends of the speeds
+    ld_simulation *simulation;
+    quantity_columns inputs; // of the plant
+    excitation road[ROAD_INPUTS];
+    ld_column *input; // all that can be asked for
+    size_t input_count;
+    road_line *line;
+    size_t line_count;
+
+    // The equations depend on the speed as on a straight line: at both ends, and now.
+    double speed[2], speed_now; // [m/s] not a number: nothing is ready
+    plant end[2], now;
+    hessenberg solver;
+    int chosen_count, *chosen; // columns
+    // B and B' of the reduced states; C of the chosen columns on them, by rows
+    double *B, *B_rate, *C;
+};
+
+// ---- life ----
+
+static ld_status no_memory(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for the linear response");
+}
+
+// What grows has no steady response.
+static ld_status check_stability(const ld_simulation *simulation, ld_error *error)
+{
+    const ld_pole *growing = &simulation->growing;
+    if (simulation->stability) {
+        *error = simulation->unstable;
+        return simulation->stability;
+    }
+    if (growing->real > 0)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "there is no steady response: a motion of %.3g Hz (%s) grows by %.3g 1/s "
+                       "(launchdyn modes lists all)",
+                       growing->imaginary / TWO_PI, growing->shape, growing->real);
+    return LD_OK;
+}
+
+static ld_status make_end(ld_response *self, int end, ld_error *error)
+{
+    ld_model *model = &self->at[end];
+    ld_simulation *simulation = NULL;
+    *model = *self->model;
+    if (model_has_vehicle(model)) {
+        model->base.vehicle.road.form = LD_ROAD_FLAT;
+        model->base.vehicle.speed = self->speed[end];
+    }
+    ld_status status = simulation_renew(&simulation, model, error);
+    if (!status)
+        status = check_stability(simulation, error);
+    if (!status && end == 0)
+        status = plant_inputs(simulation, &self->inputs, error);
+    if (!status)
+        status = plant_make(&self->end[end], simulation, &self->inputs, error);
+    if (end == 0)
+        self->simulation = simulation; // it has the columns' texts
+    else
+        ld_simulation_free(simulation);
+    return status;
+}
+
+static double rest_of(const ld_response *self, const char *column)
+{
+    const quantity_columns *columns = &self->simulation->columns;
+    for (int i = 0; i < columns->count; i++)
+        if (strcmp(columns->column[i].name, column) == 0)
+            return self->end[0].rest[i];
+    return NAN;
+}
+
+// Which of the inputs are the road under the wheels of each track.
+static void find_tracks(ld_response *self)
+{
+    const ld_vehicle *vehicle = &self->model->base.vehicle;
+    char name[QUANTITY_NAME];
+    double x = rest_of(self, "chassis.x");
+    for (int j = 0; j < vehicle->wheel_count; j++) {
+        snprintf(name, sizeof name, "wheel.%s.x", vehicle->wheel[j].name);
+        double along = rest_of(self, name) - x;
+        snprintf(name, sizeof name, "wheel.%s.road", vehicle->wheel[j].name);
+        int input = 0;
+        while (strcmp(self->inputs.column[input].name, name) != 0)
+            input++;
+        int track = vehicle->wheel[j].mount[2] < 0 ? ROAD_OF_LEFT : ROAD_OF_RIGHT;
+        excitation *on[2] = {&self->road[ROAD_OF_BOTH], &self->road[track]};
+        for (int k = 0; k < 2; k++) {
+            on[k]->input[on[k]->count] = input;
+            on[k]->along[on[k]->count++] = along;
+        }
+    }
+}
+
+static ld_status list_inputs(ld_response *self, ld_error *error)
+{
+    size_t own = (size_t)self->inputs.count, first = model_has_vehicle(self->model) ? 3 : 0;
+    self->input_count = first + own;
+    self->input = malloc(self->input_count * sizeof *self->input);
+    if (!self->input)
+        return no_memory(error);
+    memcpy(self->input, road_inputs, first * sizeof *self->input);
+    memcpy(self->input + first, self->inputs.column, own * sizeof *self->input);
+    if (!first)
+        return LD_OK;
+    find_tracks(self);
+    return road_lines(&self->model->base.vehicle.road, &self->line, &self->line_count, error);
+}
+
+static ld_status set_speeds(ld_response *self, double slowest, double fastest, ld_error *error)
+{
+    double own = model_has_vehicle(self->model) ? self->model->base.vehicle.speed : 0;
+    self->speed[0] = isnan(slowest) ? own : slowest;
+    self->speed[1] = isnan(fastest) ? own : fastest;
+    if (!(self->speed[0] >= 0 && self->speed[0] <= self->speed[1] && self->speed[1] <= 1000))
+        return ld_fail(error, LD_ERR_INPUT, "%g m/s to %g m/s is no range of marching speeds",
+                       self->speed[0], self->speed[1]);
+    // what stands has other tyres than what rolls
+    if (self->speed[0] == 0)
+        self->speed[0] = 0.5 * self->speed[1];
+    return LD_OK;
+}
+
+static ld_status build(ld_response *self, ld_error *error)
+{
+    ld_status status = make_end(self, 0, error);
+    if (!status && self->speed[1] > self->speed[0])
+        status = make_end(self, 1, error);
+    if (!status)
+        status = plant_make_room(&self->now, &self->end[0], error);
+    if (!status && hessenberg_make(&self->solver, self->now.states))
+        status = no_memory(error);
+    if (!status)
+        status = list_inputs(self, error);
+    if (status)
+        return status;
+    size_t size = (size_t)self->now.states * (size_t)self->now.inputs;
+    self->B = malloc((2 * size + 1) * sizeof *self->B);
+    if (!self->B)
+        return no_memory(error);
+    self->B_rate = self->B + size;
+    return LD_OK;
+}
+
+ld_status ld_response_create(const ld_model *model, double slowest, double fastest,
+                             ld_response **response, ld_error *error)
+{
+    *response = NULL;
+    if (!model_has_launcher(model))
+        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no response");
+    ld_response *self = calloc(1, sizeof *self);
+    if (!self)
+        return no_memory(error);
+    self->model = model;
+    self->speed_now = NAN;
+    ld_status status = set_speeds(self, slowest, fastest, error);
+    if (!status)
+        status = build(self, error);
+    if (status)
+        ld_response_free(self);
+    else
+        *response = self;
+    return status;
+}
+
+void ld_response_free(ld_response *self)
+{
+    if (!self)
+        return;
+    for (int end = 0; end < 2; end++)
+        plant_free(&self->end[end]);
+    plant_free(&self->now);
+    hessenberg_free(&self->solver);
+    quantity_columns_free(&self->inputs);
+    ld_simulation_free(self->simulation);
+    free(self->input);
+    free(self->line);
+    free(self->B);
+    free(self->chosen);
+    free(self->C);
+    free(self);
+}
+
+// ---- names ----
+
+size_t ld_response_inputs(const ld_response *response, const ld_column **inputs)
+{
+    *inputs = response->input;
+    return response->input_count;
+}
+
+size_t ld_response_columns(const ld_response *response, const ld_column **columns)
+{
+    return ld_simulation_columns(response->simulation, columns);
+}
+
+static ld_status find(const ld_column *columns, size_t count, const char *what, const char *name,
+                      int *found, ld_error *error)
+{
+    name_suggestion best = suggestion_begin(name);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(columns[i].name, name) == 0) {
+            *found = (int)i;
+            return LD_OK;
+        }
+        suggestion_offer(&best, columns[i].name);
+    }
+    if (best.name)
+        return ld_fail(error, LD_ERR_INPUT, "unknown %s \"%s\", did you mean \"%s\"?", what, name,
+                       best.name);
+    return ld_fail(error, LD_ERR_INPUT, "unknown %s \"%s\"", what, name);
+}
+
+ld_status ld_response_choose(ld_response *self, const char *const *names, size_t count,
+                             ld_error *error)
+{
+    const ld_column *columns;
+    size_t all = ld_response_columns(self, &columns);
+    int *chosen = malloc((count + 1) * sizeof *chosen);
+    double *C = malloc((count * (size_t)self->now.states + 1) * sizeof *C);
+    ld_status status = chosen && C ? LD_OK : no_memory(error);
+    for (size_t i = 0; i < count && !status; i++)
+        status = find(columns, all, "quantity", names[i], &chosen[i], error);
+    if (status) {
+        free(chosen);
+        free(C);
+        return status;
+    }
+    free(self->chosen);
+    free(self->C);
+    self->chosen = chosen;
+    self->C = C;
+    self->chosen_count = (int)count;
+    self->speed_now = NAN;
+    return LD_OK;
+}
+
+// ---- at a speed ----
+
+// X^-1 B by columns.
+static void reduce_inputs(const hessenberg *solver, int count, const double *B, double *to)
+{
+    int n = solver->n;
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < n; k++) {
+            double sum = 0;
+            for (int j = 0; j < n; j++)
+                sum += solver->inverse[j + n * k] * B[j + n * i];
+            to[k + n * i] = sum;
+        }
+}
+
+// C X, the rows chosen.
+static void reduce_outputs(ld_response *self)
+{
+    int n = self->now.states, rows = self->now.outputs;
+    for (int i = 0; i < self->chosen_count; i++)
+        for (int k = 0; k < n; k++) {
+            double sum = 0;
+            for (int j = 0; j < n; j++)
+                sum += self->now.C[self->chosen[i] + rows * j] * self->solver.X[j + n * k];
+            self->C[k + n * i] = sum;
+        }
+}
+
+static ld_status go_at(ld_response *self, double speed, ld_error *error)
+{
+    const double *range = self->speed;
+    if (!model_has_vehicle(self->model))
+        speed = 0;
+    if (speed == self->speed_now)
+        return LD_OK;
+    bool single = range[0] == range[1];
+    if (!(single ? speed == range[0] : speed > 0 && speed <= range[1]))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a speed of %g m/s is not within the range that was linearised", speed);
+    double share = single ? 0 : (speed - range[0]) / (range[1] - range[0]);
+    plant_between(&self->end[0], &self->end[single ? 0 : 1], share, &self->now);
+    if (hessenberg_reduce(&self->solver, self->now.A))
+        return ld_fail(error, LD_ERR_NUMERIC, "the linearised equations cannot be reduced");
+    reduce_inputs(&self->solver, self->now.inputs, self->now.B, self->B);
+    reduce_inputs(&self->solver, self->now.inputs, self->now.B_rate, self->B_rate);
+    reduce_outputs(self);
+    self->speed_now = speed;
+    return LD_OK;
+}
+
+// e^(i omega along/speed).
+static ld_phasor turn_of(const ld_response *self, const excitation *by, int k, double omega)
+{
+    double angle = by->along[k] == 0 ? 0 : omega * by->along[k] / self->speed_now;
+    return (ld_phasor){cos(angle), sin(angle)};
+}
+
+// (B + i omega B') u.
+static void excite(const ld_response *self, const excitation *by, double omega, double *z)
+{
+    int n = self->now.states;
+    memset(z, 0, 2 * (size_t)n * sizeof *z);
+    for (int k = 0; k < by->count; k++) {
+        const double *B = self->B + n * by->input[k], *B_rate = self->B_rate + n * by->input[k];
+        ld_phasor turn = turn_of(self, by, k, omega);
+        for (int i = 0; i < n; i++) {
+            double b = omega * B_rate[i];
+            z[i] += B[i] * turn.real - b * turn.imaginary;
+            z[n + i] += B[i] * turn.imaginary + b * turn.real;
+        }
+    }
+}
+
+// C x + (D + i omega D') u.
+static void tell(const ld_response *self, const excitation *by, double omega, const double *z,
+                 ld_phasor *y)
+{
+    int n = self->now.states, rows = self->now.outputs;
+    for (int i = 0; i < self->chosen_count; i++) {
+        const double *C = self->C + n * i;
+        y[i] = (ld_phasor){0, 0};
+        for (int j = 0; j < n; j++) {
+            y[i].real += C[j] * z[j];
+            y[i].imaginary += C[j] * z[n + j];
+        }
+        for (int k = 0; k < by->count; k++) {
+            int at = self->chosen[i] + rows * by->input[k];
+            double d = self->now.D[at], d_rate = omega * self->now.D_rate[at];
+            ld_phasor turn = turn_of(self, by, k, omega);
+            y[i].real += d * turn.real - d_rate * turn.imaginary;
+            y[i].imaginary += d * turn.imaginary + d_rate * turn.real;
+        }
+    }
+}
+
+// What the columns chosen answer to each of `count` excitations, y [count][chosen]; z is room for
+// the states of each.
+static ld_status answer(ld_response *self, const excitation *by, int count, double frequency,
+                        double *z, ld_phasor *y, ld_error *error)
+{
+    int n = self->now.states;
+    double omega = TWO_PI * frequency;
+    if (!(frequency > 0 && isfinite(frequency)))
+        return ld_fail(error, LD_ERR_INPUT, "%g Hz is no frequency: it must be above 0", frequency);
+    for (int i = 0; i < count; i++)
+        excite(self, &by[i], omega, z + 2 * n * i);
+    if (hessenberg_solve(&self->solver, omega, count, z))
+        return ld_fail(error, LD_ERR_NUMERIC, "at %g Hz an undamped motion answers without bounds",
+                       frequency);
+    for (int i = 0; i < count; i++)
+        tell(self, &by[i], omega, z + 2 * n * i, y + self->chosen_count * i);
+    return LD_OK;
+}
+
+// Room for the states and the chosen columns of two excitations; z is to be freed.
+static ld_status make_room(const ld_response *self, double **z, ld_phasor **y, ld_error *error)
+{
+    size_t n = (size_t)self->now.states, count = (size_t)self->chosen_count;
+    *z = malloc((4 * n + 4 * count) * sizeof **z);
+    *y = (ld_phasor *)(void *)(*z + 4 * n);
+    return *z ? LD_OK : no_memory(error);
+}
+
+// ---- what is asked ----
+
+static ld_status check_road(const ld_response *self, double speed, ld_error *error)
+{
+    if (!model_has_vehicle(self->model))
+        return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is no vehicle");
+    return speed > 0 ? LD_OK
+                     : ld_fail(error, LD_ERR_INPUT,
+                               "the road does nothing to a vehicle that stands: it takes a speed "
+                               "above 0");
+}
+
+// What an input is among those of the plant.
+static ld_status excitation_of(const ld_response *self, const char *name, double speed,
+                               excitation *by, ld_error *error)
+{
+    int found;
+    ld_status status = find(self->input, self->input_count, "input", name, &found, error);
+    int first = model_has_vehicle(self->model) ? ROAD_INPUTS : 0;
+    if (status)
+        return status;
+    if (found < first) {
+        *by = self->road[found];
+        return check_road(self, speed, error);
+    }
+    *by = (excitation){.count = 1, .input = {found - first}};
+    return LD_OK;
+}
+
+ld_status ld_response_gain(ld_response *self, double speed, const char *input,
+                           const double *frequency, size_t count, ld_phasor *gain, ld_error *error)
+{
+    double *z;
+    ld_phasor *y;
+    excitation by;
+    ld_status status = excitation_of(self, input, speed, &by, error);
+    if (!status)
+        status = go_at(self, speed, error);
+    if (status || (status = make_room(self, &z, &y, error)))
+        return status;
+    for (size_t i = 0; i < count && !status; i++)
+        status =
+            answer(self, &by, 1, frequency[i], z, gain + i * (size_t)self->chosen_count, error);
+    free(z);
+    return status;
+}
+
+// Mean squares of the columns chosen per mean square of a road's line: |L + shared R|^2 + (1 -
+// shared^2) |R|^2, L and R what they answer to the tracks.
+static ld_status square_on_road(ld_response *self, double frequency, double shared, double *z,
+                                ld_phasor *y, double *square, ld_error *error)
+{
+    bool same = shared == 1;
+    int count = self->chosen_count;
+    ld_status status = answer(self, &self->road[same ? ROAD_OF_BOTH : ROAD_OF_LEFT], same ? 1 : 2,
+                              frequency, z, y, error);
+    for (int i = 0; i < count && !status; i++) {
+        ld_phasor left = y[i], right = same ? (ld_phasor){0, 0} : y[count + i];
+        square[i] = left.real * left.real + left.imaginary * left.imaginary +
+                    right.real * right.real + right.imaginary * right.imaginary +
+                    2 * shared * (left.real * right.real + left.imaginary * right.imaginary);
+    }
+    return status;
+}
+
+ld_status ld_response_on_road(ld_response *self, double speed, double *rms, double *strongest,
+                              ld_error *error)
+{
+    size_t count = (size_t)self->chosen_count;
+    double *z;
+    ld_phasor *y;
+    ld_status status = check_road(self, speed, error);
+    if (!status)
+        status = go_at(self, speed, error);
+    if (status || (status = make_room(self, &z, &y, error)))
+        return status;
+    double *square = calloc(2 * count + 1, sizeof *square), *most = square + count;
+    if (!square)
+        status = no_memory(error);
+    memset(rms, 0, count * sizeof *rms);
+    for (size_t i = 0; i < count && strongest; i++)
+        strongest[i] = NAN;
+    for (size_t k = 0; k < self->line_count && !status; k++) {
+        const road_line *line = &self->line[k];
+        double frequency = line->n * speed;
+        status = square_on_road(self, frequency, line->shared, z, y, square, error);
+        for (size_t i = 0; i < count && !status; i++) {
+            rms[i] += line->square * square[i];
+            if (strongest && line->square * square[i] > most[i]) {
+                most[i] = line->square * square[i];
+                strongest[i] = frequency;
+            }
+        }
+    }
+    for (size_t i = 0; i < count; i++)
+        rms[i] = sqrt(rms[i]);
+    free(square);
+    free(z);
+    return status;
+}
+
+ld_status ld_response_density(ld_response *self, double speed, const double *frequency,
+                              size_t count, double *density, ld_error *error)
+{
+    double *z;
+    ld_phasor *y;
+    ld_status status = check_road(self, speed, error);
+    if (!status)
+        status = go_at(self, speed, error);
+    if (status || (status = make_room(self, &z, &y, error)))
+        return status;
+    for (size_t k = 0; k < count && !status; k++) {
+        double shared, *to = density + k * (size_t)self->chosen_count;
+        double height =
+            road_density(&self->model->base.vehicle.road, frequency[k] / speed, &shared);
+        status = square_on_road(self, frequency[k], shared, z, y, to, error);
+        for (int i = 0; i < self->chosen_count && !status; i++)
+            to[i] *= height / speed;
+    }
+    free(z);
+    return status;
+}

@@ -1,0 +1,295 @@
+// The linear response by what must hold between its parts; tests/verification compares it with
+// runs.
+#include <complex.h>
+#include <stdlib.h>
+
+#include "environment/road.h"
+#include "launchdyn/response.h"
+#include "support/check.h"
+#include "support/reference_model.h"
+
+static const double two_pi = 6.283185307179586476925, speed = 8;
+
+static void random_road(ld_model *model, ld_tracks tracks)
+{
+    reference_vehicle(model, speed);
+    ld_road *rough = &model->base.vehicle.road;
+    rough->form = LD_ROAD_SUM;
+    rough->iso_class = 1;
+    rough->tracks = tracks;
+    rough->harmonics = 60;
+    rough->wavelengths[0] = 0.3;
+    rough->wavelengths[1] = 100;
+}
+
+static ld_response *respond(const ld_model *model, double slowest, double fastest)
+{
+    ld_response *response;
+    ld_error error;
+    if (ld_response_create(model, slowest, fastest, &response, &error))
+        fail_msg("%s", error.text);
+    return response;
+}
+
+static void choose(ld_response *response, const char *const *names, size_t count)
+{
+    ld_error error;
+    if (ld_response_choose(response, names, count, &error))
+        fail_msg("%s", error.text);
+}
+
+static double complex gain_of(ld_response *response, double at_speed, const char *input,
+                              const char *name, double frequency)
+{
+    ld_phasor gain;
+    ld_error error;
+    choose(response, &name, 1);
+    if (ld_response_gain(response, at_speed, input, &frequency, 1, &gain, &error))
+        fail_msg("%s", error.text);
+    return gain.real + I * gain.imaginary;
+}
+
+// ---- speeds ----
+
+static const char *const some[] = {"chassis.vy",      "chassis.roll",    "chassis.z",
+                                   "azimuth.torque",  "tip.inertial_vz", "tip_off.vy",
+                                   "rocket.yaw_rate", "lock.force",      "wheel.rear-left.side"};
+enum { SOME = sizeof some / sizeof *some };
+
+// The matrices depend on the speed as on a straight line: those of any speed follow from two.
+static void between_two_speeds_all_is_known(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    double one[SOME], many[SOME], worst = 0;
+    random_road(&model, LD_TRACKS_INDEPENDENT);
+    ld_response *at = respond(&model, NAN, NAN), *over = respond(&model, 3, 20);
+    ld_response *from_rest = respond(&model, 0, 9);
+    choose(at, some, SOME);
+    choose(over, some, SOME);
+    choose(from_rest, some, SOME);
+    assert_int_equal(ld_response_on_road(at, speed, one, NULL, &error), LD_OK);
+    assert_int_equal(ld_response_on_road(over, 5, many, NULL, &error), LD_OK);
+    assert_int_equal(ld_response_on_road(over, speed, many, NULL, &error), LD_OK);
+    for (int i = 0; i < SOME; i++)
+        worst = fmax(worst, fabs(many[i] / one[i] - 1));
+    assert_int_equal(ld_response_on_road(from_rest, speed, many, NULL, &error), LD_OK);
+    for (int i = 0; i < SOME; i++)
+        worst = fmax(worst, fabs(many[i] / one[i] - 1));
+    CHECK_BELOW("rms from matrices of other speeds, relative", worst, 1e-6);
+    ld_response_free(at);
+    ld_response_free(over);
+    ld_response_free(from_rest);
+    reference_model_free(&model);
+}
+
+// ---- road ----
+
+// All wheels, each at its time, are the road; the two tracks are, too.
+static void wheels_make_the_road(void **state)
+{
+    (void)state;
+    ld_model model;
+    double worst = 0;
+    random_road(&model, LD_TRACKS_SAME);
+    ld_response *response = respond(&model, NAN, NAN);
+    for (double f = 0.3; f < 40; f *= 3.1)
+        for (int i = 0; i < SOME; i++) {
+            double complex all = gain_of(response, speed, "road", some[i], f), wheels = 0;
+            double complex left = gain_of(response, speed, "road.left", some[i], f);
+            double complex right = gain_of(response, speed, "road.right", some[i], f);
+            double size = cabs(left) + cabs(right);
+            for (int j = 0; j < model.base.vehicle.wheel_count; j++) {
+                const ld_wheel *wheel = &model.base.vehicle.wheel[j];
+                char input[LD_MAX_NAME + 16];
+                snprintf(input, sizeof input, "wheel.%s.road", wheel->name);
+                wheels += cexp(I * two_pi * f * wheel->mount[0] / speed) *
+                          gain_of(response, speed, input, some[i], f);
+            }
+            worst = fmax(worst, cabs(left + right - all) / size);
+            worst = fmax(worst, cabs(wheels - all) / size);
+        }
+    // the wheels rest some tenths of a millimetre beside their mounts
+    CHECK_BELOW("sum over wheels and over tracks, relative", worst, 1e-2);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+static void rms_with(ld_tracks tracks, const double *share, double rms[SOME])
+{
+    ld_model model;
+    ld_error error;
+    random_road(&model, tracks);
+    if (share)
+        model.base.vehicle.road.coherence = reference_table(1, 2, share);
+    ld_response *response = respond(&model, NAN, NAN);
+    choose(response, some, SOME);
+    assert_int_equal(ld_response_on_road(response, speed, rms, NULL, &error), LD_OK);
+    ld_response_free(response);
+    free(model.base.vehicle.road.coherence.data);
+    model.base.vehicle.road.coherence = (ld_table){0};
+    reference_model_free(&model);
+}
+
+// Tracks that share all are the same, those that share nothing are independent; mean squares of
+// tracks in between lie where their share says.
+static void coherence_goes_from_independent_to_same(void **state)
+{
+    (void)state;
+    double same[SOME], independent[SOME], all[SOME], nothing[SOME], some_of_it[SOME], worst = 0;
+    rms_with(LD_TRACKS_SAME, NULL, same);
+    rms_with(LD_TRACKS_INDEPENDENT, NULL, independent);
+    rms_with(LD_TRACKS_COHERENT, (double[]){1, 1}, all);
+    rms_with(LD_TRACKS_COHERENT, (double[]){1, 0}, nothing);
+    rms_with(LD_TRACKS_COHERENT, (double[]){1, 0.6}, some_of_it);
+    for (int i = 0; i < SOME; i++) {
+        double one = same[i] * same[i], other = independent[i] * independent[i];
+        double between = other + 0.6 * (one - other);
+        worst = fmax(worst, fabs(all[i] - same[i]) / independent[i]);
+        worst = fmax(worst, fabs(nothing[i] / independent[i] - 1));
+        worst = fmax(worst, fabs(some_of_it[i] * some_of_it[i] / between - 1));
+    }
+    CHECK_BELOW("rms of tracks that share all, nothing, 0.6", worst, 1e-9);
+}
+
+// What a wheel meets is the road itself: its mean square, its density, its lines.
+static void the_road_is_among_the_columns(void **state)
+{
+    (void)state;
+    static const char *const under[] = {"wheel.front-left.road", "wheel.rear-right.road"};
+    ld_model model;
+    ld_error error;
+    double rms[2], strongest[2], density[2], n[2] = {1 / 100.0, 1 / 0.3}, square = 0, f = 2;
+    random_road(&model, LD_TRACKS_INDEPENDENT);
+    model.base.vehicle.road.sine_count = 3;
+    model.base.vehicle.road.sine[0] = (ld_road_sine){0.05, 4, 0.2};
+    model.base.vehicle.road.sine[1] = (ld_road_sine){0.04, 4, 0.2};
+    model.base.vehicle.road.sine[2] = (ld_road_sine){0.01, 5, 0};
+    ld_response *response = respond(&model, NAN, NAN);
+    choose(response, under, 2);
+    // class B: 64e-6 m3 at 0.1/m
+    square = 64e-6 * 0.01 * (1 / n[0] - 1 / n[1]) + (0.09 * 0.09 + 0.01 * 0.01) / 2;
+    assert_int_equal(ld_response_on_road(response, speed, rms, strongest, &error), LD_OK);
+    CHECK_BELOW("rms of the road, left", rms[0] / sqrt(square) - 1, 1e-9);
+    CHECK_BELOW("right", rms[1] / sqrt(square) - 1, 1e-9);
+    CHECK_BELOW("its strongest line [Hz]", strongest[0] - speed / 4, 1e-12);
+    assert_int_equal(ld_response_density(response, speed, &f, 1, density, &error), LD_OK);
+    CHECK_BELOW("its density", density[1] * speed / (64e-6 * pow(0.1 * speed / f, 2)) - 1, 1e-9);
+    f = 1.01 * speed / 0.3;
+    assert_int_equal(ld_response_density(response, speed, &f, 1, density, &error), LD_OK);
+    assert_true(density[0] == 0 && density[1] == 0);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// ---- forces, slowly ----
+
+static double carried(ld_response *response, const ld_vehicle *vehicle, const char *input,
+                      bool lever)
+{
+    double sum = 0;
+    for (int j = 0; j < vehicle->wheel_count; j++) {
+        char name[LD_MAX_NAME + 32];
+        snprintf(name, sizeof name, "wheel.%s.tyre_force", vehicle->wheel[j].name);
+        sum += creal(gain_of(response, speed, input, name, 1e-3)) *
+               (lever ? vehicle->wheel[j].mount[0] : 1);
+    }
+    return sum;
+}
+
+static void wheels_carry_what_is_put_on(void **state)
+{
+    (void)state;
+    ld_model model;
+    random_road(&model, LD_TRACKS_SAME);
+    const ld_vehicle *vehicle = &model.base.vehicle;
+    ld_response *response = respond(&model, NAN, NAN);
+    double elevation = model.platform.elevation.stabiliser.command.data[1];
+    CHECK_BELOW("a force upwards on the chassis [N per N]",
+                carried(response, vehicle, "chassis.force_y", false) + 1, 1e-4);
+    CHECK_BELOW("across the tube on the platform",
+                carried(response, vehicle, "platform.force_y", false) + cos(elevation), 1e-4);
+    CHECK_BELOW("along the tube",
+                carried(response, vehicle, "platform.force_x", false) + sin(elevation), 1e-4);
+    // as it pitches, the weights move over the wheels
+    CHECK_BELOW("a moment on the chassis [N m per N m]",
+                carried(response, vehicle, "chassis.moment_z", true) + 1, 3e-2);
+    CHECK_BELOW("on the platform", carried(response, vehicle, "platform.moment_z", true) + 1, 3e-2);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// ---- a base that goes where it is told ----
+
+static void a_slow_base_takes_all_along(void **state)
+{
+    (void)state;
+    static const char *const inputs[] = {"base.x", "base.y", "base.z", "base.yaw", "base.pitch"};
+    static const char *const tips[] = {"tip.inertial_x", "tip.inertial_y", "tip.inertial_z",
+                                       "rocket.yaw", "rocket.pitch"};
+    ld_model model;
+    double worst = 0;
+    reference_model(&model);
+    ld_response *response = respond(&model, NAN, NAN);
+    for (int i = 0; i < 5; i++) {
+        worst = fmax(worst, cabs(gain_of(response, 0, inputs[i], tips[i], 0.05) - 1));
+        worst = fmax(worst, cabs(gain_of(response, 0, inputs[i], inputs[i], 20) - 1));
+    }
+    CHECK_BELOW("tip, rocket and the base itself", worst, 1e-4);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// ---- what is wrong ----
+
+static void wrong_names_and_ranges_are_told(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    ld_response *response, *none;
+    double f = -1, rms[1];
+    ld_phasor gain[1];
+    random_road(&model, LD_TRACKS_SAME);
+    response = respond(&model, 2, 4);
+    const char *name = "chassis.vz_";
+    assert_int_equal(ld_response_choose(response, &name, 1, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text,
+                        "unknown quantity \"chassis.vz_\", did you mean \"chassis.vz\"?");
+    name = "chassis.vz";
+    choose(response, &name, 1);
+    assert_int_equal(ld_response_gain(response, 3, "raod", &f, 1, gain, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "unknown input \"raod\", did you mean \"road\"?");
+    assert_int_equal(ld_response_gain(response, 3, "road", &f, 1, gain, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "-1 Hz is no frequency: it must be above 0");
+    assert_int_equal(ld_response_on_road(response, 5, rms, NULL, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "a speed of 5 m/s is not within the range that was linearised");
+    assert_int_equal(ld_response_on_road(response, 0, rms, NULL, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text,
+                        "the road does nothing to a vehicle that stands: it takes a speed above 0");
+    assert_int_equal(ld_response_create(&model, 5, 4, &none, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "5 m/s to 4 m/s is no range of marching speeds");
+    assert_null(none);
+    ld_response_free(response);
+    // a stabiliser that feeds what it ought to hold
+    model.platform.elevation.stabiliser.kd = -1e5;
+    assert_int_equal(ld_response_create(&model, NAN, NAN, &none, &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "platform.elevation.stabiliser: unstable"));
+    ld_response_free(NULL);
+    reference_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(between_two_speeds_all_is_known),
+        cmocka_unit_test(wheels_make_the_road),
+        cmocka_unit_test(coherence_goes_from_independent_to_same),
+        cmocka_unit_test(the_road_is_among_the_columns),
+        cmocka_unit_test(wheels_carry_what_is_put_on),
+        cmocka_unit_test(a_slow_base_takes_all_along),
+        cmocka_unit_test(wrong_names_and_ranges_are_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

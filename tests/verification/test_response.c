@@ -1,0 +1,371 @@
+// The linear response against runs in time, without Coulomb friction: amplitudes and phases on a
+// road of small sines, of which some are under the left wheels alone; root mean squares on random
+// roads. LD_RESPONSE_SEEDS: on so many of them, at three speeds; LD_RESPONSE_SINES: on so many sets
+// of sines.
+#include <lapacke.h>
+#include <stdlib.h>
+
+#include "launchdyn/response.h"
+#include "math/distributions.h"
+#include "support/check.h"
+#include "support/recorded_run.h"
+#include "support/reference_model.h"
+
+static const double two_pi = 6.283185307179586476925;
+
+static void without_coulomb_friction(ld_model *model, double speed)
+{
+    reference_vehicle(model, speed);
+    model->tubes.modes.bending = 3;
+    model->tubes.modes.torsion = 1;
+    model->base.vehicle.road.form = LD_ROAD_SUM;
+    model->platform.azimuth.friction.coulomb = model->platform.elevation.friction.coulomb = 0;
+    model->rocket.contact.friction = 0;
+    model->run.end = LD_END_TIME;
+    model->run.end_time = 0;
+}
+
+static ld_response *respond(const ld_model *model, double slowest, double fastest,
+                            const char *const *columns, size_t count)
+{
+    ld_error error;
+    ld_response *response;
+    if (ld_response_create(model, slowest, fastest, &response, &error) ||
+        ld_response_choose(response, columns, count, &error))
+        fail_msg("%s", error.text);
+    return response;
+}
+
+// ---- on sines ----
+
+enum { SINES = 6, MOST_SLOW = 4, BASE = 2 + 2 * SINES + 2 * MOST_SLOW };
+
+// Height a cos(2 pi f t + phase) under the chassis.
+typedef struct sine {
+    double frequency, amplitude, phase;
+} sine;
+
+// Columns that see a straight road's sines, and those that see the left track's alone.
+static const char *const columns[] = {
+    "chassis.y",
+    "chassis.pitch",
+    "chassis.vy",
+    "chassis.wz",
+    "elevation.measured",
+    "elevation.torque",
+    "elevation.rate",
+    "wheel.front-left.y",
+    "wheel.front-left.road",
+    "wheel.front-left.tyre_force",
+    "wheel.rear-right.deflection",
+    "wheel.middle-left.travel",
+    "base.y",
+    "tip.inertial_y",
+    "tip.inertial_vy",
+    "tip.inertial_pitch_rate",
+    "tip.y",
+    "rocket.y",
+    "rocket.psi",
+    "rocket.pitch",
+    "rocket.pitch_rate",
+    "tip_off.vy",
+    "contact.rear.normal",
+    "contact.front.penetration",
+    "lock.force",
+};
+static const char *const aside[] = {
+    "chassis.roll",         "chassis.z",        "chassis.wx",
+    "chassis.wy",           "azimuth.measured", "azimuth.torque",
+    "wheel.rear-left.side", "tip.inertial_vz",  "tip_off.vz",
+};
+enum { COLUMNS = sizeof columns / sizeof *columns, ASIDE = sizeof aside / sizeof *aside };
+
+// On both tracks as they are given, on the left one as a profile.
+static void put_on_sines(ld_model *model, double speed, const sine *sines, bool left)
+{
+    enum { ROWS = 20001 };
+    without_coulomb_friction(model, speed);
+    ld_road *road = &model->base.vehicle.road;
+    model->run.lead_in = left ? 8 : 5;
+
+    model->run.tolerance = 1e-9;
+    model->run.output_step_lead_in = 4e-3;
+    model->firing[0].at = 2;
+    for (int k = 0; k < SINES && !left; k++)
+        road->sine[road->sine_count++] = (ld_road_sine){
+            sines[k].amplitude, speed / sines[k].frequency, sines[k].phase + two_pi / 4};
+    double *data = left ? calloc(3 * ROWS, sizeof *data) : NULL;
+    for (int i = 0; i < ROWS && left; i++) {
+        double *row = data + 3 * i;
+        row[0] = (8 * speed + 8) * i / (ROWS - 1) - (6 * speed + 4);
+        for (int k = 0; k < SINES; k++)
+            row[1] += sines[k].amplitude *
+                      cos(two_pi * sines[k].frequency / speed * row[0] + sines[k].phase);
+    }
+    if (left)
+        road->profile = (ld_table){ROWS, 3, data};
+}
+
+// What a column is fitted by: 1, t, the sines, and what has not died out since the start, motions
+// that are hardly damped.
+typedef struct fitted_by {
+    int motions;
+    const sine *sines;
+    ld_pole slow[MOST_SLOW];
+} fitted_by;
+
+static void find_basis(const recorded_run *run, const sine *sines, fitted_by *basis)
+{
+    static ld_mode modes[2 * LD_MAX_MODES];
+    static ld_pole poles[4 * LD_MAX_MODES];
+    int mode_count, count;
+    ld_error error;
+    assert_int_equal(ld_simulation_system_modes(run->simulation, modes, 2 * LD_MAX_MODES,
+                                                &mode_count, poles, 4 * LD_MAX_MODES, &count,
+                                                &error),
+                     LD_OK);
+    basis->sines = sines;
+    basis->motions = 0;
+    for (int i = 0; i < count; i++)
+        if (poles[i].real > -0.02 * poles[i].imaginary)
+            basis->slow[basis->motions++] = poles[i];
+    assert_true(basis->motions <= MOST_SLOW);
+}
+
+static int set_basis(const fitted_by *basis, double t, double *value)
+{
+    int n = 0;
+    value[n++] = 1;
+    value[n++] = t;
+
+    for (int k = 0; k < SINES; k++) {
+        value[n++] = cos(two_pi * basis->sines[k].frequency * t);
+        value[n++] = sin(two_pi * basis->sines[k].frequency * t);
+    }
+    for (int k = 0; k < basis->motions; k++) {
+        const ld_pole *slow = &basis->slow[k];
+        value[n++] = exp(slow->real * t) * cos(slow->imaginary * t);
+        value[n++] = exp(slow->real * t) * sin(slow->imaginary * t);
+    }
+    return n;
+}
+
+// Amplitudes of all sines in a column from t = 0 on, by least squares.
+static void fit(const recorded_run *run, const char *name, const fitted_by *basis, ld_phasor *found)
+{
+    double A[BASE * BASE] = {0}, b[BASE] = {0}, value[BASE];
+    lapack_int pivot[BASE], n = 0;
+    size_t column = recorded_column(run, name);
+    for (size_t i = 0; i < run->rows; i++) {
+        double t = recorded_value(run, i, 0), y = recorded_value(run, i, column);
+        if (t < 0)
+            continue;
+        n = set_basis(basis, t, value);
+        for (int j = 0; j < n; j++) {
+            b[j] += value[j] * y;
+            for (int k = 0; k < n; k++)
+                A[BASE * j + k] += value[j] * value[k];
+        }
+    }
+    assert_int_equal(LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, A, BASE, pivot, b, BASE), 0);
+    for (int k = 0; k < SINES; k++)
+        found[k] = (ld_phasor){b[2 + 2 * k], -b[3 + 2 * k]};
+}
+
+typedef struct difference {
+    double amplitude, phase; // relative, [rad]
+} difference;
+
+// What was found against gain times the road's sine.
+static void compare(const sine *on, ld_phasor gain, ld_phasor found, difference *worst)
+{
+    double size = on->amplitude * hypot(gain.real, gain.imaginary);
+    double angle = on->phase + atan2(gain.imaginary, gain.real);
+    double off = hypot(found.real, found.imaginary) / size - 1;
+    double turned = remainder(atan2(found.imaginary, found.real) - angle, two_pi);
+    worst->amplitude = fmax(worst->amplitude, fabs(off));
+    worst->phase = fmax(worst->phase, fabs(turned));
+}
+
+static void check_sines(double speed, const double frequency[SINES], bool left)
+{
+    ld_model model;
+    recorded_run run;
+    ld_error error;
+    ld_phasor gain[SINES * COLUMNS], found[SINES];
+    const char *const *names = left ? aside : columns;
+    sine sines[SINES];
+    fitted_by by;
+    difference most = {0};
+    int count = left ? ASIDE : COLUMNS;
+    for (int k = 0; k < SINES; k++)
+        sines[k] =
+            (sine){frequency[k], left ? 3e-5 / sqrt(frequency[k]) : 1e-5 / frequency[k], 0.3 + k};
+    put_on_sines(&model, speed, sines, left);
+    recorded_run_make(&run, &model);
+    find_basis(&run, sines, &by);
+    ld_response *response = respond(&model, NAN, NAN, names, (size_t)count);
+    assert_int_equal(ld_response_gain(response, speed, left ? "road.left" : "road", frequency,
+                                      SINES, gain, &error),
+                     LD_OK);
+    for (int i = 0; i < count; i++) {
+        fit(&run, names[i], &by, found);
+        for (int k = 0; k < SINES; k++)
+            compare(&sines[k], gain[k * count + i], found[k], &most);
+    }
+    printf("  %.1f m/s, %s, %.2f to %.1f Hz, %d columns, %.2f s of CPU\n", speed,
+           left ? "left track" : "both tracks", frequency[0], frequency[SINES - 1], count,
+           run.summary.statistics.cpu_seconds);
+    CHECK_BELOW("amplitude, relative", most.amplitude, 1e-3);
+    CHECK_BELOW("phase [rad]", most.phase, 1e-3);
+    ld_response_free(response);
+    recorded_run_free(&run);
+    reference_model_free(&model);
+}
+
+static int wanted(const char *name, int usual)
+{
+    const char *text = getenv(name);
+    return text ? atoi(text) : usual;
+}
+
+static void roads_of_sines(void **state)
+{
+    (void)state;
+    static const double both[SINES] = {0.5, 1.27, 2.9, 6.7, 14.3, 30};
+    static const double left[SINES] = {0.85, 1.75, 3.6, 7.3, 13.1, 23.1};
+    for (int set = 0; set < wanted("LD_RESPONSE_SINES", 1); set++) {
+        double speed = (10 + 5 * ((set + 1) % 6)) / 3.6, frequency[2][SINES];
+        for (int k = 0; k < SINES; k++) {
+            frequency[0][k] = both[k] * pow(1.07, k == SINES - 1 ? -set : set);
+            frequency[1][k] = left[k] * pow(1.07, set);
+        }
+        check_sines(speed, frequency[0], false);
+        check_sines(speed, frequency[1], true);
+    }
+}
+
+// ---- on random roads ----
+
+static const char *const seen[] = {
+    "chassis.y",
+    "chassis.pitch",
+    "chassis.roll",
+    "chassis.vy",
+    "chassis.wz",
+    "chassis.wx",
+    "wheel.front-left.tyre_force",
+    "wheel.rear-right.travel",
+    "elevation.error",
+    "elevation.torque",
+    "azimuth.error",
+    "azimuth.torque",
+    "tip.inertial_vy",
+    "tip.inertial_vz",
+    "tip.inertial_pitch_rate",
+    "tip.inertial_yaw_rate",
+    "tip.y",
+    "rocket.pitch_rate",
+    "tip_off.vy",
+    "lock.force",
+};
+enum { SEEN = sizeof seen / sizeof *seen };
+
+// Mean squares of the columns about their means of all roads, over the last seconds of a run.
+static void mean_squares(const ld_model *model, const double *rest, double *square)
+{
+    recorded_run run;
+    recorded_run_make(&run, model);
+    for (int i = 0; i < SEEN; i++) {
+        size_t column = recorded_column(&run, seen[i]), count = 0;
+        square[i] = 0;
+        for (size_t k = 0; k < run.rows; k++)
+            if (recorded_value(&run, k, 0) >= 0) {
+                double off = recorded_value(&run, k, column) - rest[i];
+                square[i] += off * off;
+                count++;
+            }
+        square[i] /= (double)count;
+    }
+    recorded_run_free(&run);
+}
+
+// Values in the equilibrium on a flat road.
+static void find_rest(const ld_model *model, double *rest)
+{
+    ld_model flat = *model;
+    recorded_run run;
+    flat.base.vehicle.road.form = LD_ROAD_FLAT;
+    flat.run.lead_in = 0;
+    flat.firing[0].at = 1e-3;
+    recorded_run_make(&run, &flat);
+    for (int i = 0; i < SEEN; i++)
+        rest[i] = recorded_value(&run, 0, recorded_column(&run, seen[i]));
+    recorded_run_free(&run);
+}
+
+// How many of the columns have their root mean square within the seeds' interval of 95 %.
+static int check_roads(ld_model *model, double speed, int seeds)
+{
+    double sum[SEEN] = {0}, sum2[SEEN] = {0}, square[SEEN], rest[SEEN], rms[SEEN];
+    ld_error error;
+    int inside = 0;
+    model->base.vehicle.speed = speed;
+    ld_response *response = respond(model, NAN, NAN, seen, SEEN);
+    assert_int_equal(ld_response_on_road(response, speed, rms, NULL, &error), LD_OK);
+    find_rest(model, rest);
+    for (int seed = 1; seed <= seeds; seed++) {
+        model->base.vehicle.road.seed = seed;
+        mean_squares(model, rest, square);
+        for (int i = 0; i < SEEN; i++) {
+            sum[i] += square[i];
+            sum2[i] += square[i] * square[i];
+        }
+    }
+    for (int i = 0; i < SEEN; i++) {
+        double mean = sum[i] / seeds, variance = (sum2[i] - mean * sum[i]) / (seeds - 1);
+        double half = student_quantile(0.975, seeds - 1) * sqrt(variance / seeds);
+        bool within = fabs(rms[i] * rms[i] - mean) <= half;
+        printf("    %4.1f m/s %-28s %10.4g  seeds %10.4g (%10.4g to %10.4g)%s\n", speed, seen[i],
+               rms[i], sqrt(mean), sqrt(fmax(mean - half, 0)), sqrt(mean + half),
+               within ? "" : " *");
+        inside += within;
+    }
+    ld_response_free(response);
+    return inside;
+}
+
+// At three speeds; the seeds' intervals of 95 %.
+static void random_roads(void **state)
+{
+    (void)state;
+    enum { SPEEDS = 3 };
+    static const double speeds[SPEEDS] = {15 / 3.6, 30 / 3.6, 45 / 3.6};
+    ld_model model;
+    int seeds = wanted("LD_RESPONSE_SEEDS", 0), inside = 0;
+    if (seeds < 2)
+        skip();
+    without_coulomb_friction(&model, speeds[0]);
+    ld_road *road = &model.base.vehicle.road;
+    road->iso_class = 0;
+    road->tracks = LD_TRACKS_INDEPENDENT;
+    road->harmonics = 400;
+    road->wavelengths[0] = 0.3;
+    road->wavelengths[1] = 100;
+    model.run.lead_in = 6;
+    model.firing[0].at = 3;
+    for (int i = 0; i < SPEEDS; i++)
+        inside += check_roads(&model, speeds[i], seeds);
+    // of 60, binomial: 51 or fewer would be seen once in 200 times if they were independent
+    CHECK_WITHIN("of 60 within the seeds' intervals", inside, 52, 60);
+    reference_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(roads_of_sines),
+        cmocka_unit_test(random_roads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
