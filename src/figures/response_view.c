@@ -20,7 +20,7 @@ struct ld_response_view {
     ld_response *response;
     view_kind kind;
     const ld_column *input; // of a frequency response
-    const ld_column **column;
+    ld_column *column;      // [columns]
     size_t columns;
     double slowest, fastest; // [m/s]
     size_t count, speeds;
@@ -73,7 +73,7 @@ static ld_status choose_all(ld_response_view *view, ld_error *error)
     ld_status status = ld_response_choose(view->response, names, view->columns, error);
     view->column = malloc(view->columns * sizeof *view->column);
     for (size_t i = 0; i < view->columns && view->column; i++)
-        view->column[i] = &columns[i + 2];
+        view->column[i] = columns[i + 2];
     free(names);
     return status || view->column ? status : no_memory(error);
 }
@@ -92,7 +92,7 @@ static ld_status choose(ld_response_view *view, const char *const *names, size_t
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < all; k++)
             if (strcmp(columns[k].name, names[i]) == 0)
-                view->column[i] = &columns[k];
+                view->column[i] = columns[k];
     view->columns = count;
     return LD_OK;
 }
@@ -217,7 +217,7 @@ static ld_status fill_speeds(ld_response_view *view, ld_error *error)
 static ld_status fill(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
 {
     ld_status status = choose_wished(view, wish, error);
-    if (!status && view->kind == FREQUENCY)
+    if (!status && wish->input)
         status = find_input(view, wish->input, error);
     if (!status && view->kind != SPEEDS)
         status = set_frequencies(view, wish->from, wish->to, error);
@@ -331,8 +331,8 @@ static void print_frequency(const ld_response_view *view, FILE *stream)
         char unit[NAME];
         if (isnan(value[k]))
             continue;
-        value_unit(view, view->column[i]->unit, unit);
-        fprintf(stream, "  %-26s %-16s %12.4g %10.4g %12.1f\n", view->column[i]->name, unit,
+        value_unit(view, view->column[i].unit, unit);
+        fprintf(stream, "  %-26s %-16s %12.4g %10.4g %12.1f\n", view->column[i].name, unit,
                 value[k], view->x[k], DEGREE * view->phase[i * view->count + k]);
     }
 }
@@ -342,9 +342,9 @@ static void print_spectrum(const ld_response_view *view, FILE *stream)
     fprintf(stream, "\n%-28s %-8s %12s %18s\n", "Root mean square", "", "", "strongest at [Hz]");
     for (size_t i = 0; i < view->columns; i++) {
         double factor;
-        const char *unit = shown_unit(view->column[i]->unit, &factor);
+        const char *unit = shown_unit(view->column[i].unit, &factor);
         if (!isnan(view->rms[i]))
-            fprintf(stream, "  %-26s %-8s %12.4g %18.4g\n", view->column[i]->name, unit,
+            fprintf(stream, "  %-26s %-8s %12.4g %18.4g\n", view->column[i].name, unit,
                     factor * view->rms[i], view->top[i]);
     }
 }
@@ -356,11 +356,11 @@ static void print_speeds(const ld_response_view *view, FILE *stream)
             KMH * view->speed[0], KMH * view->speed[last], "greatest", "at [km/h]");
     for (size_t i = 0; i < view->columns; i++) {
         double factor;
-        const char *unit = shown_unit(view->column[i]->unit, &factor);
+        const char *unit = shown_unit(view->column[i].unit, &factor);
         const double *rms = view->rms + i * view->speeds;
         size_t k = greatest(rms, view->speeds);
         if (!isnan(rms[last]))
-            fprintf(stream, "  %-26s %-8s %14.4g %12.4g %12.4g %10.4g\n", view->column[i]->name,
+            fprintf(stream, "  %-26s %-8s %14.4g %12.4g %12.4g %10.4g\n", view->column[i].name,
                     unit, factor * rms[0], factor * rms[last], factor * rms[k],
                     KMH * view->speed[k]);
     }
@@ -432,9 +432,9 @@ static ld_status write_frequencies(const ld_response_view *view, const char *fol
     if (!status)
         table_add(&all, "frequency", "", "Hz", view->x);
     for (size_t i = 0; i < view->columns && !status; i++) {
-        const char *name = view->column[i]->name;
+        const char *name = view->column[i].name;
         char unit[NAME];
-        value_unit(view, view->column[i]->unit, unit);
+        value_unit(view, view->column[i].unit, unit);
         table_add(&all, name, gain ? ".amplitude" : "", unit, view->value + i * view->count);
         if (gain)
             table_add(&all, name, ".phase", "rad", view->phase + i * view->count);
@@ -454,7 +454,7 @@ static ld_status write_speeds(const ld_response_view *view, const char *folder, 
     if (!status)
         table_add(&all, "speed", "", "m/s", view->speed);
     for (size_t i = 0; i < view->columns && !status; i++)
-        table_add(&all, view->column[i]->name, "", view->column[i]->unit,
+        table_add(&all, view->column[i].name, "", view->column[i].unit,
                   view->rms + i * view->speeds);
     if (!status)
         status = table_write(&all, folder, "response-rms.csv", view->speeds, error);
@@ -531,11 +531,11 @@ static ld_status add_values(const ld_response_view *view, chart_page *page, ld_e
     size_t count = speeds ? view->speeds : view->count;
     const double *x = speeds ? view->speed : view->x, *all = speeds ? view->rms : view->value;
     for (size_t i = 0; i < view->columns; i++) {
-        chart *it = chart_of(page, view->column[i]->unit);
+        chart *it = chart_of(page, view->column[i].unit);
         if (!it)
             return too_many(error);
         it->curve[it->count++] =
-            (chart_curve){view->column[i]->name, count, x, all + i * count, false};
+            (chart_curve){view->column[i].name, count, x, all + i * count, false};
     }
     for (size_t i = 0; i < page->count; i++)
         name_chart(view, page, i);

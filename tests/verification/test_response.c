@@ -2,6 +2,7 @@
 // road of small sines, of which some are under the left wheels alone; root mean squares on random
 // roads. LD_RESPONSE_SEEDS: on so many of them, at three speeds; LD_RESPONSE_SINES: on so many sets
 // of sines.
+// ctest: slow
 #include <lapacke.h>
 #include <stdlib.h>
 
@@ -245,6 +246,130 @@ static void roads_of_sines(void **state)
     }
 }
 
+// ---- what else may act ----
+
+// Sines of the inputs, each with one of its own, against a run's: how much of the greatest sine in
+// a column is missed.
+static double compare_inputs(const recorded_run *run, const ld_model *model,
+                             const char *const *inputs, const sine *sines, const char *const *names,
+                             int count)
+{
+    ld_error error;
+    ld_phasor found[SINES], gain[SINES][16];
+    fitted_by by;
+    double worst = 0;
+    ld_response *response = respond(model, NAN, NAN, names, (size_t)count);
+    find_basis(run, sines, &by);
+    for (int k = 0; k < SINES; k++)
+        if (ld_response_gain(response, model->base.vehicle.speed, inputs[k], &sines[k].frequency, 1,
+                             gain[k], &error))
+            fail_msg("%s", error.text);
+    for (int i = 0; i < count; i++) {
+        double most = 0, off = 0;
+        fit(run, names[i], &by, found);
+        for (int k = 0; k < SINES; k++) {
+            ld_phasor g = gain[k][i], road = {sines[k].amplitude * cos(sines[k].phase),
+                                              sines[k].amplitude * sin(sines[k].phase)};
+            double re = g.real * road.real - g.imaginary * road.imaginary;
+            double im = g.real * road.imaginary + g.imaginary * road.real;
+            most = fmax(most, hypot(re, im));
+            off = fmax(off, hypot(found[k].real - re, found[k].imaginary - im));
+        }
+        worst = fmax(worst, off / most);
+    }
+    ld_response_free(response);
+    return worst;
+}
+
+static void a_base_in_six_sines(void **state)
+{
+    (void)state;
+    static const char *const inputs[SINES] = {"base.x",   "base.y",     "base.z",
+                                              "base.yaw", "base.pitch", "base.roll"};
+    static const char *const names[] = {"tip.y",           "tip.z",      "tip.inertial_x",
+                                        "tip.inertial_vy", "rocket.psi", "rocket.theta",
+                                        "rocket.yaw_rate", "lock.force", "contact.rear.normal",
+                                        "base.yaw",        "base.x"};
+    ld_model model;
+    recorded_run run;
+    sine sines[SINES];
+    reference_model(&model);
+    model.base.kind = LD_BASE_PRESCRIBED;
+    model.rocket.contact.friction = 0;
+    ld_sines *of[SINES] = {&model.base.surge, &model.base.heave, &model.base.sway,
+                           &model.base.yaw,   &model.base.pitch, &model.base.roll};
+    for (int k = 0; k < SINES; k++) {
+        sines[k] = (sine){3.3 * pow(1.5, k), 1e-6 / (1 + k), 0.2 + k};
+        *of[k] =
+            (ld_sines){1, {{sines[k].amplitude, sines[k].frequency, sines[k].phase + two_pi / 4}}};
+    }
+    model.run.lead_in = 1.5;
+    model.run.tolerance = 1e-9;
+    model.run.output_step_lead_in = 2e-3;
+    model.run.end = LD_END_TIME;
+    model.run.end_time = 0;
+    model.firing[0].at = 2;
+    recorded_run_make(&run, &model);
+    printf("  %.2f s of CPU\n", run.summary.statistics.cpu_seconds);
+    CHECK_BELOW("11 columns, of the greatest sine",
+                compare_inputs(&run, &model, inputs, sines, names, 11), 1e-3);
+    recorded_run_free(&run);
+    reference_model_free(&model);
+}
+
+// A command in sines, by straight lines of a millisecond.
+static ld_table waving(double about, const sine *sines, int count, double from, double to)
+{
+    enum { ROWS = 4501 };
+    double *data = malloc(2 * ROWS * sizeof *data);
+    for (int i = 0; i < ROWS; i++) {
+        double t = from + (to - from) * i / (ROWS - 1);
+        data[2 * i] = t;
+        data[2 * i + 1] = about;
+        for (int k = 0; k < count; k++)
+            data[2 * i + 1] +=
+                sines[k].amplitude * cos(two_pi * sines[k].frequency * t + sines[k].phase);
+    }
+    return (ld_table){ROWS, 2, data};
+}
+
+static void commands_in_sines(void **state)
+{
+    (void)state;
+    static const char *const inputs[SINES] = {"azimuth.command",   "azimuth.command",
+                                              "azimuth.command",   "elevation.command",
+                                              "elevation.command", "elevation.command"};
+    static const double frequency[SINES] = {1.1, 2.6, 5.3, 1.7, 3.7, 8};
+    static const char *const names[] = {
+        "azimuth.measured", "chassis.wy",   "elevation.error", "chassis.wz",
+        "tip.inertial_vy",  "rocket.pitch", "rocket.yaw",
+    };
+    ld_model model;
+    recorded_run run;
+    sine sines[SINES];
+    for (int k = 0; k < SINES; k++)
+        sines[k] = (sine){frequency[k], 1e-5, 0.2 + k};
+    without_coulomb_friction(&model, 30 / 3.6);
+    model.base.vehicle.road.form = LD_ROAD_FLAT;
+    ld_table *azimuth = &model.platform.azimuth.stabiliser.command;
+    ld_table *elevation = &model.platform.elevation.stabiliser.command;
+    double pitch = elevation->data[1];
+    free(azimuth->data);
+    free(elevation->data);
+    *azimuth = waving(0, sines, 3, -3, 1.5);
+    *elevation = waving(pitch, sines + 3, 3, -3, 1.5);
+    model.run.lead_in = 3;
+    model.run.tolerance = 1e-9;
+    model.run.output_step_lead_in = 4e-3;
+    model.firing[0].at = 1.5;
+    recorded_run_make(&run, &model);
+    printf("  %.2f s of CPU\n", run.summary.statistics.cpu_seconds);
+    CHECK_BELOW("7 columns, of the greatest sine",
+                compare_inputs(&run, &model, inputs, sines, names, 7), 1e-3);
+    recorded_run_free(&run);
+    reference_model_free(&model);
+}
+
 // ---- on random roads ----
 
 static const char *const seen[] = {
@@ -365,6 +490,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roads_of_sines),
+        cmocka_unit_test(a_base_in_six_sines),
+        cmocka_unit_test(commands_in_sines),
         cmocka_unit_test(random_roads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
