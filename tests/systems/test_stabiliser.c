@@ -227,9 +227,8 @@ static void loops(void **context)
 
 // On a platform that hardly moves the torque asked for jumps and stays: the actuator's goes up a
 // ramp until its lag alone is slower, then on as a lag.
-static void slew(void **context)
+static void ramp(double sign)
 {
-    (void)context;
     fixture f;
     set_up(&f);
     const double asked = 8e3, rate = 2 * 3.14159265358979324 * 20;
@@ -237,7 +236,7 @@ static void slew(void **context)
         f.model.platform.elevation.inertia[i] = 1e15;
     *f.given = (ld_stabiliser){
         .command = f.given->command, .kp = 8e5, .torque_limit = 1e9, .bandwidth = 20, .slew = 4e5};
-    f.given->command.data[1] = asked / 8e5;
+    f.given->command.data[1] = sign * asked / 8e5;
     f.model.platform.elevation.friction.viscous = 0;
     begin(&f);
     f.state[ORIENTATING_W + 2] = 0;
@@ -248,11 +247,18 @@ static void slew(void **context)
         follow(&f, 2e-3 * i, t);
         if (t > corner)
             expected = asked - 4e5 / rate * exp(-rate * (t - corner));
-        worst = fmax(worst, fabs(hinge_of(&f, t).torque - expected));
+        worst = fmax(worst, fabs(sign * hinge_of(&f, t).torque - expected));
     }
     printf("  ramp of %.3g ms\n", 1e3 * corner);
     CHECK_BELOW("torque [N m]", worst, 1e-6);
     tear_down(&f);
+}
+
+static void slew(void **context)
+{
+    (void)context;
+    ramp(1);
+    ramp(-1);
 }
 
 // ---- digital loop
