@@ -39,6 +39,22 @@ export function panelsOf(table, figure, zero) {
   return shown;
 }
 
+// The panels of several runs, each {table, zero, label, index}, laid over each other: a curve knows its own
+// run, whose colour it has; curves of one run in one panel differ by their dashes.
+export function panelsOver(runs, figure) {
+  const found = new Map();
+  runs.forEach(({ table, zero, label, index: run }) => {
+    for (const shown of panelsOf(table, figure, zero)) {
+      const key = `${figure.panels.indexOf(shown.panel)} ${shown.title}`, named = shown.curves.length > 1;
+      const curves = shown.curves.map((curve, dash) => ({ ...curve, table, zero, against: shown.against, run, dash,
+        of: label, label: named && curve.label ? `${label}, ${curve.label}` : label }));
+      if (!found.has(key)) found.set(key, { ...shown, curves: [] });
+      found.get(key).curves.push(...curves);
+    }
+  });
+  return [...found.values()];
+}
+
 // Marks for the time axis, in seconds from `zero`.
 export function instantsOf(table, rockets, summary, zero) {
   const marks = [];
@@ -57,11 +73,25 @@ export function instantsOf(table, rockets, summary, zero) {
   return marks;
 }
 
+const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
+
+// Of several runs: each run's rows one after the other, with its name.
+function csvOver(curves) {
+  const lines = [["run", "column", "time [s]", "value", "against"].map(quoted).join(",")];
+  for (const { column, against, table, zero, of } of curves)
+    table.t.forEach((t, i) => {
+      if (column.value[i] === undefined) return;
+      lines.push([quoted(of), quoted(`${column.name} [${column.unit}]`), t - zero, column.value[i] ?? "",
+        against?.value[i] ?? ""].join(","));
+    });
+  return lines.join("\n") + "\n";
+}
+
 // The data of a panel as CSV, in SI: the rows kept by one of its curves.
 export function csvOf(shown) {
   const { table, curves, zero, against } = shown;
+  if (curves[0].table) return csvOver(curves);
   const columns = [...(against ? [against] : []), ...curves.map((curve) => curve.column)];
-  const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
   const lines = [["time [s]", ...columns.map((c) => `${c.name} [${c.unit}]`)].map(quoted).join(",")];
   table.t.forEach((t, i) => {
     if (columns.every((c) => c.value[i] === undefined)) return;

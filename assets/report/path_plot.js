@@ -1,5 +1,5 @@
-// One column against another, as a path on a canvas; its points follow the window of time and the
-// cursor of the plots over time.
+// One column against another, as a path on a canvas, or the paths of several runs; their points follow
+// the window of time and the cursor of the plots over time.
 import { filled, readable, rowAt } from "./data.js";
 import { colour, curveColour, element, onColours } from "./page.js";
 import { tickTexts, ticks } from "./ticks.js";
@@ -14,20 +14,38 @@ function widened(values) {
   return [low - room, high + room];
 }
 
-export function pathPlot(shown, group, marks, host) {
-  const { table, panel, curves, against, zero } = shown;
+// A run's way: where it is at its times from ignition, and which rows are in the window.
+function wayOf({ panel }, { column, against, table, zero, run = 0, label }) {
   const t = table.t.map((time) => time - zero);
-  const x = filled(against.value, t).map((v) => v * panel.x.factor);
-  const y = filled(curves[0].column.value, t).map((v) => v * panel.y.factor);
+  return {
+    t, run, label, first: 0, last: t.length - 1, pointed: -1,
+    x: filled(against.value, t).map((v) => v * panel.x.factor),
+    y: filled(column.value, t).map((v) => v * panel.y.factor),
+  };
+}
+
+const isAt = (way, row) => Number.isFinite(way.x[row]) && Number.isFinite(way.y[row]);
+
+// The row of a way that is next to a time.
+function rowNext({ t }, time) {
+  const row = Math.max(0, rowAt(t, time));
+  return row + 1 < t.length && t[row + 1] - time < time - t[row] ? row + 1 : row;
+}
+
+export function pathPlot(shown, group, marks, host) {
+  const { table, panel, curves, against, zero } = shown, several = curves[0].table !== undefined;
+  const ways = several ? curves.map((curve) => wayOf(shown, curve))
+    : [wayOf(shown, { column: curves[0].column, against, table, zero, label: "" })];
   const canvas = element("canvas", { tabIndex: 0 });
   const reading = element("output", { className: "reading" });
   canvas.setAttribute("role", "figure");
   canvas.setAttribute("aria-label", `${shown.title}: ${panel.y.text} against ${panel.x.text}`);
   host.append(canvas, reading);
-  let first = 0, last = t.length - 1, pointed = -1, place;
+  let place;
 
+  const inWindow = (of) => ways.flatMap((way) => [...way[of].subarray(way.first, way.last + 1)]);
   const measure = () => {
-    const range = [widened(x.subarray(first, last + 1)), widened(y.subarray(first, last + 1))];
+    const range = [widened(inWindow("x")), widened(inWindow("y"))];
     const w = canvas.clientWidth - LEFT - RIGHT, h = HEIGHT - TOP - BOTTOM;
     place = {
       range,
@@ -66,11 +84,11 @@ export function pathPlot(shown, group, marks, host) {
     ctx.restore();
   };
 
-  const dot = (ctx, row, fill) => {
-    if (row < 0 || !Number.isFinite(x[row]) || !Number.isFinite(y[row])) return;
+  const dot = (ctx, way, row, fill) => {
+    if (row < 0 || !isAt(way, row)) return;
     ctx.fillStyle = fill;
     ctx.beginPath();
-    ctx.arc(place.x(x[row]), place.y(y[row]), 3.5, 0, 7);
+    ctx.arc(place.x(way.x[row]), place.y(way.y[row]), 3.5, 0, 7);
     ctx.fill();
   };
 
@@ -78,10 +96,12 @@ export function pathPlot(shown, group, marks, host) {
   const drawMarks = (ctx) => {
     const named = [];
     for (const mark of marks) {
-      const row = rowAt(t, mark.t);
-      if (row < first || row > last || !Number.isFinite(x[row]) || !Number.isFinite(y[row])) continue;
-      dot(ctx, row, colour("mark"));
-      const left = place.x(x[row]) + 6, top = [-7, 7].map((down) => place.y(y[row]) + down)
+      const way = ways.find(({ run }) => run === (mark.run ?? 0)), row = way ? rowAt(way.t, mark.t) : -1;
+      if (!way || row < way.first || row > way.last || !isAt(way, row)) continue;
+      dot(ctx, way, row, mark.run ? curveColour(mark.run) : colour("mark"));
+      if (!mark.name) continue;
+      ctx.fillStyle = colour("mark");
+      const left = place.x(way.x[row]) + 6, top = [-7, 7].map((down) => place.y(way.y[row]) + down)
         .find((at) => !named.some(([l, t0]) => Math.abs(l - left) < 50 && Math.abs(t0 - at) < 12));
       if (top === undefined) continue;
       named.push([left, top]);
@@ -98,49 +118,57 @@ export function pathPlot(shown, group, marks, host) {
     ctx.scale(scale, scale);
     measure();
     drawAxes(ctx);
-    ctx.beginPath();
-    for (let i = first, pen = false; i <= last; i++) {
-      const has = Number.isFinite(x[i]) && Number.isFinite(y[i]);
-      if (has) ctx[pen ? "lineTo" : "moveTo"](place.x(x[i]), place.y(y[i]));
-      pen = has;
+    for (const way of ways) {
+      ctx.beginPath();
+      for (let i = way.first, pen = false; i <= way.last; i++) {
+        const has = isAt(way, i);
+        if (has) ctx[pen ? "lineTo" : "moveTo"](place.x(way.x[i]), place.y(way.y[i]));
+        pen = has;
+      }
+      ctx.strokeStyle = curveColour(way.run);
+      ctx.lineWidth = 1.25;
+      ctx.stroke();
     }
-    ctx.strokeStyle = curveColour(0);
-    ctx.lineWidth = 1.25;
-    ctx.stroke();
     drawMarks(ctx);
-    dot(ctx, pointed, colour("ink"));
-    reading.textContent = pointed < 0 ? " "
-      : `t ${readable(t[pointed])} s   x ${readable(x[pointed])}   y ${readable(y[pointed])}`;
+    for (const way of ways) dot(ctx, way, way.pointed, colour("ink"));
+    reading.textContent = ways.filter(({ pointed }) => pointed >= 0).map(({ t, x, y, label, pointed }) =>
+      `${several ? `${label}: ` : ""}t ${readable(t[pointed])} s   x ${readable(x[pointed])}   y ${readable(y[pointed])}`)
+      .join("\n") || " ";
   };
 
   // The point of the path nearest to the mouse leads the other plots.
   canvas.addEventListener("mousemove", (event) => {
-    let best = Infinity, found = -1;
-    for (let i = first; i <= last; i++) {
-      const d = (place.x(x[i]) - event.offsetX) ** 2 + (place.y(y[i]) - event.offsetY) ** 2;
-      if (d < best) { best = d; found = i; }
-    }
-    if (found >= 0) group.pointAt(t[found]);
+    let best = Infinity, found;
+    for (const { t, x, y, first, last } of ways)
+      for (let i = first; i <= last; i++) {
+        const d = (place.x(x[i]) - event.offsetX) ** 2 + (place.y(y[i]) - event.offsetY) ** 2;
+        if (d < best) { best = d; found = t[i]; }
+      }
+    if (found !== undefined) group.pointAt(found);
   });
   canvas.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!step) return;
     event.preventDefault();
+    const { t, first, last, pointed } = ways[0];
     group.pointAt(t[Math.min(last, Math.max(first, (pointed < 0 ? first : pointed) + step))]);
   });
   new ResizeObserver(draw).observe(canvas);
   onColours(draw);
   return {
     window: (min, max) => {
-      first = Math.max(0, rowAt(t, min));
-      last = Math.max(first, rowAt(t, max));
+      for (const way of ways) {
+        way.first = Math.max(0, rowAt(way.t, min));
+        way.last = Math.max(way.first, rowAt(way.t, max));
+      }
       draw();
     },
     point: (time) => {
-      let row = Math.max(0, rowAt(t, time));
-      if (row + 1 < t.length && t[row + 1] - time < time - t[row]) row++;
-      if (row !== pointed) { pointed = row; draw(); }
+      const rows = ways.map((way) => rowNext(way, time));
+      if (rows.every((row, i) => row === ways[i].pointed)) return;
+      ways.forEach((way, i) => { way.pointed = rows[i]; });
+      draw();
     },
-    extent: [t[0], t[t.length - 1]],
+    extent: [ways[0].t[0], ways[0].t[ways[0].t.length - 1]],
   };
 }

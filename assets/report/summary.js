@@ -43,7 +43,7 @@ function rowsOf(objects, list) {
   const rows = [];
   for (const [path, label, unit, factor] of list) {
     const [head, star] = path.split(".*");
-    const keys = star === undefined ? [null] : Object.keys(at(objects[0], head) ?? {});
+    const keys = star === undefined ? [null] : [...new Set(objects.flatMap((o) => Object.keys(at(o, head) ?? {})))];
     for (const key of keys) {
       const read = (o) => (key === null ? at(o, path) : at(o, head)?.[key]);
       const cells = objects.map(read);
@@ -84,4 +84,25 @@ export function showSummary(summary) {
     tableOf("Equilibrium at the start", rowsOf([summary.equilibrium ?? {}], EQUILIBRIUM)),
     modes(summary.modes),
     tableOf("Computation", rowsOf([summary.statistics ?? {}], STATISTICS)));
+}
+
+// Those of several runs side by side, each {label, summary}.
+export function showSummaries(runs) {
+  const labels = runs.map(({ label }) => label), all = runs.map(({ summary }) => summary);
+  const rockets = all.flatMap((summary) => summary.rockets ?? []);
+  const heads = runs.flatMap(({ label, summary }) => (summary.rockets ?? []).map((_, i, { length }) =>
+    (length > 1 ? `${label}, ${i + 1}` : label)));
+  const own = new Map(all.flatMap((summary) => measures(summary.measures)).map((row) => [row[0], row]));
+  const part = (name, list) => rowsOf(all.map((summary) => summary[name] ?? {}), list);
+  const most = Math.max(...all.map(({ modes: list }) => list?.length ?? 0), 0);
+  const frequencies = Array.from({ length: most }, (_, i) => {
+    const each = all.map(({ modes: list }) => list?.[i]);
+    return [[...new Set(each.filter(Boolean).map(({ shape }) => String(shape)))].join(" / "), "Hz", each.map((mode) => readable(mode?.frequency))];
+  });
+  return element("div", { id: "tables" },
+    tableOf(rockets.length > runs.length ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...own.values()]), heads),
+    tableOf("Energy balance at the end", part("energy", ENERGY), labels),
+    tableOf("Equilibrium at the start", part("equilibrium", EQUILIBRIUM), labels),
+    tableOf("Natural frequencies of the tube on its supports", frequencies, labels),
+    tableOf("Computation", part("statistics", STATISTICS), labels));
 }

@@ -5,9 +5,33 @@ import { colour, curveColour, onColours } from "./page.js";
 import { tickTexts } from "./ticks.js";
 
 const HEIGHT = 230, LABEL_GAP = 14;
+// Of a run's curves in one panel, and their signs below it.
+const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]], BORDERS = ["solid", "dashed", "dotted", "double"];
+
+// The value at a time between rows, on a straight line.
+function valueBetween(t, value, time) {
+  const i = rowAt(t, time);
+  if (i < 0 || time > t[t.length - 1]) return NaN;
+  return t[i] === time ? value[i] : value[i] + ((value[i + 1] - value[i]) * (time - t[i])) / (t[i + 1] - t[i]);
+}
+
+// Curves of several runs at all the times at which one of them has a row.
+function dataOver({ panel, curves }) {
+  const rows = curves.map(({ column, table, zero }) => table.t.filter((_, i) => column.value[i] !== undefined).map((t) => t - zero));
+  const times = [...new Set(rows.flat())].sort((a, b) => a - b);
+  return [times, ...curves.map(({ column, table, zero, shift }) => {
+    const t = table.t.map((time) => time - zero), value = filled(column.value, t);
+    return times.map((time) => {
+      const v = valueBetween(t, value, time);
+      return Number.isNaN(v) ? null : (v - shift) * panel.y.factor;
+    });
+  })];
+}
 
 // Times from `zero` and, for each curve, values in the unit shown, at the rows that some curve needs.
-function alignedData({ table, panel, curves, zero }) {
+function alignedData(shown) {
+  const { table, panel, curves, zero } = shown;
+  if (curves[0].table) return dataOver(shown);
   const rows = [];
   for (let i = 0; i < table.t.length; i++)
     if (curves.some((curve) => curve.column.value[i] !== undefined)) rows.push(i);
@@ -32,6 +56,13 @@ function drawInstants(u, marks) {
   for (const mark of marks) {
     const x = Math.round(u.valToPos(mark.t, "x", true));
     if (x < bbox.left || x > bbox.left + bbox.width) continue;
+    ctx.strokeStyle = mark.run ? curveColour(mark.run) : colour("mark");
+    if (!mark.name) { // of another run than the first
+      ctx.globalAlpha = 0.5;
+      ctx.strokeRect(x, bbox.top, 0, bbox.height);
+      ctx.globalAlpha = 1;
+      continue;
+    }
     const top = x < free ? below : bbox.top, end = top + 6 * scale + ctx.measureText(mark.name).width;
     ctx.beginPath();
     ctx.moveTo(x, top);
@@ -76,9 +107,11 @@ function options(shown, group, marks, width) {
       { ...axis(panel.y.text, true), size: 56 }],
     series: [{ label: "t [s]", value: (u, v) => readable(v) },
       ...curves.map((curve, i) => ({
-        label: curve.label || shown.title, stroke: () => curveColour(i), width: 1.25, pxAlign: 0,
+        label: curve.label || shown.title, stroke: () => curveColour(curve.run ?? i), width: 1.25, pxAlign: 0,
+        dash: DASHES[(curve.dash ?? 0) % DASHES.length],
         points: { show: false }, value: (u, v) => readable(v),
       }))],
+    legend: { markers: { dash: (u, i) => BORDERS[(curves[i - 1]?.dash ?? 0) % BORDERS.length] } },
     cursor: {
       sync: { key: group.cursorKey, scales: ["x", null], setSeries: false,
         filters: { pub: (type) => type === "mousemove" || type === "mouseleave" } },

@@ -1,4 +1,5 @@
-/// A run, or studies, to look at: one HTML file that opens offline in any browser (docs/report.md).
+/// A run, runs laid over each other, or studies, to look at: one HTML file that opens offline in
+/// any browser (docs/report.md).
 #ifndef LAUNCHDYN_REPORT_H
 #define LAUNCHDYN_REPORT_H
 
@@ -30,6 +31,16 @@ typedef struct ld_report {
 ///         not as it was written: then report->bytes is not 0, and the report shows the rest;
 ///         LD_ERR_FILE (the report cannot be written; an earlier one stands) or LD_ERR_MEMORY
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error);
+
+/// Writes the report of up to 8 runs laid over each other: the figures of all in one, their
+/// summaries side by side. What is broken or not there is noted and left out.
+/// @param folder [count] of the runs
+/// @param report filled; may be NULL
+/// @return LD_OK; LD_ERR_INPUT: one of the folders holds no run, or a damaged one; where
+///         report->bytes is not 0, the report shows the others; LD_ERR_FILE (the report cannot be
+///         written; an earlier one stands) or LD_ERR_MEMORY
+ld_status ld_report_write_runs(const char *const *folder, size_t count, const char *file,
+                               ld_report *report, ld_error *error);
 
 /// Writes the report of studies (launchdyn/study.h) side by side: of each folder its study, or each
 /// point of its sweep. What is broken or not there is noted and left out.

@@ -1,4 +1,4 @@
-// launchdyn report: one HTML file of a run, or of studies.
+// launchdyn report: one HTML file of a run, of several laid over each other, or of studies.
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -39,17 +39,18 @@ int command_write_report(const char *folder, const char *file, bool quiet)
     return finish(status, &error, &report, place_of(folder, file, usual), quiet);
 }
 
-static int write_studies(const char *const *folder, size_t count, const char *file)
+static int write_several(const char *const *folder, size_t count, const char *file, bool studies)
 {
     static ld_report report;
     ld_error error;
     char usual[PATH_SIZE];
     if (count > 1 && !file) {
-        command_complain("report of several studies wants -o FILE");
+        command_complain("report of several folders wants -o FILE");
         return EXIT_INPUT;
     }
     file = place_of(folder[0], file, usual);
-    ld_status status = ld_report_write_studies(folder, count, file, &report, &error);
+    ld_status status = studies ? ld_report_write_studies(folder, count, file, &report, &error)
+                               : ld_report_write_runs(folder, count, file, &report, &error);
     return finish(status, &error, &report, file, false);
 }
 
@@ -70,8 +71,11 @@ int command_report(const command *self, int argc, char **argv)
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
-        if (line.count > 1 || holds_study(line.word[0]))
-            code = write_studies(line.word, line.count, file);
+        bool studies = false;
+        for (size_t i = 0; i < line.count; i++)
+            studies |= holds_study(line.word[i]);
+        if (line.count > 1 || studies)
+            code = write_several(line.word, line.count, file, studies);
         else
             code = command_write_report(line.word[0], file, false);
         options_end(&line);

@@ -315,6 +315,8 @@ typedef struct ld_turret {
 typedef struct ld_platform {
     double chassis_mass;       ///< [kg]
     double chassis_inertia[3]; ///< [kg m2]
+    ld_table jet;     ///< distance from a tube's mouth [m], force of a jet [N]; empty: none
+    double jet_scale; ///< [-] factor on the force
     ld_turret azimuth;
     ld_turret elevation;
 } ld_platform;
@@ -788,6 +790,12 @@ static inline bool model_has_crossflow(const ld_model *model)
 {
     const ld_aerodynamics *air = &model->rocket.aerodynamics;
     return model_has_launcher(model) && air->present && air->emerged.present;
+}
+
+/// Whether the jets of rockets that have left act on the platform.
+static inline bool model_has_jet(const ld_model *model)
+{
+    return model_has_vehicle(model) && model->platform.jet.rows > 0;
 }
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without

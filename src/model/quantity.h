@@ -10,11 +10,13 @@
 #include <stdint.h>
 
 // What there is one of each: a run; a vehicle, where the base is one; air on the emerged part of
-// the rocket, where it is asked for; a round or WGS 84 Earth; then several.
+// the rocket and jets on the platform, where they are asked for; a round or WGS 84 Earth; then
+// several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
     EACH_CROSSFLOW,
+    EACH_JET,
     EACH_EARTH,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,

@@ -183,6 +183,23 @@ static void gain_rules(const rule_set *rules, const char *path, const ld_stabili
     sample_rules(rules, path, s);
 }
 
+// A jet is there from the mouth on and ends within its table.
+static void jet_rules(const rule_set *rules, const ld_table *jet)
+{
+    if (jet->rows == 0)
+        return;
+    rising_rule(rules, "platform.jet.#", jet, "m", false);
+    const double *last = &jet->data[(jet->rows - 1) * jet->columns];
+    if (jet->data[0] > 0)
+        broken(rules, "platform.jet.1", 0, "the first distance must be 0 m, not %g m",
+               jet->data[0]);
+    if (last[1] > 0)
+        broken(rules, "platform.jet.#", (int)jet->rows,
+               "the last force must be 0 N, not %g N: beyond it there is none", last[1]);
+    if (jet->rows == 1)
+        broken(rules, "platform.jet", 0, "needs at least two rows");
+}
+
 static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,
                          bool pitch)
 {
@@ -199,6 +216,7 @@ static void turret_rules(const rule_set *rules, const char *name, const ld_turre
 void vehicle_rules(const rule_set *rules)
 {
     const ld_platform *platform = &rules->model->platform;
+    jet_rules(rules, &platform->jet);
     if (!model_has_vehicle(rules->model))
         return;
     road_rules(rules);

@@ -526,12 +526,23 @@ static const field_row turret_fields[] = {
     {0}};
 static const field_block turret_block = {.fields = turret_fields};
 
+static const field_row jet_columns[] = {
+    {"distance", .unit = "m", FROM_TO(0, 1000)},
+    {"force", .unit = "N", NOT_NEGATIVE},
+};
+static const table_format jet_table = {TABLE_CSV, 2, jet_columns, NULL};
 static const field_row platform_fields[] = {
     {"chassis", SAME_STRUCT(chassis_block), .required = true, .doc = "free rigid body"},
     {"azimuth", BLOCK(ld_platform, azimuth, turret_block), .required = true,
      .doc = "platform that turns about the chassis' y axis"},
     {"elevation", BLOCK(ld_platform, elevation, turret_block), .required = true,
      .doc = "platform that turns about the azimuth platform's z axis and carries the tubes"},
+    {"jet", TABLE(ld_platform, jet, jet_table), .initial_doc = "none",
+     .doc = "force of the jet of a rocket that has left on the elevation platform, backwards along "
+            "the tube at its mouth, at its rocket's greatest thrust; over the distance from mouth "
+            "to rear adaptor, linear between rows"},
+    {"jet_scale", NUMBER(ld_platform, jet_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the force of a jet"},
     {0}};
 static const field_block platform_block = {.fields = platform_fields};
 

@@ -107,9 +107,7 @@ static ld_status find_damage(report_source *source, const char *folder, const ma
     return damaged;
 }
 
-// Reads what is whole. LD_ERR_INPUT, with what is damaged, where something is; LD_ERR_FILE,
-// LD_ERR_MEMORY.
-static ld_status read_folder(report_source *source, const char *folder, ld_error *error)
+ld_status report_read_folder(report_source *source, const char *folder, ld_error *error)
 {
     manifest found;
     ld_error first;
@@ -128,7 +126,7 @@ static ld_status read_folder(report_source *source, const char *folder, ld_error
     return status ? ld_fail(error, status, "%.300s/%s", folder, first.text) : read;
 }
 
-static void free_source(report_source *source)
+void report_free_source(report_source *source)
 {
     history_free(&source->history);
     for (int i = 0; i < source->rocket_count; i++)
@@ -157,9 +155,14 @@ static ld_status make_page(const report_source *source, const report_detail *det
     return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;
 }
 
-// The next best: all rows in the tube and else those that a pixel of 4000 needs; a pixel in the
-// tube too; a pixel of what curves are in all the run, not in each phase; more pixels.
-static void coarsen(report_detail *detail)
+report_detail report_finest(void)
+{
+    return (report_detail){.whole = true, .whole_tube = true, .pixel = 1.0 / 4000};
+}
+
+// All rows in the tube and else those that a pixel of 4000 needs; a pixel in the tube too; a pixel
+// of what curves are in all the run, not in each phase; more pixels.
+void report_coarsen(report_detail *detail)
 {
     if (detail->whole || detail->whole_tube) {
         detail->whole_tube = detail->whole;
@@ -175,7 +178,7 @@ static void coarsen(report_detail *detail)
 static ld_status make_page_that_fits(report_source *source, char **text, size_t *length,
                                      ld_error *error)
 {
-    report_detail detail = {.whole = true, .whole_tube = true, .pixel = 1.0 / 4000};
+    report_detail detail = report_finest();
     for (;;) {
         ld_status status = make_page(source, &detail, text, length, error);
         source->report->pixels = detail.whole ? 0 : detail.pixel * 4000;
@@ -186,7 +189,7 @@ static ld_status make_page_that_fits(report_source *source, char **text, size_t 
         if (detail.pixel > 0.1)
             return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
                            REPORT_BYTES);
-        coarsen(&detail);
+        report_coarsen(&detail);
     }
 }
 
@@ -221,7 +224,7 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     source->report = report;
     join(usual, folder, "report.html");
     ld_error damage;
-    ld_status found = read_folder(source, folder, &damage);
+    ld_status found = report_read_folder(source, folder, &damage);
     bool broken = found && found != LD_ERR_INPUT; // the system, not the folder
     ld_status status = broken ? ld_fail(error, found, "%s", damage.text)
                               : report_add_replay(&source->history, error);
@@ -232,7 +235,7 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
         status = write_report(source, file ? file : usual, error);
     if (!status && found)
         status = ld_fail(error, found, "%s; the report shows the rest", damage.text);
-    free_source(source);
+    report_free_source(source);
     free(source);
     return status;
 }

@@ -91,6 +91,17 @@ ld_status report_write_file(const char *file, const char *text, size_t length, l
     return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
 }
 
+void report_folder_name(const char *folder, char *name, size_t size)
+{
+    size_t end = strlen(folder);
+    while (end > 1 && folder[end - 1] == '/')
+        end--;
+    size_t from = end;
+    while (from > 0 && folder[from - 1] != '/')
+        from--;
+    snprintf(name, size, "%.*s", (int)(end - from), folder + from);
+}
+
 void report_take_note(ld_report *report, const char *format, ...)
 {
     va_list arguments;

@@ -17,7 +17,7 @@ typedef struct report_bundle {
     size_t script_size, style_size, policy_size;
 } report_bundle;
 
-extern const report_bundle run_bundle, study_bundle;
+extern const report_bundle run_bundle, runs_bundle, study_bundle;
 
 // The script of the replay, which the script of a run's report unpacks and starts.
 extern const unsigned char replay_script[];
@@ -33,6 +33,9 @@ void report_end_page(FILE *page, const report_bundle *bundle);
 
 // Writes the text under a temporary name beside the file, which then gets its own.
 ld_status report_write_file(const char *file, const char *text, size_t length, ld_error *error);
+
+// The last part of a folder's path.
+void report_folder_name(const char *folder, char *name, size_t size);
 
 // Keeps a sentence about what is missing or broken, up to LD_REPORT_NOTES of them.
 void report_take_note(ld_report *report, const char *format, ...) LD_PRINTF(2, 3);

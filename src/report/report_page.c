@@ -46,10 +46,10 @@ static const char *title_of(const report_source *source)
     return title && *title ? title : "A run of launchdyn";
 }
 
-ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,
-                            ld_error *error)
+ld_status report_write_run(FILE *json, const report_source *source, const report_detail *detail,
+                           ld_error *error)
 {
-    fputs("{\"title\":", json);
+    fputs("\"title\":", json);
     json_write_text(json, title_of(source));
     fprintf(json,
             ",\"version\":\"%s\",\"pixels\":%.17g,\"overAll\":%d,\"history\":%d,\"complete\":%d",
@@ -64,11 +64,20 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     }
     fputs("],\"rockets\":[", json);
     write_rockets(json, source);
-    fputs("],\"geometry\":", json);
-    report_write_geometry(json, &source->history);
-    fputs(",\"tables\":[", json);
+    fputs("],\"tables\":[", json);
     ld_status status = write_tables(json, source, detail, error);
-    fputs("],\"figures\":", json);
+    fputc(']', json);
+    return status;
+}
+
+ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,
+                            ld_error *error)
+{
+    fputc('{', json);
+    ld_status status = report_write_run(json, source, detail, error);
+    fputs(",\"geometry\":", json);
+    report_write_geometry(json, &source->history);
+    fputs(",\"figures\":", json);
     plot_write_json(json);
     fputc('}', json);
     return status;
@@ -86,16 +95,19 @@ static ld_status write_replay(FILE *page, const report_source *source, ld_error 
     return status;
 }
 
-static ld_status write_origin(FILE *page, const ld_origin *origin, ld_error *error)
+ld_status report_write_run_origin(FILE *page, const char *name, const report_source *source,
+                                  size_t room, ld_error *error)
 {
     char *json = NULL;
     size_t length = 0;
+    if (!source->has_origin)
+        return LD_OK;
     FILE *stream = memory_stream(&json, &length);
     if (stream)
-        report_write_origin(stream, origin, REPORT_ORIGIN_BYTES);
+        report_write_origin(stream, &source->origin, room);
     if (!stream || fclose(stream) != 0)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
-    report_write_json(page, "origin", json, length);
+    report_write_json(page, name, json, length);
     free(json);
     return LD_OK;
 }
@@ -109,7 +121,7 @@ ld_status report_write_page(FILE *page, const report_source *source, const char 
     if (source->summary)
         report_write_json(page, "summary", source->summary, source->summary_length);
     report_write_json(page, "data", data, length);
-    ld_status status = source->has_origin ? write_origin(page, &source->origin, error) : LD_OK;
+    ld_status status = report_write_run_origin(page, "origin", source, REPORT_ORIGIN_BYTES, error);
     if (!status)
         status = write_replay(page, source, error);
     report_end_page(page, &run_bundle);

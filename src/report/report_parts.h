@@ -33,7 +33,17 @@ typedef struct report_detail {
     bool whole, whole_tube; // every row; every row while a rocket is in the tube
     double pixel;           // elsewhere a curve is moved by this share of its span, at most,
     bool over_all;          // of that over all rows, not in the phase of the run at hand
+    bool figures_alone;     // without what the replay wants besides
 } report_detail;
+
+// All rows; the next best each time that what they make does not fit.
+report_detail report_finest(void);
+void report_coarsen(report_detail *detail);
+
+// Reads what is whole in a folder of results. LD_ERR_INPUT, with what is damaged, where something
+// is; LD_ERR_FILE, LD_ERR_MEMORY. `source` is zero but for who takes notes; to be freed either way.
+ld_status report_read_folder(report_source *source, const char *folder, ld_error *error);
+void report_free_source(report_source *source);
 
 // Whether a history is that of a flight.
 bool report_is_flight(const history_data *history);
@@ -59,6 +69,15 @@ void report_write_geometry(FILE *json, const history_data *history);
 
 // Writes bytes as text: deflated (zlib), in base64.
 ld_status report_write_bytes(FILE *text, const void *bytes, size_t count, ld_error *error);
+
+// Writes what the page shows of a run beside its summary and the figures' table: members of an
+// object of JSON.
+ld_status report_write_run(FILE *json, const report_source *source, const report_detail *detail,
+                           ld_error *error);
+
+// Writes where a run comes from under this name, where that is known; `room`: for texts [bytes].
+ld_status report_write_run_origin(FILE *page, const char *name, const report_source *source,
+                                  size_t room, ld_error *error);
 
 // Writes all that the page shows beside the summary as JSON.
 ld_status report_write_data(FILE *json, const report_source *source, const report_detail *detail,

@@ -9,18 +9,6 @@
 
 // ---- what is laid side by side
 
-// The last part of a folder's path.
-static void name_of(const char *folder, char *name, size_t size)
-{
-    size_t end = strlen(folder);
-    while (end > 1 && folder[end - 1] == '/')
-        end--;
-    size_t from = end;
-    while (from > 0 && folder[from - 1] != '/')
-        from--;
-    snprintf(name, size, "%.*s", (int)(end - from), folder + from);
-}
-
 // "speed = 15 km/h" where one key is swept, else the point's number.
 static void point_name(const study_data *data, const study_point *point, char *name, size_t size)
 {
@@ -56,7 +44,7 @@ static void add_series(study_source *source, const study_data *data, const char 
         study_series *series = &source->series[source->series_count++];
         *series = (study_series){.data = data, .point = &data->point[i]};
         char name[100], point[140] = "";
-        name_of(folder, name, sizeof name);
+        report_folder_name(folder, name, sizeof name);
         point_name(data, series->point, point, sizeof point);
         bool both = point[0] && source->several;
         snprintf(series->label, sizeof series->label, "%s%s%s", point[0] ? point : name,

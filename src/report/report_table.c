@@ -61,9 +61,9 @@ bool report_is_flight(const history_data *history)
     return history_column(history, "altitude") != NULL;
 }
 
-static bool is_shown(const char *name, bool flight)
+static bool is_shown(const report_detail *detail, const char *name, bool flight)
 {
-    if (report_replay_shows(name, flight))
+    if (!detail->figures_alone && report_replay_shows(name, flight))
         return true;
     const plot_figure *figure;
     for (size_t f = 0; (figure = plot_figure_at(f)) != NULL; f++)
@@ -298,7 +298,7 @@ static ld_status write_table(thinned *table, int rocket, ld_error *error)
     const history_data *history = table->history;
     bool flight = report_is_flight(history);
     for (size_t i = 0; i < history->columns; i++)
-        if (is_shown(history->name[i], flight))
+        if (is_shown(table->detail, history->name[i], flight))
             table->column[table->columns++] = i;
     for (size_t c = 0; c < table->columns; c++)
         table->span[c] = span_of(values_of(table, c), history->rows);

@@ -99,7 +99,8 @@ static const char *const wrongs[] = {
     "SELECT '\"' || replace(substr(fullkey, 3), '\"', '') || '\" is no number' FROM json_tree(?1)"
     " WHERE type = 'text' AND key NOT IN ('name', 'shape')"
     " AND path NOT IN ('$', '$.program', '$.notes')"
-    " AND path NOT GLOB '$.source*' AND path NOT GLOB '$.files*'",
+    " AND path NOT GLOB '$.source*' AND path NOT GLOB '$.files*'"
+    " AND path NOT GLOB '$.measures*'",
     "SELECT '\"format\" is no whole number' WHERE json_type(?1, '$.format') <> 'integer'",
     "SELECT 'it is of format ' || json_extract(?1, '$.format') ||"
     " ', and this program reads " MANIFEST_FORMAT "'"

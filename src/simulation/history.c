@@ -171,6 +171,7 @@ static const quantity energies[] = {
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
+static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
     {"energy.residual", "J", "what the energy balance misses", AT(energy.residual)},
 };
@@ -193,6 +194,7 @@ static const quantity_group balances[] = {
     {.title = "works since the start", QUANTITY_ROWS(works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, QUANTITY_ROWS(crossflow_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
+    {.title = "work of jets", .each = EACH_JET, QUANTITY_ROWS(jet_works)},
     {.title = "balance", QUANTITY_ROWS(balance)},
 };
 // clang-format on

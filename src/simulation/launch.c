@@ -104,7 +104,10 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
     launch_measure_step(run, outcome != INTEGRATOR_STEPPED);
     if (!status && outcome != INTEGRATOR_STEPPED)
         status = launch_write_row(run, t, y);
+    bool inside = self->phase.rocket;
     bool changed = outcome == INTEGRATOR_EVENT && launch_switch_phase(run, t, y);
+    if (!status && inside && !self->phase.rocket && model_has_jet(self->model))
+        status = launch_begin_jet(run, t, y);
     if (outcome == INTEGRATOR_STOPPED) {
         changed = launch_pass_stop(run, t);
         if (igniting)

@@ -75,6 +75,28 @@ static void archive_summary(archive *bytes, ld_run *run)
         archive_text(bytes, summary->note[i], sizeof summary->note[i]);
 }
 
+// The rockets that have left are known from the summary, and so are their courses but for where the
+// mouth was, and how it moved.
+static void archive_jets(archive *bytes, ld_run *run)
+{
+    jets *left = &run->launch.jets;
+    int count = run->launch.current + !run->launch.phase.rocket;
+    if (!model_has_jet(run->launch.model))
+        return;
+    if (bytes->loading)
+        jets_free(left);
+    for (int i = 0; i < count && !(bytes->loading && bytes->failed); i++) {
+        jet *one = &left->of[i];
+        double mouth[7] = {one->mouth.t};
+        v3_store(mouth + 1, one->mouth.r);
+        v3_store(mouth + 4, one->mouth.v);
+        archive_doubles(bytes, mouth, 7);
+        const jet_place place = {mouth[0], v3_from(mouth + 1), v3_from(mouth + 4)};
+        bytes->failed |= bytes->loading && launch_add_jet(run, &place, NULL);
+        archive_int(bytes, &one->piece, -1, (int)one->flight->motor.corner_count - 1);
+    }
+}
+
 // Measures as far as they have been taken; nothing where there are none.
 static void archive_measures(archive *bytes, ld_run *run)
 {
@@ -131,6 +153,7 @@ void launch_archive(ld_run *run, archive *bytes)
     archive_present(bytes, run);
     archive_output(bytes, run);
     archive_summary(bytes, run);
+    archive_jets(bytes, run);
     archive_measures(bytes, run);
     propagator_archive(run->propagator, bytes);
     check_instants(run, bytes);

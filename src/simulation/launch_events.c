@@ -143,6 +143,7 @@ double launch_next_stop(const ld_run *run, double t)
         stop = fmin(stop, base->kind->next_corner(base, t));
     if (self->air) // a gust's
         stop = fmin(stop, wind_next_corner(&self->air->wind, t));
+    stop = fmin(stop, jets_next_corner(&self->jets));
     // where nobody has said when, a step still wants a finite end
     if (t < self->t_ignition)
         return fmin(stop, isinf(self->t_ignition) ? t + 1 : self->t_ignition);
@@ -169,5 +170,5 @@ bool launch_pass_stop(ld_run *run, double t)
     bool base_corner = driven && base->kind->next_corner(base, nextafter(t, -INFINITY)) == t;
     if (base_corner || (burning && t > self->t_ignition))
         launch_tell(run, LD_EVENT_CORNER, t, -1);
-    return burning || driven;
+    return jets_pass_corners(&self->jets, t) || burning || driven;
 }

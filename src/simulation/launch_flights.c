@@ -29,15 +29,15 @@ static ld_status begin_flight_rows(ld_run *run, int i)
     return status;
 }
 
-// Flies rocket i from the state in which it left its tube; nothing jumps.
-static ld_status fly(ld_run *run, int i)
+// The phase and the state in which rocket i, which has left its tube, begins its flight; nothing
+// jumps.
+static flight_phase enter_flight(const ld_run *run, const flight_system *flight, int i,
+                                 double state[FLIGHT_STATES])
 {
-    const ld_model *model = run->launch.model;
-    ld_rocket_summary *rocket = &run->summary.rocket[i];
-    double t = rocket->t_ignition + rocket->t_rear, state[FLIGHT_STATES];
-    bool rows = run->options.sink && run->options.sink->flight;
+    const ld_rocket_summary *rocket = &run->summary.rocket[i];
+    double t = rocket->t_ignition + rocket->t_rear;
     quat q = q_from(rocket->exit.quaternion);
-    const earth *globe = &run->flight.earth;
+    const earth *globe = &flight->earth;
     m3 A_EB = m3_mul(globe->A_EI, q_matrix(q));
     flight_pose pose = {
         .r_O1 = v3_from(rocket->exit.position),
@@ -45,8 +45,40 @@ static ld_status fly(ld_run *run, int i)
         .q_IB = q,
         .w = v3_add(v3_from(rocket->exit.rate), m3_apply_transposed(A_EB, earth_rate(globe))),
     };
-    flight_phase phase = free_flight_phase(&run->flight, rocket->t_ignition, t);
-    flight_enter(&run->flight, &phase, t, &pose, state);
+    flight_phase phase = free_flight_phase(flight, rocket->t_ignition, t);
+    flight_enter(flight, &phase, t, &pose, state);
+    return phase;
+}
+
+ld_status launch_add_jet(ld_run *run, const jet_place *mouth, ld_error *error)
+{
+    launch_state *self = &run->launch;
+    double state[FLIGHT_STATES];
+    int i = self->jets.count;
+    const flight_system *flight = simulation_flight(self->system, i);
+    flight_phase phase = enter_flight(run, flight, i, state);
+    return jets_add(&self->jets, flight, &phase, self->model->firing[i].tube, mouth, state, error);
+}
+
+ld_status launch_begin_jet(ld_run *run, double t, const double *y)
+{
+    const launch_state *self = &run->launch;
+    launcher_input input;
+    launcher_place(&self->launcher, t, y, &input);
+    const base_frame *tube = &input.launching.base;
+    v3 arm = m3_apply(tube->A, v3_make(self->model->tubes.length, 0, 0));
+    jet_place mouth = {t, v3_add(tube->r, arm), v3_add(tube->v, v3_cross(tube->w, arm))};
+    return launch_add_jet(run, &mouth, &run->error);
+}
+
+// Flies rocket i from the state in which it left its tube.
+static ld_status fly(ld_run *run, int i)
+{
+    const ld_model *model = run->launch.model;
+    ld_rocket_summary *rocket = &run->summary.rocket[i];
+    double t = rocket->t_ignition + rocket->t_rear, state[FLIGHT_STATES];
+    bool rows = run->options.sink && run->options.sink->flight;
+    enter_flight(run, &run->flight, i, state);
     double height = flight_center(&run->flight, t, state).r.y;
     if (model->run.end == LD_END_TIME && run->flight.has_ground && height < run->flight.ground) {
         simulation_note(

@@ -9,7 +9,7 @@ ld_status launch_state_begin(launch_state *self, const ld_simulation *system, ld
 {
     memset(self, 0, sizeof *self);
     self->system = system;
-    self->model = system->model;
+    self->model = self->jets.model = system->model;
     ld_status status = launcher_share(&self->launcher, &system->launcher, error);
     if (!status)
         launch_state_select(self, 0);
@@ -19,6 +19,7 @@ ld_status launch_state_begin(launch_state *self, const ld_simulation *system, ld
 void launch_state_end(launch_state *self)
 {
     launcher_free_share(&self->launcher);
+    jets_free(&self->jets);
 }
 
 void launch_state_select(launch_state *self, int i)

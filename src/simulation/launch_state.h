@@ -3,12 +3,14 @@
 #ifndef LD_SIMULATION_LAUNCH_STATE_H
 #define LD_SIMULATION_LAUNCH_STATE_H
 
+#include "simulation/jets.h"
 #include "simulation/simulation.h"
 
 // What the equations depend on beside the state and the system as it was built.
 typedef struct run_conditions {
     double t, t_ignition;    // [s]
     int piece, rocket, tube; // of the thrust curve; selected
+    int jets;                // how many pieces theirs have begun
     const base_disturbance *disturbed;
     launching_phase phase;
     base_rest rest;
@@ -30,7 +32,8 @@ typedef struct launch_state {
     m3 aim;                 // A_IT, the undeformed tube on its base, as it stood at that ignition
     int piece;              // of the thrust curve
     bool jammed;
-    struct { // the latest evaluation, which at a step's end is that of the step's end
+    jets jets; // of the rockets that have left, where the platform feels them
+    struct {   // the latest evaluation, which at a step's end is that of the step's end
         bool known;
         run_conditions at;
         double y[LD_MAX_STATES];

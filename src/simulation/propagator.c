@@ -33,10 +33,17 @@ static void surround(const launch_state *self, double t, const double *y, launch
         find_air(self, t, y, input);
 }
 
+// The jets on the platform, T being `tube`.
+static jet_wrench jets_now(const launch_state *self, double t, const base_frame *tube)
+{
+    return jets_at(&self->jets, t, tube, self->model->firing[self->launcher.base.tube].tube);
+}
+
 void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input)
 {
     launcher_place(&self->launcher, t, y, input);
     surround(self, t, y, &input->launching);
+    input->jet = jets_now(self, t, &input->launching.base);
     input->rest = self->rest;
     input->held = false;
     input->formulation = self->model->run.formulation;
@@ -61,6 +68,7 @@ static void find_conditions(const launch_state *self, double t, run_conditions *
     conditions->t = t;
     conditions->t_ignition = self->t_ignition;
     conditions->piece = self->piece;
+    conditions->jets = jets_pieces(&self->jets);
     conditions->rocket = self->current;
     conditions->tube = self->launcher.base.tube;
     conditions->disturbed = self->launcher.base.disturbed;
@@ -157,7 +165,7 @@ typedef struct held_wrench {
     v3 force, moment, force_rate, moment_rate;
 } held_wrench;
 
-enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS };
+enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS + 1 };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 struct propagator {
@@ -176,6 +184,7 @@ struct propagator {
     held_frame chassis, tube;
     held_wrench on_chassis, on_tube;
     integrator *orientating, *marching;
+    bool jet; // the orientating subsystem has the work of jets, too, behind its own
     int orientating_count, marching_count;
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
@@ -271,9 +280,14 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
     };
     const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
     orientating_motion_at(orientating, t, y, &motion);
+    jet_wrench back = jets_now(launch, t, &motion.tube);
+    input.tube_force = v3_add(input.tube_force, back.force);
+    input.tube_moment = v3_add(input.tube_moment, back.moment);
     if (orientating_evaluate(orientating, &input, y, &motion, y_dot, &out))
         return -1;
     memcpy(y_dot + orientating->state_count, out.power, sizeof out.power);
+    if (self->jet)
+        y_dot[self->orientating_count - 1] = jet_power(&back, &motion.tube);
     return all_finite(self->orientating_count, y_dot) ? 0 : -1;
 }
 
@@ -318,6 +332,8 @@ static void split_base(const propagator *self, const double *y, double *orientat
             orientating);
     part_of(y, launcher->base_at + self->vehicle->marching_at, self->vehicle->marching.state_count,
             works + ORIENTATING_POWERS, MARCHING_POWERS, marching);
+    if (self->jet)
+        orientating[self->orientating_count - 1] = y[works + VEHICLE_JET];
 }
 
 static void join_base(const propagator *self, const double *orientating, const double *marching,
@@ -329,6 +345,8 @@ static void join_base(const propagator *self, const double *orientating, const d
              y);
     put_part(marching, launcher->base_at + self->vehicle->marching_at,
              self->vehicle->marching.state_count, works + ORIENTATING_POWERS, MARCHING_POWERS, y);
+    if (self->jet)
+        y[works + VEHICLE_JET] = orientating[self->orientating_count - 1];
 }
 
 // The base's states at an instant between the last exchange and the next: cubic Hermite.
@@ -424,7 +442,8 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
         atol[1][i] = all->atol[launcher->base_at + self->vehicle->marching_at + i];
         absolute[1][i] = all->absolute[launcher->base_at + self->vehicle->marching_at + i];
     }
-    self->orientating_count = self->vehicle->marching_at + ORIENTATING_POWERS;
+    self->jet = model_has_jet(self->launch->model);
+    self->orientating_count = self->vehicle->marching_at + ORIENTATING_POWERS + self->jet;
     self->marching_count = self->vehicle->marching.state_count + MARCHING_POWERS;
     integrator_settings settings = *whole;
     settings.events = NULL;

@@ -15,6 +15,7 @@ quantity_things quantity_things_of(const ld_model *model)
         .count = {[EACH_RUN] = 1,
                   [EACH_VEHICLE] = vehicle,
                   [EACH_CROSSFLOW] = model_has_crossflow(model),
+                  [EACH_JET] = model_has_jet(model),
                   [EACH_ADAPTOR] = model->rocket.adaptor_count,
                   [EACH_HINGE] = vehicle ? 2 : 0,
                   [EACH_WHEEL] = vehicle ? model->base.vehicle.wheel_count : 0,

@@ -225,6 +225,7 @@ static const quantity energies[] = {
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
+static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
     {"energy.residual", "J", "what the energy balance misses", RUN(energy.residual)},
     {"energy.residual_relative", "1", "the same over the largest single work", RUN(energy.residual_relative)},
@@ -248,6 +249,7 @@ static const quantity_group run_groups[] = {
     {.title = "works since the start", .launch = true, QUANTITY_ROWS(works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, .launch = true, QUANTITY_ROWS(crossflow_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
+    {.title = "work of jets", .each = EACH_JET, .launch = true, QUANTITY_ROWS(jet_works)},
     {.title = "balance", .launch = true, QUANTITY_ROWS(balance)},
 };
 static const quantity_group cost_groups[] = {

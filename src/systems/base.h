@@ -14,7 +14,7 @@
 
 enum {
     BASE_MOST_STATES = ORIENTATING_MOST_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1,
-    BASE_MOST_WORKS = ORIENTATING_POWERS + MARCHING_POWERS,
+    BASE_MOST_WORKS = VEHICLE_POWERS,
     BASE_MOST_EVENTS = LD_MAX_WHEELS,
     BASE_MOST_SPEEDS = ORIENTATING_SPEEDS,
     BASE_MOST_FREEDOMS = 3 + 2 * HINGES + 3 * LD_MAX_WHEELS,
@@ -75,6 +75,7 @@ typedef union base_rest {
 // What acts on a base.
 typedef struct base_load {
     v3 force, moment; // [N], [N m] of the tube, about T's origin, in T
+    jet_wrench jet;   // of a vehicle, on its platform
     base_rest rest;
     bool held;   // it carries what `rest` says, whatever drives it (equilibrium)
     bool linear; // no Coulomb friction, its drives linear (equilibrium, linearisation)

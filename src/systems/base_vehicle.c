@@ -88,7 +88,7 @@ static ld_status build(base_system *base, ld_error *error)
     int wheels = self->marching.wheel_count;
     self->marching_at = self->of_tube[0].state_count;
     base->state_count = self->marching_at + self->marching.state_count;
-    base->work_count = ORIENTATING_POWERS + MARCHING_POWERS;
+    base->work_count = model_has_jet(base->model) ? VEHICLE_POWERS : VEHICLE_ALWAYS;
     base->event_count = wheels;
     base->speed_at = ORIENTATING_V;
     base->speed_count = ORIENTATING_SPEEDS;
@@ -176,6 +176,12 @@ static void sample(const base_system *self, double t, double *state)
     orientating_sample(orientating_of(self), t, state);
 }
 
+double jet_power(const jet_wrench *jet, const base_frame *tube)
+{
+    return v3_dot(m3_apply(tube->A, jet->force), tube->v) +
+           v3_dot(m3_apply(tube->A, jet->moment), tube->w);
+}
+
 static int evaluate(const base_system *self, const base_found *found, const base_load *load,
                     const double *state, base_output *output)
 {
@@ -191,8 +197,8 @@ static int evaluate(const base_system *self, const base_found *found, const base
     orientating_input wrenches = {
         .chassis_force = marching->force,
         .chassis_moment = marching->moment,
-        .tube_force = load->force,
-        .tube_moment = load->moment,
+        .tube_force = v3_add(load->force, load->jet.force),
+        .tube_moment = v3_add(load->moment, load->jet.moment),
         .rest = {load->rest.hinge[0], load->rest.hinge[1]},
         .held = load->held,
         .linear = load->linear,
@@ -204,6 +210,8 @@ static int evaluate(const base_system *self, const base_found *found, const base
     memcpy(report->hinge, motion.hinge, sizeof report->hinge);
     memcpy(output->power, orientating.power, sizeof orientating.power);
     memcpy(output->power + ORIENTATING_POWERS, marching->power, sizeof marching->power);
+    output->power[VEHICLE_JET] = jet_power(&load->jet, &motion.tube);
+    report->jet = -load->jet.force.x;
     output->elastic = marching->elastic;
     for (int j = 0; j < self->event_count; j++)
         output->event[j] = marching->wheel[j].deflection;
@@ -531,11 +539,15 @@ static const quantity of_wheels[] = {
     {"wheel.%s.along", "N", "wheel %s: tyre force along the way", EACH(report.marching.wheel, along)},
     {"wheel.%s.side", "N", "wheel %s: tyre force across the way", EACH(report.marching.wheel, side)},
 };
+static const quantity of_jets[] = {
+    {"jet.force", "N", "force of the jets of rockets that have left on the elevation platform, along -x of T", AT(report.jet)},
+};
 static const quantity_group quantity_groups[] = {
     {.title = "chassis of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_chassis)},
     {.title = "each hinge of a vehicle", .each = EACH_HINGE, QUANTITY_ROWS(of_hinges)},
     {.title = "drive of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_drive)},
     {.title = "each wheel of a vehicle", .each = EACH_WHEEL, QUANTITY_ROWS(of_wheels)},
+    {.title = "jets on its platform", .each = EACH_JET, QUANTITY_ROWS(of_jets)},
 };
 // clang-format on
 

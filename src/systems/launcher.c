@@ -58,6 +58,7 @@ int launcher_evaluate_base(const launcher_system *self, const launcher_input *in
     base_load load = {
         .force = output->launching.base_force,
         .moment = output->launching.base_moment,
+        .jet = input->jet,
         .rest = input->rest,
         .held = input->held,
         .linear = phase->frictionless,

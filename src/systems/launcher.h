@@ -25,6 +25,7 @@ typedef struct launcher_system {
 typedef struct launcher_input {
     launching_input launching;  // base frame, thrust, mass
     ld_formulation formulation; // of the launching subsystem
+    jet_wrench jet;             // of rockets that have left
     base_rest rest;             // of the base in the equilibrium
     bool held;                  // the base carries what `rest` says (equilibrium)
     base_found found;

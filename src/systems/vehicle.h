@@ -1,11 +1,28 @@
 // A vehicle that carries the tube: chassis and platforms (orientating.h) on wheels (marching.h).
 //
-// State: orientating | marching. Works: orientating | marching.
+// State: orientating | marching. Works: orientating | marching | jets, where there are any.
 #ifndef LD_SYSTEMS_VEHICLE_H
 #define LD_SYSTEMS_VEHICLE_H
 
 #include "systems/marching.h"
 #include "systems/orientating.h"
+
+// The work of the jets, where the platform feels any.
+#define JET_WORKS(X) X(VEHICLE_JET, "jet", "work of the jets of rockets that have left")
+
+enum vehicle_power {
+    VEHICLE_BEFORE = ORIENTATING_POWERS + MARCHING_POWERS - 1,
+    JET_WORKS(WORK_PLACE) VEHICLE_POWERS,
+    VEHICLE_ALWAYS = VEHICLE_JET, // those that are always there come first
+};
+
+// Force and moment [N], [N m] of jets on the elevation platform, about T's origin, in T.
+typedef struct jet_wrench {
+    v3 force, moment;
+} jet_wrench;
+
+// Its power [W], T moving as `tube` says.
+double jet_power(const jet_wrench *jet, const base_frame *tube);
 
 typedef struct vehicle_system {
     const ld_model *model;
@@ -21,6 +38,7 @@ typedef struct vehicle_system {
 typedef struct vehicle_report {
     hinge_report hinge[HINGES];
     marching_output marching;
+    double jet; // [N] of all jets, along -x of T
 } vehicle_report;
 
 // What its quantities are about: what stands in the state, and what was found with it.

@@ -68,8 +68,8 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv needs --out DIR\n");
     expect_complaint("launchdyn run examples/fixed.yaml --report", 2, "--report needs --out DIR\n");
     expect_complaint("launchdyn report x", 2, "no results in x: There is no history.h5");
-    expect_complaint("launchdyn report x y", 2, "report of several studies wants -o FILE\n");
-    expect_complaint("launchdyn report x y -o z.html", 2, "no study to report: x holds no study");
+    expect_complaint("launchdyn report x y", 2, "report of several folders wants -o FILE\n");
+    expect_complaint("launchdyn report x y -o z.html", 2, "no run to report: no results in x");
     expect_complaint("launchdyn plot x", 2, "plot wants -o FILE.svg");
     expect_complaint("launchdyn plot x --what tipp -o x.svg", 2, "did you mean tip?");
     expect_complaint("launchdyn plot x -o x.svg", 2, "no results in x");

@@ -146,13 +146,13 @@ static void show(const char *folder)
     report_source *source = calloc(1, sizeof *source);
     must(source != NULL);
     source->report = &report;
-    must_say(read_folder(source, folder, &error), &error);
+    must_say(report_read_folder(source, folder, &error), &error);
     if (source->summary) {
         char *valid = ask_json("SELECT json_valid(?1)", source->summary, NULL, NULL);
         must(valid && valid[0] == '1' && source->summary_length == strlen(source->summary));
         free(valid);
     }
-    free_source(source);
+    report_free_source(source);
     free(source);
 }
 

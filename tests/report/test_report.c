@@ -388,8 +388,10 @@ static void test_long_lead_in_and_flight(void **state)
     history_data read;
     ld_report report;
     static ld_summary summary;
-    const char *sets[] = {"run.lead_in=5 s", "platform.elevation.stabiliser.command=55 deg"};
-    example_run(folder, "reference.yaml", sets, 2, &summary, &read);
+    const char *sets[] = {
+        "run.lead_in=5 s", "platform.elevation.stabiliser.command=55 deg",
+        "measures=[{name: bound, of: tip.pitch_rate, take: rms, from: t_middle, to: t_rear}]"};
+    example_run(folder, "reference.yaml", sets, 3, &summary, &read);
     CHECK_WITHIN("time of flight [s]", summary.rocket[0].flight.time_of_flight, 60, 200);
     clock_t before = clock();
     char *page = write_report(&report);
@@ -397,6 +399,8 @@ static void test_long_lead_in_and_flight(void **state)
     CHECK_WITHIN("bytes", (double)report.bytes, 0.9e6, 2e6);
     CHECK_WITHIN("pixels that a curve may be moved by", report.pixels, 0, 1);
     assert_non_null(strstr(page, "id=\"replay\""));
+    assert_int_equal(report.note_count, 0);
+    assert_non_null(strstr(page, "\"of\":\"tip.pitch_rate\""));
     free(page);
 
     const double *phase = history_column(&read, "phase");
@@ -495,6 +499,48 @@ static void test_part_of_a_run(void **state)
     free(page);
 }
 
+// Runs laid over each other: what is not there is noted and left out, titles stay texts.
+static void test_runs_over_each_other(void **state)
+{
+    (void)state;
+    static char one[512], other[512], none[512];
+    ld_report report;
+    ld_error error = {0};
+    make_results(1605, "One</script><b>bold", "front");
+    assert_int_equal(run("cd %s && mkdir one && mv summary.json history.h5 one"), 0);
+    make_results(400, "Other", "front");
+    assert_int_equal(run("cd %s && mkdir other && mv summary.json history.h5 other"), 0);
+    snprintf(one, sizeof one, "%s/one/", folder);
+    snprintf(other, sizeof other, "%s/other", folder);
+    snprintf(none, sizeof none, "%s/none", folder);
+    const char *const folders[] = {one, none, other};
+    assert_int_equal(ld_report_write_runs(folders, 3, in("over.html"), &report, &error),
+                     LD_ERR_INPUT);
+    expect_note(&report, "no results in ");
+    assert_non_null(strstr(error.text, "none; the report shows the rest"));
+    char *page = read_all(in("over.html"));
+    assert_true(strlen(page) == report.bytes);
+    assert_non_null(strstr(page, "{\"folder\":\"one\",\"title\":\"One"));
+    assert_non_null(strstr(page, "{\"folder\":\"other\",\"title\":\"Other\""));
+    assert_non_null(strstr(page, "id=\"summary-1\""));
+    assert_null(strstr(page, "id=\"summary-2\""));
+    assert_null(strstr(page, "</script><b>"));
+    assert_null(strstr(page, "id=\"replay\""));
+    CHECK_WITHIN("rows of the first run", (double)read_column(page, "tube", "tip.y", times, values),
+                 1, 1605);
+    free(page);
+
+    assert_int_equal(run("cd %s && truncate -s 9000 other/history.h5"), 0);
+    assert_int_equal(ld_report_write_runs(folders, 3, in("over.html"), &report, &error),
+                     LD_ERR_INPUT);
+    expect_note(&report, "other is damaged: history.h5 is damaged");
+    assert_int_equal(ld_report_write_runs(folders + 1, 1, in("over.html"), &report, &error),
+                     LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "no run to report: no results in "));
+    assert_int_equal(ld_report_write_runs(folders, 1, in("over.html"), &report, &error), LD_OK);
+    assert_int_equal(ld_report_write_runs(folders, 1, "/dev/full", &report, &error), LD_ERR_FILE);
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, scratch_make, scratch_remove)
 
 int main(void)
@@ -507,6 +553,7 @@ int main(void)
         TEST(test_long_lead_in_and_flight),
         TEST(test_what_is_missing_is_said),
         TEST(test_part_of_a_run),
+        TEST(test_runs_over_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -586,6 +586,7 @@ static const char *const work_name[LAUNCHER_MOST_WORKS] = {
     "tyre",
     "tyre_side",
     "drive",
+    "jet",
 };
 
 // Whether a run has work i.
@@ -593,6 +594,8 @@ static bool has_work(const ld_model *model, int i)
 {
     if (i == POWER_CROSSFLOW)
         return model_has_crossflow(model);
+    if (i == POWER_COUNT + VEHICLE_JET)
+        return model_has_jet(model);
     return i < POWER_COUNT || model_has_vehicle(model);
 }
 

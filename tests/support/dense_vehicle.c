@@ -350,6 +350,10 @@ static void load_tube(equations *eq)
     v3 f = m3_apply(tube->A, eq->input->tube_force), m = m3_apply(tube->A, eq->input->tube_moment);
     push(eq, DENSE_ELEVATION, f, tube->r, m);
     eq->output->power += power_of(eq, DENSE_ELEVATION, f, tube->r, m);
+    v3 jet = v3_scale(-eq->input->jet, m3_column(tube->A, 0));
+    v3 mouth = v3_add(tube->r, m3_apply(tube->A, eq->input->jet_at));
+    push(eq, DENSE_ELEVATION, jet, mouth, v3_zero());
+    eq->output->power += power_of(eq, DENSE_ELEVATION, jet, mouth, v3_zero());
 }
 
 // ---------------------------------------------------------------- marching forces

@@ -42,6 +42,8 @@ typedef struct dense_vehicle_input {
     const double *orientating;  // [ORIENTATING_STATES]
     const double *marching;     // [WHEEL_STATES n + 1]
     v3 tube_force, tube_moment; // [N], [N m] on the platform, in T, about T's origin
+    double jet;                 // [N] on the elevation platform, along -x of T
+    v3 jet_at;                  // [m] where it acts, from T's origin, in T
     hinge_rest rest[HINGES];    // of locked hinges
     bool frictionless;          // Coulomb friction off
     bool still;                 // the drive gives nothing (equilibrium)
