@@ -150,7 +150,11 @@ static void fill_platform(ld_platform *platform)
         .mass = 700,
         .center = {0, 0.3, 0},
         .inertia = {250, 400, 250},
-        .stabiliser = {reference_table(1, 2, (double[]){0, 0}), 4e6, 4e6, 3e5, 5e4},
+        .stabiliser = {.command = reference_table(1, 2, (double[]){0, 0}),
+                       .kp = 4e6,
+                       .ki = 4e6,
+                       .kd = 3e5,
+                       .torque_limit = 5e4},
         .friction = {.viscous = 500, .coulomb = 200, .rate = 1e-3},
     };
     platform->elevation = (ld_turret){
@@ -158,7 +162,11 @@ static void fill_platform(ld_platform *platform)
         .mass = 900,
         .center = {0.7, 0.3, 0},
         .inertia = {230, 470, 360},
-        .stabiliser = {reference_table(1, 2, (double[]){0, 19.8 * degree}), 6e6, 6e6, 4e5, 8e4},
+        .stabiliser = {.command = reference_table(1, 2, (double[]){0, 19.8 * degree}),
+                       .kp = 6e6,
+                       .ki = 6e6,
+                       .kd = 4e5,
+                       .torque_limit = 8e4},
         .friction = {.viscous = 800, .coulomb = 300, .rate = 1e-3},
     };
 }

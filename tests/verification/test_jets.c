@@ -297,7 +297,7 @@ static double thrust_at(const ld_model *model, double since)
 static ld_summary watch(const ld_model *model, watched *seen)
 {
     ld_simulation *simulation;
-    ld_summary summary;
+    ld_summary summary = {0};
     ld_error error;
     ld_sink sink = {.self = seen, .begin = begin, .row = row, .flight = begin_flight};
     if (ld_simulation_create(model, &simulation, &error) ||
