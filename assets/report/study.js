@@ -2,9 +2,9 @@
 import { element, themeSwitch } from "./page.js";
 import { countSeries } from "./chart.js";
 import { originBlock } from "./origin.js";
-import { convergence, distributions, scatter, sensitivity } from "./study_plots.js";
+import { beside, convergence, distributions, scatter, sensitivity } from "./study_plots.js";
 import { describe, partCount, partName } from "./study_results.js";
-import { counts, ellipses, failures, plans, seriesName, statistics } from "./study_tables.js";
+import { counts, ellipses, failures, measured, plans, seriesName, statistics } from "./study_tables.js";
 
 const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -66,6 +66,11 @@ host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeS
     ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
 section("summary", "Summary", ...data.notes.map((note) => element("p", { className: "warning" }, note)),
   ...states(), data.series.length > 0 ? counts(data) : null);
+const shots = data.measured?.results.map(describe) ?? [];
+section("measured", "Measured beside simulated", shots.length ? measured(data, shots) : null,
+  shots.length ? element("p", { className: "shown" }, "Difference: mean measured less mean simulated; ratio: how many times as far measured values lie from " +
+    "their median as simulated ones. p: how often chance alone makes so much where nothing differs; * below 5\u00a0%, as one in twenty is then.") : null,
+  grid(shots.map((result) => beside(data, result))));
 section("scatter", "Scatter", grid(data.pairs.map((pair) => scatter(data, pair))), ellipses(data));
 section("statistics", "Statistics", ...(results.length ? statistics(data, results) : []));
 section("distributions", "Distributions and convergence", sameEverywhere(),

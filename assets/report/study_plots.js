@@ -223,3 +223,33 @@ export function sensitivity(data, { name, series }) {
       list.flatMap(({ own, series: of }) => own.map(([factor, values]) => [of.label, factor, ...values]))),
   });
 }
+
+// ---- measured shots ----
+
+// Shots and each series as dots in a row of their own, the mean with its interval above them.
+export function beside(data, result) {
+  const sides = [{ label: "measured", style: "--series: var(--ink)", own: result.own },
+    ...having(data, result.series).map(({ series, s, own }) => ({ label: series.label, style: colourOf(s), own }))];
+  const f = result.factor, row = 44;
+  const places = sides.flatMap(({ label, own, style }, i) => own.points.map((v, k) => ({ label, style, side: i,
+    at: [v * f, i + 0.62 + 0.3 * ((k * 0.618034) % 1)] })));
+  return chart({
+    title: `${result.label}: measured and simulated`, down: true, height: 60 + row * sides.length,
+    x: { label: result.axis, range: rangeOf([...places.map(({ at }) => at[0]), ...sides.flatMap(({ own }) => own.mean.map((v) => (v === null ? NaN : v * f)))]) },
+    y: { label: "", range: [sides.length, 0], names: [] },
+    draw: (place) => sides.flatMap(({ label, own, style }, i) => {
+      const [mean, low, high] = own.mean.map((v) => (v === null ? NaN : place.x(v * f))), y = place.y(i + 0.45);
+      return [svg("text", { x: place.left + 2, y: place.y(i) + 12 }, label),
+        svg("path", { class: "points", style, d: places.filter(({ side }) => side === i)
+          .map(({ at: [x, down] }) => `M${place.x(x).toFixed(1)} ${place.y(down).toFixed(1)}h0`).join("") }),
+        ...(Number.isFinite(low) ? [svg("line", { x1: low, x2: high, y1: y, y2: y, class: "span", style })] : []),
+        svg("circle", { cx: mean, cy: y, r: 4, class: "dot", style })];
+    }),
+    count: sides.length,
+    at: (i) => [sides[i].own.mean[0] * f, i + 0.45],
+    reading: (i) => `${sides[i].label}: mean ${withInterval(sides[i].own.mean, f)}, deviation ${withInterval(sides[i].own.deviation, f)} ${result.unit}`,
+    note: sides.some(({ own }) => own.points.length < own.count)
+      ? sides.map(({ label, own }) => `${label}: ${own.points.length} of ${own.count} points shown`).join("; ") : "",
+    csv: () => csvOf(["side", `${result.name} [${result.si}]`], sides.flatMap(({ label, own }) => own.points.map((v) => [label, v]))),
+  });
+}

@@ -102,6 +102,28 @@ export function statistics(data, results) {
     statisticsTable(data, results, "Quantiles", quantiles)];
 }
 
+// p, with a star where it is below 5 %.
+const chance = (p) => cell(p === null ? "–" : `${p < 5e-4 ? "<\u00a00.001" : readable(p, 2)}${p < 0.05 ? " *" : ""}`);
+
+// Two rows a result: means and their difference, deviations and their ratio.
+export function measured(data, results) {
+  const several = data.series.length > 1;
+  const part = (result, what, own, compared) => element("tr", { title: result.name },
+    head(what === "mean" ? result.label : "", "row"), cell(result.unit, "unit"), cell(what, "text"), cell(String(result.own.count)),
+    estimate(own(result.own), result.factor),
+    ...result.series.flatMap((series) => (series ? [estimate(own(series), result.factor), ...compared(series, result.factor)]
+      : [cell("–"), cell("–"), cell("–")])));
+  const rows = results.flatMap((result) => [
+    part(result, "mean", (of) => of.mean, (of, f) => [estimate(of.difference, f), chance(of.difference_chance)]),
+    part(result, "deviation", (of) => of.deviation, (of) => [estimate(of.ratio, 1), chance(of.ratio_chance)])]);
+  const { file, shots, salvos } = data.measured;
+  return card(`Measured in ${file}: ${shots} shots${salvos ? ` of ${salvos} salvos` : ""}`, element("table", { className: "statistics" },
+    several ? element("tr", {}, ...Array.from({ length: 5 }, () => head("")), ...data.series.map((series, i) =>
+      head(seriesName(series, i), "colgroup", { colSpan: 3 }))) : null,
+    element("tr", {}, ...["", "", "", "shots", "measured", ...data.series.flatMap(() => ["simulated", "difference, ratio", "p"])].map((name) => head(name))),
+    ...rows));
+}
+
 // Centre, semi-axes and direction of each ellipse.
 export function ellipses(data) {
   const several = data.series.length > 1;

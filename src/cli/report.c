@@ -39,7 +39,9 @@ int command_write_report(const char *folder, const char *file, bool quiet)
     return finish(status, &error, &report, place_of(folder, file, usual), quiet);
 }
 
-static int write_several(const char *const *folder, size_t count, const char *file, bool studies)
+// `shots`: of studies, the file with measured ones, or NULL.
+static int write_several(const char *const *folder, size_t count, bool studies, const char *shots,
+                         const char *file)
 {
     static ld_report report;
     ld_error error;
@@ -49,8 +51,9 @@ static int write_several(const char *const *folder, size_t count, const char *fi
         return EXIT_INPUT;
     }
     file = place_of(folder[0], file, usual);
-    ld_status status = studies ? ld_report_write_studies(folder, count, file, &report, &error)
-                               : ld_report_write_runs(folder, count, file, &report, &error);
+    ld_status status = studies
+                           ? ld_report_write_measured(folder, count, shots, file, &report, &error)
+                           : ld_report_write_runs(folder, count, file, &report, &error);
     return finish(status, &error, &report, file, false);
 }
 
@@ -63,9 +66,11 @@ static bool holds_study(const char *folder)
 
 int command_report(const command *self, int argc, char **argv)
 {
-    char *file = NULL;
+    char *file = NULL, *shots = NULL;
     const command_option options[] = {
         {"output", 'o', OPTION_TEXT, &file, "The report (DIR/report.html)", "FILE"},
+        {"measured", '\0', OPTION_TEXT, &shots, "Of studies: beside the shots in this CSV file",
+         "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -74,10 +79,14 @@ int command_report(const command *self, int argc, char **argv)
         bool studies = false;
         for (size_t i = 0; i < line.count; i++)
             studies |= holds_study(line.word[i]);
-        if (line.count > 1 || studies)
-            code = write_several(line.word, line.count, file, studies);
-        else
+        if (shots && !studies) {
+            command_complain("--measured is an option of reports of studies");
+            code = EXIT_INPUT;
+        } else if (line.count > 1 || studies) {
+            code = write_several(line.word, line.count, studies, shots, file);
+        } else {
             code = command_write_report(line.word[0], file, false);
+        }
         options_end(&line);
     }
     return code;

@@ -268,6 +268,15 @@ typedef struct ld_resolution {
     double rate;  ///< [rad/s] 0: none
 } ld_resolution;
 
+/// Between a drive's motor and its hinge, all as seen from the hinge.
+typedef struct ld_gear {
+    bool present;
+    double stiffness; ///< [N m/rad]
+    double damping;   ///< [N m s/rad]
+    double inertia;   ///< [kg m2] of the motor
+    double backlash;  ///< [rad] free travel between both sides of the teeth
+} ld_gear;
+
 /// Moves a platform to its commanded angle: model.md, section 6.
 typedef struct ld_stabiliser {
     ld_table command;    ///< t [s], pitch or yaw [rad]; one row: constant; linear between rows,
@@ -284,6 +293,7 @@ typedef struct ld_stabiliser {
     double delay;     ///< [s] from a sample until its torque is given out, <= sample
     ld_sensor_noise noise;
     ld_resolution resolution;
+    ld_gear gear;
 } ld_stabiliser;
 
 typedef struct ld_hinge_friction {

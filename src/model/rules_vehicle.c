@@ -148,8 +148,8 @@ static void sample_rules(const rule_set *rules, const char *path, const ld_stabi
         const char *name;
         bool given;
     } option[] = {{"delay", s->delay > 0},
-                  {"noise", s->noise.angle > 0 || s->noise.rate > 0},
-                  {"resolution", s->resolution.angle > 0 || s->resolution.rate > 0}};
+                  {"sensor_noise", s->noise.angle > 0 || s->noise.rate > 0},
+                  {"sensor_resolution", s->resolution.angle > 0 || s->resolution.rate > 0}};
     for (int i = 0; i < 3 && s->sample == 0; i++)
         if (option[i].given)
             broken(rules, path, 0, "sample is missing; %s needs it, in s, > 0 s and <= 10 s",

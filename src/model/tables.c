@@ -451,6 +451,19 @@ static const field_row resolution_fields[] = {
     {0}};
 static const field_block resolution_block = {.fields = resolution_fields};
 
+static const field_row gear_fields[] = {
+    {"stiffness", NUMBER(ld_gear, stiffness, "N.m/rad"), POSITIVE, REQUIRED,
+     .doc = "of the drive, as seen from the hinge"},
+    {"damping", NUMBER(ld_gear, damping, "N.m.s/rad"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "beside that stiffness"},
+    {"inertia", NUMBER(ld_gear, inertia, "kg.m2"), POSITIVE, REQUIRED,
+     .doc = "of the motor about the hinge: times the square of the ratio"},
+    {"backlash", NUMBER(ld_gear, backlash, "rad"), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "free travel from one side of the teeth to the other"},
+    {0}};
+static const field_block gear_block = {.fields = gear_fields};
+static const field_word gear_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
 #define UNLESS_CASCADE NO_DEFAULT("needed unless the hinge has a lock or a cascade")
 static const field_row stabiliser_fields[] = {
     {"command", TABLE(ld_stabiliser, command, command_table), .required = true,
@@ -479,10 +492,13 @@ static const field_row stabiliser_fields[] = {
      .doc = "period of a digital loop, whose torque is held in between; 0: continuous"},
     {"delay", NUMBER(ld_stabiliser, delay, "s"), FROM_TO(0, 10), DEFAULT(0),
      .doc = "from a sample until its torque is given out, at most the period"},
-    {"noise", BLOCK(ld_stabiliser, noise, noise_block), .initial_doc = "none",
+    {"sensor_noise", BLOCK(ld_stabiliser, noise, noise_block), .initial_doc = "none",
      .doc = "white noise of the sensors, one draw a sample"},
-    {"resolution", BLOCK(ld_stabiliser, resolution, resolution_block), .initial_doc = "none",
+    {"sensor_resolution", BLOCK(ld_stabiliser, resolution, resolution_block), .initial_doc = "none",
      .doc = "of the sensors, rounded in each sample"},
+    {"gear", BLOCK(ld_stabiliser, gear, gear_block), .initial_doc = "none",
+     SWITCH(ld_stabiliser, gear.present, gear_words), .other_is_bool = true,
+     .doc = "between the actuator and the hinge: stiffness, the motor's inertia, backlash"},
     {0}};
 static const field_block stabiliser_block = {.fields = stabiliser_fields};
 

@@ -90,6 +90,7 @@ static ld_status open_studies(study_source *source, const char *const *folder, s
 
 static void close_studies(study_source *source)
 {
+    measured_free(&source->shots);
     for (int i = 0; i < source->series_count; i++)
         study_values_free(&source->series[i].values);
     for (int i = 0; i < source->study_count; i++) {
@@ -165,8 +166,8 @@ static ld_status write_report(study_source *source, const char *file, ld_error *
     return status;
 }
 
-ld_status ld_report_write_studies(const char *const *folder, size_t count, const char *file,
-                                  ld_report *report, ld_error *error)
+ld_status ld_report_write_measured(const char *const *folder, size_t count, const char *shots,
+                                   const char *file, ld_report *report, ld_error *error)
 {
     ld_report unwanted;
     report = report ? report : &unwanted;
@@ -175,10 +176,13 @@ ld_status ld_report_write_studies(const char *const *folder, size_t count, const
     if (!source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     source->report = report;
+    source->measured = shots;
     ld_status status = open_studies(source, folder, count, error);
     if (!status && source->series_count == 0)
         status = ld_fail(error, LD_ERR_INPUT, "no study to report: %s",
                          report->note_count ? report->note[0] : "nothing is named that has points");
+    if (!status && shots)
+        status = measured_read(shots, source->series[0].data, &source->shots, error);
     if (!status)
         status = write_report(source, file, error);
     if (!status && source->problem.status)
@@ -187,4 +191,10 @@ ld_status ld_report_write_studies(const char *const *folder, size_t count, const
     close_studies(source);
     free(source);
     return status;
+}
+
+ld_status ld_report_write_studies(const char *const *folder, size_t count, const char *file,
+                                  ld_report *report, ld_error *error)
+{
+    return ld_report_write_measured(folder, count, NULL, file, report, error);
 }

@@ -5,6 +5,7 @@
 #include "launchdyn/study.h"
 #include "report/report_html.h"
 #include "simulation/study_results.h"
+#include "studies/measured.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
 
@@ -28,8 +29,10 @@ typedef struct study_source {
     ld_origin origin[REPORT_SERIES]; // of each study; empty where it is not known
     const char *folder[REPORT_SERIES];
     study_series series[REPORT_SERIES];
-    ld_report *report; // takes notes
-    ld_error problem;  // what could not be read, the first; status 0: all could
+    const char *measured; // file with shots to lay beside, or NULL
+    measured shots;       // what it holds
+    ld_report *report;    // takes notes
+    ld_error problem;     // what could not be read, the first; status 0: all could
 } study_source;
 
 // Notes what could not be read: `what` it is about, and why.
@@ -72,6 +75,11 @@ ld_status study_write_plan(FILE *json, const study_source *source, int index);
 // Writes the sensitivities of chosen results to all factors, as items of a list.
 // @return LD_OK, LD_ERR_MEMORY
 ld_status study_write_sensitivities(FILE *json, study_source *source);
+
+// Writes the measured shots and, of each result, how far each series is from them: an object, or
+// null where there are none.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status study_write_measured(FILE *json, study_source *source);
 
 // Writes all that the page shows as JSON; notes what cannot be read.
 // @return LD_OK, LD_ERR_MEMORY

@@ -406,8 +406,11 @@ ld_status study_write_data(FILE *json, study_source *source)
     fputs("],\"sensitivities\":[", json);
     if (!status)
         status = study_write_sensitivities(json, source);
+    fputs("],\"measured\":", json);
+    if (!status)
+        status = study_write_measured(json, source);
     // last, when all that is broken is known
-    fputs("],\"notes\":[", json);
+    fputs(",\"notes\":[", json);
     for (int i = 0; i < source->report->note_count; i++) {
         fputs(i ? "," : "", json);
         json_write_text(json, source->report->note[i]);

@@ -11,6 +11,8 @@ static void set_up_rocket(ld_run *run, int i, double t)
     const ld_firing *firing = &run->launch.model->firing[i];
     launch_state_select(&run->launch, i);
     run->greatest_lock_force = 0;
+    for (int k = 0; k < HINGES; k++)
+        run->watch[k] = (hinge_watch){.since = NAN};
     ld_rocket_summary *rocket = &run->summary.rocket[i];
     run->summary.rocket_count = i + 1;
     rocket_clear(rocket, true);
@@ -101,6 +103,7 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
         launch_record_ignition(run, t, y); // the row of this instant wants it
     ld_status status = launch_write_rows(run);
     launch_watch_forces(run, t, y);
+    launch_watch_hinges(run, t, y);
     launch_measure_step(run, outcome != INTEGRATOR_STEPPED);
     if (!status && outcome != INTEGRATOR_STEPPED)
         status = launch_write_row(run, t, y);

@@ -45,6 +45,12 @@ static void archive_output(archive *bytes, ld_run *run)
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         archive_double(bytes, numbers[i]);
     const ld_run_settings *steps = &run->launch.model->run;
+    for (int i = 0; i < HINGES; i++) {
+        hinge_watch *watch = &run->watch[i];
+        archive_double(bytes, &watch->since);
+        archive_doubles(bytes, watch->latest, sizeof watch->latest / sizeof *watch->latest);
+        archive_doubles(bytes, watch->sum, sizeof watch->sum / sizeof *watch->sum);
+    }
     bytes->failed |= run->output_step != steps->output_step_lead_in &&
                      run->output_step != steps->output_step_tube;
     archive_count(bytes, &run->output_index);

@@ -18,6 +18,12 @@ typedef struct measure_so_far {
 
 enum { MOST_EVENTS = 2 * LD_MAX_ADAPTORS + LD_MAX_WHEELS + 8 }; // at one instant
 
+// Of a hinge's error, torque and power since the ignition, for its means.
+typedef struct hinge_watch {
+    double since; // [s] until when; NaN: not yet begun
+    double latest[4], sum[4];
+} hinge_watch;
+
 struct ld_run {
     launch_state launch;
     ld_run_options options; // who listens
@@ -47,6 +53,7 @@ struct ld_run {
     int64_t steps_since_progress;
     bool sink_failed;
     double greatest_lock_force;
+    hinge_watch watch[HINGES];
     double t_rocket;   // [s] start of the current rocket's instants
     double t_measured; // [s] where the last step ended
     measure_so_far measure[LD_MAX_MEASURES];
@@ -123,6 +130,8 @@ void launch_record_ignition(ld_run *run, double t, const double *y);
 void launch_record_exit(ld_run *run, double t, const double *landed);
 // Largest contact and slot forces so far.
 void launch_watch_forces(ld_run *run, double t, const double *y);
+// How the hinges of a vehicle have been held since the ignition.
+void launch_watch_hinges(ld_run *run, double t, const double *y);
 void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,
                       ld_energy *energy);
 void launch_summarise(ld_run *run);

@@ -96,6 +96,43 @@ void launch_watch_forces(ld_run *run, double t, const double *y)
         run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
 }
 
+// One hinge at a time since the ignition; the integrals go on by the trapezoidal rule, one that
+// begins after the ignition as if it had been so since then.
+static void watch_hinge(hinge_watch *watch, double since, const hinge_report *hinge,
+                        ld_hinge_summary *held)
+{
+    double power = fabs(hinge->torque * hinge->rate), torque = hinge->torque;
+    const double now[] = {hinge->error * hinge->error, torque * torque, power, hinge->limited};
+    bool begins = isnan(watch->since);
+    double step = begins ? since : since - watch->since;
+    for (int k = 0; k < 4; k++) {
+        watch->sum[k] += 0.5 * step * ((begins ? now[k] : watch->latest[k]) + now[k]);
+        watch->latest[k] = now[k];
+    }
+    watch->since = since;
+    held->torque_peak = fmax(held->torque_peak, fabs(torque));
+    held->power_peak = fmax(held->power_peak, power);
+    held->saturated = watch->sum[3];
+    if (since > 0) {
+        held->error_rms = sqrt(watch->sum[0] / since);
+        held->torque_rms = sqrt(watch->sum[1] / since);
+        held->power_mean = watch->sum[2] / since;
+    }
+}
+
+void launch_watch_hinges(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    double since = t - self->t_ignition;
+    if (!base_as_vehicle(&self->launcher.base) || !self->phase.rocket || self->phase.passed[0] ||
+        !(since >= 0))
+        return;
+    const launcher_output *at = simulation_output(self, t, y);
+    for (int i = 0; i < HINGES && at; i++)
+        watch_hinge(&run->watch[i], since, &at->base.report.vehicle.hinge[i],
+                    &run->summary.rocket[self->current].hinge[i]);
+}
+
 void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,
                       ld_energy *energy)
 {

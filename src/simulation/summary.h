@@ -61,6 +61,14 @@ typedef struct ld_aim {
     double vy, vz;               ///< [m/s] of C in I, along that T's y and z
 } ld_aim;
 
+/// How a hinge of a vehicle was held from a rocket's ignition to its exit.
+typedef struct ld_hinge_summary {
+    double error_rms;               ///< [rad] command less measured
+    double torque_rms, torque_peak; ///< [N m] on the outboard body
+    double saturated;               ///< [s] the torque asked for at its limit
+    double power_mean, power_peak;  ///< [W] magnitude of torque times rate of the hinge
+} ld_hinge_summary;
+
 /// Attitude, rates and forces of one rocket at its key instants. Instants in [s] from its ignition,
 /// NaN where the instant was not reached or does not exist.
 typedef struct ld_rocket_summary {
@@ -97,6 +105,7 @@ typedef struct ld_rocket_summary {
     ld_aim aim;         ///< the same against where that stood at the ignition
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
+    ld_hinge_summary hinge[2];                 ///< azimuth, elevation
     double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
                            ///< moved against the platform
     double measure[LD_MAX_MEASURES]; ///< in the model's order; NaN: its instants did not all come

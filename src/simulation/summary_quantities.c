@@ -109,6 +109,15 @@ static const quantity slot_peak[] = {
 static const quantity measures[] = {
     {"measure.%s", NULL, "what the scenario's measure %s takes; unit of the column that it is of", .at = QUANTITY_EACH_OF(ld_rocket_summary, measure), KEPT, .line = {.label = "%s", .factor = 1, .digits = 6}},
 };
+#define HELD(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, hinge, member)
+static const quantity held[] = {
+    {"%s.error_rms", "rad", "%s: command less measured, rms", HELD(error_rms), KEPT},
+    {"%s.torque_rms", "N.m", "%s: torque of stabiliser or lock, rms", HELD(torque_rms), KEPT},
+    {"%s.torque_peak", "N.m", "%s: its largest magnitude", HELD(torque_peak), KEPT, .from_zero = true},
+    {"%s.saturated", "s", "%s: how long the stabiliser asked for its torque limit", HELD(saturated), KEPT, .from_zero = true},
+    {"%s.power_mean", "W", "%s: magnitude of torque times rate of the hinge, mean", HELD(power_mean), KEPT},
+    {"%s.power_peak", "W", "%s: its largest value", HELD(power_peak), KEPT, .from_zero = true},
+};
 static const quantity change[] = {
     {"energy_dropped", "J", "kinetic energy that went when its tube took the place of the one before; 0 of the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
 };
@@ -175,6 +184,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
     {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
     {.title = "of each measure of the scenario", .each = EACH_MEASURE, .launch = true, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
+    {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, QUANTITY_ROWS(held)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
     {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},
@@ -286,6 +296,7 @@ void rocket_clear(ld_rocket_summary *rocket, bool launched)
             const quantity *row = &group->row[k];
             int items = group->each == EACH_ADAPTOR   ? LD_MAX_ADAPTORS
                         : group->each == EACH_MEASURE ? LD_MAX_MEASURES
+                        : group->each == EACH_HINGE   ? HINGES
                                                       : 1;
             for (int item = 0; item < items && row->at.type == QUANTITY_NUMBER; item++)
                 quantity_put(&row->at, item, row->from_zero && launched ? 0 : NAN, rocket);

@@ -275,3 +275,15 @@ void measured_free(measured *shots)
     free(shots->result);
     *shots = (measured){0};
 }
+
+ld_status measured_compare(const measured_result *result, const study_values *values,
+                           measured_comparison *found)
+{
+    const grouped_values own = {result->value, result->group, result->count};
+    const grouped_values simulated = {values->count ? values->value[0] : NULL, values->group,
+                                      values->count};
+    ld_status status = moments_of(own.value, own.group, own.count, &found->measured);
+    if (!status)
+        status = moments_of(simulated.value, simulated.group, simulated.count, &found->simulated);
+    return status ? status : agreement_of(own, simulated, &found->by);
+}

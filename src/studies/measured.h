@@ -2,6 +2,7 @@
 #ifndef LD_STUDIES_MEASURED_H
 #define LD_STUDIES_MEASURED_H
 
+#include "studies/agreement.h"
 #include "studies/study_data.h"
 
 enum { MEASURED_NAME = 96, MEASURED_UNIT = 32 };
@@ -28,5 +29,16 @@ typedef struct measured {
 // @return LD_OK, LD_ERR_INPUT (with file, line and column), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status measured_read(const char *file, const study_data *data, measured *shots, ld_error *error);
 void measured_free(measured *shots);
+
+// A measured result beside that of a study.
+typedef struct measured_comparison {
+    group_statistics measured, simulated; // without least, greatest and quantiles
+    agreement by;                         // measured less, or over, simulated
+} measured_comparison;
+
+// `values`: the study's, of this result.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status measured_compare(const measured_result *result, const study_values *values,
+                           measured_comparison *found);
 
 #endif

@@ -4,7 +4,6 @@
 #include <stdbool.h>
 
 #include "base/printed.h"
-#include "studies/agreement.h"
 #include "studies/show_numbers.h"
 
 // p below which two numbers are said to differ.
@@ -42,27 +41,28 @@ static void print_chance(FILE *stream, double chance, verdict *of)
 }
 
 // Two lines: mean and difference of the means, deviation and ratio of the deviations.
-static void print_result(FILE *stream, const measured_result *result, const group_statistics *own,
-                         const group_statistics *simulated, const agreement *by, verdict *found)
+static void print_result(FILE *stream, const measured_result *result, const measured_comparison *of,
+                         verdict *found)
 {
     enum { COLUMN = 22, APART = 30 };
     double to = 1 / result->factor;
-    const estimate mean[] = {scaled(own->mean, to), scaled(simulated->mean, to),
-                             scaled(by->mean, to)};
-    const estimate deviation[] = {scaled(own->deviation, to), scaled(simulated->deviation, to)};
+    const estimate mean[] = {scaled(of->measured.mean, to), scaled(of->simulated.mean, to),
+                             scaled(of->by.mean, to)};
+    const estimate deviation[] = {scaled(of->measured.deviation, to),
+                                  scaled(of->simulated.deviation, to)};
     show_name(stream, result->name, result->unit);
-    fprintf(stream, " %5zu", own->count);
+    fprintf(stream, " %5zu", result->count);
     show_half(stream, COLUMN, &mean[0], 5);
     show_half(stream, COLUMN, &mean[1], 5);
     fputs("  ", stream);
     show_estimate(stream, APART, &mean[2], NAN);
-    print_chance(stream, by->mean_chance, found);
+    print_chance(stream, of->by.mean_chance, found);
     fprintf(stream, "%-32s", "    deviation");
     show_half(stream, COLUMN, &deviation[0], 3);
     show_half(stream, COLUMN, &deviation[1], 3);
     fputs(" x", stream);
-    show_estimate(stream, APART, &by->deviation, NAN);
-    print_chance(stream, by->deviation_chance, found);
+    show_estimate(stream, APART, &of->by.deviation, NAN);
+    print_chance(stream, of->by.deviation_chance, found);
 }
 
 static ld_status compare_result(FILE *stream, const measured_result *result, const study_data *data,
@@ -71,19 +71,13 @@ static ld_status compare_result(FILE *stream, const measured_result *result, con
 {
     const char *nearest;
     const study_column *column = study_data_find(data, result->name, &nearest);
-    group_statistics own, simulated;
-    agreement by;
+    measured_comparison of;
     ld_status status = study_data_read(data, point, &column, 1, values, error);
     if (status)
         return status;
-    const grouped_values first = {result->value, result->group, result->count};
-    const grouped_values second = {values->count ? values->value[0] : NULL, values->group,
-                                   values->count};
-    if (moments_of(first.value, first.group, first.count, &own) ||
-        moments_of(second.value, second.group, second.count, &simulated) ||
-        agreement_of(first, second, &by))
+    if (measured_compare(result, values, &of))
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
-    print_result(stream, result, &own, &simulated, &by, found);
+    print_result(stream, result, &of, found);
     return LD_OK;
 }
 

@@ -231,6 +231,10 @@ static void tolerances(const base_system *self, double tolerance, double *atol, 
         atol[i] = i < ORIENTATING_V ? 1e-2 * tolerance : tolerance;
     for (int i = ORIENTATING_Z; i < marching_at(self); i++)
         atol[i] = 1e2 * tolerance; // torques
+    for (int i = ORIENTATING_DRIVE; i < marching_at(self); i += DRIVE_STATES) {
+        atol[i + DRIVE_TWIST] = 1e-2 * tolerance;
+        atol[i + DRIVE_RATE] = tolerance;
+    }
     for (int i = 0; i < 3; i++)
         absolute[ORIENTATING_R + i] = true;
     for (int j = 0; j < marching_of(self)->wheel_count; j++, wheel += WHEEL_STATES)

@@ -380,8 +380,11 @@ int orientating_evaluate(const orientating_system *self, const orientating_input
 
 void orientating_rest(const orientating_system *self, double *state)
 {
+    const ld_platform *given = &self->model->platform;
+    const ld_turret *turret[HINGES] = {&given->azimuth, &given->elevation};
     for (int i = 0; i < HINGES && self->state_count > ORIENTATING_DRIVE; i++)
-        stabiliser_rest(state[ORIENTATING_Z + i], state + ORIENTATING_DRIVE + DRIVE_STATES * i);
+        stabiliser_rest(&turret[i]->stabiliser, state[ORIENTATING_Z + i],
+                        state + ORIENTATING_DRIVE + DRIVE_STATES * i);
 }
 
 // The next instant of hinge i.
@@ -400,8 +403,8 @@ void orientating_sample(const orientating_system *self, double t, double *state)
 {
     const ld_platform *given = &self->model->platform;
     const ld_turret *turret[HINGES] = {&given->azimuth, &given->elevation};
-    static const char *const stream[HINGES] = {"platform.azimuth.stabiliser.noise",
-                                               "platform.elevation.stabiliser.noise"};
+    static const char *const stream[HINGES] = {"platform.azimuth.stabiliser.sensor_noise",
+                                               "platform.elevation.stabiliser.sensor_noise"};
     double before = nextafter(t, -INFINITY);
     orientating_motion motion;
     orientating_motion_at(self, t, state, &motion);

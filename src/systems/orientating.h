@@ -67,8 +67,8 @@ typedef struct orientating_input {
     v3 chassis_force, chassis_moment; // in I, about the chassis' mass centre
     v3 tube_force, tube_moment;       // in T, about T's origin
     hinge_rest rest[HINGES];          // of locked or held hinges
-    bool linear; // no Coulomb friction, digital loops as continuous ones (linearisation)
-    bool held;   // hinges carry rest[].torque, whatever stabilisers and friction say (equilibrium)
+    bool linear;                      // no Coulomb friction, drives as linear ones (linearisation)
+    bool held; // hinges carry rest[].torque, whatever stabilisers and friction say (equilibrium)
 } orientating_input;
 
 typedef struct orientating_output {

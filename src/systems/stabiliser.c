@@ -9,12 +9,16 @@ static const double TWO_PI = 6.283185307179586476925286766559;
 
 bool stabiliser_has_drive(const ld_stabiliser *given)
 {
-    return given->bandwidth > 0 || given->sample > 0;
+    return given->bandwidth > 0 || given->sample > 0 || given->gear.present;
 }
 
-void stabiliser_rest(double torque, double *drive)
+void stabiliser_rest(const ld_stabiliser *given, double torque, double *drive)
 {
+    const ld_gear *gear = &given->gear;
     drive[DRIVE_TORQUE] = drive[DRIVE_HELD] = drive[DRIVE_COMPUTED] = torque;
+    drive[DRIVE_TWIST] =
+        gear->present ? torque / gear->stiffness + copysign(0.5 * gear->backlash, torque) : 0;
+    drive[DRIVE_RATE] = 0;
 }
 
 // Torque that the loops ask for, within its limit; rate of their integral z.
@@ -45,6 +49,15 @@ static double follow(const ld_stabiliser *given, double torque, double asked)
     return given->slew > 0 && fabs(rate) > given->slew ? copysign(given->slew, rate) : rate;
 }
 
+// Torque of a gear on the hinge; teeth push and do not pull, unless they are `stuck` together.
+static double gear_torque(const ld_gear *gear, bool stuck, double twist, double twist_rate)
+{
+    double pressed = twist - copysign(0.5 * gear->backlash, twist);
+    double torque = gear->stiffness * pressed + gear->damping * twist_rate;
+    bool push = pressed * twist > 0 && torque * twist > 0;
+    return push || stuck || gear->backlash == 0 ? torque : 0;
+}
+
 void stabiliser_evaluate(const ld_stabiliser *given, bool linear, double z, const double *drive,
                          hinge_report *hinge, double *z_dot, double *drive_dot)
 {
@@ -60,6 +73,12 @@ void stabiliser_evaluate(const ld_stabiliser *given, bool linear, double z, cons
     if (given->bandwidth > 0) {
         hinge->torque = drive[DRIVE_TORQUE];
         drive_dot[DRIVE_TORQUE] = follow(given, hinge->torque, asked);
+    }
+    if (given->gear.present) {
+        double motor = hinge->torque, twist_rate = drive[DRIVE_RATE] - hinge->rate;
+        hinge->torque = gear_torque(&given->gear, linear, drive[DRIVE_TWIST], twist_rate);
+        drive_dot[DRIVE_TWIST] = twist_rate;
+        drive_dot[DRIVE_RATE] = (motor - hinge->torque) / given->gear.inertia;
     }
 }
 

@@ -14,6 +14,8 @@ enum {
     DRIVE_TORQUE,   // [N m] of an actuator that lags
     DRIVE_HELD,     // [N m] asked for until a digital loop gives out the next
     DRIVE_COMPUTED, // [N m] that it gives out next
+    DRIVE_TWIST,    // [rad] of a gear: the motor's angle less the hinge's
+    DRIVE_RATE,     // [rad/s] of the motor against what carries it
     DRIVE_STATES
 };
 
@@ -32,10 +34,11 @@ typedef struct hinge_report {
 bool stabiliser_has_drive(const ld_stabiliser *given);
 
 // Puts the drive at rest under a torque [N m].
-void stabiliser_rest(double torque, double *drive);
+void stabiliser_rest(const ld_stabiliser *given, double torque, double *drive);
 
 // Torque on the outboard body, into the report, whose angles and rates are known; rates of the
-// state. `drive`, `drive_dot`: unused if it has none. `linear`: a digital loop as a continuous one.
+// state. `drive`, `drive_dot`: unused if it has none. `linear`: a digital loop as a continuous one,
+// teeth as if they stuck together.
 void stabiliser_evaluate(const ld_stabiliser *given, bool linear, double z, const double *drive,
                          hinge_report *hinge, double *z_dot, double *drive_dot);
 

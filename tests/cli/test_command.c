@@ -106,6 +106,8 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "--measured x.csv", 2, "are options of study show DIR\n");
     expect_complaint("launchdyn study show x --measured x.csv --what pitch", 2,
                      "--measured shows what its file has: neither --what nor --sensitivity goes");
+    expect_complaint("launchdyn report x --measured x.csv", 2,
+                     "--measured is an option of reports of studies\n");
     expect_complaint("launchdyn study show", 2, "study merge want DIR\n");
     expect_complaint("launchdyn study shwo x", 2, "study knows show DIR, export DIR and merge DIR");
     expect_complaint("launchdyn study examples/salvo.yaml", 2, "study wants --out DIR");

@@ -182,6 +182,27 @@ async function checkColumns(browser, studies) {
   await leave(page);
 }
 
+// Shots beside two studies: a row of dots for each side, and what the table says of the mean.
+async function checkMeasured(browser, [slow, fast]) {
+  console.log("measured shots");
+  const shots = join(folder, "shots.csv"), downrange = slow.column.get("downrange"), file = join(folder, "measured.html");
+  writeFileSync(shots, `downrange [km],apogee [m]\n${downrange.filter((_, i) => i % 3 === 0).map((v) => `${v / 1000},`).join("\n")}\n,900\n`);
+  launchdyn("report", slow.out, fast.out, "--measured", shots, "-o", file);
+  const page = await open(browser, file), title = "Downrange: measured and simulated";
+  await checkNoneEmpty(page, 25);
+  const rows = await page.$$eval("#measured + section tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const [, , mean] = rows, stars = [mean[7], mean[10]].map((text) => text.endsWith("*"));
+  check("the fast study has a star, the slow one none", mean[0] === "Downrange" && !stars[0] && stars[1], mean);
+  const dots = await page.$$eval(`${panel(title)} .points`, (list) => list.map((node) => node.getAttribute("d").split("M").length - 1));
+  check("dots of three sides", dots.length === 3 && dots[0] === 50 && dots[1] > 100, dots);
+  const box = await frame(page, title);
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 5);
+  const text = await readingOf(page, title), all = downrange.filter((_, i) => i % 3 === 0);
+  check("the reading says the mean", near(all.reduce((sum, v) => sum + v, 0) / all.length, numbersIn(text)[0], 1e-4), text);
+  await picture(page, "studies-measured.png");
+  await leave(page);
+}
+
 async function checkHostile(browser) {
   console.log("titles, folders and reasons that would be code; samples that fail");
   const code = "</script><img src=x onerror=window.owned=1>", title = `</title>${code}<script>window.owned=1</script>`;
@@ -204,5 +225,6 @@ await inBrowser(async (browser) => {
   await checkOne(browser, studies[0]);
   await checkSideBySide(browser, studies);
   await checkColumns(browser, studies);
+  await checkMeasured(browser, [studies[0], studies[2]]);
   await checkHostile(browser);
 });

@@ -264,6 +264,67 @@ static void test_numbers_are_those_of_show(void **state)
     free(shown);
 }
 
+static double first_number(const char *place, const char *key)
+{
+    double number;
+    read_numbers(after(place, key), &number, 1);
+    return number;
+}
+
+// Shots that are every tenth value, 0.3 mrad higher: differences, ratios and p are those of
+// agreement_of(), and of what is not a study's nothing is written.
+static void test_measured(void **state)
+{
+    (void)state;
+    enum { SHOTS = VALUES / 10 };
+    double shot[SHOTS], value[VALUES], read[3];
+    int64_t shot_group[SHOTS], group[VALUES];
+    make_study("study", "Made up", SAMPLES, "");
+    FILE *file = fopen(in("<svg onload=alert(1)>.csv"), "w");
+    fputs("pitch [mrad]\n", file);
+    for (int i = 0; i < VALUES; i++) {
+        value[i] = value_of(1 + i / 2, 1 + i % 2, pitch);
+        group[i] = i / 2;
+        if (i % 10 == 0) {
+            fprintf(file, "%.17g\n", 1e3 * value[i] + 0.3);
+            shot[i / 10] = value[i] + 3e-4;
+            shot_group[i / 10] = i;
+        }
+    }
+    fclose(file);
+    ld_error error;
+    const char *study = in("study");
+    char shots[128];
+    snprintf(shots, sizeof shots, "%s", in("<svg onload=alert(1)>.csv"));
+    assert_int_equal(ld_report_write_measured(&study, 1, shots, in("report.html"), NULL, &error),
+                     LD_OK);
+    char *page = read_page(in("report.html"));
+    const char *series =
+        after(after(after(page, "\"measured\":{\"file\":"), "\"own\":"), "\"series\":[");
+    agreement by;
+    assert_int_equal(agreement_of((grouped_values){shot, shot_group, SHOTS},
+                                  (grouped_values){value, group, VALUES}, &by),
+                     LD_OK);
+    read_numbers(after(series, "\"difference\":"), read, 3);
+    CHECK_NEAR("difference", read[0], by.mean.value, 1e-14);
+    CHECK_NEAR("its upper end", read[2], by.mean.high, 1e-14);
+    CHECK_NEAR("p", first_number(series, "\"difference_chance\":"), by.mean_chance, 1e-10);
+    read_numbers(after(series, "\"ratio\":"), read, 3);
+    CHECK_NEAR("ratio", read[0], by.deviation.value, 1e-12);
+    CHECK_NEAR("p", first_number(series, "\"ratio_chance\":"), by.deviation_chance, 1e-10);
+    assert_null(strstr(page, "<svg"));
+    free(page);
+    page = report_one("study", NULL);
+    assert_non_null(strstr(page, "\"measured\":null"));
+    free(page);
+    file = fopen(shots, "w");
+    fputs("pitch [mrad]\n1\nx\n", file);
+    fclose(file);
+    assert_int_equal(ld_report_write_measured(&study, 1, shots, in("report.html"), NULL, &error),
+                     LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, ".csv:3:1: pitch: found \"x\"; expected a number"));
+}
+
 // A factor that is pitch and something else.
 static void test_sensitivities(void **state)
 {
@@ -536,6 +597,7 @@ int main(void)
         TEST(test_numbers_are_those_of_the_values),
         TEST(test_running_estimates),
         TEST(test_numbers_are_those_of_show),
+        TEST(test_measured),
         TEST(test_sensitivities),
         TEST(test_bins),
         TEST(test_places),

@@ -381,6 +381,48 @@ static void say_peaks(const finished_run *run, column_book *book, const char *at
     expect_at(book, at, "max_slot_force", largest_of(&run->tube, "slot.force"));
 }
 
+// How a hinge was held from the ignition to the exit, by the rows.
+static void say_hinge(const finished_run *run, column_book *book, const char *at, const char *hinge)
+{
+    const history_data *tube = &run->tube;
+    const double *t = named(tube, "t"), ignition = run->model.firing[0].at;
+    const char *const what[] = {"error", "torque", "rate"};
+    const double *column[3];
+    for (int i = 0; i < 3; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "%s.%s", hinge, what[i]);
+        column[i] = named(tube, path);
+    }
+    double sum[3] = {0}, peak[2] = {0}, before[3] = {0}, since = 0;
+    for (size_t i = 0; i < tube->rows; i++) {
+        double torque = column[1][i], power = fabs(torque * column[2][i]);
+        const double now[] = {column[0][i] * column[0][i], torque * torque, power};
+        if (t[i] < ignition)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            sum[k] += 0.5 * (t[i] - ignition - since) * (before[k] + now[k]);
+            before[k] = now[k];
+        }
+        since = t[i] - ignition;
+        peak[0] = fmax(peak[0], fabs(torque));
+        peak[1] = fmax(peak[1], power);
+    }
+    const struct {
+        const char *name;
+        double value;
+    } held[] = {{"error_rms", sqrt(sum[0] / since)},
+                {"torque_rms", sqrt(sum[1] / since)},
+                {"torque_peak", peak[0]},
+                {"saturated", 0},
+                {"power_mean", sum[2] / since},
+                {"power_peak", peak[1]}};
+    for (size_t i = 0; i < COUNT(held); i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s.%s", hinge, held[i].name);
+        expect_at(book, at, name, held[i].value);
+    }
+}
+
 static void say_rocket(finished_run *run)
 {
     const char *at = "rockets.0.";
@@ -391,6 +433,8 @@ static void say_rocket(finished_run *run)
     say(book, at, at_landing, COUNT(at_landing), run->tube.flight);
     say_exit(run, book);
     say_peaks(run, book, at);
+    say_hinge(run, book, at, "azimuth");
+    say_hinge(run, book, at, "elevation");
     say_flight(run, book, "rockets.0.flight.");
     size_t last = run->tube.flight->rows - 1;
     expect_triple(
@@ -521,6 +565,11 @@ static const column_bound bounds[] = {
     {"exit.[xyz]", 1e-9, false},
     {"*max_contact_force*", 6e-5, false},
     {"*max_slot_force", 2e-5, false},
+    {"*_rms", 1e-3, false},
+    {"*saturated", 0, true},
+    {"*power_mean", 1e-3, false},
+    {"*torque_peak", 1e-4, false},
+    {"*power_peak", 1e-3, false},
     {"*apogee", 1e-7, false},
     {"*downrange", 1e-8, false},
     {"*drift", 1e-8, false},
@@ -582,6 +631,8 @@ static void test_study_results(void **state)
     }
     say_instants(run, book, "");
     say_peaks(run, book, "");
+    say_hinge(run, book, "", "azimuth");
+    say_hinge(run, book, "", "elevation");
     say(book, "", at_exit, COUNT(at_exit), &run->tube);
     say_flight(run, book, "");
     v3 place = triple(run->tube.flight, "rocket.", xyz, 0);

@@ -29,13 +29,16 @@ static const struct saved_case {
     {"marching",
      "marching/30-kmh.yaml",
      {"run.lead_in=50 ms", "run.output_step.tube=0.5 ms",
-      "platform.elevation.stabiliser={sample: 0.7 ms, delay: 0.3 ms, noise: {rate: 1 mrad/s}, "
+      "platform.elevation.stabiliser={sample: 0.7 ms, delay: 0.3 ms, sensor_noise: {rate: 1 "
+      "mrad/s}, "
       "bandwidth: 30 Hz}"},
      0},
     {"apart",
      "marching/15-kmh.yaml",
      {"run={lead_in: 50 ms, coupling: {step: 0.5 ms}, output_step: {tube: 0.5 ms}}",
-      "run.formulation=overall", "platform.azimuth.stabiliser={sample: 1 ms, delay: 1 ms}",
+      "run.formulation=overall",
+      "platform.azimuth.stabiliser={sample: 1 ms, delay: 1 ms, gear: {stiffness: 5e7 N.m/rad, "
+      "damping: 2e4 N.m.s/rad, inertia: 100 kg.m2, backlash: 0.3 mrad}}",
       "platform.elevation.lock={stiffness: 5e7 N.m/rad, damping: 1e4 N.m.s/rad}"},
      0},
     {"touching",

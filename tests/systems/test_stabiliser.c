@@ -351,11 +351,105 @@ static void noise(void **context)
     tear_down(&f);
 }
 
+// ---- gear
+
+// A step of the command through a gear without backlash: two inertias and a spring between them.
+static void two_masses(void **context)
+{
+    (void)context;
+    fixture f;
+    set_up(&f);
+    const double kp = 8e5, kd = 2e4, step = 2e-3, k = 3e6, d = 2e3, motor = 200;
+    f.given->kp = kp, f.given->ki = 0, f.given->kd = kd;
+    f.given->gear = (ld_gear){true, k, d, motor, 0};
+    f.given->command.data[1] = step;
+    begin(&f);
+    orientating_rest(&f.system, f.state);
+    // pitch, its rate, the gear's twist, the motor's rate against the base, 1
+    double x[MOST] = {0, W, 0, 0, 1}, angles = 0, rates = 0;
+    double A[MOST][MOST] = {
+        {0, 1},
+        {0, -(C + d) / J, k / J, d / J, (C + d) * W / J},
+        {0, -1, 0, 1, W},
+        {-kp / motor, (d - kd) / motor, -k / motor, -d / motor, (kp * step - d * W) / motor},
+        {0}};
+    for (int i = 0; i < 20; i++) {
+        follow(&f, 0.02 * i, 0.02 * (i + 1));
+        go_on(5, A, 0.02, x);
+        const hinge_report hinge = hinge_of(&f, 1);
+        angles = fmax(angles, fabs(hinge.measured - x[0]));
+        angles = fmax(angles, fabs(drive_of(&f)[DRIVE_TWIST] - x[2]));
+        rates = fmax(rates, fabs(hinge.measured_rate - x[1]));
+        rates = fmax(rates, fabs(drive_of(&f)[DRIVE_RATE] - x[3]));
+    }
+    CHECK_BELOW("pitch, twist [rad]", angles, 5e-11);
+    CHECK_BELOW("their rates [rad/s]", rates, 5e-9);
+    tear_down(&f);
+}
+
+// A motor pushed off one side of the teeth by a constant torque: it runs free through the backlash,
+// then presses on the other side, from where it swings back, as one mass on a spring.
+static void free_travel(void **context)
+{
+    (void)context;
+    fixture f;
+    set_up(&f);
+    const double push = 500, backlash = 1e-3, k = 3e6, motor = 200;
+    for (int i = 0; i < 3; i++)
+        f.model.platform.elevation.inertia[i] = 1e15;
+    *f.given = (ld_stabiliser){.command = f.given->command, .kp = push / 0.01, .torque_limit = 1e9};
+    f.given->gear = (ld_gear){true, k, 0, motor, backlash};
+    f.given->command.data[1] = -0.01;
+    let_go(&f);
+    orientating_rest(&f.system, f.state);
+    double touch = sqrt(2 * backlash * motor / push), speed = push / motor * touch;
+    double omega = sqrt(k / motor), twist = 0, torque = 0, t = 0;
+    CHECK_NEAR("at the start [rad]", drive_of(&f)[DRIVE_TWIST], 0.5 * backlash, 1e-15);
+    for (int i = 1; i <= 50; i++) {
+        double from = t, expected = 0;
+        t = (touch + 2 / omega) * i / 50;
+        double at = 0.5 * backlash - 0.5 * push / motor * t * t, since = t - touch;
+        follow(&f, from, t);
+        if (since > 0) {
+            expected = -push * (1 - cos(omega * since)) - speed * k / omega * sin(omega * since);
+            at = -0.5 * backlash + expected / k;
+        }
+        twist = fmax(twist, fabs(drive_of(&f)[DRIVE_TWIST] - at));
+        torque = fmax(torque, fabs(hinge_of(&f, t).torque - expected));
+    }
+    printf("  free for %.4g ms\n", 1e3 * touch);
+    CHECK_BELOW("twist [rad]", twist, 1e-12);
+    CHECK_BELOW("torque on the hinge [N m]", torque, 3e-6);
+    tear_down(&f);
+}
+
+// Damped teeth push; where they part they do not pull.
+static void parting(void **context)
+{
+    (void)context;
+    fixture f;
+    set_up(&f);
+    f.given->gear = (ld_gear){true, 1e6, 1e4, 200, 1e-3};
+    begin(&f);
+    f.state[ORIENTATING_W + 2] = 0;
+    static const struct {
+        double twist, rate, torque;
+    } row[] = {{0.7e-3, 0.01, 300}, {0.7e-3, -0.01, 100},  {0.7e-3, -0.03, 0}, {0.4e-3, 0.5, 0},
+               {-0.4e-3, -1, 0},    {-0.7e-3, 0.01, -100}, {-0.7e-3, 0.03, 0}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        drive_of(&f)[DRIVE_TWIST] = row[i].twist;
+        drive_of(&f)[DRIVE_RATE] = row[i].rate;
+        CHECK_NEAR("torque [N m]", hinge_of(&f, 0).torque, row[i].torque, 1e-9);
+    }
+    tear_down(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(feedforward), cmocka_unit_test(loops), cmocka_unit_test(slew),
-        cmocka_unit_test(sampled),     cmocka_unit_test(noise),
+        cmocka_unit_test(feedforward), cmocka_unit_test(loops),   cmocka_unit_test(slew),
+        cmocka_unit_test(sampled),     cmocka_unit_test(noise),   cmocka_unit_test(two_masses),
+        cmocka_unit_test(free_travel), cmocka_unit_test(parting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

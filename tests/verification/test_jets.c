@@ -200,6 +200,10 @@ static void impulse_on_a_free_vehicle(void **state)
     const launcher_output *out = simulation_output(self, t, last);
     simulation_input(self, t, last, &input);
     double told = -out->base.report.vehicle.jet * m3_column(input.launching.base.A, 0).x;
+    jet_wrench beside = jets_at(&self->jets, t, &input.launching.base, 4);
+    v3 moment = v3_cross(jets_mouth(&model, 8, 4), beside.force);
+    CHECK_WITHIN("moment seen from another tube [N m]", v3_norm(moment), 50, 1000);
+    CHECK_BELOW("the same by jets_at [N m]", v3_norm(v3_sub(beside.moment, moment)), 1e-12);
     CHECK_BELOW("force told, relative", told / force_at(self, t, last, from, along) - 1, 1e-12);
     propagator_free(stepper);
     fresh_launch_free(&launch);
@@ -297,7 +301,7 @@ static double thrust_at(const ld_model *model, double since)
 static ld_summary watch(const ld_model *model, watched *seen)
 {
     ld_simulation *simulation;
-    ld_summary summary;
+    ld_summary summary = {0};
     ld_error error;
     ld_sink sink = {.self = seen, .begin = begin, .row = row, .flight = begin_flight};
     if (ld_simulation_create(model, &simulation, &error) ||

@@ -87,6 +87,12 @@ static void put_on_sines(ld_model *model, double speed, const sine *sines, bool 
     enum { ROWS = 20001 };
     without_coulomb_friction(model, speed);
     ld_road *road = &model->base.vehicle.road;
+    // the options of stabilisers that are linear
+    ld_stabiliser *elevation = &model->platform.elevation.stabiliser;
+    elevation->cascade = (ld_cascade){true, 15, 4e5, 4e5};
+    elevation->bandwidth = 30;
+    elevation->feedforward = 0.05;
+    model->platform.azimuth.stabiliser.gear = (ld_gear){true, 5e7, 2e4, 100, 0};
     model->run.lead_in = left ? 8 : 5;
 
     model->run.tolerance = 1e-9;
