@@ -45,6 +45,7 @@ typedef struct verb {
 static const verb verbs[] = {
     {"check", SCENARIO, "check s.yaml", "", NULL},
     {"modes", SCENARIO, "modes s.yaml", "", NULL},
+    {"response", SCENARIO, "response s.yaml --input base.y -w tip.y --out o", "", NULL},
     {"run", SCENARIO, "run s.yaml --out o --csv", "", NULL},
     {"run again", RUN, "run --again o --out p", "", NULL},
     {"plot", RUN, "plot o -o x.svg", "", NULL},

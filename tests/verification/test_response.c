@@ -466,7 +466,9 @@ static int check_roads(ld_model *model, double speed, int seeds)
     return inside;
 }
 
-// At three speeds; the seeds' intervals of 95 %.
+// At three speeds; the seeds' intervals of 95 %. The road goes up to 14 Hz: without friction
+// nothing damps the locked rocket's yaw at 19 Hz, and on a road that excites it the adaptors leave
+// the tube, which is not linear (docs/response.md has the figures).
 static void random_roads(void **state)
 {
     (void)state;
@@ -481,12 +483,13 @@ static void random_roads(void **state)
     road->iso_class = 0;
     road->tracks = LD_TRACKS_INDEPENDENT;
     road->harmonics = 400;
-    road->wavelengths[0] = 0.3;
     road->wavelengths[1] = 100;
     model.run.lead_in = 6;
     model.firing[0].at = 3;
-    for (int i = 0; i < SPEEDS; i++)
+    for (int i = 0; i < SPEEDS; i++) {
+        road->wavelengths[0] = speeds[i] / 14;
         inside += check_roads(&model, speeds[i], seeds);
+    }
     // of 60, binomial: 51 or fewer would be seen once in 200 times if they were independent
     CHECK_WITHIN("of 60 within the seeds' intervals", inside, 52, 60);
     reference_model_free(&model);
