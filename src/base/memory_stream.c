@@ -1,4 +1,4 @@
-#define _GNU_SOURCE
+#define _GNU_SOURCE // fopencookie; NOLINT(bugprone-reserved-identifier)
 #include "base/memory_stream.h"
 
 #include <errno.h>

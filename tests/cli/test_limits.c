@@ -162,6 +162,7 @@ static void test_little_stack(void **state)
 #endif
 }
 
+#ifndef LD_SANITIZED // which take terabytes
 // The result, or a sentence; 127: the program's own libraries could not be loaded.
 static void expect_result_or_sentence(const char *line)
 {
@@ -169,12 +170,13 @@ static void expect_result_or_sentence(const char *line)
     if (shell.code != 0 && shell.code != 127 && !told)
         fail_msg("%s: code %d, printed \"%s\"", line, shell.code, shell.err);
 }
+#endif
 
 // No library holds so much of the address space that others find none.
 static void test_little_address_space(void **state)
 {
     (void)state;
-#ifndef LD_SANITIZED                                                       // which take terabytes
+#ifndef LD_SANITIZED
     static const int sizes[] = {60000, 44000, 40000, 37000, 35000, 33000}; // [kB]
     assert_int_equal(run(STUDY "ulimit -v 100000; launchdyn check examples/fixed.yaml && "
                                "launchdyn run examples/fixed.yaml --out a" QUICK " && "
