@@ -19,6 +19,7 @@ typedef struct fixture {
 
 static void set_up(fixture *f)
 {
+    *f = (fixture){0};
     reference_vehicle(&f->model, 0);
     ld_platform *platform = &f->model.platform;
     ld_turret *turret[HINGES] = {&platform->azimuth, &platform->elevation};
