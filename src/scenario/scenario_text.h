@@ -12,8 +12,7 @@ ld_status scenario_factor_text(const ld_model *model, const ld_factor *factor, c
 // A statistic with the half width that it is run until, "range.mean: 2 m".
 ld_status scenario_until_text(const ld_model *model, const ld_until *until, char *text,
                               size_t size);
-// A value as it is printed where that is a line, "" where it is not given; LD_ERR_INPUT: it is
-// more.
+// A value as it is printed where that is a line, "" where not given; LD_ERR_INPUT: it is more.
 ld_status scenario_value_text(const field_value *value, char *text, size_t size);
 
 #endif
