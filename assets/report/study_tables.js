@@ -56,8 +56,9 @@ export function plans(data) {
 // Without the sign of a negative that rounds to nothing.
 const fixed = (value, decimals) => value.toFixed(decimals).replace(/^-(?=[0.]*$)/, "");
 
-// A value with its interval below, both to two digits of the interval's half.
+// A value with its interval below, both to two digits of the interval's half; a dash where it cannot be stated.
 function estimate([value, low, high], factor) {
+  if (value === null) return cell("–");
   if (low === null) return element("td", {}, readable(value * factor));
   const half = Math.abs((high - low) * factor) / 2, scale = Math.floor(Math.log10(half));
   const text = (v) => {

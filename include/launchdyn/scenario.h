@@ -85,7 +85,8 @@ ld_status ld_model_number(const ld_model *model, const char *path, double *value
 
 /// A value as text that can be set again: "61 kg", "1 0 0 m", "fixed".
 /// @param text of `size` bytes, always ended; what is too long is cut
-/// @return LD_OK, LD_ERR_INPUT (no such key; a block, a list or a table, which is more than a line)
+/// @return LD_OK, LD_ERR_INPUT (no such key; a block, a list or a table: more than a line),
+///         LD_ERR_MEMORY
 ld_status ld_model_text(const ld_model *model, const char *path, char *text, size_t size,
                         ld_error *error);
 

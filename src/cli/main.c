@@ -19,7 +19,7 @@ static const command commands[] = {
     {"plot", "DIR...", "Draw figures of one run, or of several laid one over the other",
      command_plot_help, command_plot, true},
     {"report", "DIR...",
-     "Write one HTML file that shows a run or studies, offline and in any browser", NULL,
+     "Write one HTML file that shows runs or studies, offline and in any browser", NULL,
      command_report, true},
     {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road,
      true},

@@ -27,7 +27,7 @@ static void write_line(FILE *json, bool *first, const char *name, const char *fo
     fputc(']', json);
 }
 
-static void write_plan(FILE *json, const ld_model *model)
+static ld_status write_plan(FILE *json, const ld_model *model)
 {
     const ld_scatter *scatter = &model->scatter;
     bool first = true;
@@ -41,22 +41,25 @@ static void write_plan(FILE *json, const ld_model *model)
         write_line(json, &first, "seed", "%d", scatter->seed);
     for (int i = 0; i < scatter->until_count; i++) {
         char text[256];
-        scenario_until_text(model, &scatter->until[i], text, sizeof text);
+        if (scenario_until_text(model, &scatter->until[i], text, sizeof text))
+            return LD_ERR_MEMORY;
         write_line(json, &first, "until half the 95 % interval is at most", "%s", text);
     }
     for (int i = 0; i < model->sweep_count; i++)
         write_line(json, &first, "swept", "%s, %d values", model->sweep[i].path,
                    model->sweep[i].count);
     fputc(']', json);
+    return LD_OK;
 }
 
-static void write_factors(FILE *json, const ld_model *model)
+static ld_status write_factors(FILE *json, const ld_model *model)
 {
     const ld_scatter *scatter = &model->scatter;
     fputs(",\"factors\":[", json);
     for (int i = 0; i < scatter->factor_count; i++) {
         char text[512];
-        scenario_factor_text(model, &scatter->factor[i], text, sizeof text);
+        if (scenario_factor_text(model, &scatter->factor[i], text, sizeof text))
+            return LD_ERR_MEMORY;
         fputs(i ? ",\n[" : "[", json);
         json_write_text(json, scatter->factor[i].path);
         fputc(',', json);
@@ -74,6 +77,7 @@ static void write_factors(FILE *json, const ld_model *model)
         fputc(']', json);
     }
     fputc(']', json);
+    return LD_OK;
 }
 
 ld_status study_write_plan(FILE *json, const study_source *source, int index)
@@ -89,8 +93,9 @@ ld_status study_write_plan(FILE *json, const study_source *source, int index)
         scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages);
     if (!status) {
         fputc(',', json);
-        write_plan(json, &model);
-        write_factors(json, &model);
+        status = write_plan(json, &model);
+        if (!status)
+            status = write_factors(json, &model);
         model_clear(&model);
     } else {
         ld_messages_free(&messages);

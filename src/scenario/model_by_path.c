@@ -96,8 +96,11 @@ static ld_status value_text(const ld_model *model, const char *path, char *text,
     char why[LD_ERROR_TEXT];
     text[0] = '\0';
     if (field_reach(model, path, &value, why, sizeof why)) {
-        if (!scenario_value_text(&value, text, size))
-            return ld_fail(error, LD_ERR_INPUT, "%s is more than a line", path);
+        ld_status status = scenario_value_text(&value, text, size);
+        if (status == LD_ERR_INPUT)
+            return ld_fail(error, status, "%s is more than a line", path);
+        if (status)
+            return ld_fail(error, status, "no memory");
     } else if (field_locate(model, path, &place, why, sizeof why)) {
         number_text(model, &place, text, size); // a component of a vector
     } else {

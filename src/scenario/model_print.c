@@ -381,29 +381,32 @@ void ld_model_print(const ld_model *model, FILE *stream)
     freelocale(plain);
 }
 
-// A stream into `text`, which holds "" where it cannot be; closed with its end marked.
+// A stream into `text`, closed with its end marked; NULL, and "" in `text`: no memory.
 static FILE *open_text(char *text, size_t size)
 {
     memset(text, 0, size);
     return fmemopen(text, size - 1, "w");
 }
 
-void scenario_factor_text(const ld_model *model, const ld_factor *factor, char *text, size_t size)
+ld_status scenario_factor_text(const ld_model *model, const ld_factor *factor, char *text,
+                               size_t size)
 {
     FILE *stream = open_text(text, size);
     if (!stream)
-        return;
+        return LD_ERR_MEMORY;
     print_factor(stream, model, factor);
     fclose(stream);
+    return LD_OK;
 }
 
-void scenario_until_text(const ld_model *model, const ld_until *until, char *text, size_t size)
+ld_status scenario_until_text(const ld_model *model, const ld_until *until, char *text, size_t size)
 {
     FILE *stream = open_text(text, size);
     if (!stream)
-        return;
+        return LD_ERR_MEMORY;
     print_statistic(stream, model, until);
     fclose(stream);
+    return LD_OK;
 }
 
 // The word that stands in place of a block, or NULL.
@@ -414,20 +417,20 @@ static const char *word_of_block(const field_value *value)
     return word[0] ? word : NULL;
 }
 
-bool scenario_value_text(const field_value *value, char *text, size_t size)
+ld_status scenario_value_text(const field_value *value, char *text, size_t size)
 {
     const field_row *f = value->row;
     bool block = f->kind == FIELD_BLOCK;
     text[0] = '\0';
     if (block ? !word_of_block(value) : f->kind > FIELD_CHOICE && f->kind != FIELD_SELECTION)
-        return false;
+        return LD_ERR_INPUT;
     FILE *stream = open_text(text, size);
     if (!stream)
-        return true;
+        return LD_ERR_MEMORY;
     if (block)
         fputs(word_of_block(value), stream);
     else if (has_value(f, value->base))
         print_scalar(stream, f, value->base);
     fclose(stream);
-    return true;
+    return LD_OK;
 }

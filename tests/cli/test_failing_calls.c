@@ -50,7 +50,7 @@ static const verb verbs[] = {
     {"run again", RUN, "run --again o --out p", "", NULL},
     {"plot", RUN, "plot o -o x.svg", "", NULL},
     {"report", RUN, "report o -o x.html", "", NULL},
-    {"report of a study", STUDY, "report o -o x.html", "memory", NULL},
+    {"report of a study", STUDY, "report o -o x.html", "", NULL},
     {"study", SCENARIO, "study s.yaml --out o", "", "study show o --what all"},
     {"study show", STUDY, "study show o", "", NULL},
     {"study export", STUDY, "study export o --csv x.csv --hdf5 x.h5", "", NULL},

@@ -193,6 +193,8 @@ async function checkMeasured(browser, [slow, fast]) {
   const rows = await page.$$eval("#measured + section tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
   const [, , mean] = rows, stars = [mean[7], mean[10]].map((text) => text.endsWith("*"));
   check("the fast study has a star, the slow one none", mean[0] === "Downrange" && !stars[0] && stars[1], mean);
+  const single = rows.at(-1); // one shot has no deviation
+  check("a dash for what cannot be stated", [4, 6, 7, 9, 10].every((i) => single[i] === "–"), single);
   const dots = await page.$$eval(`${panel(title)} .points`, (list) => list.map((node) => node.getAttribute("d").split("M").length - 1));
   check("dots of three sides", dots.length === 3 && dots[0] === 50 && dots[1] > 100, dots);
   const box = await frame(page, title);
