@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "launchdyn/loop.h"
 #include "launchdyn/response.h"
 
 #ifdef __cplusplus
@@ -19,15 +20,17 @@ typedef struct ld_response_wish {
     const char *input;             ///< NULL: the road; else the frequency response from it
     double from, to;               ///< [Hz] of spectrum or frequency response; NaN: 0.2, 50
     double slowest, fastest, step; ///< [m/s] speeds; NaN: the model's alone
-    const void *reserved[4];       ///< NULL: room for what later versions may be asked
+    const char *loop;              ///< a hinge, of whose loop it is; NULL: none
+    const void *reserved[3];       ///< NULL: room for what later versions may be asked
 } ld_response_wish;
 
-/// A frequency response, or root mean squares with a spectrum, or root mean squares over the speed.
+/// A frequency response, or root mean squares with a spectrum, or root mean squares over the speed,
+/// or the loop of a hinge.
 typedef struct ld_response_view ld_response_view;
 
 /// @param model kept by reference
-/// @return as ld_response_create(), ld_response_choose() and ld_response_gain(), and LD_ERR_INPUT
-/// (frequencies or speeds that are no range)
+/// @return as ld_response_create(), ld_response_choose(), ld_response_gain() and ld_loop_create(),
+/// and LD_ERR_INPUT (frequencies or speeds that are no range, a loop with other wishes)
 ld_status ld_response_view_create(const ld_model *model, const ld_response_wish *wish,
                                   ld_response_view **view, ld_error *error);
 void ld_response_view_free(ld_response_view *view);
@@ -35,8 +38,8 @@ void ld_response_view_free(ld_response_view *view);
 /// Prints it as a table for a terminal.
 void ld_response_view_print(const ld_response_view *view, FILE *stream);
 
-/// Writes response-frequency.csv, or response-rms.csv and response-spectrum.csv, or
-/// response-rms.csv into the folder, which is made where it is not there.
+/// Writes response-frequency.csv, or response-loop.csv, or response-rms.csv and
+/// response-spectrum.csv, or response-rms.csv into the folder, which is made where it is not there.
 /// @return LD_OK, LD_ERR_INPUT, LD_ERR_FILE or LD_ERR_MEMORY
 ld_status ld_response_view_write(const ld_response_view *view, const char *folder, ld_error *error);
 

@@ -12,7 +12,7 @@ enum { MOST = 1024 };
 
 typedef struct response_wishes {
     char **sets;
-    char *what, *speeds;
+    char *what, *speeds, *loop;
     char *folder, *picture; // NULL: not wanted
     int list;
     ld_response_wish wish;
@@ -96,6 +96,9 @@ int command_response(const command *self, int argc, char **argv)
          "Quantities: columns of the history (all: all of them; without: a choice)", "NAME,..."},
         {"input", 'i', OPTION_TEXT, &input,
          "Frequency response from this input, in place of what the road does", "NAME"},
+        {"loop", '\0', OPTION_TEXT, &wishes.loop,
+         "Loop of this hinge, azimuth or elevation, opened: margins, bandwidth, sensitivity",
+         "HINGE"},
         {"speeds", '\0', OPTION_TEXT, &wishes.speeds,
          "Root mean squares at these speeds in km/h, such as 0:60:1", "FROM:TO:STEP"},
         {"from", '\0', OPTION_NUMBER, &wishes.wish.from, "Lowest frequency in Hz (0.2)", "HZ"},
@@ -103,7 +106,8 @@ int command_response(const command *self, int argc, char **argv)
         {"list", 'l', OPTION_FLAG, &wishes.list, "List inputs and quantities by name, and stop",
          NULL},
         {"out", 'o', OPTION_TEXT, &wishes.folder,
-         "Write response-rms.csv and response-spectrum.csv, or response-frequency.csv, into this "
+         "Write response-rms.csv and response-spectrum.csv, response-frequency.csv or "
+         "response-loop.csv, into this "
          "folder",
          "DIR"},
         {"plot", 'p', OPTION_TEXT, &wishes.picture,
@@ -116,6 +120,7 @@ int command_response(const command *self, int argc, char **argv)
     if (!command_line_read(&line, self, argc, argv, options, 1, &code))
         return code;
     wishes.wish.input = input;
+    wishes.wish.loop = wishes.loop;
     wishes.wish.what = names;
     wishes.wish.what_count = split(wishes.what, names);
     if (wishes.speeds && !read_speeds(wishes.speeds, &wishes.wish)) {

@@ -13,11 +13,13 @@ enum { POINTS = 600, MOST_SPEEDS = 10000, CHARTS = 8, CURVES = 6, NAME = 128 };
 static const double KMH = 3.6, PI = 3.141592653589793238462643383280;
 static const double DEGREE = 57.295779513082320876798154814105;
 
-typedef enum view_kind { FREQUENCY, SPECTRUM, SPEEDS } view_kind;
+typedef enum view_kind { FREQUENCY, SPECTRUM, SPEEDS, LOOP } view_kind;
 
 struct ld_response_view {
     const ld_model *model;
-    ld_response *response;
+    ld_response *response; // NULL: a loop alone
+    ld_loop *loop;
+    const char *hinge;
     view_kind kind;
     const ld_column *input; // of a frequency response
     ld_column *column;      // [columns]
@@ -28,6 +30,12 @@ struct ld_response_view {
     double *value, *phase;     // [columns][count] amplitude and phase, or density
     double *speed, *rms, *top; // [speeds] [m/s], [columns][speeds], and where most comes from [Hz]
 };
+
+// Whether it is amplitudes and phases.
+static bool is_gain(const ld_response_view *view)
+{
+    return view->kind == FREQUENCY || view->kind == LOOP;
+}
 
 // ---- what is looked at ----
 
@@ -122,6 +130,24 @@ static ld_status find_input(ld_response_view *view, const char *name, ld_error *
     return ld_response_gain(view->response, view->slowest, name, NULL, 0, NULL, error);
 }
 
+// What is shown of a loop.
+static const ld_column of_loop[] = {
+    {"open", "1", "loop, opened"},
+    {"tracking", "1", "measured angle per commanded one"},
+    {"sensitivity", "1", "what is left of an error that would be without a loop"},
+};
+enum { OF_LOOP = sizeof of_loop / sizeof *of_loop };
+
+static ld_status choose_loop(ld_response_view *view, ld_error *error)
+{
+    view->columns = OF_LOOP;
+    view->column = malloc(sizeof of_loop);
+    if (!view->column)
+        return no_memory(error);
+    memcpy(view->column, of_loop, sizeof of_loop);
+    return LD_OK;
+}
+
 // ---- numbers ----
 
 // Frequencies, equal in their logarithm.
@@ -144,6 +170,27 @@ static ld_status set_frequencies(ld_response_view *view, double from, double to,
     return LD_OK;
 }
 
+static void put_gain(ld_response_view *view, size_t i, size_t k, ld_phasor gain)
+{
+    view->value[i * POINTS + k] = hypot(gain.real, gain.imaginary);
+    view->phase[i * POINTS + k] = atan2(gain.imaginary, gain.real);
+}
+
+static ld_status fill_loop(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
+{
+    ld_loop_point at;
+    ld_status status = choose_loop(view, error);
+    if (!status)
+        status = set_frequencies(view, wish->from, wish->to, error);
+    for (size_t k = 0; k < POINTS && !status; k++) {
+        status = ld_loop_points(view->loop, &view->x[k], 1, &at, error);
+        const ld_phasor gain[OF_LOOP] = {at.open, at.tracking, at.sensitivity};
+        for (size_t i = 0; i < OF_LOOP && !status; i++)
+            put_gain(view, i, k, gain[i]);
+    }
+    return status;
+}
+
 static ld_status fill_frequency(ld_response_view *view, ld_error *error)
 {
     ld_phasor *gain = malloc((view->columns * POINTS + 1) * sizeof *gain);
@@ -152,11 +199,8 @@ static ld_status fill_frequency(ld_response_view *view, ld_error *error)
     ld_status status = ld_response_gain(view->response, view->slowest, view->input->name, view->x,
                                         POINTS, gain, error);
     for (size_t i = 0; i < view->columns && !status; i++)
-        for (size_t k = 0; k < POINTS; k++) {
-            ld_phasor g = gain[k * view->columns + i];
-            view->value[i * POINTS + k] = hypot(g.real, g.imaginary);
-            view->phase[i * POINTS + k] = atan2(g.imaginary, g.real);
-        }
+        for (size_t k = 0; k < POINTS; k++)
+            put_gain(view, i, k, gain[k * view->columns + i]);
     free(gain);
     return status;
 }
@@ -216,6 +260,8 @@ static ld_status fill_speeds(ld_response_view *view, ld_error *error)
 
 static ld_status fill(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
 {
+    if (view->kind == LOOP)
+        return fill_loop(view, wish, error);
     ld_status status = choose_wished(view, wish, error);
     if (!status && wish->input)
         status = find_input(view, wish->input, error);
@@ -230,28 +276,43 @@ static ld_status fill(ld_response_view *view, const ld_response_wish *wish, ld_e
     return status ? status : fill_speeds(view, error);
 }
 
+// What is wished together must go together.
+static ld_status check_wish(const ld_model *model, const ld_response_wish *wish, ld_error *error)
+{
+    bool over_speeds = !isnan(wish->step);
+    if (wish->loop && (wish->input || over_speeds || wish->what_count > 0))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a loop is shown by itself at one speed: without input, quantities, speeds");
+    if (wish->input && over_speeds)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a frequency response is one at one speed: speeds go with the road alone");
+    if (!wish->loop && !wish->input && model_has_launcher(model) && !model_has_vehicle(model))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the base is no vehicle on a road: a response wants the name of an input "
+                       "(launchdyn response --list lists them)");
+    return LD_OK;
+}
+
 ld_status ld_response_view_create(const ld_model *model, const ld_response_wish *wish,
                                   ld_response_view **view, ld_error *error)
 {
     bool over_speeds = !isnan(wish->step);
     *view = NULL;
-    if (wish->input && over_speeds)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "a frequency response is one at one speed: speeds go with the road alone");
-    if (!wish->input && model_has_launcher(model) && !model_has_vehicle(model))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "the base is no vehicle on a road: a response wants the name of an input "
-                       "(launchdyn response --list lists them)");
+    ld_status status = check_wish(model, wish, error);
+    if (status)
+        return status;
     ld_response_view *self = calloc(1, sizeof *self);
     if (!self)
         return no_memory(error);
     double own = model_has_vehicle(model) ? model->base.vehicle.speed : 0;
     self->model = model;
-    self->kind = wish->input ? FREQUENCY : over_speeds ? SPEEDS : SPECTRUM;
+    self->kind = wish->loop ? LOOP : wish->input ? FREQUENCY : over_speeds ? SPEEDS : SPECTRUM;
     self->slowest = over_speeds ? wish->slowest : own;
     self->fastest = over_speeds ? wish->fastest : own;
-    ld_status status =
-        ld_response_create(model, self->slowest, self->fastest, &self->response, error);
+    self->hinge = wish->loop;
+    status = wish->loop
+                 ? ld_loop_create(model, wish->loop, &self->loop, error)
+                 : ld_response_create(model, self->slowest, self->fastest, &self->response, error);
     if (!status)
         status = fill(self, wish, error);
     if (status)
@@ -266,6 +327,7 @@ void ld_response_view_free(ld_response_view *view)
     if (!view)
         return;
     ld_response_free(view->response);
+    ld_loop_free(view->loop);
     free(view->column);
     free(view->x);
     free(view->speed);
@@ -291,7 +353,9 @@ static const char *shown_unit(const char *unit, double *factor)
 // The unit of amplitudes or densities of what has this unit.
 static void value_unit(const ld_response_view *view, const char *unit, char text[NAME])
 {
-    if (view->kind == FREQUENCY)
+    if (view->kind == LOOP)
+        snprintf(text, NAME, "%s", unit);
+    else if (view->kind == FREQUENCY)
         snprintf(text, NAME, "%s per %s", unit, view->input->unit);
     else if (strpbrk(unit, "./"))
         snprintf(text, NAME, "(%s)2/Hz", unit);
@@ -303,7 +367,8 @@ static void describe(const ld_response_view *view, char *text, size_t size)
 {
     static const char *const tracks[] = {"same", "independent", "coherent"};
     const ld_road *road = &view->model->base.vehicle.road;
-    int at = view->kind == FREQUENCY ? snprintf(text, size, "Response to %s", view->input->name)
+    int at = view->kind == LOOP        ? snprintf(text, size, "Loop of the %s", view->hinge)
+             : view->kind == FREQUENCY ? snprintf(text, size, "Response to %s", view->input->name)
              : road->iso_class == LD_ROAD_SMOOTH
                  ? snprintf(text, size, "Response to the sines of the road")
                  : snprintf(text, size, "Response to a road of class %c, tracks %s",
@@ -324,8 +389,8 @@ static size_t greatest(const double *value, size_t count)
 // Whether a column is there before the launch.
 static bool has_response(const ld_response_view *view, size_t i)
 {
-    double value = view->kind == FREQUENCY ? view->value[i * view->count]
-                                           : view->rms[(i + 1) * view->speeds - 1];
+    double value =
+        is_gain(view) ? view->value[i * view->count] : view->rms[(i + 1) * view->speeds - 1];
     return !isnan(value);
 }
 
@@ -386,15 +451,54 @@ static void print_speeds(const ld_response_view *view, FILE *stream)
     }
 }
 
+// A margin of the gains and where; or that there is none.
+static void print_gain(FILE *stream, const char *what, double factor, double at)
+{
+    if (isnan(at))
+        fprintf(stream, "  %-34s %10s\n", what, "any");
+    else
+        fprintf(stream, "  %-34s %10.4g %7.2f dB, at %.4g Hz\n", what, factor, 20 * log10(factor),
+                at);
+}
+
+static void print_loop(const ld_response_view *view, FILE *stream)
+{
+    ld_loop_margins margins;
+    ld_loop_margins_of(view->loop, &margins);
+    fputs("\nMargins\n", stream);
+    print_gain(stream, "gain may be raised by a factor of", margins.raise, margins.raise_at);
+    print_gain(stream, "gain may be lowered by a factor of", margins.lower, margins.lower_at);
+    if (isnan(margins.crossover)) {
+        fputs("  the loop's gain nowhere is one\n", stream);
+    } else {
+        fprintf(stream, "  %-34s %10.4g degrees\n", "phase", DEGREE * margins.phase);
+        fprintf(stream, "  %-34s %10.4g ms\n", "delay that it bears besides", 1e3 * margins.delay);
+        fprintf(stream, "  %-34s %10.4g Hz\n", "crossover", margins.crossover);
+    }
+    fputs("\nClosed\n", stream);
+    if (isnan(margins.bandwidth))
+        fprintf(stream, "  %-34s %10s\n", "bandwidth of tracking, -3 dB", "none");
+    else
+        fprintf(stream, "  %-34s %10.4g Hz\n", "bandwidth of tracking, -3 dB", margins.bandwidth);
+    if (isnan(margins.peak_at))
+        fprintf(stream, "  %-34s %10s\n", "sensitivity above one", "nowhere");
+    else
+        fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "peak of the sensitivity", margins.peak,
+                margins.peak_at);
+}
+
 void ld_response_view_print(const ld_response_view *view, FILE *stream)
 {
     char text[NAME];
     const ld_road *road = &view->model->base.vehicle.road;
     describe(view, text, sizeof text);
     fprintf(stream, "%s; linear about the equilibrium, no Coulomb friction\n", text);
-    if (view->kind != FREQUENCY && (road->bump_count > 0 || road->profile.rows > 0))
+    bool on_road = view->kind == SPECTRUM || view->kind == SPEEDS;
+    if (on_road && (road->bump_count > 0 || road->profile.rows > 0))
         fputs("Bumps and profile of the road are left out: they come once\n", stream);
-    if (view->kind == FREQUENCY)
+    if (view->kind == LOOP)
+        print_loop(view, stream);
+    else if (view->kind == FREQUENCY)
         print_frequency(view, stream);
     else if (view->kind == SPECTRUM)
         print_spectrum(view, stream);
@@ -448,7 +552,10 @@ static ld_status write_frequencies(const ld_response_view *view, const char *fol
                                    ld_error *error)
 {
     table all;
-    bool gain = view->kind == FREQUENCY;
+    static const char *const files[] = {[FREQUENCY] = "response-frequency.csv",
+                                        [SPECTRUM] = "response-spectrum.csv",
+                                        [LOOP] = "response-loop.csv"};
+    bool gain = is_gain(view);
     ld_status status = table_make(&all, 1 + 2 * view->columns, error);
     if (!status)
         table_add(&all, "frequency", "", "Hz", view->x);
@@ -461,9 +568,7 @@ static ld_status write_frequencies(const ld_response_view *view, const char *fol
             table_add(&all, name, ".phase", "rad", view->phase + i * view->count);
     }
     if (!status)
-        status =
-            table_write(&all, folder, gain ? "response-frequency.csv" : "response-spectrum.csv",
-                        view->count, error);
+        status = table_write(&all, folder, files[view->kind], view->count, error);
     table_free(&all);
     return status;
 }
@@ -486,7 +591,7 @@ static ld_status write_speeds(const ld_response_view *view, const char *folder, 
 ld_status ld_response_view_write(const ld_response_view *view, const char *folder, ld_error *error)
 {
     ld_status status = view->kind == SPEEDS ? LD_OK : write_frequencies(view, folder, error);
-    return status || view->kind == FREQUENCY ? status : write_speeds(view, folder, error);
+    return status || is_gain(view) ? status : write_speeds(view, folder, error);
 }
 
 // ---- as charts ----
@@ -529,9 +634,11 @@ static void name_chart(const ld_response_view *view, chart_page *page, size_t i)
     it->y_label = page->label[i];
     it->log_x = it->log_y = view->kind != SPEEDS;
     it->decades = view->kind == SPECTRUM ? 8 : 5;
-    if (view->kind == FREQUENCY) {
+    if (is_gain(view)) {
         it->title = "Amplitude";
         value_unit(view, page->unit[i], page->label[i]);
+        if (view->kind == LOOP)
+            it->y_label = "gain";
     } else if (view->kind == SPECTRUM) {
         it->title = "Power spectral density";
         it->y_factor = factor * factor;
@@ -620,9 +727,9 @@ ld_status ld_response_view_draw(const ld_response_view *view, const char *file, 
     if (!page)
         return no_memory(error);
     ld_status status = add_values(view, page, error);
-    if (!status && view->kind == FREQUENCY)
+    if (!status && is_gain(view))
         status = part_phases(view, page, error);
-    if (!status && view->kind == FREQUENCY)
+    if (!status && is_gain(view))
         status = add_phases(view, page, error);
     describe(view, heading, sizeof heading);
     if (!status)

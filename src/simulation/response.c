@@ -12,6 +12,7 @@
 #include "environment/road.h"
 #include "math/hessenberg.h"
 #include "simulation/plant.h"
+#include "simulation/response_rest.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 
@@ -95,7 +96,7 @@ static ld_status make_end(ld_response *self, int end, ld_error *error)
     return status;
 }
 
-static double rest_of(const ld_response *self, const char *column)
+double response_rest(const ld_response *self, const char *column)
 {
     const quantity_columns *columns = &self->simulation->columns;
     for (int i = 0; i < columns->count; i++)
@@ -109,10 +110,10 @@ static void find_tracks(ld_response *self)
 {
     const ld_vehicle *vehicle = &self->model->base.vehicle;
     char name[QUANTITY_NAME];
-    double x = rest_of(self, "chassis.x");
+    double x = response_rest(self, "chassis.x");
     for (int j = 0; j < vehicle->wheel_count; j++) {
         snprintf(name, sizeof name, "wheel.%s.x", vehicle->wheel[j].name);
-        double along = rest_of(self, name) - x;
+        double along = response_rest(self, name) - x;
         snprintf(name, sizeof name, "wheel.%s.road", vehicle->wheel[j].name);
         int input = 0;
         while (strcmp(self->inputs.column[input].name, name) != 0)

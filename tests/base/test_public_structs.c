@@ -4,6 +4,7 @@
 
 #include "launchdyn/environment.h"
 #include "launchdyn/history.h"
+#include "launchdyn/loop.h"
 #include "launchdyn/model.h"
 #include "launchdyn/mstmm.h"
 #include "launchdyn/origin.h"
@@ -54,6 +55,8 @@ SIZE(ld_estimate, 24);
 SIZE(ld_event, 24);
 SIZE(ld_fact, 16);
 SIZE(ld_figure, 16);
+SIZE(ld_loop_margins, 80);
+SIZE(ld_loop_point, 48);
 SIZE(ld_message, 40);
 SIZE(ld_messages, 16);
 SIZE(ld_mode, 88);

@@ -428,6 +428,28 @@ static void test_response(void **state)
     expect_in(shell.out, "\n\nQuantities\n  t ");
 }
 
+static void test_loop(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn response examples/reference.yaml --loop elevation -o a/l -p "
+                         "a/l/l.svg --set platform.elevation.stabiliser.sample='5 ms' "
+                         "--set platform.elevation.stabiliser.delay='5 ms'"),
+                     0);
+    expect_in(shell.out, "Loop of the elevation, 30 km/h; linear about the equilibrium");
+    expect_in(shell.out,
+              "\n  gain may be raised by a factor of       1.569    3.91 dB, at 31.89 Hz\n");
+    expect_in(shell.out, "\n  phase                                   28.39 degrees\n");
+    expect_in(shell.out, "\n  peak of the sensitivity                 3.252 at 27.39 Hz\n");
+    assert_int_equal(run("launchdyn response examples/reference.yaml --loop azimuth"), 0);
+    expect_in(shell.out, "\n  gain may be raised by a factor of         any\n");
+    expect_in(shell.out, "\n  sensitivity above one                 nowhere\n");
+    assert_int_equal(run("ls a/l; head -n 1 a/l/response-loop.csv"), 0);
+    assert_string_equal(shell.out, "l.svg\nresponse-loop.csv\n"
+                                   "frequency [Hz],open.amplitude [1],open.phase [rad],"
+                                   "tracking.amplitude [1],tracking.phase [rad],"
+                                   "sensitivity.amplitude [1],sensitivity.phase [rad]\n");
+}
+
 static void test_response_of_what_is_not_there(void **state)
 {
     (void)state;
@@ -446,6 +468,12 @@ static void test_response_of_what_is_not_there(void **state)
          "launchdyn: unknown input \"elevation.comand\", did you mean \"elevation.command\"?\n"},
         {"examples/reference.yaml -i road --from 5 --to 2",
          "launchdyn: 5 Hz to 2 Hz is no range of frequencies: it goes up, from above 0\n"},
+        {"examples/reference.yaml --loop elevatio",
+         "launchdyn: unknown hinge \"elevatio\", did you mean \"elevation\"?\n"},
+        {"examples/reference.yaml --loop elevation -i road",
+         "launchdyn: a loop is shown by itself at one speed: without input, quantities, speeds\n"},
+        {"examples/fixed.yaml --loop azimuth",
+         "launchdyn: there is no loop: the base is no vehicle, and has no hinges\n"},
         {"examples/fixed.yaml",
          "launchdyn: the base is no vehicle on a road: a response wants the name of an input "
          "(launchdyn response --list lists them)\n"},
@@ -569,6 +597,7 @@ int main(void)
         TEST(test_killed_at_work),
         TEST(test_modes_table),
         TEST(test_response),
+        TEST(test_loop),
         TEST(test_response_of_what_is_not_there),
         TEST(test_road),
         TEST(test_wind),

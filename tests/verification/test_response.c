@@ -1,11 +1,11 @@
 // The linear response against runs in time, without Coulomb friction: amplitudes and phases on a
-// road of small sines, of which some are under the left wheels alone; root mean squares on random
-// roads. LD_RESPONSE_SEEDS: on so many of them, at three speeds; LD_RESPONSE_SINES: on so many sets
-// of sines.
-// ctest: slow
+// road of small sines, of which some are under the left wheels alone; a command's step; root mean
+// squares on random roads. LD_RESPONSE_SEEDS: on so many of them, at three speeds;
+// LD_RESPONSE_SINES: on so many sets of sines. ctest: slow
 #include <lapacke.h>
 #include <stdlib.h>
 
+#include "launchdyn/loop.h"
 #include "launchdyn/response.h"
 #include "math/distributions.h"
 #include "support/check.h"
@@ -376,6 +376,77 @@ static void commands_in_sines(void **state)
     reference_model_free(&model);
 }
 
+// ---- a step ----
+
+// What is measured t behind the middle of a ramp of a unit: (2/pi) times the integral of
+// Re(tracking) sin(w t)/w, the ramp's own share in it.
+static double step_answer(const ld_loop_point *point, int count, double step, double ramp, double t)
+{
+    double sum = 0.5 * t; // at w = 0, where all is followed
+    for (int k = 1; k < count; k++) {
+        double w = two_pi * step * k, half = 0.5 * w * ramp;
+        sum += sin(half) / half * point[k].tracking.real * sin(w * t) / w;
+    }
+    return 4 * step * sum;
+}
+
+// The greatest difference from the loop's answer of what a run measures behind a command's step.
+static double compare_step(const ld_model *model, double at, double ramp, double size)
+{
+    enum { COUNT = 6000 };
+    static ld_loop_point point[COUNT];
+    const double step = 0.04;
+    recorded_run run;
+    ld_loop *loop;
+    ld_error error;
+    double worst = 0;
+    if (ld_loop_create(model, "elevation", &loop, &error))
+        fail_msg("%s", error.text);
+    for (int k = 1; k < COUNT; k++) {
+        double f = step * k;
+        assert_int_equal(ld_loop_points(loop, &f, 1, &point[k], &error), LD_OK);
+    }
+    recorded_run_make(&run, model);
+    printf("  %.2f s of CPU\n", run.summary.statistics.cpu_seconds);
+    size_t column = recorded_column(&run, "elevation.measured");
+    double rest = recorded_value(&run, 0, column);
+    for (size_t k = 0; k < run.rows; k++) {
+        double t = recorded_value(&run, k, 0) - at - 0.5 * ramp;
+        if (t < 0.5 * ramp || recorded_value(&run, k, 0) > 0)
+            continue;
+        double measured = (recorded_value(&run, k, column) - rest) / size;
+        worst = fmax(worst, fabs(measured - step_answer(point, COUNT, step, ramp, t)));
+    }
+    recorded_run_free(&run);
+    ld_loop_free(loop);
+    return worst;
+}
+
+static void a_command_steps(void **state)
+{
+    (void)state;
+    const double at = -1.402, ramp = 0.032, size = 1e-5;
+    ld_model model;
+    without_coulomb_friction(&model, 30 / 3.6);
+    model.base.vehicle.road.form = LD_ROAD_FLAT;
+    ld_stabiliser *given = &model.platform.elevation.stabiliser;
+    double pitch = given->command.data[1];
+    const double rows[] = {at, pitch, at + ramp, pitch + size};
+    free(given->command.data);
+    given->command = reference_table(2, 2, rows);
+    given->bandwidth = 20;
+    model.run.lead_in = 1.5;
+    model.run.tolerance = 1e-9;
+    model.run.output_step_lead_in = 4e-3;
+    CHECK_BELOW("a step, with a lag", compare_step(&model, at, ramp, size), 1e-3);
+    // as if it were continuous and late; the corners lie amid two samples, late as on average
+    given->bandwidth = 0;
+    given->sample = 4e-3;
+    given->delay = 2e-3;
+    CHECK_BELOW("of a digital loop", compare_step(&model, at, ramp, size), 1e-2);
+    reference_model_free(&model);
+}
+
 // ---- on random roads ----
 
 static const char *const seen[] = {
@@ -498,9 +569,8 @@ static void random_roads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roads_of_sines),
-        cmocka_unit_test(a_base_in_six_sines),
-        cmocka_unit_test(commands_in_sines),
+        cmocka_unit_test(roads_of_sines),    cmocka_unit_test(a_base_in_six_sines),
+        cmocka_unit_test(commands_in_sines), cmocka_unit_test(a_command_steps),
         cmocka_unit_test(random_roads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
