@@ -386,6 +386,26 @@ static size_t greatest(const double *value, size_t count)
     return best;
 }
 
+// Whether a column is there before the launch.
+static bool has_response(const ld_response_view *view, size_t i)
+{
+    double value =
+        is_gain(view) ? view->value[i * view->count] : view->rms[(i + 1) * view->speeds - 1];
+    return !isnan(value);
+}
+
+static void print_missing(const ld_response_view *view, FILE *stream)
+{
+    bool any = false;
+    for (size_t i = 0; i < view->columns; i++)
+        if (!has_response(view, i)) {
+            fprintf(stream, "%s%s",
+                    any ? ", " : "\nWithout a value before the launch: ", view->column[i].name);
+            any = true;
+        }
+    fputs(any ? "\n" : "", stream);
+}
+
 static void print_frequency(const ld_response_view *view, FILE *stream)
 {
     fprintf(stream, "\n%-28s %-16s %12s %10s %12s\n", "Greatest amplitude", "", "", "at [Hz]",
@@ -394,7 +414,7 @@ static void print_frequency(const ld_response_view *view, FILE *stream)
         const double *value = view->value + i * view->count;
         size_t k = greatest(value, view->count);
         char unit[NAME];
-        if (isnan(value[k]))
+        if (!has_response(view, i))
             continue;
         value_unit(view, view->column[i].unit, unit);
         fprintf(stream, "  %-26s %-16s %12.4g %10.4g %12.1f\n", view->column[i].name, unit,
@@ -408,7 +428,7 @@ static void print_spectrum(const ld_response_view *view, FILE *stream)
     for (size_t i = 0; i < view->columns; i++) {
         double factor;
         const char *unit = shown_unit(view->column[i].unit, &factor);
-        if (!isnan(view->rms[i]))
+        if (has_response(view, i))
             fprintf(stream, "  %-26s %-8s %12.4g %18.4g\n", view->column[i].name, unit,
                     factor * view->rms[i], view->top[i]);
     }
@@ -424,7 +444,7 @@ static void print_speeds(const ld_response_view *view, FILE *stream)
         const char *unit = shown_unit(view->column[i].unit, &factor);
         const double *rms = view->rms + i * view->speeds;
         size_t k = greatest(rms, view->speeds);
-        if (!isnan(rms[last]))
+        if (has_response(view, i))
             fprintf(stream, "  %-26s %-8s %14.4g %12.4g %12.4g %10.4g\n", view->column[i].name,
                     unit, factor * rms[0], factor * rms[last], factor * rms[k],
                     KMH * view->speed[k]);
@@ -484,6 +504,7 @@ void ld_response_view_print(const ld_response_view *view, FILE *stream)
         print_spectrum(view, stream);
     else
         print_speeds(view, stream);
+    print_missing(view, stream);
 }
 
 // ---- as files ----
@@ -631,6 +652,15 @@ static void name_chart(const ld_response_view *view, chart_page *page, size_t i)
     it->x_label = view->kind == SPEEDS ? "km/h" : "Hz";
 }
 
+// Whether there is anything to see: a value, where the axis is logarithmic one above 0.
+static bool is_drawn(const ld_response_view *view, const double *value, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (view->kind == SPEEDS ? !isnan(value[i]) : value[i] > 0)
+            return true;
+    return false;
+}
+
 // Amplitudes, densities or root mean squares.
 static ld_status add_values(const ld_response_view *view, chart_page *page, ld_error *error)
 {
@@ -638,12 +668,17 @@ static ld_status add_values(const ld_response_view *view, chart_page *page, ld_e
     size_t count = speeds ? view->speeds : view->count;
     const double *x = speeds ? view->speed : view->x, *all = speeds ? view->rms : view->value;
     for (size_t i = 0; i < view->columns; i++) {
+        if (!is_drawn(view, all + i * count, count))
+            continue;
         chart *it = chart_of(page, view->column[i].unit);
         if (!it)
             return too_many(error);
         it->curve[it->count++] =
             (chart_curve){view->column[i].name, count, x, all + i * count, false};
     }
+    if (page->count == 0)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "none of these quantities answers before the launch, nothing is drawn");
     for (size_t i = 0; i < page->count; i++)
         name_chart(view, page, i);
     return LD_OK;

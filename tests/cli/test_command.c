@@ -417,6 +417,11 @@ static void test_response(void **state)
                         "frequency [Hz],tip.inertial_y.amplitude [m per m],"
                         "tip.inertial_y.phase [rad]\n"
                         "speed [m/s],chassis.vy [m/s]\n5\n0,0\n");
+    assert_int_equal(
+        run("launchdyn response examples/reference.yaml -w aim.pitch,thrust,chassis.vy,aim.vz "
+            "-p a/d/h.svg"),
+        0);
+    expect_in(shell.out, "\n\nWithout a value before the launch: aim.pitch, aim.vz\n");
     assert_int_equal(run("launchdyn response examples/reference.yaml --list"), 0);
     expect_in(shell.out, "Inputs\n  road ");
     expect_in(shell.out, "  elevation.command                rad        elevation: commanded");
@@ -478,6 +483,8 @@ static void test_response_of_what_is_not_there(void **state)
         {"examples/reference.yaml -w all -p a.svg",
          "launchdyn: a page has room for 8 charts of 6 quantities of one unit each: name fewer "
          "quantities\n"},
+        {"examples/reference.yaml -w aim.pitch,thrust -p a.svg",
+         "launchdyn: none of these quantities answers before the launch, nothing is drawn\n"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char line[256];
