@@ -81,9 +81,17 @@ ld_status launch_check_base(ld_run *run, double t)
                    first, last, t);
 }
 
-// Steps of less than 50 ns on the average over a millisecond, or over all of n steps of less than n
-// times 10 ps (a microsecond of 100 000) and than half the longest step: the run would hardly go
-// on.
+// Length of the n-th step below which a run hardly goes on [s]: n times 10 ps (a microsecond of the
+// 100 000th), of a tolerance below 1e-5 less by as much as its steps are shorter and more; never
+// more than half the longest step.
+static double least_step(const ld_run_settings *run, int64_t n)
+{
+    double finer = fmin(1, pow(run->tolerance / 1e-5, 0.4));
+    return fmin(1e-11 * finer * (double)n, run->max_step / 2);
+}
+
+// Steps of less than 50 ns on the average over a millisecond, or shorter on the average than that
+// over the whole run: it would hardly go on.
 static ld_status check_steps(ld_run *run, double t)
 {
     const int64_t most = 20000;
@@ -94,8 +102,7 @@ static ld_status check_steps(ld_run *run, double t)
                        (long long)most, t);
     int64_t steps = propagator_steps(run->propagator);
     double spent = t - run->t_start;
-    double least = fmin(1e-11 * (double)steps, run->launch.model->run.max_step / 2) * (double)steps;
-    if (spent < 1e-3 || spent >= least)
+    if (spent < 1e-3 || spent >= least_step(&run->launch.model->run, steps) * (double)steps)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_NUMERIC,
                    "the steps are too short to go on: %lld for %.6g s, up to t = %.9g s; is a "

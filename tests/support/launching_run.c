@@ -81,7 +81,8 @@ static int rhs(double t, const double *state, double *state_dot, void *user)
     if (launching_evaluate(run->system, &run->input, &run->phase, state, &out))
         return -1;
     launching_rates(run->system, state, &out, run->phase.rocket, state_dot);
-    memcpy(state_dot + run->system->layout.count, out.power, sizeof out.power);
+    memcpy(state_dot + run->system->layout.count, out.power,
+           (size_t)run->system->work_count * sizeof *out.power);
     return 0;
 }
 
@@ -91,7 +92,7 @@ void launching_run_follow(launching_run *run, double tolerance, double time)
     ld_error error;
     struct integrator *stepper;
     double atol[RUN_STATES];
-    int count = at->count + POWER_COUNT;
+    int count = at->count + run->system->work_count;
     for (int i = 0; i < count; i++)
         atol[i] = i < at->count ? tolerance : 1e300;
     for (int i = 0; i < at->nq; i++)

@@ -243,7 +243,7 @@ static int rhs_of_y(double t, const double *state, double *state_dot, void *user
         return -1;
     launching_rates(run->system, with_V, &out, true, state_dot);
     memcpy(state_dot + at->V, out.y_dot, sizeof out.y_dot);
-    memset(state_dot + at->count, 0, POWER_COUNT * sizeof(double));
+    memset(state_dot + at->count, 0, (size_t)run->system->work_count * sizeof(double));
     return 0;
 }
 

@@ -182,7 +182,7 @@ static int rhs_of_held_tube(double t, const double *state, double *state_dot, vo
         return -1;
     launching_rates(run->system, state, &out, true, state_dot);
     memset(state_dot, 0, (size_t)at->x * sizeof *state_dot);
-    memset(state_dot + at->count, 0, POWER_COUNT * sizeof(double));
+    memset(state_dot + at->count, 0, (size_t)run->system->work_count * sizeof(double));
     return 0;
 }
 
