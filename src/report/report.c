@@ -6,8 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/memory_stream.h"
-#include "base/numeric_locale.h"
 #include "report/report_parts.h"
 #include "results/manifest.h"
 #include "results/origin.h"
@@ -137,74 +135,16 @@ void report_free_source(report_source *source)
 
 // ---- the file ----
 
-// The page in memory, to be freed.
-static ld_status make_page(const report_source *source, const report_detail *detail, char **text,
-                           size_t *length, ld_error *error)
+static ld_status write_data(FILE *json, const void *self, const report_detail *detail,
+                            ld_error *error)
 {
-    char *data = NULL;
-    size_t data_length = 0;
-    FILE *json = memory_stream(&data, &data_length), *page = memory_stream(text, length);
-    ld_status status = json && page ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
-    if (!status)
-        status = report_write_data(json, source, detail, error);
-    bool wrong = json && fclose(json) != 0;
-    if (!status && !wrong)
-        status = report_write_page(page, source, data, data_length, error);
-    wrong |= page && fclose(page) != 0;
-    free(data);
-    return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;
+    return report_write_data(json, self, detail, error);
 }
 
-report_detail report_finest(void)
+static ld_status write_page(FILE *page, const void *self, const char *data, size_t length,
+                            ld_error *error)
 {
-    return (report_detail){.whole = true, .whole_tube = true, .pixel = 1.0 / 4000};
-}
-
-// All rows in the tube and else those that a pixel of 4000 needs; a pixel in the tube too; a pixel
-// of what curves are in all the run, not in each phase; more pixels.
-void report_coarsen(report_detail *detail)
-{
-    if (detail->whole || detail->whole_tube) {
-        detail->whole_tube = detail->whole;
-        detail->whole = false;
-    } else if (!detail->over_all) {
-        detail->over_all = true;
-    } else {
-        detail->pixel *= 2;
-    }
-}
-
-// As fine as it fits.
-static ld_status make_page_that_fits(report_source *source, char **text, size_t *length,
-                                     ld_error *error)
-{
-    report_detail detail = report_finest();
-    for (;;) {
-        ld_status status = make_page(source, &detail, text, length, error);
-        source->report->pixels = detail.whole ? 0 : detail.pixel * 4000;
-        if (status || *length <= REPORT_BYTES)
-            return status;
-        free(*text);
-        *text = NULL;
-        if (detail.pixel > 0.1)
-            return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
-                           REPORT_BYTES);
-        report_coarsen(&detail);
-    }
-}
-
-static ld_status write_report(report_source *source, const char *file, ld_error *error)
-{
-    char *text = NULL;
-    size_t length = 0;
-    locale_t before = numeric_locale_enter();
-    ld_status status = make_page_that_fits(source, &text, &length, error);
-    numeric_locale_leave(before);
-    if (!status)
-        status = report_write_file(file, text, length, error);
-    source->report->bytes = status ? 0 : length;
-    free(text);
-    return status;
+    return report_write_page(page, self, data, length, error);
 }
 
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error)
@@ -232,7 +172,8 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
         status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
                          report->note[0], report->note[report->note_count - 1]);
     if (!status)
-        status = write_report(source, file ? file : usual, error);
+        status = report_write_as_fits(&(report_page){source, write_data, write_page, false},
+                                      file ? file : usual, report, error);
     if (!status && found)
         status = ld_fail(error, found, "%s; the report shows the rest", damage.text);
     report_free_source(source);

@@ -36,9 +36,19 @@ typedef struct report_detail {
     bool figures_alone;     // without what the replay wants besides
 } report_detail;
 
-// All rows; the next best each time that what they make does not fit.
-report_detail report_finest(void);
-void report_coarsen(report_detail *detail);
+// A page of runs, and the JSON that it holds, at some detail.
+typedef struct report_page {
+    const void *self;
+    ld_status (*write_data)(FILE *json, const void *self, const report_detail *detail,
+                            ld_error *error);
+    ld_status (*write_page)(FILE *page, const void *self, const char *data, size_t length,
+                            ld_error *error);
+    bool figures_alone; // see report_detail
+} report_page;
+
+// Writes the page into `file` as fine as it fits, and what it took into `report`.
+ld_status report_write_as_fits(const report_page *page, const char *file, ld_report *report,
+                               ld_error *error);
 
 // Reads what is whole in a folder of results. LD_ERR_INPUT, with what is damaged, where something
 // is; LD_ERR_FILE, LD_ERR_MEMORY. `source` is zero but for who takes notes; to be freed either way.

@@ -2,8 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory_stream.h"
-#include "base/numeric_locale.h"
 #include "launchdyn/report.h"
 #include "launchdyn/version.h"
 #include "report/report_origin.h"
@@ -70,9 +68,10 @@ static ld_status read_runs(report_runs *self, const char *const *folder, size_t 
 
 // ---- the page
 
-static ld_status write_data(FILE *json, const report_runs *self, const report_detail *detail,
+static ld_status write_data(FILE *json, const void *of, const report_detail *detail,
                             ld_error *error)
 {
+    const report_runs *self = of;
     ld_status status = LD_OK;
     fprintf(json, "{\"version\":\"%s\",\"notes\":[", LD_VERSION);
     for (int i = 0; i < self->report->note_count; i++) {
@@ -93,9 +92,10 @@ static ld_status write_data(FILE *json, const report_runs *self, const report_de
     return status;
 }
 
-static ld_status write_page(FILE *page, const report_runs *self, const char *data, size_t length,
+static ld_status write_page(FILE *page, const void *of, const char *data, size_t length,
                             ld_error *error)
 {
+    const report_runs *self = of;
     ld_status status = LD_OK;
     report_begin_page(page, &runs_bundle, "Runs laid over each other",
                       "This report draws its plots with JavaScript; summary.json and history.h5 "
@@ -115,58 +115,6 @@ static ld_status write_page(FILE *page, const report_runs *self, const char *dat
     return status;
 }
 
-// The page in memory, to be freed.
-static ld_status make_page(const report_runs *self, const report_detail *detail, char **text,
-                           size_t *length, ld_error *error)
-{
-    char *data = NULL;
-    size_t data_length = 0;
-    FILE *json = memory_stream(&data, &data_length), *page = memory_stream(text, length);
-    ld_status status = json && page ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
-    if (!status)
-        status = write_data(json, self, detail, error);
-    bool wrong = json && fclose(json) != 0;
-    if (!status && !wrong)
-        status = write_page(page, self, data, data_length, error);
-    wrong |= page && fclose(page) != 0;
-    free(data);
-    return !status && wrong ? ld_fail(error, LD_ERR_MEMORY, "no memory for the report") : status;
-}
-
-// As fine as all of them fit.
-static ld_status make_page_that_fits(const report_runs *self, char **text, size_t *length,
-                                     ld_error *error)
-{
-    report_detail detail = report_finest();
-    detail.figures_alone = true;
-    for (;;) {
-        ld_status status = make_page(self, &detail, text, length, error);
-        self->report->pixels = detail.whole ? 0 : detail.pixel * 4000;
-        if (status || *length <= REPORT_BYTES)
-            return status;
-        free(*text);
-        *text = NULL;
-        if (detail.pixel > 0.1)
-            return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
-                           REPORT_BYTES);
-        report_coarsen(&detail);
-    }
-}
-
-static ld_status write_report(const report_runs *self, const char *file, ld_error *error)
-{
-    char *text = NULL;
-    size_t length = 0;
-    locale_t before = numeric_locale_enter();
-    ld_status status = make_page_that_fits(self, &text, &length, error);
-    numeric_locale_leave(before);
-    if (!status)
-        status = report_write_file(file, text, length, error);
-    self->report->bytes = status ? 0 : length;
-    free(text);
-    return status;
-}
-
 ld_status ld_report_write_runs(const char *const *folder, size_t count, const char *file,
                                ld_report *report, ld_error *error)
 {
@@ -179,7 +127,8 @@ ld_status ld_report_write_runs(const char *const *folder, size_t count, const ch
     self->report = report;
     ld_status status = read_runs(self, folder, count, error);
     if (!status)
-        status = write_report(self, file, error);
+        status = report_write_as_fits(&(report_page){self, write_data, write_page, true}, file,
+                                      report, error);
     if (!status && self->problem.status)
         status = ld_fail(error, LD_ERR_INPUT, "%s; the report shows the rest", self->problem.text);
     for (int i = 0; i < self->count; i++)
