@@ -37,7 +37,7 @@ export class PlotGroup {
 const fileName = (shown) =>
   `${shown.figure.name}-${shown.title}`.replace(/[^\w-]+/g, "-").toLowerCase() + ".csv";
 
-export function addPanel(grid, shown, group, marks) {
+function addPanel(grid, shown, group, marks) {
   const canvas = element("div", { className: "plot" });
   const card = element("section", { className: `card panel${shown.panel.wide ? " wide" : ""}` },
     element("h3", {}, shown.title,
@@ -46,6 +46,25 @@ export function addPanel(grid, shown, group, marks) {
     canvas);
   grid.append(card);
   group.plots.push((shown.panel.x ? pathPlot : timePlot)(shown, group, marks, canvas));
+}
+
+// A section of each figure that has panels, their plots in the groups, of which all show one cursor.
+export function addFigures(host, id, figures, panelsOf, groups, marks) {
+  const followers = [];
+  groups.launch.followers = groups.vehicle.followers = followers;
+  for (const figure of figures) {
+    const panels = panelsOf(figure);
+    if (panels.length === 0) continue;
+    const grid = element("div", { className: "grid" });
+    host.append(element("section", { className: "figure", id: `${id}-${figure.name}` },
+      element("h3", { className: "heading" }, figure.title), grid));
+    for (const shown of panels) {
+      const group = figure.time === "vehicle" ? groups.vehicle : groups.launch;
+      addPanel(grid, shown, group, marks);
+      followers.push(group.plots[group.plots.length - 1]);
+    }
+  }
+  for (const group of Object.values(groups)) group.reset();
 }
 
 // Times from ignition: all of them, or from a little before it on.

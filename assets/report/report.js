@@ -3,7 +3,7 @@ import { decodeTable, filled, inflated, readable, rowAt } from "./data.js";
 import { colour, element, onColours, themeSwitch } from "./page.js";
 import { originBlock } from "./origin.js";
 import { instantsOf, panelsOf } from "./panels.js";
-import { addPanel, homeOf, PlotGroup, windowButtons } from "./plot_group.js";
+import { addFigures, homeOf, PlotGroup, windowButtons } from "./plot_group.js";
 import { showSummary } from "./summary.js";
 
 const host = document.getElementById("report");
@@ -31,27 +31,13 @@ function showTable(table, index, summary, nav) {
     launch: new PlotGroup(`table${index}`, homeOf(table, ignition, table.kind === "flight")),
     vehicle: new PlotGroup(`table${index}`, homeOf(table, ignition, true)),
   };
-  const followers = [];
-  groups.launch.followers = groups.vehicle.followers = followers;
   const id = `table${index}`;
   host.append(element("h2", { id }, heading));
   nav.append(element("a", { href: `#${id}` }, heading));
   const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
   if (buttons) host.append(buttons);
-  for (const figure of data.figures) {
-    if ((figure.time === "flight") !== (table.kind === "flight")) continue;
-    const panels = panelsOf(table, figure, ignition);
-    if (panels.length === 0) continue;
-    const grid = element("div", { className: "grid" });
-    host.append(element("section", { className: "figure", id: `${id}-${figure.name}` },
-      element("h3", { className: "heading" }, figure.title), grid));
-    for (const shown of panels) {
-      const group = figure.time === "vehicle" ? groups.vehicle : groups.launch;
-      addPanel(grid, shown, group, marks);
-      followers.push(group.plots[group.plots.length - 1]);
-    }
-  }
-  for (const group of Object.values(groups)) group.reset();
+  const figures = data.figures.filter(({ time }) => (time === "flight") === (table.kind === "flight"));
+  addFigures(host, id, figures, (figure) => panelsOf(table, figure, ignition), groups, marks);
   return { table, marks, zero: ignition, group: groups.launch };
 }
 

@@ -4,7 +4,7 @@ import { decodeTable, readable } from "./data.js";
 import { originBlock } from "./origin.js";
 import { element, themeSwitch } from "./page.js";
 import { instantsOf, panelsOver } from "./panels.js";
-import { addPanel, homeOf, PlotGroup, windowButtons } from "./plot_group.js";
+import { addFigures, homeOf, PlotGroup, windowButtons } from "./plot_group.js";
 import { differences, labelsOf, shownValue } from "./runs_differ.js";
 import { showSummaries } from "./summary.js";
 
@@ -90,26 +90,12 @@ function showOver(kind, rocket, heading, nav) {
     launch: new PlotGroup(id, widest(over, kind === "flight")),
     vehicle: new PlotGroup(id, widest(over, true)),
   };
-  const followers = [];
-  groups.launch.followers = groups.vehicle.followers = followers;
   host.append(element("h2", { id }, heading));
   nav.append(element("a", { href: `#${id}` }, heading));
   const buttons = kind === "launch" ? windowButtons(groups, marks, over[0].run.rockets.length) : null;
   if (buttons) host.append(buttons);
-  for (const figure of data.figures) {
-    if ((figure.time === "flight") !== (kind === "flight")) continue;
-    const panels = panelsOver(over, figure);
-    if (panels.length === 0) continue;
-    const grid = element("div", { className: "grid" });
-    host.append(element("section", { className: "figure", id: `${id}-${figure.name}` },
-      element("h3", { className: "heading" }, figure.title), grid));
-    for (const shown of panels) {
-      const group = figure.time === "vehicle" ? groups.vehicle : groups.launch;
-      addPanel(grid, shown, group, marks);
-      followers.push(group.plots[group.plots.length - 1]);
-    }
-  }
-  for (const group of Object.values(groups)) group.reset();
+  const figures = data.figures.filter(({ time }) => (time === "flight") === (kind === "flight"));
+  addFigures(host, id, figures, (figure) => panelsOver(over, figure), groups, marks);
 }
 
 // ---- the page
