@@ -219,6 +219,11 @@ static void at_its_margins_modes_do_not_decay(void **state)
     check_limit(&model, elevation, margins.lower, margins.lower_at);
     ld_loop_free(open_loop(&model, "azimuth", &margins));
     check_limit(&model, azimuth, margins.raise, margins.raise_at);
+    // a slow limit without a cascade, where all three gains weigh
+    elevation->cascade.present = false;
+    elevation->ki = 0.3 * elevation->kp;
+    ld_loop_free(open_loop(&model, "elevation", &margins));
+    check_limit(&model, elevation, margins.lower, margins.lower_at);
     reference_model_free(&model);
 }
 
