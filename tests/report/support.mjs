@@ -134,6 +134,11 @@ export async function checkInjected(browser, file) {
     document.getElementById("injected-form").submit();
   });
   const sent = await page.evaluate(() => fetch("data:,x").then(() => "sent", () => "refused"));
+  // What the policy stops it tells later, a form's sending last: wait for it, and no longer than need be.
+  const directives = ["script-src-elem", "script-src-attr", "style-src-elem", "style-src-attr", "base-uri",
+    "form-action", "connect-src", "object-src"];
+  await page.waitForFunction((names) => names.every((name) => window.violations.some((text) => text.startsWith(name))),
+    directives).catch(() => undefined);
   const found = await page.evaluate(() => ({
     owned: window.owned, base: document.baseURI, violations: window.violations,
     styled: ["injected-link", "injected-text"].filter((id) =>
@@ -143,8 +148,7 @@ export async function checkInjected(browser, file) {
   check("an injected style has no effect", found.styled.length === 0, found.styled);
   check("nor has a base, or a form", ![found.base, page.url()].some((url) => url.includes("elsewhere")), found.base);
   check("nothing can be fetched", sent === "refused", sent);
-  for (const directive of ["script-src-elem", "script-src-attr", "style-src-elem", "style-src-attr", "base-uri",
-    "form-action", "connect-src", "object-src"])
+  for (const directive of directives)
     check(`the policy has stopped it: ${directive}`,
       found.violations.some((violation) => violation.startsWith(directive)), found.violations.join("; "));
   await page.context().close();
