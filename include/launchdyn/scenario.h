@@ -83,7 +83,7 @@ ld_status ld_model_set_all(ld_model *model, const char *const *sets, size_t coun
 /// @return LD_OK, LD_ERR_INPUT (no such number: why)
 ld_status ld_model_number(const ld_model *model, const char *path, double *value, ld_error *error);
 
-/// A value as text that can be set again: "61 kg", "1 0 0 m", "fixed".
+/// A value as text that can be set again: "61 kg", "1 0 0 m", "fixed"; empty where it is not given.
 /// @param text of `size` bytes, always ended; what is too long is cut
 /// @return LD_OK, LD_ERR_INPUT (no such key; a block, a list or a table: more than a line),
 ///         LD_ERR_MEMORY

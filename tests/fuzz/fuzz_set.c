@@ -1,6 +1,6 @@
 // Any overrides of a true scenario end with messages or with a model that holds what model_checks.h
 // says; given to a model that is there they do the same; any path of them is found in the model or
-// refused, and the text that is found there sets it to what it is. The first byte chooses the
+// refused, and a text that is found there sets it to what it is. The first byte chooses the
 // scenario, the lines after it are the overrides.
 #include <stdint.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static void ask(ld_model *model, const char *path, const ld_model *same)
     must(status == LD_OK || (status == LD_ERR_INPUT && error.text[0]));
     status = ld_model_text(model, path, text, sizeof text, &error);
     must(status == LD_OK || (status == LD_ERR_INPUT && error.text[0]));
-    if (status || strlen(text) == sizeof text - 1)
+    if (status || !text[0] || strlen(text) == sizeof text - 1)
         return;
     status = ld_model_set(model, path, text, &messages);
     if (status)
