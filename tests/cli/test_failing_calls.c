@@ -39,24 +39,27 @@ enum {
 typedef struct verb {
     const char *name, *prepare, *line;
     const char *shown; // a command that prints what a folder holds whose files may be in the making
+    const char *only;  // the one kind that is tried; NULL: all
 } verb;
 
 static const verb verbs[] = {
-    {"check", SCENARIO, "check s.yaml", NULL},
-    {"modes", SCENARIO, "modes s.yaml", NULL},
-    {"response", SCENARIO, "response s.yaml --input base.y -w tip.y --out o", NULL},
-    {"run", SCENARIO, "run s.yaml --out o --csv", NULL},
-    {"run again", RUN, "run --again o --out p", NULL},
-    {"plot", RUN, "plot o -o x.svg", NULL},
-    {"report", RUN, "report o -o x.html", NULL},
-    {"report of a study", STUDY, "report o -o x.html", NULL},
-    {"study", SCENARIO, "study s.yaml --out o", "study show o --what all"},
-    {"study show", STUDY, "study show o", NULL},
-    {"study export", STUDY, "study export o --csv x.csv --hdf5 x.h5", NULL},
+    {"check", SCENARIO, "check s.yaml", NULL, NULL},
+    {"modes", SCENARIO, "modes s.yaml", NULL, NULL},
+    {"response", SCENARIO, "response s.yaml --input base.y -w tip.y --out o", NULL, NULL},
+    {"run", SCENARIO, "run s.yaml --out o --csv", NULL, NULL},
+    {"run again", RUN, "run --again o --out p", NULL, NULL},
+    {"plot", RUN, "plot o -o x.svg", NULL, NULL},
+    {"report", RUN, "report o -o x.html", NULL, NULL},
+    {"report of a study", STUDY, "report o -o x.html", NULL, NULL},
+    {"study", SCENARIO, "study s.yaml --out o", "study show o --what all", NULL},
+    {"study on threads", SCENARIO, "study s.yaml --out o --jobs 2", "study show o --what all",
+     "thread"},
+    {"study show", STUDY, "study show o", NULL, NULL},
+    {"study export", STUDY, "study export o --csv x.csv --hdf5 x.h5", NULL, NULL},
     {"study merge",
      SCENARIO "../launchdyn study s.yaml --out o --quiet --shard 1/2; "
               "../launchdyn study s.yaml --out o --quiet --shard 2/2; ",
-     "study merge o", "study show o --what all"},
+     "study merge o", "study show o --what all", NULL},
 };
 
 enum { VERBS = sizeof verbs / sizeof *verbs };
@@ -445,19 +448,25 @@ static void tell(const tried *self, const fault *failure, long at, bool on, verd
            failure->error, at, on ? " on" : "", verdicts[found], now->code, now->err, stack);
 }
 
+// Whether this kind is tried with the command.
+static bool is_wanted(const verb *command, const char *kind)
+{
+    const char *only = getenv("LD_FAILING_KIND");
+    if (command->only && strcmp(kind, command->only) != 0)
+        return false;
+    return !only || (*only == '-' ? strcmp(kind, only + 1) != 0 : strcmp(kind, only) == 0);
+}
+
 static void read_calls(tried *self)
 {
     char kind[16];
     long at;
-    const char *only = getenv("LD_FAILING_KIND");
     FILE *log = fopen("../.log", "r");
     assert_non_null(log);
     self->count = 0;
     while (fscanf(log, "%15s %ld", kind, &at) == 2)
         for (int i = 0; i < FAILURES; i++) {
-            bool wanted =
-                !only || (*only == '-' ? strcmp(kind, only + 1) != 0 : strcmp(kind, only) == 0);
-            if (strcmp(kind, failures[i].kind) != 0 || !wanted)
+            if (strcmp(kind, failures[i].kind) != 0 || !is_wanted(self->command, kind))
                 continue;
             assert_true(self->count < MOST_CALLS);
             self->call[self->count++] = (failing_call){&failures[i], at};
