@@ -105,7 +105,12 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "--sensitivity", 2, "are options of study show DIR\n");
     expect_complaint(STUDY "--measured x.csv", 2, "are options of study show DIR\n");
     expect_complaint("launchdyn study show x --measured x.csv --what pitch", 2,
-                     "--measured shows what its file has: neither --what nor --sensitivity goes");
+                     "--measured shows what its file has: neither --what nor --sensitivity nor");
+    expect_complaint(STUDY "--against 1", 2, "are options of study show DIR\n");
+    expect_complaint("launchdyn study show x --against 1 --sensitivity", 2,
+                     "--against and --sensitivity do not go together\n");
+    expect_complaint("launchdyn study show x --csv y.csv", 2,
+                     "--csv and --hdf5 are options of study export DIR");
     expect_complaint("launchdyn report x --measured x.csv", 2,
                      "--measured is an option of reports of studies\n");
     expect_complaint("launchdyn study show", 2, "study merge want DIR\n");
