@@ -25,7 +25,7 @@ ld_status export_next(export_table *table, bool *there, ld_error *error);
 // The unit of a column, "" without.
 const char *export_unit(const export_table *table, int column);
 
-// Writes the table, from its first row, as an HDF5 file, in messages by its name.
-ld_status export_hdf5(export_table *table, const char *file, const char *name, ld_error *error);
+// Writes an export_table, from its first row, as an HDF5 file: a table_writer.
+ld_status export_hdf5(void *exported, const char *file, const char *name, ld_error *error);
 
 #endif
