@@ -32,7 +32,11 @@ typedef struct shown {
 
 static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,pitch,yaw,pitch_rate,"
                             "yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
-                            "tip_off.yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed";
+                            "tip_off.yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed,"
+                            "azimuth.error_rms,azimuth.torque_rms,azimuth.torque_peak,"
+                            "azimuth.saturated,azimuth.power_mean,elevation.error_rms,"
+                            "elevation.torque_rms,elevation.torque_peak,elevation.saturated,"
+                            "elevation.power_mean";
 static const char sensitive[] = "t_rear,muzzle_speed,pitch,yaw,pitch_rate,yaw_rate,downrange,drift";
 
 static ld_status no_memory(ld_error *error)
@@ -104,19 +108,24 @@ static ld_status compute_point(shown *self, const study_point *point, ld_error *
     return LD_OK;
 }
 
-static size_t values_of(const shown *self, int column)
+// Whether any point has a value of it; of the choice a sum that stays 0 is none.
+static bool has_values(const shown *self, int column)
 {
-    size_t count = 0;
-    for (int i = 0; i < self->data->point_count; i++)
-        count += statistics_at(self, &self->data->point[i])[column].count;
-    return count;
+    const quantity *row = study_result_like(self->column[column]->name);
+    bool sum = !self->view->what && row && row->from_zero;
+    for (int i = 0; i < self->data->point_count; i++) {
+        const group_statistics *of = &statistics_at(self, &self->data->point[i])[column];
+        if (of->count > 0 && !(sum && of->greatest == 0))
+            return true;
+    }
+    return false;
 }
 
 // Leaves out what no point has a value of.
 static void drop_empty(shown *self)
 {
     for (int c = self->count - 1; c >= 0; c--) {
-        if (values_of(self, c) > 0)
+        if (has_values(self, c))
             continue;
         size_t kept = 0, all = (size_t)self->data->point_count * (size_t)self->count;
         for (size_t i = 0; i < all; i++)
