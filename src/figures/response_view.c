@@ -197,6 +197,7 @@ static const ld_column of_loop[] = {
     {"open", "1", "loop, opened"},
     {"tracking", "1", "measured angle per commanded one"},
     {"sensitivity", "1", "what is left of an error that would be without a loop"},
+    {"rejection", "1", "angle of the platform per angle of the chassis about the hinge"},
 };
 enum { OF_LOOP = sizeof of_loop / sizeof *of_loop };
 
@@ -241,12 +242,15 @@ static void put_gain(ld_response_view *view, size_t i, size_t k, ld_phasor gain)
 static ld_status fill_loop(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
 {
     ld_loop_point at;
+    ld_phasor rejection;
     ld_status status = choose_loop(view, error);
     if (!status)
         status = set_frequencies(view, wish->from, wish->to, error);
     for (size_t k = 0; k < POINTS && !status; k++) {
         status = ld_loop_points(view->loop, &view->x[k], 1, &at, error);
-        const ld_phasor gain[OF_LOOP] = {at.open, at.tracking, at.sensitivity};
+        if (!status)
+            status = ld_loop_rejection(view->loop, &view->x[k], 1, &rejection, error);
+        const ld_phasor gain[OF_LOOP] = {at.open, at.tracking, at.sensitivity, rejection};
         for (size_t i = 0; i < OF_LOOP && !status; i++)
             put_gain(view, i, k, gain[i]);
     }
@@ -661,6 +665,10 @@ static void print_loop(const ld_response_view *view, FILE *stream)
     else
         fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "peak of the sensitivity", margins.peak,
                 margins.peak_at);
+    const double *rejection = view->value + (OF_LOOP - 1) * view->count;
+    size_t k = greatest(rejection, view->count);
+    fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "most of the chassis' turning let in",
+            rejection[k], view->x[k]);
 }
 
 void ld_response_view_print(const ld_response_view *view, FILE *stream)
@@ -820,7 +828,7 @@ static void name_chart(const ld_response_view *view, chart_page *page, size_t i)
     const char *unit = shown_unit(page->unit[i], &factor);
     it->y_label = page->label[i];
     it->log_x = it->log_y = !is_over_speeds(view);
-    it->decades = is_spectrum(view) ? 8 : 5;
+    it->decades = is_spectrum(view) || view->kind == LOOP ? 8 : 5;
     if (is_gain(view)) {
         it->title = "Amplitude";
         value_unit(view, page->unit[i], page->label[i]);

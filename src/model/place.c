@@ -27,7 +27,7 @@ static bool refuse(const walk *w, const char *format, ...)
     return false;
 }
 
-// Takes the next key of the path; false at its end.
+// Takes the next key of the path; false at its end. A dot after the last key stays, as no key.
 static bool next_key(walk *w)
 {
     size_t length = strcspn(w->rest, ".");
@@ -35,7 +35,8 @@ static bool next_key(walk *w)
         return false;
     memcpy(w->key, w->rest, length);
     w->key[length] = '\0';
-    w->rest += length + (w->rest[length] == '.');
+    w->rest += length;
+    w->rest += w->rest[0] == '.' && w->rest[1];
     return true;
 }
 

@@ -105,7 +105,12 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "--sensitivity", 2, "are options of study show DIR\n");
     expect_complaint(STUDY "--measured x.csv", 2, "are options of study show DIR\n");
     expect_complaint("launchdyn study show x --measured x.csv --what pitch", 2,
-                     "--measured shows what its file has: neither --what nor --sensitivity goes");
+                     "--measured shows what its file has: neither --what nor --sensitivity nor");
+    expect_complaint(STUDY "--against 1", 2, "are options of study show DIR\n");
+    expect_complaint("launchdyn study show x --against 1 --sensitivity", 2,
+                     "--against and --sensitivity do not go together\n");
+    expect_complaint("launchdyn study show x --csv y.csv", 2,
+                     "--csv and --hdf5 are options of study export DIR");
     expect_complaint("launchdyn report x --measured x.csv", 2,
                      "--measured is an option of reports of studies\n");
     expect_complaint("launchdyn study show", 2, "study merge want DIR\n");
@@ -493,6 +498,7 @@ static void test_loop(void **state)
               "\n  gain may be raised by a factor of       1.569    3.91 dB, at 31.89 Hz\n");
     expect_in(shell.out, "\n  phase                                   28.39 degrees\n");
     expect_in(shell.out, "\n  peak of the sensitivity                 3.252 at 27.39 Hz\n");
+    expect_in(shell.out, "\n  most of the chassis' turning let in   0.004128 at 23.92 Hz\n");
     assert_int_equal(run("launchdyn response examples/reference.yaml --loop azimuth"), 0);
     expect_in(shell.out, "\n  gain may be raised by a factor of         any\n");
     expect_in(shell.out, "\n  sensitivity above one                 nowhere\n");
@@ -500,7 +506,8 @@ static void test_loop(void **state)
     assert_string_equal(shell.out, "l.svg\nresponse-loop.csv\n"
                                    "frequency [Hz],open.amplitude [1],open.phase [rad],"
                                    "tracking.amplitude [1],tracking.phase [rad],"
-                                   "sensitivity.amplitude [1],sensitivity.phase [rad]\n");
+                                   "sensitivity.amplitude [1],sensitivity.phase [rad],"
+                                   "rejection.amplitude [1],rejection.phase [rad]\n");
 }
 
 static void test_response_of_what_is_not_there(void **state)

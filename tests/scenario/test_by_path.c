@@ -167,6 +167,27 @@ static void test_values_are_told(void **state)
     ld_model_free(model);
 }
 
+// A dot needs a key behind it; in an override too.
+static void test_a_dot_at_the_end_is_no_path(void **state)
+{
+    (void)state;
+    ld_model *model = read_fixed(NULL);
+    static const char *const paths[] = {
+        "rocket.mass.", "rocket.center.y.",         "rocket.center.",
+        "base.kind.",   "rocket.adaptors.rear.at.", "rocket.motor."};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        char text[64];
+        double value;
+        ld_error error;
+        assert_int_equal(ld_model_number(model, paths[i], &value, &error), LD_ERR_INPUT);
+        printf("%s %s\n", paths[i], error.text);
+        assert_int_equal(ld_model_text(model, paths[i], text, sizeof text, &error), LD_ERR_INPUT);
+        printf("%s %s\n", paths[i], error.text);
+        check_refused(model, paths[i], "1", "not a path of keys joined by dots");
+    }
+    ld_model_free(model);
+}
+
 // What a walk over all keys finds.
 typedef struct key_walk {
     ld_model *model;
@@ -236,6 +257,7 @@ int main(void)
         cmocka_unit_test(test_several_at_once),
         cmocka_unit_test(test_a_key_set_often_is_kept_once),
         cmocka_unit_test(test_values_are_told),
+        cmocka_unit_test(test_a_dot_at_the_end_is_no_path),
         cmocka_unit_test(test_every_text_can_be_set_again),
         cmocka_unit_test(test_a_model_of_overrides_alone),
     };

@@ -12,6 +12,7 @@
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
+#include "systems/orientating.h"
 
 static const double two_pi = 6.283185307179586476925;
 
@@ -324,6 +325,62 @@ static void a_base_in_six_sines(void **state)
     reference_model_free(&model);
 }
 
+// Puts the mass centre of all that the elevation hinge carries into it, so that what accelerates
+// the hinge does not turn it.
+static void balance(ld_model *model)
+{
+    orientating_system all;
+    ld_error error;
+    ld_turret *frame = &model->platform.elevation;
+    assert_int_equal(orientating_build(&all, model, 0, NULL, 0, &error), LD_OK);
+    double center[3];
+    v3_store(center, all.elevation_center);
+    for (int i = 0; i < 3; i++)
+        frame->center[i] -= all.elevation_mass / frame->mass * center[i];
+    orientating_free(&all);
+}
+
+// A road of sines turns the chassis: what of it a run finds in the platform's angle against the
+// loop's rejection.
+static void a_chassis_that_turns(void **state)
+{
+    (void)state;
+    // where axles far apart turn it, and do not only lift it
+    static const double frequency[SINES] = {0.9, 1.4, 2.2, 3.5, 5.3, 8.9};
+    ld_model model;
+    recorded_run run;
+    ld_error error;
+    ld_loop *loop;
+    ld_phasor rejection[SINES], chassis[SINES], platform[SINES];
+    sine sines[SINES];
+    fitted_by by;
+    difference most = {0};
+    for (int k = 0; k < SINES; k++)
+        sines[k] = (sine){frequency[k], 1e-5 / frequency[k], 0.3 + k};
+    put_on_sines(&model, 30 / 3.6, sines, false);
+    balance(&model);
+    model.platform.elevation.stabiliser.feedforward = 0.5;
+    if (ld_loop_create(&model, "elevation", &loop, &error) ||
+        ld_loop_rejection(loop, frequency, SINES, rejection, &error))
+        fail_msg("%s", error.text);
+    recorded_run_make(&run, &model);
+    find_basis(&run, sines, &by);
+    fit(&run, "chassis.pitch", &by, chassis);
+    fit(&run, "elevation.measured", &by, platform);
+    for (int k = 0; k < SINES; k++) {
+        sine turn = {frequency[k], hypot(chassis[k].real, chassis[k].imaginary),
+                     atan2(chassis[k].imaginary, chassis[k].real)};
+        printf("  %4.1f Hz: %.4f\n", frequency[k],
+               hypot(rejection[k].real, rejection[k].imaginary));
+        compare(&turn, rejection[k], platform[k], &most);
+    }
+    CHECK_BELOW("amplitude, relative", most.amplitude, 1e-3);
+    CHECK_BELOW("phase [rad]", most.phase, 1e-3);
+    ld_loop_free(loop);
+    recorded_run_free(&run);
+    reference_model_free(&model);
+}
+
 // A command in sines, by straight lines of a millisecond.
 static ld_table waving(double about, const sine *sines, int count, double from, double to)
 {
@@ -599,9 +656,8 @@ static int wanted_seeds(const char *name)
 // Of 60, binomial: 51 or fewer would be seen once in 200 times if they were independent.
 enum { LEAST_INSIDE = 52 };
 
-// Without friction nothing damps the locked rocket's yaw at 19 Hz, and on a road that excites it
-// the adaptors leave the tube, which is not linear: this one goes up to 14 Hz (docs/response.md has
-// the figures).
+// Without friction nothing damps the locked rocket's yaw at 19 Hz, and what excites it is not
+// answered as on a line: this road goes up to 14 Hz (docs/response.md has the figures).
 static void random_roads(void **state)
 {
     (void)state;
@@ -609,15 +665,17 @@ static void random_roads(void **state)
     CHECK_WITHIN("of 60 within the seeds' intervals", all.inside, LEAST_INSIDE, 60);
 }
 
+// The whole road: the locked rocket swings sideways in its bore, which is not linear; all the same
+// its adaptors stay on the tube.
 static void bare_roads(void **state)
 {
     (void)state;
     on_roads all = check_speeds(0, true, 0, wanted_seeds("LD_RESPONSE_BARE_SEEDS"));
     CHECK_WITHIN("of 60, without friction on the whole road", all.inside, 30, LEAST_INSIDE);
-    CHECK_WITHIN("share of the time that an adaptor is off the tube", all.open, 1e-3, 1);
+    CHECK_BELOW("share of the time that an adaptor is off the tube", all.open, 1e-9);
 }
 
-// The whole road, a sixteenth as high: no adaptor leaves the tube, and the yaw does no harm.
+// The whole road, a sixteenth as high: small enough for the line.
 static void low_roads(void **state)
 {
     (void)state;
@@ -636,10 +694,11 @@ static void roads_with_friction(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roads_of_sines),    cmocka_unit_test(a_base_in_six_sines),
-        cmocka_unit_test(commands_in_sines), cmocka_unit_test(a_command_steps),
-        cmocka_unit_test(random_roads),      cmocka_unit_test(bare_roads),
-        cmocka_unit_test(low_roads),         cmocka_unit_test(roads_with_friction),
+        cmocka_unit_test(roads_of_sines),      cmocka_unit_test(a_chassis_that_turns),
+        cmocka_unit_test(a_base_in_six_sines), cmocka_unit_test(commands_in_sines),
+        cmocka_unit_test(a_command_steps),     cmocka_unit_test(random_roads),
+        cmocka_unit_test(bare_roads),          cmocka_unit_test(low_roads),
+        cmocka_unit_test(roads_with_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
