@@ -364,6 +364,16 @@ static void friction_of_hinges_is_a_viscous_one(void **state)
     assert_int_equal(ld_response_on_road(response, speed, rub, NULL, &error), LD_OK);
     ld_response_free(response);
     ld_turret *turret[2] = {&model.platform.azimuth, &model.platform.elevation};
+    // without it they have none
+    ld_model smooth = model;
+    smooth.platform.azimuth.friction.coulomb = smooth.platform.elevation.friction.coulomb = 0;
+    response = respond(&smooth, NAN, NAN);
+    choose(response, rates, 3);
+    assert_int_equal(ld_response_on_road(response, speed, viscous, NULL, &error), LD_OK);
+    ld_response_free(response);
+    for (int i = 0; i < 3; i++)
+        worst = fmax(worst, fabs(viscous[i] / plain[i] - 1));
+    CHECK_BELOW("hinges that do not rub, or that cannot", worst, 1e-9);
     for (int i = 0; i < 2; i++) {
         ld_hinge_friction *friction = &turret[i]->friction;
         assert_true(friction->coulomb > 0 && rub[i] < 0.99 * plain[i]);
