@@ -47,6 +47,18 @@ static sqlite3_stmt *select_rows(const study_data *data, ld_error *error)
     return store_prepare_built(store, text, error);
 }
 
+// That the samples are those which were found intact when the study was opened.
+static ld_status expect_as_before(const export_table *self, bool there, ld_error *error)
+{
+    const int64_t before = self->data->rockets;
+    if (there ? self->rockets <= before : self->rockets == before)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_FILE,
+                   "cannot read %s: it is damaged, or its disk fails: read again, it gives other "
+                   "samples",
+                   self->walk.view.path);
+}
+
 ld_status export_next(export_table *self, bool *there, ld_error *error)
 {
     int result = self->walk.number > 0 ? sqlite3_step(self->row) : SQLITE_DONE;
@@ -57,17 +69,19 @@ ld_status export_next(export_table *self, bool *there, ld_error *error)
         result = sqlite3_step(self->row);
     }
     *there = result == SQLITE_ROW;
+    self->rockets += *there;
     if (result == SQLITE_DONE)
         status = self->walk.status;
     else if (!*there)
         status = store_fail(self->walk.view.store, "read", error);
-    return status;
+    return status ? status : expect_as_before(self, *there, error);
 }
 
 void export_begin(export_table *self)
 {
     sqlite3_reset(self->row);
     store_walk_again(&self->walk);
+    self->rockets = 0;
 }
 
 // ---- CSV

@@ -15,11 +15,13 @@ typedef struct export_table {
     int columns;
     sqlite3_stmt *row; // of the sample at which the walk stands
     store_walk walk;
+    int64_t rockets; // given so far
 } export_table;
 
 // Before the first row.
 void export_begin(export_table *table);
-// The next row of a sample that is as it was kept, in table->row; *there: there is one.
+// The next row of a sample that is as it was kept, in table->row; *there: there is one. Refuses
+// others than were found when the study was opened.
 ld_status export_next(export_table *table, bool *there, ld_error *error);
 
 // The unit of a column, "" without.

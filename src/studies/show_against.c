@@ -56,7 +56,7 @@ static ld_status compare_item(show_against *self, const study_point *point,
 
 // ---- as text
 
-enum { NAME = 26, DIFFERENCE = 30, RATIO = 28 };
+enum { NAME = 26, DIFFERENCE = 36, RATIO = 26 };
 
 static void print_header(FILE *stream)
 {
