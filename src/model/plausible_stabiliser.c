@@ -52,23 +52,6 @@ static double on(double value)
         return name(&loop);                                                                        \
     }
 
-// Share of the chassis' rate by which friction drags the platform along.
-static plausible_pair compare_feedforward(const plausible_entry *at, const ld_turret *turret)
-{
-    hinge_loop loop = loop_of(at, turret);
-    return plausible_compare(on(loop.given->feedforward), turret->friction.viscous / loop.kd);
-}
-
-static plausible_pair azimuth_feedforward(const plausible_entry *at)
-{
-    return compare_feedforward(at, &at->model->platform.azimuth);
-}
-
-static plausible_pair elevation_feedforward(const plausible_entry *at)
-{
-    return compare_feedforward(at, &at->model->platform.elevation);
-}
-
 OF_LOOP(cascade_kp, loop->given->cascade.kp, 1 / loop->time)
 OF_LOOP(bandwidth, on(loop->given->bandwidth), loop->kp / loop->kd / (2 * PI))
 OF_LOOP(slew_time, loop->given->torque_limit / on(loop->given->slew), isnan(loop->kd) ? NAN : 1)
@@ -91,10 +74,6 @@ OF_LOOP(backlash, loop->given->gear.backlash, loop->given->torque_limit / loop->
 
 // clang-format off
 #define RULES(name)                                                                                \
-    {STABILISER(name) ".feedforward", .unit = "",                                                  \
-     .other = "the viscous friction over the gain of the rate", NO_LOW, .high = 2,                 \
-     .find = name##_feedforward, .of = "platform." #name ".friction.viscous",                      \
-     .why = "it pays for viscous friction, and twice that is as bad as nothing"},                  \
     {STABILISER(name) ".cascade.kp", .unit = "1/s",                                                \
      .other = "rate_kp over the inertia that the hinge turns", NO_LOW, .high = 1,                  \
      .find = name##_cascade_kp, .why = "the loop of the angle is faster than that of the rate"},   \
@@ -104,8 +83,8 @@ OF_LOOP(backlash, loop->given->gear.backlash, loop->given->torque_limit / loop->
     {STABILISER(name) ".slew", "the time in which the torque reaches its limit", .unit = "s",      \
      NO_LOW, .high = 0.3, .find = name##_slew_time,                                                \
      .why = "large motions then swing ever farther, which no check before the run tells"},         \
-    {STABILISER(name) ".sample", RATE_TIME, NO_LOW, .high = 1, .find = name##_sample,              \
-     .why = "the loop hardly follows what it samples so seldom"},                                  \
+    {STABILISER(name) ".sample", RATE_TIME, NO_LOW, .high = 2, .find = name##_sample,              \
+     .why = "the loop swings from sample to sample"},                                  \
     {STABILISER(name) ".sample", .unit = "s", .other = "run.max_step", .low = 0.1, NO_HIGH,        \
      .find = name##_sample_step, .why = "each sample ends a step of the integration"},             \
     {STABILISER(name) ".delay", "with half a period the time by which a torque is late",           \

@@ -251,10 +251,13 @@ static const field_row coherence_columns[] = {
 };
 static const table_format coherence_table = {0, 2, coherence_columns, NULL};
 
+// What is shorter no tyre meets, and it takes a run for ever.
+#define ROAD_WAVELENGTH FROM_TO(1e-3, 1e5)
+
 static const field_row road_sine_fields[] = {
     {"amplitude", NUMBER(ld_road_sine, amplitude, "m"), FROM_TO(-10, 10), REQUIRED,
      .doc = "amplitude"},
-    {"wavelength", NUMBER(ld_road_sine, wavelength, "m"), POSITIVE, REQUIRED, .doc = "wavelength"},
+    {"wavelength", NUMBER(ld_road_sine, wavelength, "m"), ROAD_WAVELENGTH, REQUIRED, .doc = "wavelength"},
     {"phase", NUMBER(ld_road_sine, phase, "rad"), ANY, DEFAULT(0), .doc = "phase at x = 0"},
     {0}};
 static const field_block road_sine_block = {.fields = road_sine_fields};
@@ -294,7 +297,7 @@ static const field_row road_fields[] = {
      .doc = "of the random part; the same seed is the same road"},
     {"harmonics", INTEGER(ld_road, harmonics, 1, 100000), DEFAULT(400), SUM,
      .doc = "cosines of the random part, in bands of equal ratio"},
-    {"wavelengths", VECTOR(ld_road, wavelengths, "m", 2), POSITIVE, DEFAULT(0.3),
+    {"wavelengths", VECTOR(ld_road, wavelengths, "m", 2), ROAD_WAVELENGTH, DEFAULT(0.3),
      .initials = road_wavelengths, SUM, .doc = "shortest and longest of the random part"},
     {"sines", LIST(ld_road, sine, sine_count, road_sine_block, 0, LD_MAX_SINES),
      .initial_doc = "none", SUM, .doc = "sum of sines over x of I, on both tracks"},
