@@ -24,11 +24,21 @@ typedef struct hinge_watch {
     double latest[4], sum[4];
 } hinge_watch;
 
+// A start that is given in place of the scenario's: the state at the run's first instant, what its
+// base keeps of the equilibrium, the road of a vehicle.
+typedef struct launch_start {
+    double y[LD_MAX_STATES];
+    base_rest rest;
+    bool on_breech;
+    road *road;
+} launch_start;
+
 struct ld_run {
     launch_state launch;
-    ld_run_options options; // who listens
-    ld_summary summary;     // so far
-    ld_status status;       // what ended the run early, with its sentence
+    const launch_start *start; // NULL: the scenario's
+    ld_run_options options;    // who listens
+    ld_summary summary;        // so far
+    ld_status status;          // what ended the run early, with its sentence
     ld_error error;
     propagator *propagator;
     base_frame told; // frame T at the start, of a base that is told
@@ -62,6 +72,10 @@ struct ld_run {
     quantity_columns flight_columns; // its, where rows are wanted
     double cpu, cpu_output;          // [s] spent in all; of it on rows and their sink
 };
+
+// Runs from a given start to the end; one that ends early says why.
+ld_status run_from(const ld_simulation *simulation, const launch_start *start, ld_summary *summary,
+                   ld_error *error);
 
 // ---- the launch, step by step (launch.c)
 

@@ -15,7 +15,7 @@
 #include "math/dense.h"
 #include "math/mat3.h"
 #include "model/model.h"
-#include "simulation/response_rest.h"
+#include "simulation/response_state.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 static const double LOWEST = 0.05, HIGHEST = 500; // [Hz] of margins
@@ -285,7 +285,7 @@ static ld_status build(ld_loop *self, const ld_model *model, const char *name, l
     self->speed = model->base.vehicle.speed;
     const ld_stabiliser *given = self->stabiliser;
     self->late = given->sample > 0 ? given->delay + 0.5 * given->sample : 0;
-    status = ld_response_create(model, NAN, NAN, &self->response, error);
+    status = response_create(model, NAN, NAN, false, &self->response, error);
     if (!status)
         status = choose_columns(self, &model->platform, hinge, error);
     if (!status)
