@@ -183,7 +183,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "the same against where that stood at the ignition", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(aim)},
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
     {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
-    {.title = "of each measure of the scenario", .each = EACH_MEASURE, .launch = true, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
+    {.title = "of each measure of the scenario", .each = EACH_MEASURE, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
     {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(held)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},

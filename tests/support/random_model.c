@@ -201,7 +201,8 @@ static void draw_measures(uint64_t *seed, ld_model *model)
     for (int i = choice(seed, 4); i > 0; i--) {
         ld_measure *measure = &model->measure[model->measure_count++];
         int from = choice(seed, 2);
-        measure->take = (ld_take)choice(seed, 4);
+        measure->take = (ld_take)choice(seed, 5);
+        measure->within[1] = 1e5;
         snprintf(measure->name, sizeof measure->name, "m%d", i);
         snprintf(measure->of, sizeof measure->of, "%s", column[choice(seed, 4)]);
         snprintf(measure->from, sizeof measure->from, "%s", instant[from]);
