@@ -257,7 +257,8 @@ static const table_format coherence_table = {0, 2, coherence_columns, NULL};
 static const field_row road_sine_fields[] = {
     {"amplitude", NUMBER(ld_road_sine, amplitude, "m"), FROM_TO(-10, 10), REQUIRED,
      .doc = "amplitude"},
-    {"wavelength", NUMBER(ld_road_sine, wavelength, "m"), ROAD_WAVELENGTH, REQUIRED, .doc = "wavelength"},
+    {"wavelength", NUMBER(ld_road_sine, wavelength, "m"), ROAD_WAVELENGTH, REQUIRED,
+     .doc = "wavelength"},
     {"phase", NUMBER(ld_road_sine, phase, "rad"), ANY, DEFAULT(0), .doc = "phase at x = 0"},
     {0}};
 static const field_block road_sine_block = {.fields = road_sine_fields};
