@@ -27,6 +27,7 @@ const PARTS = [
   ["Place and velocity at the exit", /^exit\./],
   ["Instants", /^t_/],
   ["Greatest forces in the tube", /^max_/],
+  ["Hinges from ignition to exit", /^(azimuth|elevation)\./],
 ];
 
 // Whether a key of the lists is that of a result; key.* is that of one result an adaptor.

@@ -38,14 +38,15 @@ function at(object, path) {
   return path.split(".").reduce((part, key) => (part == null ? undefined : part[key]), object);
 }
 
-// Rows of the list that some of the objects has, with '*' for every key that is there.
+// Rows of the list that some of the objects has, with '*' for every key that is there; a function finds the number itself.
 function rowsOf(objects, list) {
   const rows = [];
   for (const [path, label, unit, factor] of list) {
-    const [head, star] = path.split(".*");
+    const find = typeof path === "function" ? path : (o) => at(o, path);
+    const [head, star] = typeof path === "function" ? [] : path.split(".*");
     const keys = star === undefined ? [null] : [...new Set(objects.flatMap((o) => Object.keys(at(o, head) ?? {})))];
     for (const key of keys) {
-      const read = (o) => (key === null ? at(o, path) : at(o, head)?.[key]);
+      const read = (o) => (key === null ? find(o) : at(o, head)?.[key]);
       const cells = objects.map(read);
       if (cells.every((cell) => typeof cell !== "number")) continue;
       rows.push([label.replace("%s", () => key.replaceAll("_", " ")), unit,
@@ -66,8 +67,18 @@ function tableOf(heading, rows, heads) {
     element("div", { className: "scroll" }, element("table", {}, head, ...body)));
 }
 
-// What the scenario's measures are, each with its own unit.
-const measures = (list) => (list ?? []).map(({ name, unit }) => [`measure.${name}`, name.replaceAll("_", " "), unit === "1" ? "" : unit, 1]);
+// What the scenario's measures are, each with its own unit; of several runs a row for each that any of them has, and where two
+// give one name to measures of different units, one for each unit.
+function measures(summaries) {
+  const rows = new Map();
+  for (const { measures: list, rockets } of summaries)
+    for (const { name, unit } of list ?? []) {
+      const row = rows.get(`${name} ${unit}`) ?? { name, unit, of: new Map() };
+      rows.set(`${name} ${unit}`, row);
+      (rockets ?? []).forEach((rocket) => row.of.set(rocket, rocket.measure?.[name]));
+    }
+  return [...rows.values()].map(({ name, unit, of }) => [(rocket) => of.get(rocket), name.replaceAll("_", " "), unit === "1" ? "" : unit, 1]);
+}
 
 function modes(list) {
   const rows = (list ?? []).map((mode, i) => [String(mode.shape), "",
@@ -78,7 +89,7 @@ function modes(list) {
 export function showSummary(summary) {
   const rockets = summary.rockets ?? [];
   return element("div", { id: "tables" },
-    tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...measures(summary.measures)]),
+    tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...measures([summary])]),
       rockets.length > 1 ? rockets.map((_, i) => String(i + 1)) : null),
     tableOf("Energy balance at the end", rowsOf([summary.energy ?? {}], ENERGY)),
     tableOf("Equilibrium at the start", rowsOf([summary.equilibrium ?? {}], EQUILIBRIUM)),
@@ -92,7 +103,6 @@ export function showSummaries(runs) {
   const rockets = all.flatMap((summary) => summary.rockets ?? []);
   const heads = runs.flatMap(({ label, summary }) => (summary.rockets ?? []).map((_, i, { length }) =>
     (length > 1 ? `${label}, ${i + 1}` : label)));
-  const own = new Map(all.flatMap((summary) => measures(summary.measures)).map((row) => [row[0], row]));
   const part = (name, list) => rowsOf(all.map((summary) => summary[name] ?? {}), list);
   const most = Math.max(...all.map(({ modes: list }) => list?.length ?? 0), 0);
   const frequencies = Array.from({ length: most }, (_, i) => {
@@ -100,7 +110,7 @@ export function showSummaries(runs) {
     return [[...new Set(each.filter(Boolean).map(({ shape }) => String(shape)))].join(" / "), "Hz", each.map((mode) => readable(mode?.frequency))];
   });
   return element("div", { id: "tables" },
-    tableOf(rockets.length > runs.length ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...own.values()]), heads),
+    tableOf(rockets.length > runs.length ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...measures(all)]), heads),
     tableOf("Energy balance at the end", part("energy", ENERGY), labels),
     tableOf("Equilibrium at the start", part("equilibrium", EQUILIBRIUM), labels),
     tableOf("Natural frequencies of the tube on its supports", frequencies, labels),

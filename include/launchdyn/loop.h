@@ -49,6 +49,16 @@ void ld_loop_free(ld_loop *loop);
 ld_status ld_loop_points(ld_loop *loop, const double *frequency, size_t count, ld_loop_point *point,
                          ld_error *error);
 
+/// How the base disturbs the platform: the angle of the platform against I that the loop measures,
+/// per angle by which the chassis turns about the hinge's axis, which stays where it is. Without
+/// anything between them 0, without a loop in a hinge that sticks 1. What accelerates the hinge is
+/// not in it.
+/// @param frequency [Hz] > 0 [count]
+/// @param rejection [count]
+/// @return as ld_loop_points()
+ld_status ld_loop_rejection(ld_loop *loop, const double *frequency, size_t count,
+                            ld_phasor *rejection, ld_error *error);
+
 void ld_loop_margins_of(const ld_loop *loop, ld_loop_margins *margins);
 
 #pragma GCC visibility pop

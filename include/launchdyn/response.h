@@ -4,6 +4,8 @@
 #ifndef LAUNCHDYN_RESPONSE_H
 #define LAUNCHDYN_RESPONSE_H
 
+#include <stdbool.h>
+
 #include "launchdyn/model.h"
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
@@ -33,6 +35,12 @@ void ld_response_free(ld_response *response);
 /// What may act, by name: "road" (both tracks under all wheels, each at its time), "road.left",
 /// "road.right", "wheel.front-left.road", "elevation.command", "chassis.force_y", "base.y", ...
 size_t ld_response_inputs(const ld_response *response, const ld_column **inputs);
+
+/// Whether the hinges rub, as they do not at first: their Coulomb friction then counts as a viscous
+/// one, which at each speed is the mean of its slope over the rates that the model's road gives
+/// them (docs/response.md).
+/// @return LD_OK; as ld_response_create()
+ld_status ld_response_rub(ld_response *response, bool rub, ld_error *error);
 
 /// Columns of the history, each of which can be asked for.
 size_t ld_response_columns(const ld_response *response, const ld_column **columns);
@@ -69,6 +77,36 @@ ld_status ld_response_on_road(ld_response *response, double speed, double *rms, 
 /// @return as ld_response_on_road()
 ld_status ld_response_density(ld_response *response, double speed, const double *frequency,
                               size_t count, double *density, ld_error *error);
+
+/// Root mean square of the columns chosen where an input is random and steady.
+/// @param frequency [points] [Hz] rising, from 0 or above; between them the density is a straight
+///                  line, beyond them there is nothing
+/// @param density   [points] one-sided power spectral density, in the square of the input's unit
+///                  per Hz; that of a column at a frequency is this one times the square of its
+///                  gain there
+/// @param rms       [columns chosen] about the equilibrium
+/// @param strongest [columns chosen] [Hz] where the density is greatest
+/// @return as ld_response_gain(), LD_ERR_INPUT (no such density)
+ld_status ld_response_random(ld_response *response, double speed, const char *input,
+                             const double *frequency, const double *density, size_t points,
+                             double *rms, double *strongest, ld_error *error);
+
+/// By what the model's road scatters a launch: its first rocket, lit as the vehicle marches over
+/// the road's random part and its sines, over all the phases that these may have. From launches
+/// that begin at the ignition, in the linear state that the road leaves there (with
+/// ld_response_rub() as it is in runs).
+/// @param speed     [m/s] of a vehicle; at rest nothing scatters
+/// @param draws     2 or more: so many launches, each with phases drawn by the road's seed. 0: to
+///                  the first order, from two launches for each of some 70 to 150 independent
+///                  patterns of the road, of one standard deviation each, and one from rest
+/// @param names     [count] numbers of the launch that a study keeps of a rocket, such as
+///                  "pitch_rate" or "tip_off.yaw" (docs/quantities.md), not of its flight
+/// @param mean      [count] of the draws; without them what they are from rest on a flat road
+/// @param deviation [count] standard deviations
+/// @return as ld_response_on_road(), LD_ERR_INPUT (no such number, 1 or fewer draws), and what a
+///         launch that fails returns
+ld_status ld_response_exit(ld_response *response, double speed, int draws, const char *const *names,
+                           size_t count, double *mean, double *deviation, ld_error *error);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -2,6 +2,7 @@
 #ifndef LAUNCHDYN_RESPONSE_VIEW_H
 #define LAUNCHDYN_RESPONSE_VIEW_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "launchdyn/loop.h"
@@ -12,8 +13,8 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/// What is looked at. Without an input: the columns on the model's road, at its speed or over
-/// speeds.
+/// What is looked at. Without an input: the columns, or the exit, on the model's road, at its speed
+/// or over speeds.
 typedef struct ld_response_wish {
     const char *const *what; ///< columns; NULL: a choice of them, and "all" alone: all
     size_t what_count;
@@ -21,11 +22,17 @@ typedef struct ld_response_wish {
     double from, to;               ///< [Hz] of spectrum or frequency response; NaN: 0.2, 50
     double slowest, fastest, step; ///< [m/s] speeds; NaN: the model's alone
     const char *loop;              ///< a hinge, of whose loop it is; NULL: none
-    const void *reserved[3];       ///< NULL: room for what later versions may be asked
+    const char *density;     ///< of an input that is random: a CSV file of frequencies [Hz] and its
+                             ///< one-sided power spectral density there; NULL: it is a sine
+    bool exit;               ///< by what the road scatters the exit: `what` are numbers of a launch
+    bool rub;                ///< the hinges rub, as the road moves them (ld_response_rub()); of the
+                             ///< exit always
+    int draws;               ///< of the exit; 0: to the first order
+    const void *reserved[1]; ///< NULL: room for what later versions may be asked
 } ld_response_wish;
 
 /// A frequency response, or root mean squares with a spectrum, or root mean squares over the speed,
-/// or the loop of a hinge.
+/// or the loop of a hinge, or the scatter of the exit.
 typedef struct ld_response_view ld_response_view;
 
 /// @param model kept by reference
@@ -39,7 +46,8 @@ void ld_response_view_free(ld_response_view *view);
 void ld_response_view_print(const ld_response_view *view, FILE *stream);
 
 /// Writes response-frequency.csv, or response-loop.csv, or response-rms.csv and
-/// response-spectrum.csv, or response-rms.csv into the folder, which is made where it is not there.
+/// response-spectrum.csv, or response-rms.csv, or response-exit.csv into the folder, which is made
+/// where it is not there.
 /// @return LD_OK, LD_ERR_INPUT, LD_ERR_FILE or LD_ERR_MEMORY
 ld_status ld_response_view_write(const ld_response_view *view, const char *folder, ld_error *error);
 

@@ -85,13 +85,17 @@ typedef struct ld_study_view {
     bool sensitivity;     ///< how much of the variance each factor explains, instead of statistics
     const char *measured; ///< a CSV file of measured shots, beside which its results are shown
                           ///< instead (docs/study.md): differences with intervals and p; NULL: none
-    const void *reserved[3]; ///< NULL: room for what later versions may be asked
+    const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the
+                          ///< others are from it is shown instead (docs/study.md); NULL: none
+    const char *csv;      ///< of `against`: besides, a CSV file with the same; NULL: not wanted
+    const void *reserved[1]; ///< NULL: room for what later versions may be asked
 } ld_study_view;
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs: point
 /// by point of a sweep, and side by side.
-/// @return LD_OK; LD_ERR_INPUT (no study there, no such result, wrong measured shots), LD_ERR_FILE,
-///         LD_ERR_MEMORY
+/// @return LD_OK; LD_ERR_INPUT (no study there, no such result, wrong measured shots, no such
+/// point,
+///         nowhere two pairs), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
                         ld_error *error);
 

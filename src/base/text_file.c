@@ -33,7 +33,7 @@ static ld_status read_stream(FILE *stream, size_t limit, char **text, size_t *le
         }
         buffer = larger;
         used += fread(buffer + used, 1, capacity - used, stream);
-        if (used < capacity)
+        if (used < capacity || used > limit)
             break;
         capacity *= 2;
     }

@@ -89,13 +89,29 @@ static bool read_speeds(const char *text, ld_response_wish *wish)
 int command_response(const command *self, int argc, char **argv)
 {
     response_wishes wishes = {.wish = {.from = NAN, .to = NAN, .step = NAN}};
-    char *input = NULL;
+    char *input = NULL, *density = NULL;
+    int of_exit = 0, rub = 0;
+    int draws = 0;
     const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
         {"what", 'w', OPTION_TEXT, &wishes.what,
          "Quantities: columns of the history (all: all of them; without: a choice)", "NAME,..."},
         {"input", 'i', OPTION_TEXT, &input,
          "Frequency response from this input, in place of what the road does", "NAME"},
+        {"density", '\0', OPTION_TEXT, &density,
+         "Root mean squares and spectra where that input is random, its one-sided power spectral "
+         "density over the frequency in Hz in this CSV file",
+         "FILE"},
+        {"exit", 'x', OPTION_FLAG, &of_exit,
+         "Scatter of the exit on the road, at the scenario's speed or over --speeds; "
+         "--what: numbers of a launch",
+         NULL},
+        {"draws", '\0', OPTION_INTEGER, &draws,
+         "Of the exit: from so many launches with drawn phases of the road, 2 or more, in place of "
+         "the first order",
+         "N"},
+        {"rub", '\0', OPTION_FLAG, &rub, "Hinges rub as the road moves them; of the exit always",
+         NULL},
         {"loop", '\0', OPTION_TEXT, &wishes.loop,
          "Loop of this hinge, azimuth or elevation, opened: margins, bandwidth, sensitivity",
          "HINGE"},
@@ -106,9 +122,8 @@ int command_response(const command *self, int argc, char **argv)
         {"list", 'l', OPTION_FLAG, &wishes.list, "List inputs and quantities by name, and stop",
          NULL},
         {"out", 'o', OPTION_TEXT, &wishes.folder,
-         "Write response-rms.csv and response-spectrum.csv, response-frequency.csv or "
-         "response-loop.csv, into this "
-         "folder",
+         "Write response-rms.csv and response-spectrum.csv, response-frequency.csv, "
+         "response-loop.csv or response-exit.csv into this folder",
          "DIR"},
         {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw it with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
@@ -120,6 +135,10 @@ int command_response(const command *self, int argc, char **argv)
     if (!command_line_read(&line, self, argc, argv, options, 1, &code))
         return code;
     wishes.wish.input = input;
+    wishes.wish.density = density;
+    wishes.wish.exit = of_exit;
+    wishes.wish.rub = rub;
+    wishes.wish.draws = draws;
     wishes.wish.loop = wishes.loop;
     wishes.wish.what = names;
     wishes.wish.what_count = split(wishes.what, names);

@@ -126,13 +126,28 @@ static int finish(ld_status status, const ld_error *error)
     return status ? command_fail(status, error) : 0;
 }
 
+// What keeps these options from being those of a study to be shown; NULL: nothing.
+static const char *wrong_to_show(const study_wishes *wishes)
+{
+    const ld_study_view *view = &wishes->view;
+    if (view->measured && (view->what || view->sensitivity || view->against))
+        return "--measured shows what its file has: neither --what nor --sensitivity nor --against "
+               "goes with it";
+    if (view->against && view->sensitivity)
+        return "--against and --sensitivity do not go together";
+    if (wishes->hdf5 || (wishes->csv && !view->against))
+        return "--csv and --hdf5 are options of study export DIR, --csv besides of study show "
+               "--against";
+    return NULL;
+}
+
 static int study_folder(const char *verb, const char *folder, const study_wishes *wishes)
 {
     const ld_study_view *view = &wishes->view;
     ld_error error;
-    if (strcmp(verb, "show") == 0 && view->measured && (view->what || view->sensitivity)) {
-        command_complain("--measured shows what its file has: neither --what nor --sensitivity "
-                         "goes with it");
+    const char *wrong = wrong_to_show(wishes);
+    if (strcmp(verb, "show") == 0 && wrong) {
+        command_complain("%s", wrong);
         return EXIT_INPUT;
     }
     if (strcmp(verb, "show") == 0)
@@ -174,8 +189,9 @@ static const char *wrong_to_run(const char *file, const char *again, const study
         return "study show, study export and study merge want DIR";
     if (wishes->csv || wishes->hdf5)
         return "--csv and --hdf5 are options of study export DIR";
-    if (wishes->view.what || wishes->view.sensitivity || wishes->view.measured)
-        return "--what, --sensitivity and --measured are options of study show DIR";
+    const ld_study_view *view = &wishes->view;
+    if (view->what || view->sensitivity || view->measured || view->against)
+        return "--what, --sensitivity, --measured and --against are options of study show DIR";
     if (wishes->shards && wishes->only != ALL_SAMPLES)
         return "--only and --shard do not go together";
     if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
@@ -186,7 +202,7 @@ static const char *wrong_to_run(const char *file, const char *again, const study
 int command_study(const command *self, int argc, char **argv)
 {
     study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
-    char *shard = NULL, *what = NULL, *measured = NULL, *again = NULL;
+    char *shard = NULL, *what = NULL, *measured = NULL, *against = NULL, *again = NULL;
     int sensitivity = 0;
     const command_option options[] = {
         STUDY_OPTIONS(&wishes),
@@ -203,7 +219,10 @@ int command_study(const command *self, int argc, char **argv)
          "Of show: the share of the variance that each factor explains", NULL},
         {"measured", '\0', OPTION_TEXT, &measured,
          "Of show: its results beside the shots in this CSV file", "FILE"},
-        {"csv", '\0', OPTION_TEXT, &wishes.csv, "Of export: the table as CSV", "FILE"},
+        {"against", '\0', OPTION_TEXT, &against,
+         "Of show: how far points are from this one, by number or KEY=VALUE,...", "POINT"},
+        {"csv", '\0', OPTION_TEXT, &wishes.csv,
+         "Of export: the table as CSV; of show --against: what it shows", "FILE"},
         {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "Of export: the table as HDF5", "FILE"},
         COMMAND_HELP,
         COMMAND_END};
@@ -211,8 +230,11 @@ int command_study(const command *self, int argc, char **argv)
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {
         const char *file = line.count > 0 ? line.word[0] : NULL;
-        wishes.view =
-            (ld_study_view){.what = what, .sensitivity = sensitivity, .measured = measured};
+        wishes.view = (ld_study_view){.what = what,
+                                      .sensitivity = sensitivity,
+                                      .measured = measured,
+                                      .against = against,
+                                      .csv = against ? wishes.csv : NULL};
         if (shard && !read_shard(shard, &wishes)) {
             code = EXIT_INPUT;
         } else if (line.count == 2 && !again) {

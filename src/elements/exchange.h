@@ -36,12 +36,19 @@ typedef struct launching_phase {
     bool frictionless;                   // Coulomb friction off (equilibrium, linearisation)
 } launching_phase;
 
+// What is put on tube and rocket, in R: on the section at the tube's tip, on the rocket at its mass
+// centre.
+typedef struct launching_load {
+    v3 tip_force, tip_moment, rocket_force, rocket_moment; // [N], [N m]
+} launching_load;
+
 // What comes from outside at one instant.
 typedef struct launching_input {
     base_frame base;
     double thrust; // [N]
     rocket_mass mass;
-    moving_air air; // about the rocket; read where its emerged part feels it
+    moving_air air;             // about the rocket; read where its emerged part feels it
+    const launching_load *load; // where it is linearised; NULL: none
 } launching_input;
 
 typedef struct adaptor_report {

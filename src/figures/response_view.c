@@ -4,16 +4,20 @@
 #include <string.h>
 
 #include "figures/chart.h"
+#include "figures/density_file.h"
 #include "launchdyn/response_view.h"
 #include "model/model.h"
 #include "results/columns.h"
+#include "simulation/measures.h"
+#include "simulation/study_results.h"
 
 enum { POINTS = 600, MOST_SPEEDS = 10000, CHARTS = 8, CURVES = 6, NAME = 128 };
 
 static const double KMH = 3.6, PI = 3.141592653589793238462643383280;
 static const double DEGREE = 57.295779513082320876798154814105;
 
-typedef enum view_kind { FREQUENCY, SPECTRUM, SPEEDS, LOOP } view_kind;
+// DRIVEN: the spectrum where an input is random; EXIT: the exit's scatter on the road.
+typedef enum view_kind { FREQUENCY, SPECTRUM, DRIVEN, SPEEDS, LOOP, EXIT } view_kind;
 
 struct ld_response_view {
     const ld_model *model;
@@ -21,20 +25,36 @@ struct ld_response_view {
     ld_loop *loop;
     const char *hinge;
     view_kind kind;
-    const ld_column *input; // of a frequency response
-    ld_column *column;      // [columns]
+    const ld_column *input; // of a frequency response, or what is random
+    ld_table density;       // its
+    const char *density_file;
+    bool rub;
+    int draws;         // of the exit
+    ld_column *column; // [columns]
     size_t columns;
     double slowest, fastest; // [m/s]
     size_t count, speeds;
-    double *x;                 // [count] frequencies [Hz]
-    double *value, *phase;     // [columns][count] amplitude and phase, or density
-    double *speed, *rms, *top; // [speeds] [m/s], [columns][speeds], and where most comes from [Hz]
+    double *x;             // [count] frequencies [Hz]
+    double *value, *phase; // [columns][count] amplitude and phase, or density
+    double *speed, *rms;   // [speeds] [m/s], [columns][speeds]
+    double *top;           // [columns][speeds] where most comes from [Hz]; of the exit the mean
+    char (*name)[QUANTITY_NAME]; // [columns] of the exit
 };
 
 // Whether it is amplitudes and phases.
 static bool is_gain(const ld_response_view *view)
 {
     return view->kind == FREQUENCY || view->kind == LOOP;
+}
+
+static bool is_spectrum(const ld_response_view *view)
+{
+    return view->kind == SPECTRUM || view->kind == DRIVEN;
+}
+
+static bool is_over_speeds(const ld_response_view *view)
+{
+    return view->kind == SPEEDS || view->kind == EXIT;
 }
 
 // ---- what is looked at ----
@@ -105,9 +125,51 @@ static ld_status choose(ld_response_view *view, const char *const *names, size_t
     return LD_OK;
 }
 
+// Numbers of a launch: their names, units and what they are.
+static const char *const at_exit[] = {
+    "t_rear",
+    "muzzle_speed",
+    "pitch",
+    "yaw",
+    "pitch_rate",
+    "yaw_rate",
+    "tip_off.pitch",
+    "tip_off.yaw",
+    "tip_off.pitch_rate",
+    "tip_off.yaw_rate",
+    "tip_off.pitch_rate_relative",
+    "tip_off.yaw_rate_relative",
+    "tip_off.vy",
+    "tip_off.vz",
+    "aim.pitch",
+    "aim.yaw",
+};
+
+static ld_status choose_exit(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
+{
+    bool own = wish->what_count == 0;
+    const char *const *names = own ? at_exit : wish->what;
+    quantity_things things = quantity_things_of(view->model);
+    view->columns = own ? sizeof at_exit / sizeof *at_exit : wish->what_count;
+    view->column = calloc(view->columns, sizeof *view->column);
+    view->name = calloc(view->columns, sizeof *view->name);
+    if (!view->column || !view->name)
+        return no_memory(error);
+    for (size_t i = 0; i < view->columns; i++) {
+        quantity_walk at = study_result_find(&things, names[i]);
+        snprintf(view->name[i], QUANTITY_NAME, "%s", names[i]);
+        view->column[i] = (ld_column){.name = view->name[i],
+                                      .unit = at.row ? quantity_unit(&at) : "",
+                                      .description = at.row ? at.row->description : ""};
+    }
+    return LD_OK;
+}
+
 static ld_status choose_wished(ld_response_view *view, const ld_response_wish *wish,
                                ld_error *error)
 {
+    if (view->kind == EXIT)
+        return choose_exit(view, wish, error);
     if (wish->what_count == 1 && strcmp(wish->what[0], "all") == 0)
         return choose_all(view, error);
     if (wish->what_count > 0)
@@ -135,6 +197,7 @@ static const ld_column of_loop[] = {
     {"open", "1", "loop, opened"},
     {"tracking", "1", "measured angle per commanded one"},
     {"sensitivity", "1", "what is left of an error that would be without a loop"},
+    {"rejection", "1", "angle of the platform per angle of the chassis about the hinge"},
 };
 enum { OF_LOOP = sizeof of_loop / sizeof *of_loop };
 
@@ -179,12 +242,15 @@ static void put_gain(ld_response_view *view, size_t i, size_t k, ld_phasor gain)
 static ld_status fill_loop(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
 {
     ld_loop_point at;
+    ld_phasor rejection;
     ld_status status = choose_loop(view, error);
     if (!status)
         status = set_frequencies(view, wish->from, wish->to, error);
     for (size_t k = 0; k < POINTS && !status; k++) {
         status = ld_loop_points(view->loop, &view->x[k], 1, &at, error);
-        const ld_phasor gain[OF_LOOP] = {at.open, at.tracking, at.sensitivity};
+        if (!status)
+            status = ld_loop_rejection(view->loop, &view->x[k], 1, &rejection, error);
+        const ld_phasor gain[OF_LOOP] = {at.open, at.tracking, at.sensitivity, rejection};
         for (size_t i = 0; i < OF_LOOP && !status; i++)
             put_gain(view, i, k, gain[i]);
     }
@@ -219,10 +285,65 @@ static ld_status fill_spectrum(ld_response_view *view, ld_error *error)
     return status;
 }
 
+// Between the density's points a straight line, nothing beyond.
+static double density_at(const ld_table *density, double frequency)
+{
+    for (size_t i = 0; i + 1 < density->rows; i++) {
+        const double *a = density->data + 2 * i, *b = a + 2;
+        if (frequency >= a[0] && frequency <= b[0])
+            return a[1] + (b[1] - a[1]) * (frequency - a[0]) / (b[0] - a[0]);
+    }
+    return 0;
+}
+
+// The gains' squares times the density of the input.
+static ld_status fill_driven(ld_response_view *view, ld_error *error)
+{
+    ld_status status = fill_frequency(view, error);
+    for (size_t k = 0; k < POINTS && !status; k++) {
+        double density = density_at(&view->density, view->x[k]);
+        for (size_t i = 0; i < view->columns; i++) {
+            double *value = &view->value[i * POINTS + k];
+            *value *= *value * density;
+        }
+    }
+    return status;
+}
+
+static ld_status fill_random(ld_response_view *view, double *rms, double *top, ld_error *error)
+{
+    size_t points = view->density.rows;
+    double *f = malloc((2 * points + 1) * sizeof *f), *density = f + points;
+    if (!f)
+        return no_memory(error);
+    for (size_t i = 0; i < points; i++) {
+        f[i] = view->density.data[2 * i];
+        density[i] = view->density.data[2 * i + 1];
+    }
+    ld_status status = ld_response_random(view->response, view->slowest, view->input->name, f,
+                                          density, points, rms, top, error);
+    free(f);
+    return status;
+}
+
+static ld_status fill_exit(ld_response_view *view, double speed, double *deviation, double *mean,
+                           ld_error *error)
+{
+    const char **names = malloc(view->columns * sizeof *names);
+    if (!names)
+        return no_memory(error);
+    for (size_t i = 0; i < view->columns; i++)
+        names[i] = view->name[i];
+    ld_status status = ld_response_exit(view->response, speed, view->draws, names, view->columns,
+                                        mean, deviation, error);
+    free(names);
+    return status;
+}
+
 static ld_status set_speeds(ld_response_view *view, double step, ld_error *error)
 {
     double count = floor((view->fastest - view->slowest) / step * (1 + 1e-12)) + 1;
-    if (view->kind == SPECTRUM)
+    if (is_spectrum(view) || isnan(step))
         count = 1;
     if (!(count >= 1 && count <= MOST_SPEEDS))
         return ld_fail(error, LD_ERR_INPUT,
@@ -246,8 +367,12 @@ static ld_status fill_speeds(ld_response_view *view, ld_error *error)
     ld_status status = rms ? LD_OK : no_memory(error);
     for (size_t k = 0; k < view->speeds && !status; k++) {
         // the road does nothing to what stands
-        bool stands = view->speed[k] == 0 && view->kind == SPEEDS;
-        if (!stands)
+        bool stands = view->speed[k] == 0 && is_over_speeds(view) && view->speeds > 1;
+        if (view->kind == DRIVEN)
+            status = fill_random(view, rms, top, error);
+        else if (view->kind == EXIT && !stands)
+            status = fill_exit(view, view->speed[k], rms, top, error);
+        else if (!stands)
             status = ld_response_on_road(view->response, view->speed[k], rms, top, error);
         for (size_t i = 0; i < view->columns && !status; i++) {
             view->rms[i * view->speeds + k] = stands ? 0 : rms[i];
@@ -265,12 +390,14 @@ static ld_status fill(ld_response_view *view, const ld_response_wish *wish, ld_e
     ld_status status = choose_wished(view, wish, error);
     if (!status && wish->input)
         status = find_input(view, wish->input, error);
-    if (!status && view->kind != SPEEDS)
+    if (!status && !is_over_speeds(view))
         status = set_frequencies(view, wish->from, wish->to, error);
     if (!status && view->kind == FREQUENCY)
         return fill_frequency(view, error);
     if (!status && view->kind == SPECTRUM)
         status = fill_spectrum(view, error);
+    if (!status && view->kind == DRIVEN)
+        status = fill_driven(view, error);
     if (!status)
         status = set_speeds(view, wish->step, error);
     return status ? status : fill_speeds(view, error);
@@ -286,7 +413,19 @@ static ld_status check_wish(const ld_model *model, const ld_response_wish *wish,
     if (wish->input && over_speeds)
         return ld_fail(error, LD_ERR_INPUT,
                        "a frequency response is one at one speed: speeds go with the road alone");
-    if (!wish->loop && !wish->input && model_has_launcher(model) && !model_has_vehicle(model))
+    if (wish->exit && (wish->input || wish->loop))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the road scatters the exit: it is shown without input and loop");
+    if (wish->draws && !wish->exit)
+        return ld_fail(error, LD_ERR_INPUT, "draws are those of the exit: they go with it alone");
+    if (wish->loop && wish->rub)
+        return ld_fail(error, LD_ERR_INPUT, "a loop is shown without friction of the hinges");
+    if (wish->density && !wish->input)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a spectral density is that of an input: it wants the name of one "
+                       "(launchdyn response --list lists them)");
+    if (!wish->loop && !wish->input && !wish->exit && model_has_launcher(model) &&
+        !model_has_vehicle(model))
         return ld_fail(error, LD_ERR_INPUT,
                        "the base is no vehicle on a road: a response wants the name of an input "
                        "(launchdyn response --list lists them)");
@@ -306,13 +445,25 @@ ld_status ld_response_view_create(const ld_model *model, const ld_response_wish 
         return no_memory(error);
     double own = model_has_vehicle(model) ? model->base.vehicle.speed : 0;
     self->model = model;
-    self->kind = wish->loop ? LOOP : wish->input ? FREQUENCY : over_speeds ? SPEEDS : SPECTRUM;
+    self->kind = wish->loop      ? LOOP
+                 : wish->exit    ? EXIT
+                 : wish->density ? DRIVEN
+                 : wish->input   ? FREQUENCY
+                 : over_speeds   ? SPEEDS
+                                 : SPECTRUM;
+    self->density_file = wish->density;
+    self->draws = wish->draws;
+    self->rub = wish->rub || wish->exit;
     self->slowest = over_speeds ? wish->slowest : own;
     self->fastest = over_speeds ? wish->fastest : own;
     self->hinge = wish->loop;
     status = wish->loop
                  ? ld_loop_create(model, wish->loop, &self->loop, error)
                  : ld_response_create(model, self->slowest, self->fastest, &self->response, error);
+    if (!status && self->rub)
+        status = ld_response_rub(self->response, true, error);
+    if (!status && wish->density)
+        status = density_file_read(wish->density, &self->density, error);
     if (!status)
         status = fill(self, wish, error);
     if (status)
@@ -329,6 +480,8 @@ void ld_response_view_free(ld_response_view *view)
     ld_response_free(view->response);
     ld_loop_free(view->loop);
     free(view->column);
+    free(view->name);
+    free(view->density.data);
     free(view->x);
     free(view->speed);
     free(view);
@@ -363,17 +516,25 @@ static void value_unit(const ld_response_view *view, const char *unit, char text
         snprintf(text, NAME, "%s2/Hz", unit);
 }
 
-static void describe(const ld_response_view *view, char *text, size_t size)
+static int describe_road(const ld_response_view *view, const char *what, char *text, size_t size)
 {
     static const char *const tracks[] = {"same", "independent", "coherent"};
     const ld_road *road = &view->model->base.vehicle.road;
+    return road->iso_class == LD_ROAD_SMOOTH
+               ? snprintf(text, size, "%s the sines of the road", what)
+               : snprintf(text, size, "%s a road of class %c, tracks %s", what,
+                          'A' + road->iso_class, tracks[road->tracks]);
+}
+
+static void describe(const ld_response_view *view, char *text, size_t size)
+{
     int at = view->kind == LOOP        ? snprintf(text, size, "Loop of the %s", view->hinge)
              : view->kind == FREQUENCY ? snprintf(text, size, "Response to %s", view->input->name)
-             : road->iso_class == LD_ROAD_SMOOTH
-                 ? snprintf(text, size, "Response to the sines of the road")
-                 : snprintf(text, size, "Response to a road of class %c, tracks %s",
-                            'A' + road->iso_class, tracks[road->tracks]);
-    if (model_has_vehicle(view->model) && view->kind != SPEEDS)
+             : view->kind == DRIVEN ? snprintf(text, size, "Response to %s, random as %.60s says",
+                                               view->input->name, view->density_file)
+             : view->kind == EXIT   ? describe_road(view, "Scatter of the exit on", text, size)
+                                    : describe_road(view, "Response to", text, size);
+    if (model_has_vehicle(view->model) && (!is_over_speeds(view) || view->speeds == 1))
         snprintf(text + at, size - (size_t)at, ", %g km/h", KMH * view->slowest);
 }
 
@@ -400,7 +561,10 @@ static void print_missing(const ld_response_view *view, FILE *stream)
     for (size_t i = 0; i < view->columns; i++)
         if (!has_response(view, i)) {
             fprintf(stream, "%s%s",
-                    any ? ", " : "\nWithout a value before the launch: ", view->column[i].name);
+                    any                  ? ", "
+                    : view->kind == EXIT ? "\nWithout a value at the exit: "
+                                         : "\nWithout a value before the launch: ",
+                    view->column[i].name);
             any = true;
         }
     fputs(any ? "\n" : "", stream);
@@ -437,7 +601,8 @@ static void print_spectrum(const ld_response_view *view, FILE *stream)
 static void print_speeds(const ld_response_view *view, FILE *stream)
 {
     size_t last = view->speeds - 1;
-    fprintf(stream, "\n%-28s %-8s %9.4g km/h %7.4g km/h %12s %10s\n", "Root mean square", "at",
+    fprintf(stream, "\n%-28s %-8s %9.4g km/h %7.4g km/h %12s %10s\n",
+            view->kind == EXIT ? "Standard deviation" : "Root mean square", "at",
             KMH * view->speed[0], KMH * view->speed[last], "greatest", "at [km/h]");
     for (size_t i = 0; i < view->columns; i++) {
         double factor;
@@ -448,6 +613,21 @@ static void print_speeds(const ld_response_view *view, FILE *stream)
             fprintf(stream, "  %-26s %-8s %14.4g %12.4g %12.4g %10.4g\n", view->column[i].name,
                     unit, factor * rms[0], factor * rms[last], factor * rms[k],
                     KMH * view->speed[k]);
+    }
+}
+
+static void print_exit(const ld_response_view *view, FILE *stream)
+{
+    if (view->draws)
+        fprintf(stream, "%d launches with drawn phases of the road\n", view->draws);
+    fprintf(stream, "\n%-28s %-8s %14s %20s\n", "", "", view->draws ? "mean" : "from rest",
+            "standard deviation");
+    for (size_t i = 0; i < view->columns; i++) {
+        double factor;
+        const char *unit = shown_unit(view->column[i].unit, &factor);
+        if (has_response(view, i))
+            fprintf(stream, "  %-26s %-8s %14.6g %20.4g\n", view->column[i].name, unit,
+                    factor * view->top[i], factor * view->rms[i]);
     }
 }
 
@@ -485,6 +665,10 @@ static void print_loop(const ld_response_view *view, FILE *stream)
     else
         fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "peak of the sensitivity", margins.peak,
                 margins.peak_at);
+    const double *rejection = view->value + (OF_LOOP - 1) * view->count;
+    size_t k = greatest(rejection, view->count);
+    fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "most of the chassis' turning let in",
+            rejection[k], view->x[k]);
 }
 
 void ld_response_view_print(const ld_response_view *view, FILE *stream)
@@ -492,16 +676,19 @@ void ld_response_view_print(const ld_response_view *view, FILE *stream)
     char text[NAME];
     const ld_road *road = &view->model->base.vehicle.road;
     describe(view, text, sizeof text);
-    fprintf(stream, "%s; linear about the equilibrium, no Coulomb friction\n", text);
-    bool on_road = view->kind == SPECTRUM || view->kind == SPEEDS;
+    fprintf(stream, "%s; linear about the equilibrium, %s\n", text,
+            view->rub ? "hinges rub as the road moves them" : "no Coulomb friction in the hinges");
+    bool on_road = view->kind == SPECTRUM || is_over_speeds(view);
     if (on_road && (road->bump_count > 0 || road->profile.rows > 0))
         fputs("Bumps and profile of the road are left out: they come once\n", stream);
     if (view->kind == LOOP)
         print_loop(view, stream);
     else if (view->kind == FREQUENCY)
         print_frequency(view, stream);
-    else if (view->kind == SPECTRUM)
+    else if (is_spectrum(view))
         print_spectrum(view, stream);
+    else if (view->kind == EXIT && view->speeds == 1)
+        print_exit(view, stream);
     else
         print_speeds(view, stream);
     print_missing(view, stream);
@@ -554,6 +741,7 @@ static ld_status write_frequencies(const ld_response_view *view, const char *fol
     table all;
     static const char *const files[] = {[FREQUENCY] = "response-frequency.csv",
                                         [SPECTRUM] = "response-spectrum.csv",
+                                        [DRIVEN] = "response-spectrum.csv",
                                         [LOOP] = "response-loop.csv"};
     bool gain = is_gain(view);
     ld_status status = table_make(&all, 1 + 2 * view->columns, error);
@@ -576,21 +764,28 @@ static ld_status write_frequencies(const ld_response_view *view, const char *fol
 static ld_status write_speeds(const ld_response_view *view, const char *folder, ld_error *error)
 {
     table all;
-    ld_status status = table_make(&all, 1 + view->columns, error);
+    bool exit = view->kind == EXIT;
+    ld_status status = table_make(&all, 1 + 2 * view->columns, error);
     if (!status)
         table_add(&all, "speed", "", "m/s", view->speed);
-    for (size_t i = 0; i < view->columns && !status; i++)
-        table_add(&all, view->column[i].name, "", view->column[i].unit,
+    for (size_t i = 0; i < view->columns && !status; i++) {
+        const ld_column *column = &view->column[i];
+        if (exit)
+            table_add(&all, column->name, view->draws ? ".mean" : ".rest", column->unit,
+                      view->top + i * view->speeds);
+        table_add(&all, column->name, exit ? ".deviation" : "", column->unit,
                   view->rms + i * view->speeds);
+    }
     if (!status)
-        status = table_write(&all, folder, "response-rms.csv", view->speeds, error);
+        status = table_write(&all, folder, exit ? "response-exit.csv" : "response-rms.csv",
+                             view->speeds, error);
     table_free(&all);
     return status;
 }
 
 ld_status ld_response_view_write(const ld_response_view *view, const char *folder, ld_error *error)
 {
-    ld_status status = view->kind == SPEEDS ? LD_OK : write_frequencies(view, folder, error);
+    ld_status status = is_over_speeds(view) ? LD_OK : write_frequencies(view, folder, error);
     return status || is_gain(view) ? status : write_speeds(view, folder, error);
 }
 
@@ -632,31 +827,31 @@ static void name_chart(const ld_response_view *view, chart_page *page, size_t i)
     double factor;
     const char *unit = shown_unit(page->unit[i], &factor);
     it->y_label = page->label[i];
-    it->log_x = it->log_y = view->kind != SPEEDS;
-    it->decades = view->kind == SPECTRUM ? 8 : 5;
+    it->log_x = it->log_y = !is_over_speeds(view);
+    it->decades = is_spectrum(view) || view->kind == LOOP ? 8 : 5;
     if (is_gain(view)) {
         it->title = "Amplitude";
         value_unit(view, page->unit[i], page->label[i]);
         if (view->kind == LOOP)
             it->y_label = "gain";
-    } else if (view->kind == SPECTRUM) {
+    } else if (is_spectrum(view)) {
         it->title = "Power spectral density";
         it->y_factor = factor * factor;
         snprintf(page->label[i], NAME, "(%s)²/Hz", unit);
     } else {
-        it->title = "Root mean square";
+        it->title = view->kind == EXIT ? "Standard deviation" : "Root mean square";
         it->y_factor = factor;
         it->x_factor = KMH;
         snprintf(page->label[i], NAME, "%s", unit);
     }
-    it->x_label = view->kind == SPEEDS ? "km/h" : "Hz";
+    it->x_label = is_over_speeds(view) ? "km/h" : "Hz";
 }
 
 // Whether there is anything to see: a value, where the axis is logarithmic one above 0.
 static bool is_drawn(const ld_response_view *view, const double *value, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (view->kind == SPEEDS ? !isnan(value[i]) : value[i] > 0)
+        if (is_over_speeds(view) ? !isnan(value[i]) : value[i] > 0)
             return true;
     return false;
 }
@@ -664,7 +859,7 @@ static bool is_drawn(const ld_response_view *view, const double *value, size_t c
 // Amplitudes, densities or root mean squares.
 static ld_status add_values(const ld_response_view *view, chart_page *page, ld_error *error)
 {
-    bool speeds = view->kind == SPEEDS;
+    bool speeds = is_over_speeds(view);
     size_t count = speeds ? view->speeds : view->count;
     const double *x = speeds ? view->speed : view->x, *all = speeds ? view->rms : view->value;
     for (size_t i = 0; i < view->columns; i++) {
@@ -723,6 +918,9 @@ static ld_status add_phases(const ld_response_view *view, chart_page *page, ld_e
 ld_status ld_response_view_draw(const ld_response_view *view, const char *file, ld_error *error)
 {
     char heading[NAME];
+    if (view->kind == EXIT && view->speeds == 1)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the exit's scatter is drawn over speeds: --speeds says which");
     chart_page *page = calloc(1, sizeof *page);
     if (!page)
         return no_memory(error);

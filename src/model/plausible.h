@@ -35,7 +35,7 @@ typedef struct plausible_rule {
 
 // Rules end with a row without path.
 extern const plausible_rule plausible_of_tube[], plausible_of_rocket[], plausible_of_vehicle[],
-    plausible_of_run[];
+    plausible_of_stabiliser[], plausible_of_run[];
 
 typedef struct plausible_note {
     const plausible_rule *rule;
@@ -87,6 +87,9 @@ double plausible_weight_along(const ld_model *model);
 double plausible_time_in_tube(const ld_model *model);
 // x of the foremost adaptor [m]; NaN in a flight alone.
 double plausible_front(const ld_model *model);
+// Moment of inertia [kg m2] of tubes and rockets about the elevation hinge, of rods of the tubes'
+// length about their middles.
+double plausible_tubes_inertia(const ld_model *model);
 // Heave frequency [Hz] of a vehicle on its suspensions.
 double plausible_heave_frequency(const ld_model *model);
 

@@ -29,6 +29,12 @@ FIND(off_axis)
     return plausible_compare(hypot(y, z), plausible_bore(at->model));
 }
 
+FIND(imbalance)
+{
+    const double *tilt = at->model->rocket.dynamic_imbalance;
+    return plausible_alone(hypot(tilt[0], tilt[1]));
+}
+
 FIND(roll_gyration)
 {
     const ld_mass_data *full = &at->model->rocket.full;
@@ -91,6 +97,16 @@ FIND(release_by_weight)
     return plausible_compare(at->model->rocket.lock.release_force, forwards > 0 ? forwards : NAN);
 }
 
+FIND(lock_along)
+{
+    return plausible_compare(at->model->rocket.lock.x, plausible_front(at->model));
+}
+
+FIND(lock_across)
+{
+    return plausible_compare(at->model->rocket.lock.radius, plausible_bore(at->model));
+}
+
 // ---- motor
 
 FIND(thrust_at_end)
@@ -141,6 +157,18 @@ FIND(diameter)
 {
     return plausible_compare(at->model->rocket.aerodynamics.reference_diameter,
                              2 * plausible_bore(at->model));
+}
+
+FIND(emerged_diameter)
+{
+    return plausible_compare(at->model->rocket.aerodynamics.emerged.diameter,
+                             2 * plausible_bore(at->model));
+}
+
+FIND(nose)
+{
+    return plausible_compare(at->model->rocket.aerodynamics.emerged.nose,
+                             plausible_front(at->model));
 }
 
 FIND(area)
@@ -213,6 +241,8 @@ const plausible_rule plausible_of_rocket[] = {
      .of = "rocket.adaptors", .why = "the mass centre lies between the adaptors, or near them"},
     {"rocket.eccentricity", "the mass centre's distance from the axis", .unit = "m", BORE, NO_LOW,
      .high = 0.1, .find = off_axis, .why = "a rocket is balanced within a millimetre or so"},
+    {"rocket.dynamic_imbalance", "the angle of the inertia's axis", .unit = "rad", NO_LOW,
+     .high = PI / 180, .find = imbalance, .why = "a rocket is balanced within some mrad"},
     {"rocket.inertia.x", "the radius of gyration about x", .unit = "m", BORE, .low = 0.1, .high = 1,
      .find = roll_gyration, .why = "the rocket goes through the bore"},
     {"rocket.empty.inertia.x", "the radius of gyration about x", .unit = "m", BORE, .low = 0.1,
@@ -244,6 +274,10 @@ const plausible_rule plausible_of_rocket[] = {
      .find = release_force, .why = "the lock never lets go"},
     {"rocket.lock.release_force", .unit = "N", .other = "the weight towards the tip", .low = 1,
      NO_HIGH, .find = release_by_weight, .why = "the lock lets go before the ignition"},
+    {"rocket.lock.at.x", .unit = "m", FRONT, .low = -1, .high = 1.5, .find = lock_along,
+     .of = "rocket.adaptors", .why = "the lock holds the rocket's body"},
+    {"rocket.lock.at.radius", .unit = "m", BORE, NO_LOW, .high = 1.1, .find = lock_across,
+     .why = "the lock holds the rocket's body"},
     {"rocket.motor.thrust.#", "the thrust at its end", .unit = "N", .other = "the greatest thrust",
      NO_LOW, .high = 0.1, .find = thrust_at_end,
      .why = "a motor burns out, and the curve ends near 0 N"},
@@ -271,6 +305,12 @@ const plausible_rule plausible_of_rocket[] = {
      .low = 0.2, .high = 1.05, .find = diameter, .why = "the rocket goes through the bore"},
     {"rocket.aerodynamics.area", .unit = "m2", .other = "the area of the bore", .low = 0.04,
      .high = 2, .find = area, .why = "the rocket goes through the bore"},
+    {"rocket.aerodynamics.emerged.nose", .unit = "m", FRONT, NO_LOW, .high = 3, .find = nose,
+     .of = "rocket.adaptors", .why = "the nose is not far before the foremost adaptor"},
+    {"rocket.aerodynamics.emerged.drag", .unit = "", .low = 0.1, .high = 3,
+     .why = "that of a cylinder across the wind is 1.2"},
+    {"rocket.aerodynamics.emerged.diameter", .unit = "m", .other = "the bore's diameter",
+     .low = 0.2, .high = 1.05, .find = emerged_diameter, .why = "the rocket goes through the bore"},
     {"rocket.aerodynamics.fin_cant", .unit = "rad", .low = -20 * PI / 180, .high = 20 * PI / 180,
      .why = "fins are canted by a degree or so"},
     {"rocket.aerodynamics.table", "the greatest ca_power_off", .unit = "", NO_LOW, .high = 5,

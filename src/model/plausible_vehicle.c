@@ -144,6 +144,32 @@ FIND(place_across)
     return place_between(at, 2);
 }
 
+// ---- jet
+
+FIND(jet_force)
+{
+    const ld_platform *platform = &at->model->platform;
+    const ld_table *jet = &platform->jet;
+    double most = 0;
+    for (size_t i = 0; i < jet->rows; i++)
+        most = fmax(most, jet->data[2 * i + 1]);
+    return plausible_compare(most * platform->jet_scale,
+                             plausible_peak_thrust(&at->model->rocket.motor));
+}
+
+FIND(jet_reach)
+{
+    const ld_table *jet = &at->model->platform.jet;
+    double reach = jet->rows > 0 ? jet->data[2 * (jet->rows - 1)] : NAN;
+    return plausible_compare(reach, at->model->tubes.length);
+}
+
+FIND(jet_scale)
+{
+    double scale = at->model->platform.jet_scale;
+    return plausible_alone(model_has_jet(at->model) && scale > 0 ? scale : NAN);
+}
+
 // ---- platforms
 
 static double distance(const double v[3])
@@ -167,9 +193,7 @@ static plausible_pair turret_gyration(const plausible_entry *at, const ld_turret
                              wheel_base(vehicle_of(at), 0));
 }
 
-// Moment of inertia [kg m2] of tubes and rockets about the elevation hinge, of rods of the tubes'
-// length about their middles.
-static double tubes_inertia(const ld_model *model)
+double plausible_tubes_inertia(const ld_model *model)
 {
     const ld_tubes *tubes = &model->tubes;
     int count = tubes->layout.rows * tubes->layout.columns;
@@ -182,7 +206,8 @@ static double tubes_inertia(const ld_model *model)
 // Frequency of a hinge with what it carries on a spring.
 static plausible_pair hinge_frequency(const plausible_entry *at, double stiffness, double inertia)
 {
-    return plausible_alone(sqrt(stiffness / (inertia + tubes_inertia(at->model))) / (2 * PI));
+    return plausible_alone(sqrt(stiffness / (inertia + plausible_tubes_inertia(at->model))) /
+                           (2 * PI));
 }
 
 // Time [s] in which a damper [N m s/rad] of a hinge takes the motion of what it carries.
@@ -190,7 +215,7 @@ static plausible_pair hinge_time(const plausible_entry *at, double damping, doub
 {
     if (!(damping > 0))
         return plausible_nothing();
-    return plausible_compare((inertia + tubes_inertia(at->model)) / damping,
+    return plausible_compare((inertia + plausible_tubes_inertia(at->model)) / damping,
                              at->model->run.max_step);
 }
 
@@ -413,6 +438,14 @@ const plausible_rule plausible_of_vehicle[] = {
     {"platform.chassis.inertia.z", "the radius of gyration about z", .unit = "m", WHEEL_BASE,
      .low = 0.05, .high = 2, .find = chassis_pitch, .of = "platform.chassis.mass",
      .why = "the chassis is about as large as its wheels stand apart"},
+    {"platform.jet", "the greatest force", .unit = "N", .other = "the greatest thrust", NO_LOW,
+     .high = 1, .find = jet_force,
+     .why = "a jet pushes with no more than the thrust that makes it"},
+    {"platform.jet", "the distance at which it ends", .unit = "m", .other = "tubes.length",
+     .low = 0.02, .high = 50, .find = jet_reach,
+     .why = "a jet is felt some tube lengths away from the mouth"},
+    {"platform.jet_scale", .unit = "", .low = 0.1, .high = 10, .find = jet_scale,
+     .why = "it is a correction of the table"},
     {"platform.azimuth.stabiliser.command", "the greatest angle", .unit = "rad", NO_LOW,
      .high = 4 * PI, .find = azimuth_angle, .why = "that is more than two turns"},
     PLATFORM_RULES(azimuth),

@@ -251,10 +251,14 @@ static const field_row coherence_columns[] = {
 };
 static const table_format coherence_table = {0, 2, coherence_columns, NULL};
 
+// What is shorter no tyre meets, and it takes a run for ever.
+#define ROAD_WAVELENGTH FROM_TO(1e-3, 1e5)
+
 static const field_row road_sine_fields[] = {
     {"amplitude", NUMBER(ld_road_sine, amplitude, "m"), FROM_TO(-10, 10), REQUIRED,
      .doc = "amplitude"},
-    {"wavelength", NUMBER(ld_road_sine, wavelength, "m"), POSITIVE, REQUIRED, .doc = "wavelength"},
+    {"wavelength", NUMBER(ld_road_sine, wavelength, "m"), ROAD_WAVELENGTH, REQUIRED,
+     .doc = "wavelength"},
     {"phase", NUMBER(ld_road_sine, phase, "rad"), ANY, DEFAULT(0), .doc = "phase at x = 0"},
     {0}};
 static const field_block road_sine_block = {.fields = road_sine_fields};
@@ -294,7 +298,7 @@ static const field_row road_fields[] = {
      .doc = "of the random part; the same seed is the same road"},
     {"harmonics", INTEGER(ld_road, harmonics, 1, 100000), DEFAULT(400), SUM,
      .doc = "cosines of the random part, in bands of equal ratio"},
-    {"wavelengths", VECTOR(ld_road, wavelengths, "m", 2), POSITIVE, DEFAULT(0.3),
+    {"wavelengths", VECTOR(ld_road, wavelengths, "m", 2), ROAD_WAVELENGTH, DEFAULT(0.3),
      .initials = road_wavelengths, SUM, .doc = "shortest and longest of the random part"},
     {"sines", LIST(ld_road, sine, sine_count, road_sine_block, 0, LD_MAX_SINES),
      .initial_doc = "none", SUM, .doc = "sum of sines over x of I, on both tracks"},
@@ -1091,24 +1095,29 @@ static const field_block run_block = {.fields = run_fields};
 
 // ---- results that are asked for
 
-static const field_word take_words[] = {{"value", LD_TAKE_VALUE},
-                                        {"peak", LD_TAKE_PEAK},
-                                        {"rms", LD_TAKE_RMS},
-                                        {"mean", LD_TAKE_MEAN},
-                                        {NULL, 0}};
-#define IN_WINDOW .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN)
+static const field_word take_words[] = {{"value", LD_TAKE_VALUE},   {"peak", LD_TAKE_PEAK},
+                                        {"change", LD_TAKE_CHANGE}, {"rms", LD_TAKE_RMS},
+                                        {"mean", LD_TAKE_MEAN},     {NULL, 0}};
+#define IN_WINDOW                                                                                  \
+    .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_CHANGE) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN)
+static const double all_of_it[] = {0, 1e5};
 static const field_row measure_fields[] = {
     {"name", WORD(ld_measure, name), .required = true, .doc = "the result is called measure.NAME"},
     {"of", QUANTITY(ld_measure, of), .required = true,
-     .doc = "a column of the launch (quantities.md)"},
+     .doc = "a column of the launch, or of a flight (quantities.md)"},
     {"take", CHOICE(ld_measure, take, take_words), .required = true,
-     .doc = "its value at an instant; its largest magnitude, root mean square or mean in a window"},
+     .doc =
+         "its value at an instant; its largest magnitude, largest change since `from`, root mean "
+         "square or mean in a window"},
     {"at", QUANTITY(ld_measure, from), .required = true, .forms = FORM(LD_TAKE_VALUE),
      .doc = "instant (Measures, above)"},
     {"from", QUANTITY(ld_measure, from), .required = true, IN_WINDOW,
      .doc = "instant at which the window begins"},
     {"to", QUANTITY(ld_measure, to), .required = true, IN_WINDOW,
      .doc = "instant at which it ends"},
+    {"within", VECTOR(ld_measure, within, "s", 2), FROM_TO(0, 1e5), .initials = all_of_it,
+     IN_WINDOW, .initial_doc = "all of it",
+     .doc = "of the window only what lies between these times after `from`"},
     {0}};
 static const field_block measure_block = {.fields = measure_fields,
                                           .form = take_words,
@@ -1167,7 +1176,7 @@ static const field_row scenario_fields[] = {
      .doc = "which tube fires when, one after the other"},
     {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
      .doc = "how it is simulated"},
-    {"measures", LIST(ld_model, measure, measure_count, measure_block, 0, LD_MAX_MEASURES), IN_TUBE,
+    {"measures", LIST(ld_model, measure, measure_count, measure_block, 0, LD_MAX_MEASURES),
      .silent = true, .initial_doc = "none",
      .doc = "results besides those that every run has (Measures, above)"},
     {"flight", BLOCK(ld_model, flight, flight_block), .required = true, .forms = IN_FLIGHT,

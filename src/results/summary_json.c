@@ -170,7 +170,7 @@ static void write_modes(json_writer *json, const ld_summary *summary, const quan
 // What each number of `measure` is, where there are such.
 static void write_measures(json_writer *json, const ld_model *model)
 {
-    static const char *const takes[] = {"value", "peak", "rms", "mean"};
+    static const char *const takes[] = {"value", "peak", "change", "rms", "mean"};
     if (model->measure_count == 0)
         return;
     json_open(json, "measures", '[');
@@ -182,8 +182,13 @@ static void write_measures(json_writer *json, const ld_model *model)
         json_text(json, "of", measure->of);
         json_text(json, "take", takes[measure->take]);
         json_text(json, measure->take == LD_TAKE_VALUE ? "at" : "from", measure->from);
-        if (measure->take != LD_TAKE_VALUE)
+        if (measure->take != LD_TAKE_VALUE) {
             json_text(json, "to", measure->to);
+            json_open(json, "within", '[');
+            json_number(json, NULL, measure->within[0]);
+            json_number(json, NULL, measure->within[1]);
+            json_close(json, ']');
+        }
         json_close(json, '}');
     }
     json_close(json, ']');

@@ -560,6 +560,15 @@ static ld_status keep_rest(launch_state *self, double t, const double *y, ld_err
     return dynamics->check_rest(&launcher->base, &input.found, base, error);
 }
 
+// What is said of a start with one adaptor in the tube, or NULL.
+static const char *held_by_one(const launching_phase *phase, int adaptors)
+{
+    int inside = 0;
+    for (int i = 0; i < adaptors; i++)
+        inside += !phase->passed[i];
+    return inside < 2 ? "only the rear adaptor is in the tube" : NULL;
+}
+
 static double accepted_residual(const launch_state *self)
 {
     return 1e-6 * (1 + self->model->gravity);
@@ -585,14 +594,12 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
 {
     launching_phase phase = simulation_start_phase(self);
     phase.frictionless = true;
-    int inside = 0;
-    for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
-        inside += !phase.passed[i];
-    if (inside < 2)
-        return ld_fail(
-            error, LD_ERR_LAUNCH,
-            "rocket.start_at: no static equilibrium at the start: only the rear adaptor is "
-            "in the tube; \"run.start: undeformed\" starts without it");
+    const char *why = held_by_one(&phase, self->launcher.launching.adaptors.count);
+    if (why)
+        return ld_fail(error, LD_ERR_LAUNCH,
+                       "rocket.start_at: no static equilibrium at the start: %s; \"run.start: "
+                       "undeformed\" starts without it",
+                       why);
     double accepted = accepted_residual(self), start[LD_MAX_STATES];
     self->on_breech = false;
     ld_status status = settle_base(self, t, &phase, accepted, start, error);
@@ -701,6 +708,12 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     if (speeds)
         generalised_momentum(self, t, &without, y, p);
     launcher_select(&self->launcher, next);
+    const char *why = held_by_one(&phase, launcher->launching.adaptors.count);
+    if (why)
+        return ld_fail(error, LD_ERR_LAUNCH,
+                       "rocket.start_at: tube %d finds no static equilibrium when it takes its "
+                       "place at t = %.6g s: %s",
+                       self->model->firing[next].tube, t, why);
 
     // the new tube in equilibrium on the base held still
     phase.frictionless = true;

@@ -30,6 +30,8 @@ ld_status flight_alone_create(ld_simulation *self, ld_error *error)
     ld_status status = flight_build(&self->flight, self->model, 0, error);
     if (!status)
         status = flight_columns(&self->flight, &self->columns, error);
+    if (!status)
+        status = measures_build(self->model, self->measure, error);
     return status;
 }
 
@@ -45,6 +47,7 @@ static free_flight flight_of(const ld_simulation *self, double state[FLIGHT_STAT
     return (free_flight){
         .system = &self->flight,
         .model = model,
+        .measure = self->measure,
         .t_ignition = ignition,
         .t_end = model->run.end == LD_END_TIME ? ignition + model->run.end_time : INFINITY,
         .launch_x = pose.r_O1.x,

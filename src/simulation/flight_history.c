@@ -1,5 +1,6 @@
 // The history of a free flight: what is found at an instant, and the quantities that stand in it.
 #include "simulation/free_flight.h"
+#include "simulation/launch_quantities.h"
 #include "simulation/simulation.h"
 
 typedef struct flight_instant {

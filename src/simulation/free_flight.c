@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "simulation/dormand_prince.h"
+#include "simulation/measuring.h"
 #include "simulation/simulation.h"
 
 typedef struct flight_run {
@@ -11,6 +12,7 @@ typedef struct flight_run {
     flight_phase phase;
     dormand_prince steps;
     ld_flight_summary *flight;
+    double *measured; // of the rocket
     ld_summary *summary;
     ld_error *error;
     double next_output, last_row, output_from;
@@ -22,7 +24,9 @@ typedef struct flight_run {
     double t_tumbling;      // when the angle of attack first passed 90 degrees; NaN: not
     double last_time;       // the end of the last step
     double t_limit;
-    bool landed;
+    bool burnt_out, past_apex, landed; // in this flight
+    quantity_columns columns;          // where something is measured
+    measure_window window[LD_MAX_MEASURES];
 } flight_run;
 
 static void slopes(double t, const double *y, double *y_dot, void *self)
@@ -282,6 +286,74 @@ static void record_final(const flight_run *run, double t, const double *y, ld_fi
     final->roll = place.roll;
 }
 
+// ---- measures ----
+
+static void find_row(void *self, double t, double *row)
+{
+    flight_run *run = self;
+    double y[DORMAND_PRINCE_STATES];
+    dormand_prince_between(&run->steps, t, y);
+    flight_row(run->job->system, &run->columns, &run->phase, t, y, row);
+}
+
+static bool has_come(void *self, measure_instant instant)
+{
+    const flight_run *run = self;
+    switch (instant.kind) {
+    case INSTANT_BURNOUT:
+        return run->burnt_out;
+    case INSTANT_APOGEE:
+        return run->past_apex;
+    case INSTANT_IMPACT:
+        return run->landed;
+    default: // it flies; its end: measuring_end
+        return instant.kind != INSTANT_END;
+    }
+}
+
+static measuring measuring_of(flight_run *run)
+{
+    return (measuring){
+        .count = run->job->model->measure_count,
+        .plan = run->job->measure,
+        .flight = true,
+        .window = run->window,
+        .result = run->measured,
+        .row = find_row,
+        .has_come = has_come,
+        .self = run,
+    };
+}
+
+static void measure_now(flight_run *run, double t, const double *y)
+{
+    const measuring self = measuring_of(run);
+    double now[FLIGHT_MAX_COLUMNS];
+    if (!measuring_is_there(&self))
+        return;
+    flight_row(run->job->system, &run->columns, &run->phase, t, y, now);
+    measuring_instant(&self, t, now);
+}
+
+// The last step, the apex in it (NaN: none), before what happens at its end.
+static void measure_step(flight_run *run, double apex)
+{
+    const measuring self = measuring_of(run);
+    double from = run->steps.t0, y[DORMAND_PRINCE_STATES], end[FLIGHT_MAX_COLUMNS];
+    if (!measuring_is_there(&self))
+        return;
+    if (!isnan(apex) && !run->past_apex) {
+        dormand_prince_between(&run->steps, apex, y);
+        find_row(run, apex, end);
+        measuring_step(&self, from, apex, end);
+        run->past_apex = true;
+        measure_now(run, apex, y);
+        from = apex;
+    }
+    flight_row(run->job->system, &run->columns, &run->phase, run->steps.t, run->steps.y, end);
+    measuring_step(&self, from, run->steps.t, end);
+}
+
 // ---- events within a step ----
 
 // Where height (rate = false) or its rate goes through zero between a and b: the method of false
@@ -364,7 +436,9 @@ static bool pass_corners(flight_run *run, double t)
         piece++;
     if (piece == run->phase.piece)
         return false;
+    bool burning = run->phase.burning;
     flight_set_piece(job->system, &run->phase, piece);
+    run->burnt_out |= burning && !run->phase.burning;
     return true;
 }
 
@@ -383,6 +457,7 @@ static ld_status after_step(flight_run *run, bool stopped)
             status = write_row(run, apex, y);
     }
     run->landed = land(run, apex);
+    measure_step(run, apex);
     if (!status)
         status = write_rows(run, steps->t);
     watch(run, steps->t, steps->y);
@@ -414,6 +489,8 @@ static ld_status loop(flight_run *run)
             return status;
         if (stopped && pass_corners(run, steps->t))
             dormand_prince_start(steps, steps->t, steps->y);
+        if (stopped || run->landed)
+            measure_now(run, steps->t, steps->y);
     }
     return LD_OK;
 }
@@ -435,6 +512,8 @@ static ld_status begin(flight_run *run, const double *y)
             "environment.ground: the flight begins below the ground: the mass centre is at "
             "%s %.6g m, the ground at %.6g m",
             job->system->earth.flat ? "y =" : "an altitude of", height, job->system->ground);
+    measuring_begin(run->window, job->model->measure_count);
+    measure_now(run, job->t_start, y);
     ld_status status = check_table(run);
     return status ? status : write_row(run, job->t_start, y);
 }
@@ -465,6 +544,7 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
     flight_run run = {.job = self,
                       .phase = free_flight_phase(self->system, self->t_ignition, self->t_start),
                       .flight = &rocket->flight,
+                      .measured = rocket->measure,
                       .summary = summary,
                       .error = error,
                       .output_from = self->t_start,
@@ -475,9 +555,17 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
                       .t_beyond = NAN,
                       .t_tumbling = NAN};
     rocket->flown = true;
-    ld_status status = begin(&run, state);
+    const measuring measured = measuring_of(&run);
+    ld_status status = LD_OK;
+    if (measuring_is_there(&measured))
+        status = flight_columns(self->system, &run.columns, error);
+    if (!status)
+        status = begin(&run, state);
     if (!status)
         status = loop(&run);
+    if (!status)
+        measuring_end(&measured, run.steps.t);
+    quantity_columns_free(&run.columns);
     memcpy(state, run.steps.y, FLIGHT_STATES * sizeof(double));
     rocket->flight.apogee = run.apogee;
     rocket->flight.max_mach = run.fastest;

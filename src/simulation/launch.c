@@ -21,10 +21,22 @@ static void set_up_rocket(ld_run *run, int i, double t)
     launch_begin_measures(run, t);
 }
 
+static void take_start(launch_state *self, const launch_start *start, double *y)
+{
+    memcpy(y, start->y, (size_t)self->launcher.state_count * sizeof(double));
+    self->rest = start->rest;
+    self->on_breech = start->on_breech;
+    base_ride_on(&self->launcher.base, start->road);
+}
+
 static ld_status find_start(ld_run *run, double *y)
 {
     launch_state *self = &run->launch;
     const ld_simulation *system = self->system;
+    if (run->start) {
+        take_start(self, run->start, y);
+        return LD_OK;
+    }
     if (system->stability)
         return ld_fail(&run->error, system->stability, "%s", system->unstable.text);
     ld_status status = LD_OK;

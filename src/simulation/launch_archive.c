@@ -111,11 +111,12 @@ static void archive_measures(archive *bytes, ld_run *run)
     archive_double(bytes, &run->t_rocket);
     archive_double(bytes, &run->t_measured);
     for (int i = 0; i < run->launch.model->measure_count; i++) {
-        measure_so_far *measure = &run->measure[i];
+        measure_window *measure = &run->measure[i];
         archive_bool(bytes, &measure->open);
         archive_bool(bytes, &measure->done);
         archive_double(bytes, &measure->t_from);
         archive_double(bytes, &measure->value);
+        archive_double(bytes, &measure->reference);
         archive_double(bytes, &measure->sum);
         archive_double(bytes, &measure->peak);
     }

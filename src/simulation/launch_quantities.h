@@ -1,9 +1,10 @@
-// The tables of a launch's columns, of which those of the base stand between (systems/base.h).
+// The tables of a launch's columns, of which those of the base stand between (systems/base.h), and
+// of those of a flight.
 #ifndef LD_SIMULATION_LAUNCH_QUANTITIES_H
 #define LD_SIMULATION_LAUNCH_QUANTITIES_H
 
 #include "model/quantity.h"
 
-extern const quantity_table launch_quantities, balance_quantities;
+extern const quantity_table launch_quantities, balance_quantities, flight_quantities;
 
 #endif

@@ -4,17 +4,9 @@
 #define LD_SIMULATION_LAUNCH_RUN_H
 
 #include "launchdyn/run.h"
+#include "simulation/measuring.h"
 #include "simulation/propagator.h"
 #include "systems/flight.h"
-
-// A measure of the rocket that is in its tube, as far as it has been taken.
-typedef struct measure_so_far {
-    bool open, done;
-    double t_from; // [s] where its window began
-    double value;  // of its column where the last step ended; since then after what happened there
-    double sum;    // integral since t_from of the column, for rms of its square
-    double peak;   // largest magnitude since then
-} measure_so_far;
 
 enum { MOST_EVENTS = 2 * LD_MAX_ADAPTORS + LD_MAX_WHEELS + 8 }; // at one instant
 
@@ -24,11 +16,21 @@ typedef struct hinge_watch {
     double latest[4], sum[4];
 } hinge_watch;
 
+// A start that is given in place of the scenario's: the state at the run's first instant, what its
+// base keeps of the equilibrium, the road of a vehicle.
+typedef struct launch_start {
+    double y[LD_MAX_STATES];
+    base_rest rest;
+    bool on_breech;
+    road *road;
+} launch_start;
+
 struct ld_run {
     launch_state launch;
-    ld_run_options options; // who listens
-    ld_summary summary;     // so far
-    ld_status status;       // what ended the run early, with its sentence
+    const launch_start *start; // NULL: the scenario's
+    ld_run_options options;    // who listens
+    ld_summary summary;        // so far
+    ld_status status;          // what ended the run early, with its sentence
     ld_error error;
     propagator *propagator;
     base_frame told; // frame T at the start, of a base that is told
@@ -54,14 +56,18 @@ struct ld_run {
     bool sink_failed;
     double greatest_lock_force;
     hinge_watch watch[HINGES];
-    double t_rocket;   // [s] start of the current rocket's instants
-    double t_measured; // [s] where the last step ended
-    measure_so_far measure[LD_MAX_MEASURES];
-    double point[LD_MAX_FIRINGS][2]; // [m] x and z of the rear adaptors at their ignition
-    flight_system flight;            // of the rocket that flies now
-    quantity_columns flight_columns; // its, where rows are wanted
-    double cpu, cpu_output;          // [s] spent in all; of it on rows and their sink
+    double t_rocket;                         // [s] start of the current rocket's instants
+    double t_measured;                       // [s] where the last step ended
+    measure_window measure[LD_MAX_MEASURES]; // of the rocket that is in its tube
+    double point[LD_MAX_FIRINGS][2];         // [m] x and z of the rear adaptors at their ignition
+    flight_system flight;                    // of the rocket that flies now
+    quantity_columns flight_columns;         // its, where rows are wanted
+    double cpu, cpu_output;                  // [s] spent in all; of it on rows and their sink
 };
+
+// Runs from a given start to the end; one that ends early says why.
+ld_status run_from(const ld_simulation *simulation, const launch_start *start, ld_summary *summary,
+                   ld_error *error);
 
 // ---- the launch, step by step (launch.c)
 

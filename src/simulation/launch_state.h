@@ -101,9 +101,14 @@ typedef struct linear_system {
                             // displacements still, d/dt of them in [N], [N m]
 } linear_system;
 
+// Counts the unknowns and finds the equilibrium at the start, a vehicle at its marching speed.
+ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error);
+
 // Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching
-// speed; lock closed, no Coulomb friction. A base that goes where it is told rests in the origin.
-ld_status simulation_linearise(launch_state *self, linear_system *system, ld_error *error);
+// speed; lock closed, no Coulomb friction in hinges, that of the adaptors as it is where they
+// hardly slide (`rubbing`) or none. A base that goes where it is told rests in the origin.
+ld_status simulation_linearise(launch_state *self, bool rubbing, linear_system *system,
+                               ld_error *error);
 
 // Changes an unknown in the state y. By how much in a difference [its unit].
 void linear_displace(const launch_state *self, const linear_system *system, int unknown,

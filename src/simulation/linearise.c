@@ -127,10 +127,7 @@ double linear_step(const linear_system *system, int unknown)
     return unknown < system->half ? 1e-7 : 1e-5;
 }
 
-// Counts the unknowns and finds the Jacobian by central differences about what stands in `system`,
-// of the whole or of the tube `alone`.
-static ld_status linearise(const launch_state *self, const launching_system *alone,
-                           linear_system *system, ld_error *error)
+static void count_unknowns(const launch_state *self, bool alone, linear_system *system)
 {
     const base_system *base = &self->launcher.base;
     system->tube = 6 + self->launcher.launching.layout.nq;
@@ -138,6 +135,27 @@ static ld_status linearise(const launch_state *self, const launching_system *alo
     system->base = alone ? 0 : base->displacement_count;
     system->half = system->tube + system->rocket + system->base;
     system->count = 2 * system->half + (alone ? 0 : base->extra_count);
+}
+
+ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error)
+{
+    ld_equilibrium_summary unused;
+    *system =
+        (linear_system){.t = -self->model->run.lead_in, .phase = simulation_start_phase(self)};
+    system->phase.frictionless = true;
+    self->piece = -1;
+    count_unknowns(self, false, system);
+    ld_status status = simulation_equilibrium(self, system->t, system->y, &unused, error);
+    if (!status)
+        simulation_move_with_base(self, system->t, system->y);
+    return status;
+}
+
+// Finds the Jacobian by central differences about what stands in `system`, of the whole or of the
+// tube `alone`.
+static ld_status linearise(const launch_state *self, const launching_system *alone,
+                           linear_system *system, ld_error *error)
+{
     int n = system->count;
     double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], trial[LD_MAX_STATES];
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
@@ -500,6 +518,7 @@ ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes,
     launching_system weightless = self->launcher.launching;
     weightless.tube.gravity = 0;
     simulation_straight(self, &ORIGIN, system.y);
+    count_unknowns(self, true, &system);
     status = linearise(self, &weightless, &system, error);
     if (!status)
         status = undamped_modes(self, &system, modes, capacity, count, error);
@@ -515,18 +534,13 @@ int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, in
     return count;
 }
 
-ld_status simulation_linearise(launch_state *self, linear_system *system, ld_error *error)
+ld_status simulation_linearise(launch_state *self, bool rubbing, linear_system *system,
+                               ld_error *error)
 {
     static const base_disturbance none;
-    ld_equilibrium_summary unused;
-    *system =
-        (linear_system){.t = -self->model->run.lead_in, .phase = simulation_start_phase(self)};
-    system->phase.frictionless = true;
-    self->piece = -1;
     self->launcher.base.disturbed = &none;
-    ld_status status = simulation_equilibrium(self, system->t, system->y, &unused, error);
-    if (!status)
-        simulation_move_with_base(self, system->t, system->y);
+    ld_status status = linear_rest(self, system, error);
+    system->phase.frictionless = !rubbing;
     if (!status)
         status = linearise(self, NULL, system, error);
     self->launcher.base.disturbed = NULL;
@@ -546,7 +560,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     ld_status status = launch_state_begin(self, simulation, error);
     if (status)
         return status;
-    status = simulation_linearise(self, &system, error);
+    status = simulation_linearise(self, false, &system, error);
     if (!status)
         status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, poles, pole_capacity,
                              pole_count, NULL, error);
@@ -574,7 +588,7 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
     ld_status status = launch_state_begin(&state, simulation, error);
     // without an equilibrium on a flat road there is nothing to say
     ld_error unused;
-    if (!status && !simulation_linearise(&state, &system, &unused))
+    if (!status && !simulation_linearise(&state, false, &system, &unused))
         eigenvalues(&state, &system, LEAST_RATE, poles, MOST, &count, &fed, &unused);
     launch_state_end(&state);
     // what grows by less than a thousandth of its rate is within the differences' error

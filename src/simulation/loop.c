@@ -2,7 +2,8 @@
 // from r to the error and b that to the chassis' rate along the hinge, which a feedforward takes,
 //   asked / (C r) = E - (F/C) b = 1/(1 + L),
 // C and F what the controller makes of an error and of that rate: the closed loop tells the open
-// one.
+// one. How the chassis turns the platform is what it does where forces on it let it do nothing else
+// than turn about the hinge.
 #include "launchdyn/loop.h"
 
 #include <complex.h>
@@ -11,8 +12,10 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "math/dense.h"
+#include "math/mat3.h"
 #include "model/model.h"
-#include "simulation/response_rest.h"
+#include "simulation/response_state.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 static const double LOWEST = 0.05, HIGHEST = 500; // [Hz] of margins
@@ -20,7 +23,8 @@ static const double LOWEST = 0.05, HIGHEST = 500; // [Hz] of margins
 enum {
     GRID = 12000, // frequencies of margins: a motion damped by 0.05 % is a step wide
     HALVINGS = 45,
-    SEEN = 4, // columns: the error, the chassis' angular velocity
+    WAYS = 6,        // of the chassis to move
+    SEEN = 1 + WAYS, // columns: the error, the chassis' angular velocity and its velocity
 };
 
 static const char *const hinges[] = {"azimuth", "elevation"};
@@ -31,6 +35,7 @@ struct ld_loop {
     const char *command; // the input
     double speed;        // [m/s]
     double axis[3];      // of the hinge, in the chassis' axes
+    double turn[WAYS];   // angular velocity and velocity of a chassis that turns about the hinge
     double late;         // [s]
     double lateness;     // [s] that would be too much, of the loop as if it were at once
     ld_loop_margins margins;
@@ -69,17 +74,27 @@ static double complex feedforward(const ld_stabiliser *given, double complex s)
     return given->feedforward * given->kd * s / (given->ki + s * (given->kp + s * given->kd));
 }
 
-static ld_status look_at(const ld_loop *self, double frequency, look *at, ld_error *error)
+// What an input makes of the columns.
+static ld_status see(const ld_loop *self, const char *input, double frequency,
+                     double complex seen[SEEN], ld_error *error)
 {
     ld_phasor gain[SEEN];
-    double complex s = I * TWO_PI * frequency, rate = 0;
     ld_status status =
-        ld_response_gain(self->response, self->speed, self->command, &frequency, 1, gain, error);
+        ld_response_gain(self->response, self->speed, input, &frequency, 1, gain, error);
+    for (int i = 0; i < SEEN && !status; i++)
+        seen[i] = gain[i].real + I * gain[i].imaginary;
+    return status;
+}
+
+static ld_status look_at(const ld_loop *self, double frequency, look *at, ld_error *error)
+{
+    double complex seen[SEEN], s = I * TWO_PI * frequency, rate = 0;
+    ld_status status = see(self, self->command, frequency, seen, error);
     if (status)
         return status;
     for (int i = 0; i < 3; i++)
-        rate += self->axis[i] * (gain[1 + i].real + I * gain[1 + i].imaginary);
-    at->error = gain[0].real + I * gain[0].imaginary;
+        rate += self->axis[i] * seen[1 + i];
+    at->error = seen[0];
     double complex left = at->error - feedforward(self->stabiliser, s) * rate;
     at->delay = cexp(-s * self->late);
     at->open = at->delay * (1 - left) / left;
@@ -220,17 +235,34 @@ static ld_status find_hinge(ld_loop *self, const ld_model *model, const char *na
     return LD_OK;
 }
 
-static ld_status choose_columns(ld_loop *self, int hinge, ld_error *error)
+// Its axis, and what turns about it.
+static void place_hinge(ld_loop *self, const ld_platform *platform, int hinge)
+{
+    const ld_response *at = self->response;
+    m3 A_IC = m3_mul(m3_rotation_y(response_rest(at, "chassis.yaw")),
+                     m3_mul(m3_rotation_z(response_rest(at, "chassis.pitch")),
+                            m3_rotation_x(response_rest(at, "chassis.roll"))));
+    m3 A_CA = m3_rotation_y(response_rest(at, "azimuth.angle"));
+    v3 axis = hinge ? m3_column(A_CA, 2) : v3_make(0, 1, 0);
+    v3 place = v3_from(platform->azimuth.hinge_at);
+    if (hinge)
+        place = v3_add(place, m3_apply(A_CA, v3_from(platform->elevation.hinge_at)));
+    v3_store(self->axis, axis);
+    v3_store(self->turn, axis);
+    v3_store(self->turn + 3, m3_apply(A_IC, v3_cross(place, axis)));
+}
+
+static ld_status choose_columns(ld_loop *self, const ld_platform *platform, int hinge,
+                                ld_error *error)
 {
     static const char *const names[][SEEN] = {
-        {"azimuth.error", "chassis.wx", "chassis.wy", "chassis.wz"},
-        {"elevation.error", "chassis.wx", "chassis.wy", "chassis.wz"}};
+        {"azimuth.error", "chassis.wx", "chassis.wy", "chassis.wz", "chassis.vx", "chassis.vy",
+         "chassis.vz"},
+        {"elevation.error", "chassis.wx", "chassis.wy", "chassis.wz", "chassis.vx", "chassis.vy",
+         "chassis.vz"}};
     static const char *const commands[] = {"azimuth.command", "elevation.command"};
-    double angle = response_rest(self->response, "azimuth.angle");
     self->command = commands[hinge];
-    self->axis[0] = hinge ? sin(angle) : 0;
-    self->axis[1] = hinge ? 0 : 1;
-    self->axis[2] = hinge ? cos(angle) : 0;
+    place_hinge(self, platform, hinge);
     return ld_response_choose(self->response, names[hinge], SEEN, error);
 }
 
@@ -253,9 +285,9 @@ static ld_status build(ld_loop *self, const ld_model *model, const char *name, l
     self->speed = model->base.vehicle.speed;
     const ld_stabiliser *given = self->stabiliser;
     self->late = given->sample > 0 ? given->delay + 0.5 * given->sample : 0;
-    status = ld_response_create(model, NAN, NAN, &self->response, error);
+    status = response_create(model, NAN, NAN, false, &self->response, error);
     if (!status)
-        status = choose_columns(self, hinge, error);
+        status = choose_columns(self, &model->platform, hinge, error);
     if (!status)
         status = find_margins(self, error);
     return status ? status : check_lateness(self, name, error);
@@ -295,6 +327,88 @@ ld_status ld_loop_points(ld_loop *self, const double *frequency, size_t count, l
         if (!status)
             point[i] =
                 (ld_loop_point){phasor(at.open), phasor(tracking(&at)), phasor(sensitivity(&at))};
+    }
+    return status;
+}
+
+// Rates of the chassis per force and moment, complex numbers as real ones; factored.
+typedef struct held_chassis {
+    double matrix[4 * WAYS * WAYS];
+    int pivot[2 * WAYS];
+    double complex error[WAYS]; // per force or moment
+} held_chassis;
+
+// What forces and moments on the chassis do, one by one.
+static ld_status hold(const ld_loop *self, double frequency, held_chassis *by, ld_error *error)
+{
+    static const char *const push[WAYS] = {"chassis.force_x",  "chassis.force_y",
+                                           "chassis.force_z",  "chassis.moment_x",
+                                           "chassis.moment_y", "chassis.moment_z"};
+    double complex seen[SEEN];
+    for (int j = 0; j < WAYS; j++) {
+        ld_status status = see(self, push[j], frequency, seen, error);
+        if (status)
+            return status;
+        by->error[j] = seen[0];
+        for (int i = 0; i < WAYS; i++) {
+            double *row = by->matrix + 2 * WAYS * i + j, *below = row + 2 * WAYS * WAYS;
+            row[0] = below[WAYS] = creal(seen[1 + i]);
+            below[0] = cimag(seen[1 + i]);
+            row[WAYS] = -below[0];
+        }
+    }
+    if (lu_factor(2 * WAYS, by->matrix, by->pivot))
+        return ld_fail(error, LD_ERR_NUMERIC, "at %g Hz no forces hold the chassis", frequency);
+    return LD_OK;
+}
+
+// The error where forces give the chassis these rates.
+static double complex error_at(const held_chassis *by, const double complex rate[WAYS])
+{
+    double push[2 * WAYS];
+    double complex sum = 0;
+    for (int i = 0; i < WAYS; i++) {
+        push[i] = creal(rate[i]);
+        push[WAYS + i] = cimag(rate[i]);
+    }
+    lu_solve(2 * WAYS, by->matrix, by->pivot, push);
+    for (int i = 0; i < WAYS; i++)
+        sum += by->error[i] * (push[i] + I * push[WAYS + i]);
+    return sum;
+}
+
+// With the chassis held the loop as it is at once tells L and what comes through without it; late,
+// both the loop and its feedforward are.
+static ld_status reject(const ld_loop *self, double frequency, double complex *rejection,
+                        ld_error *error)
+{
+    held_chassis by;
+    double complex seen[SEEN], turn[WAYS], s = I * TWO_PI * frequency;
+    ld_status status = hold(self, frequency, &by, error);
+    if (!status)
+        status = see(self, self->command, frequency, seen, error);
+    if (status)
+        return status;
+    for (int i = 0; i < WAYS; i++) {
+        turn[i] = s * self->turn[i];
+        seen[1 + i] = -seen[1 + i];
+    }
+    double complex left = seen[0] + error_at(&by, seen + 1), open = (1 - left) / left;
+    double complex fed = open * s * feedforward(self->stabiliser, s), delay = cexp(-s * self->late);
+    double complex through = -error_at(&by, turn) * (1 + open) + fed;
+    *rejection = (through - delay * fed) / (1 + delay * open);
+    return LD_OK;
+}
+
+ld_status ld_loop_rejection(ld_loop *self, const double *frequency, size_t count,
+                            ld_phasor *rejection, ld_error *error)
+{
+    double complex at;
+    ld_status status = LD_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        status = reject(self, frequency[i], &at, error);
+        if (!status)
+            rejection[i] = phasor(at);
     }
     return status;
 }

@@ -45,11 +45,19 @@ void plant_between(const plant *a, const plant *b, double share, plant *to)
         to->A[i] = a->A[i] + share * (b->A[i] - a->A[i]);
 }
 
+void plant_add(plant *to, double factor, const plant *what)
+{
+    size_t size = plant_size(to);
+    for (size_t i = 0; i < size; i++)
+        to->A[i] += factor * what->A[i];
+}
+
 ld_status plant_inputs(const ld_simulation *simulation, quantity_columns *inputs, ld_error *error)
 {
     quantity_things things = quantity_things_of(simulation->model);
-    quantity_part part = {simulation->launcher.base.kind->inputs, 0};
-    return quantity_columns_make(inputs, &part, 1, &things, error);
+    const quantity_part parts[] = {{simulation->launcher.base.kind->inputs, 0},
+                                   {&launcher_inputs, 0}};
+    return quantity_columns_make(inputs, parts, 2, &things, error);
 }
 
 // What differences are taken with.
@@ -131,8 +139,8 @@ static int see_all(bench *self, const quantity_columns *inputs, plant *to)
     return bad;
 }
 
-ld_status plant_make(plant *self, const ld_simulation *simulation, const quantity_columns *inputs,
-                     ld_error *error)
+ld_status plant_make(plant *self, const ld_simulation *simulation, bool rubbing,
+                     const quantity_columns *inputs, ld_error *error)
 {
     *self = (plant){.inputs = inputs->count, .outputs = simulation->columns.count};
     bench *at = aligned_alloc(64, (sizeof *at + 63) / 64 * 64);
@@ -141,7 +149,7 @@ ld_status plant_make(plant *self, const ld_simulation *simulation, const quantit
     memset(at, 0, sizeof *at);
     ld_status status = launch_state_begin(&at->launch, simulation, error);
     if (!status)
-        status = simulation_linearise(&at->launch, &at->system, error);
+        status = simulation_linearise(&at->launch, rubbing, &at->system, error);
     self->states = at->system.count;
     if (!status)
         status = take_room(self, error);

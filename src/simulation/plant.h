@@ -17,13 +17,16 @@ typedef struct plant {
 // Names of the inputs; in base_inputs stands where their cells say.
 ld_status plant_inputs(const ld_simulation *simulation, quantity_columns *inputs, ld_error *error);
 
-// Free with plant_free(), also after a failure.
-ld_status plant_make(plant *self, const ld_simulation *simulation, const quantity_columns *inputs,
-                     ld_error *error);
+// With the adaptors' friction as it is where they hardly slide (`rubbing`), or none. Free with
+// plant_free(), also after a failure.
+ld_status plant_make(plant *self, const ld_simulation *simulation, bool rubbing,
+                     const quantity_columns *inputs, ld_error *error);
 void plant_free(plant *self);
 
 // Room for a plant as large as another.
 ld_status plant_make_room(plant *self, const plant *as, ld_error *error);
+// to + factor what, number by number.
+void plant_add(plant *to, double factor, const plant *what);
 // a + share (b - a), number by number.
 void plant_between(const plant *a, const plant *b, double share, plant *to);
 

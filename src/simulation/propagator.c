@@ -29,6 +29,8 @@ static void surround(const launch_state *self, double t, const double *y, launch
     input->thrust = motor_thrust(self->motor, self->piece, tau);
     motor_mass(self->motor, self->piece, tau, &input->mass);
     input->air = (moving_air){0};
+    const base_disturbance *disturbed = self->launcher.base.disturbed;
+    input->load = disturbed ? &disturbed->input.launching : NULL;
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);
 }

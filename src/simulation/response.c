@@ -12,7 +12,7 @@
 #include "environment/road.h"
 #include "math/hessenberg.h"
 #include "simulation/plant.h"
-#include "simulation/response_rest.h"
+#include "simulation/response_state.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 
@@ -32,6 +32,7 @@ static const ld_column road_inputs[ROAD_INPUTS] = {
 
 struct ld_response {
     const ld_model *model;
+    bool rubbing;   // the adaptors, which hardly slide
     ld_model at[2]; // on a flat road, at both ends of the speeds
     ld_simulation *simulation;
     quantity_columns inputs; // of the plant
@@ -46,6 +47,11 @@ struct ld_response {
     plant end[2], now;
     hessenberg solver;
     int chosen_count, *chosen; // columns
+    // Where the hinges rub: what a unit of viscous friction in each adds to the plant (without
+    // states: nothing), what their friction amounts to now [N m s/rad].
+    bool hinges_rub;
+    plant viscous[HINGES];
+    double friction[HINGES];
     // B and B' of the reduced states; C of the chosen columns on them, by rows
     double *B, *B_rate, *C;
 };
@@ -88,7 +94,7 @@ static ld_status make_end(ld_response *self, int end, ld_error *error)
     if (!status && end == 0)
         status = plant_inputs(simulation, &self->inputs, error);
     if (!status)
-        status = plant_make(&self->end[end], simulation, &self->inputs, error);
+        status = plant_make(&self->end[end], simulation, self->rubbing, &self->inputs, error);
     if (end == 0)
         self->simulation = simulation; // it has the columns' texts
     else
@@ -103,6 +109,22 @@ double response_rest(const ld_response *self, const char *column)
         if (strcmp(columns->column[i].name, column) == 0)
             return self->end[0].rest[i];
     return NAN;
+}
+
+const ld_model *response_model(const ld_response *self)
+{
+    return self->model;
+}
+
+const road_line *response_lines(const ld_response *self, size_t *count)
+{
+    *count = self->line_count;
+    return self->line;
+}
+
+int response_unknowns(const ld_response *self)
+{
+    return self->now.states;
 }
 
 // Which of the inputs are the road under the wheels of each track.
@@ -177,8 +199,8 @@ static ld_status build(ld_response *self, ld_error *error)
     return LD_OK;
 }
 
-ld_status ld_response_create(const ld_model *model, double slowest, double fastest,
-                             ld_response **response, ld_error *error)
+ld_status response_create(const ld_model *model, double slowest, double fastest, bool rubbing,
+                          ld_response **response, ld_error *error)
 {
     *response = NULL;
     if (!model_has_launcher(model))
@@ -187,6 +209,7 @@ ld_status ld_response_create(const ld_model *model, double slowest, double faste
     if (!self)
         return no_memory(error);
     self->model = model;
+    self->rubbing = rubbing;
     self->speed_now = NAN;
     ld_status status = set_speeds(self, slowest, fastest, error);
     if (!status)
@@ -198,12 +221,20 @@ ld_status ld_response_create(const ld_model *model, double slowest, double faste
     return status;
 }
 
+ld_status ld_response_create(const ld_model *model, double slowest, double fastest,
+                             ld_response **response, ld_error *error)
+{
+    return response_create(model, slowest, fastest, true, response, error);
+}
+
 void ld_response_free(ld_response *self)
 {
     if (!self)
         return;
     for (int end = 0; end < 2; end++)
         plant_free(&self->end[end]);
+    for (int i = 0; i < HINGES; i++)
+        plant_free(&self->viscous[i]);
     plant_free(&self->now);
     hessenberg_free(&self->solver);
     quantity_columns_free(&self->inputs);
@@ -298,6 +329,27 @@ static void reduce_outputs(ld_response *self)
         }
 }
 
+// The plant at a speed, with what its hinges' friction amounts to.
+static ld_status set_plant(ld_response *self, double speed, ld_error *error)
+{
+    const double *range = self->speed;
+    bool single = range[0] == range[1];
+    double share = single ? 0 : (speed - range[0]) / (range[1] - range[0]);
+    plant_between(&self->end[0], &self->end[single ? 0 : 1], share, &self->now);
+    for (int i = 0; i < HINGES && self->hinges_rub; i++)
+        if (self->viscous[i].states)
+            plant_add(&self->now, self->friction[i], &self->viscous[i]);
+    if (hessenberg_reduce(&self->solver, self->now.A))
+        return ld_fail(error, LD_ERR_NUMERIC, "the linearised equations cannot be reduced");
+    reduce_inputs(&self->solver, self->now.inputs, self->now.B, self->B);
+    reduce_inputs(&self->solver, self->now.inputs, self->now.B_rate, self->B_rate);
+    reduce_outputs(self);
+    self->speed_now = speed;
+    return LD_OK;
+}
+
+static ld_status find_friction(ld_response *self, double speed, ld_error *error);
+
 static ld_status go_at(ld_response *self, double speed, ld_error *error)
 {
     const double *range = self->speed;
@@ -309,15 +361,9 @@ static ld_status go_at(ld_response *self, double speed, ld_error *error)
     if (!(single ? speed == range[0] : speed > 0 && speed <= range[1]))
         return ld_fail(error, LD_ERR_INPUT,
                        "a speed of %g m/s is not within the range that was linearised", speed);
-    double share = single ? 0 : (speed - range[0]) / (range[1] - range[0]);
-    plant_between(&self->end[0], &self->end[single ? 0 : 1], share, &self->now);
-    if (hessenberg_reduce(&self->solver, self->now.A))
-        return ld_fail(error, LD_ERR_NUMERIC, "the linearised equations cannot be reduced");
-    reduce_inputs(&self->solver, self->now.inputs, self->now.B, self->B);
-    reduce_inputs(&self->solver, self->now.inputs, self->now.B_rate, self->B_rate);
-    reduce_outputs(self);
-    self->speed_now = speed;
-    return LD_OK;
+    if (self->hinges_rub && speed > 0)
+        return find_friction(self, speed, error);
+    return set_plant(self, speed, error);
 }
 
 // e^(i omega along/speed).
@@ -395,7 +441,7 @@ static ld_status make_room(const ld_response *self, double **z, ld_phasor **y, l
 
 // ---- what is asked ----
 
-static ld_status check_road(const ld_response *self, double speed, ld_error *error)
+ld_status response_check_road(const ld_response *self, double speed, ld_error *error)
 {
     if (!model_has_vehicle(self->model))
         return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is no vehicle");
@@ -416,7 +462,7 @@ static ld_status excitation_of(const ld_response *self, const char *name, double
         return status;
     if (found < first) {
         *by = self->road[found];
-        return check_road(self, speed, error);
+        return response_check_road(self, speed, error);
     }
     *by = (excitation){.count = 1, .input = {found - first}};
     return LD_OK;
@@ -436,6 +482,31 @@ ld_status ld_response_gain(ld_response *self, double speed, const char *input,
     for (size_t i = 0; i < count && !status; i++)
         status =
             answer(self, &by, 1, frequency[i], z, gain + i * (size_t)self->chosen_count, error);
+    free(z);
+    return status;
+}
+
+ld_status response_states(ld_response *self, double speed, double frequency, ld_phasor *state,
+                          ld_error *error)
+{
+    int n = self->now.states;
+    double *z;
+    ld_phasor *y;
+    ld_status status = response_check_road(self, speed, error);
+    if (!status)
+        status = go_at(self, speed, error);
+    if (status || (status = make_room(self, &z, &y, error)))
+        return status;
+    status = answer(self, &self->road[ROAD_OF_LEFT], 2, frequency, z, y, error);
+    for (int k = 0; k < 2 && !status; k++)
+        for (int i = 0; i < n; i++) {
+            ld_phasor sum = {0, 0};
+            for (int j = 0; j < n; j++) {
+                sum.real += self->solver.X[i + n * j] * z[2 * n * k + j];
+                sum.imaginary += self->solver.X[i + n * j] * z[2 * n * k + n + j];
+            }
+            state[n * k + i] = sum;
+        }
     free(z);
     return status;
 }
@@ -464,7 +535,7 @@ ld_status ld_response_on_road(ld_response *self, double speed, double *rms, doub
     size_t count = (size_t)self->chosen_count;
     double *z;
     ld_phasor *y;
-    ld_status status = check_road(self, speed, error);
+    ld_status status = response_check_road(self, speed, error);
     if (!status)
         status = go_at(self, speed, error);
     if (status || (status = make_room(self, &z, &y, error)))
@@ -494,12 +565,135 @@ ld_status ld_response_on_road(ld_response *self, double speed, double *rms, doub
     return status;
 }
 
+// ---- hinges that rub ----
+
+// The mean of d/db b/sqrt(b^2 + r^2) over a normal rate b of deviation s, times r: by t = tanh u, b
+// = r sinh u.
+static double mean_slope(double ratio)
+{
+    enum { STEPS = 400 };
+    double sum = 0;
+    if (!(ratio > 1e-3))
+        return 1;
+    for (int i = 0; i < STEPS; i++) {
+        double t = (i + 0.5) / STEPS;
+        sum += exp(-t * t / (2 * ratio * ratio * (1 - t * t)));
+    }
+    return 2 * sum / (STEPS * ratio * sqrt(TWO_PI));
+}
+
+static const ld_hinge_friction *friction_of(const ld_response *self, int hinge)
+{
+    const ld_platform *platform = &self->model->platform;
+    return hinge == HINGE_AZIMUTH ? &platform->azimuth.friction : &platform->elevation.friction;
+}
+
+// How fast the hinges move on the road, root mean square.
+static ld_status find_rates(ld_response *self, double speed, double rate[HINGES], ld_error *error)
+{
+    double *z, square[HINGES];
+    ld_phasor *y;
+    ld_status status = make_room(self, &z, &y, error);
+    rate[HINGE_AZIMUTH] = rate[HINGE_ELEVATION] = 0;
+    for (size_t k = 0; k < self->line_count && !status; k++) {
+        status = square_on_road(self, self->line[k].n * speed, self->line[k].shared, z, y, square,
+                                error);
+        for (int i = 0; i < HINGES && !status; i++)
+            rate[i] += self->line[k].square * square[i];
+    }
+    for (int i = 0; i < HINGES; i++)
+        rate[i] = sqrt(rate[i]);
+    free(z);
+    return status;
+}
+
+// Each hinge's friction amounts to a viscous one, the mean of its slope over the rates that the
+// road gives the hinge, which depend on it.
+static ld_status iterate_friction(ld_response *self, double speed, ld_error *error)
+{
+    enum { MOST = 40 };
+    double off = 1;
+    ld_status status = LD_OK;
+    for (int i = 0; i < HINGES; i++)
+        self->friction[i] = 0;
+    for (int k = 0; k < MOST && off > 1e-4 && !status; k++) {
+        double rate[HINGES];
+        status = set_plant(self, speed, error);
+        if (!status)
+            status = find_rates(self, speed, rate, error);
+        off = 0;
+        for (int i = 0; i < HINGES && !status; i++) {
+            const ld_hinge_friction *given = friction_of(self, i);
+            double slope = given->coulomb / given->rate;
+            double next = slope * mean_slope(rate[i] / given->rate);
+            off = fmax(off, slope > 0 ? fabs(next - self->friction[i]) / slope : 0);
+            self->friction[i] = slope > 0 ? next : 0;
+        }
+    }
+    return status;
+}
+
+static ld_status find_friction(ld_response *self, double speed, ld_error *error)
+{
+    static const char *const rates[HINGES] = {"azimuth.rate", "elevation.rate"};
+    int *chosen = self->chosen, count = self->chosen_count;
+    double *C = self->C;
+    self->chosen = NULL;
+    self->C = NULL;
+    ld_status status = ld_response_choose(self, rates, HINGES, error);
+    if (!status)
+        status = iterate_friction(self, speed, error);
+    free(self->chosen);
+    free(self->C);
+    self->chosen = chosen;
+    self->chosen_count = count;
+    self->C = C;
+    return status ? status : set_plant(self, speed, error);
+}
+
+// What a unit of viscous friction in a hinge adds, from as much as its own is at most.
+static ld_status make_viscous(ld_response *self, int hinge, ld_error *error)
+{
+    const ld_hinge_friction *given = friction_of(self, hinge);
+    ld_simulation *simulation = NULL;
+    ld_model *model = malloc(sizeof *model);
+    if (!model)
+        return no_memory(error);
+    double most = given->coulomb / given->rate;
+    *model = self->at[0];
+    ld_platform *platform = &model->platform;
+    *(hinge == HINGE_AZIMUTH ? &platform->azimuth.friction.viscous
+                             : &platform->elevation.friction.viscous) += most;
+    plant *to = &self->viscous[hinge];
+    ld_status status = simulation_renew(&simulation, model, error);
+    if (!status)
+        status = plant_make(to, simulation, self->rubbing, &self->inputs, error);
+    if (!status) {
+        plant_add(to, -1, &self->end[0]);
+        plant_add(to, 1 / most - 1, to);
+    }
+    ld_simulation_free(simulation);
+    free(model);
+    return status;
+}
+
+ld_status ld_response_rub(ld_response *self, bool rub, ld_error *error)
+{
+    ld_status status = LD_OK;
+    for (int i = 0; i < HINGES && rub && model_has_vehicle(self->model) && !status; i++)
+        if (friction_of(self, i)->coulomb > 0 && !self->viscous[i].A)
+            status = make_viscous(self, i, error);
+    self->hinges_rub = rub && !status;
+    self->speed_now = NAN;
+    return status;
+}
+
 ld_status ld_response_density(ld_response *self, double speed, const double *frequency,
                               size_t count, double *density, ld_error *error)
 {
     double *z;
     ld_phasor *y;
-    ld_status status = check_road(self, speed, error);
+    ld_status status = response_check_road(self, speed, error);
     if (!status)
         status = go_at(self, speed, error);
     if (status || (status = make_room(self, &z, &y, error)))
@@ -513,5 +707,99 @@ ld_status ld_response_density(ld_response *self, double speed, const double *fre
             to[i] *= height / speed;
     }
     free(z);
+    return status;
+}
+
+// ---- an input that is random ----
+
+// Points of Gauss and Legendre's rule in [0, 1], and its weights.
+enum { GAUSS = 3 };
+static const double gauss_at[GAUSS] = {0.11270166537925831, 0.5, 0.88729833462074169};
+static const double gauss_weight[GAUSS] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+// Steps of the integral over the frequency, of the frequency itself and of the last one: motions
+// damped by more than a thousandth are met many times.
+static const double STEP = 1e-3, LEAST_STEP = 2e-5;
+
+static ld_status check_density(const double *frequency, const double *density, size_t points,
+                               ld_error *error)
+{
+    bool good = points >= 2 && frequency[0] >= 0;
+    for (size_t i = 0; i < points && good; i++)
+        good = isfinite(frequency[i]) && isfinite(density[i]) && density[i] >= 0 &&
+               (i == 0 || frequency[i] > frequency[i - 1]);
+    return good ? LD_OK
+                : ld_fail(error, LD_ERR_INPUT,
+                          "a spectral density wants two points or more, their frequencies rising "
+                          "from 0 or above, none of its values below 0");
+}
+
+// What the columns' mean squares have of the frequencies around one; y: room for them.
+typedef struct driven {
+    ld_response *response;
+    const excitation *by;
+    double *z, *square, *most, *strongest; // [states], [columns chosen]
+    ld_phasor *y;
+} driven;
+
+static ld_status add_band(driven *self, double frequency, double density, double width,
+                          ld_error *error)
+{
+    ld_status status = answer(self->response, self->by, 1, frequency, self->z, self->y, error);
+    for (int i = 0; i < self->response->chosen_count && !status; i++) {
+        double gain =
+            self->y[i].real * self->y[i].real + self->y[i].imaginary * self->y[i].imaginary;
+        self->square[i] += width * density * gain;
+        if (density * gain > self->most[i]) {
+            self->most[i] = density * gain;
+            self->strongest[i] = frequency;
+        }
+    }
+    return status;
+}
+
+// Between two points of the density, which is a straight line there.
+static ld_status add_stretch(driven *self, const double f[2], const double density[2], double last,
+                             ld_error *error)
+{
+    ld_status status = LD_OK;
+    for (double from = f[0]; from < f[1] && !status;) {
+        double to = fmin(from + fmax(STEP * from, LEAST_STEP * last), f[1]);
+        for (int k = 0; k < GAUSS && !status; k++) {
+            double at = from + gauss_at[k] * (to - from), share = (at - f[0]) / (f[1] - f[0]);
+            double here = density[0] + share * (density[1] - density[0]);
+            status = add_band(self, at, here, gauss_weight[k] * (to - from), error);
+        }
+        from = to;
+    }
+    return status;
+}
+
+ld_status ld_response_random(ld_response *self, double speed, const char *input,
+                             const double *frequency, const double *density, size_t points,
+                             double *rms, double *strongest, ld_error *error)
+{
+    size_t count = (size_t)self->chosen_count;
+    excitation by;
+    driven sum = {.response = self, .by = &by, .square = rms, .strongest = strongest};
+    ld_status status = check_density(frequency, density, points, error);
+    if (!status)
+        status = excitation_of(self, input, speed, &by, error);
+    if (!status)
+        status = go_at(self, speed, error);
+    if (status || (status = make_room(self, &sum.z, &sum.y, error)))
+        return status;
+    sum.most = calloc(count + 1, sizeof *sum.most);
+    if (!sum.most)
+        status = no_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        rms[i] = 0;
+        strongest[i] = NAN;
+    }
+    for (size_t k = 0; k + 1 < points && !status; k++)
+        status = add_stretch(&sum, frequency + k, density + k, frequency[points - 1], error);
+    for (size_t i = 0; i < count; i++)
+        rms[i] = sqrt(rms[i]);
+    free(sum.most);
+    free(sum.z);
     return status;
 }

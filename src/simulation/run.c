@@ -48,18 +48,25 @@ static ld_status told(const ld_run *run, ld_error *error)
 
 // ---- forward
 
-ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *options, ld_run **out,
-                       ld_error *error)
+static ld_status begin(const ld_simulation *simulation, const ld_run_options *options,
+                       const launch_start *given, ld_run **out, ld_error *error)
 {
     double start = simulation_cpu_now();
     ld_run *run = *out = run_create(simulation, options);
     if (!run)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
+    run->start = given;
     if (!run->status)
         run->status =
             has_launch(run) ? launch_begin(run) : flight_alone_begin(simulation, &run->error);
     run->cpu += simulation_cpu_now() - start;
     return told(run, error);
+}
+
+ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *options, ld_run **out,
+                       ld_error *error)
+{
+    return begin(simulation, options, NULL, out, error);
 }
 
 static ld_status advance(ld_run *run, double t, bool to_event, ld_error *error)
@@ -325,19 +332,31 @@ ld_status ld_run_end(ld_run *run, ld_summary *summary, ld_error *error)
     return status;
 }
 
-ld_status ld_simulation_run(const ld_simulation *simulation, const ld_run_options *options,
-                            ld_summary *summary, ld_error *error)
+static ld_status run_whole(const ld_simulation *simulation, const ld_run_options *options,
+                           const launch_start *start, ld_summary *summary, ld_error *error)
 {
     ld_run *run;
-    ld_error own;
-    if (!error)
-        error = &own;
-    *error = (ld_error){0};
-    ld_status status = ld_run_begin(simulation, options, &run, error);
+    ld_status status = begin(simulation, options, start, &run, error);
     if (!run) {
         *summary = (ld_summary){0};
         return status;
     }
     ld_run_advance(run, INFINITY, error);
     return ld_run_end(run, summary, error);
+}
+
+ld_status ld_simulation_run(const ld_simulation *simulation, const ld_run_options *options,
+                            ld_summary *summary, ld_error *error)
+{
+    ld_error own;
+    if (!error)
+        error = &own;
+    *error = (ld_error){0};
+    return run_whole(simulation, options, NULL, summary, error);
+}
+
+ld_status run_from(const ld_simulation *simulation, const launch_start *start, ld_summary *summary,
+                   ld_error *error)
+{
+    return run_whole(simulation, NULL, start, summary, error);
 }

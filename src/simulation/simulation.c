@@ -45,7 +45,7 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
         return status;
     status = history_build(self, error);
     if (!status)
-        status = measures_build(model, &self->columns, self->measure, error);
+        status = measures_build(model, self->measure, error);
     if (!status && self->launcher.base.kind->dynamics)
         self->stability = simulation_check_stability(self, &self->growing, &self->unstable);
     return status;

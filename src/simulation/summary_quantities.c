@@ -111,12 +111,12 @@ static const quantity measures[] = {
 };
 #define HELD(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, hinge, member)
 static const quantity held[] = {
-    {"%s.error_rms", "rad", "%s: command less measured, rms", HELD(error_rms), KEPT},
-    {"%s.torque_rms", "N.m", "%s: torque of stabiliser or lock, rms", HELD(torque_rms), KEPT},
-    {"%s.torque_peak", "N.m", "%s: its largest magnitude", HELD(torque_peak), KEPT, .from_zero = true},
-    {"%s.saturated", "s", "%s: how long the stabiliser asked for its torque limit", HELD(saturated), KEPT, .from_zero = true},
-    {"%s.power_mean", "W", "%s: magnitude of torque times rate of the hinge, mean", HELD(power_mean), KEPT},
-    {"%s.power_peak", "W", "%s: its largest value", HELD(power_peak), KEPT, .from_zero = true},
+    {"%s.error_rms", "rad", "%s: command less measured, rms", HELD(error_rms), KEPT, LINE("%s error", "mrad", MILLI, 4)},
+    {"%s.torque_rms", "N.m", "%s: torque of stabiliser or lock, rms", HELD(torque_rms), KEPT, LINE("%s torque, peak", "N.m", 1, 1)},
+    {"%s.torque_peak", "N.m", "%s: its largest magnitude", HELD(torque_peak), KEPT, .from_zero = true, BESIDE(1)},
+    {"%s.saturated", "s", "%s: how long the stabiliser asked for its torque limit", HELD(saturated), KEPT, .from_zero = true, NONZERO("%s saturated", "ms", MILLI, 3)},
+    {"%s.power_mean", "W", "%s: magnitude of torque times rate of the hinge, mean", HELD(power_mean), KEPT, LINE("%s power, peak", "W", 1, 1)},
+    {"%s.power_peak", "W", "%s: its largest value", HELD(power_peak), KEPT, .from_zero = true, BESIDE(1)},
 };
 static const quantity change[] = {
     {"energy_dropped", "J", "kinetic energy that went when its tube took the place of the one before; 0 of the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
@@ -183,8 +183,8 @@ static const quantity_group rocket_groups[] = {
     {.title = "the same against where that stood at the ignition", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(aim)},
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
     {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
-    {.title = "of each measure of the scenario", .each = EACH_MEASURE, .launch = true, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
-    {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, QUANTITY_ROWS(held)},
+    {.title = "of each measure of the scenario", .each = EACH_MEASURE, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
+    {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(held)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
     {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},

@@ -22,6 +22,7 @@ enum {
     SHOWN_LAUNCH,
     SHOWN_TIP,
     SHOWN_PEAKS,
+    SHOWN_HINGES,
     SHOWN_MEASURES,
     SHOWN_FLIGHT
 };

@@ -1,25 +1,15 @@
 // The table of a study's rockets as CSV, or as HDF5.
 #include "studies/export.h"
 
-#include <errno.h>
 #include <inttypes.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "base/child.h"
 #include "base/numeric_locale.h"
-#include "base/text_file.h"
 #include "launchdyn/study.h"
+#include "studies/table_file.h"
 
 static ld_status no_memory(ld_error *error)
 {
     return ld_fail(error, LD_ERR_MEMORY, "no memory for the table");
-}
-
-static ld_status cannot_write(const char *file, int number, ld_error *error)
-{
-    return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
 }
 
 // ---- the table
@@ -57,6 +47,18 @@ static sqlite3_stmt *select_rows(const study_data *data, ld_error *error)
     return store_prepare_built(store, text, error);
 }
 
+// That the samples are those which were found intact when the study was opened.
+static ld_status expect_as_before(const export_table *self, bool there, ld_error *error)
+{
+    const int64_t before = self->data->rockets;
+    if (there ? self->rockets <= before : self->rockets == before)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_FILE,
+                   "cannot read %s: it is damaged, or its disk fails: read again, it gives other "
+                   "samples",
+                   self->walk.view.path);
+}
+
 ld_status export_next(export_table *self, bool *there, ld_error *error)
 {
     int result = self->walk.number > 0 ? sqlite3_step(self->row) : SQLITE_DONE;
@@ -67,35 +69,22 @@ ld_status export_next(export_table *self, bool *there, ld_error *error)
         result = sqlite3_step(self->row);
     }
     *there = result == SQLITE_ROW;
+    self->rockets += *there;
     if (result == SQLITE_DONE)
         status = self->walk.status;
     else if (!*there)
         status = store_fail(self->walk.view.store, "read", error);
-    return status;
+    return status ? status : expect_as_before(self, *there, error);
 }
 
 void export_begin(export_table *self)
 {
     sqlite3_reset(self->row);
     store_walk_again(&self->walk);
+    self->rockets = 0;
 }
 
 // ---- CSV
-
-// Texts with a comma, a quote or a line's end stand in quotes (RFC 4180).
-static void print_text(FILE *stream, const char *text)
-{
-    if (!text[strcspn(text, ",\"\r\n")]) {
-        fputs(text, stream);
-        return;
-    }
-    fputc('"', stream);
-    for (; *text; text++) {
-        fputs(*text == '"' ? "\"" : "", stream);
-        fputc(*text, stream);
-    }
-    fputc('"', stream);
-}
 
 static void print_cell(FILE *stream, sqlite3_stmt *row, int column)
 {
@@ -104,12 +93,13 @@ static void print_cell(FILE *stream, sqlite3_stmt *row, int column)
         fprintf(stream, "%.17g", sqlite3_column_double(row, column));
     } else if (type != SQLITE_NULL) {
         const char *text = (const char *)sqlite3_column_text(row, column);
-        print_text(stream, text ? text : ""); // NULL: no memory, which the next step tells
+        csv_text(stream, text ? text : ""); // NULL: no memory, which the next step tells
     }
 }
 
-static ld_status write_csv(export_table *table, FILE *stream, ld_error *error)
+static ld_status write_csv(void *self, FILE *stream, ld_error *error)
 {
+    export_table *table = self;
     bool there;
     ld_status status;
     export_begin(table);
@@ -118,7 +108,7 @@ static ld_status write_csv(export_table *table, FILE *stream, ld_error *error)
         if (!name)
             return no_memory(error);
         fputs(i ? "," : "", stream);
-        print_text(stream, name);
+        csv_text(stream, name);
     }
     fputc('\n', stream);
     while (!(status = export_next(table, &there, error)) && there) {
@@ -131,46 +121,7 @@ static ld_status write_csv(export_table *table, FILE *stream, ld_error *error)
     return status;
 }
 
-static ld_status export_csv(export_table *table, const char *file, const char *name,
-                            ld_error *error)
-{
-    errno = 0;
-    FILE *stream = fopen(file, "w");
-    if (!stream)
-        return cannot_write(name, errno, error);
-    ld_status status = write_csv(table, stream, error);
-    bool written = !ferror(stream);
-    int number = errno;
-    if (fclose(stream) != 0 && written) {
-        written = false;
-        number = errno;
-    }
-    return status || written ? status : cannot_write(name, number, error);
-}
-
 // ---- both
-
-typedef ld_status table_writer(export_table *table, const char *file, const char *name,
-                               ld_error *error);
-
-// Under a temporary name beside the file, which then gets its own, where it is a file.
-static ld_status write_file(export_table *table, table_writer *write, const char *file,
-                            ld_error *error)
-{
-    char part[4096];
-    if (!text_file_is_replaced(file))
-        return write(table, file, file, error);
-    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
-        return ld_fail(error, LD_ERR_INPUT, "the table's name is too long");
-    child_writes(part);
-    ld_status status = write(table, part, file, error);
-    if (!status && rename(part, file) != 0)
-        status = cannot_write(file, errno, error);
-    if (status)
-        unlink(part);
-    child_wrote(part);
-    return status;
-}
 
 static ld_status export_rows(const study_data *data, const char *csv, const char *hdf5,
                              ld_error *error)
@@ -185,9 +136,9 @@ static ld_status export_rows(const study_data *data, const char *csv, const char
     table.columns = sqlite3_column_count(table.row);
     ld_status status = store_walk_begin(&table.walk, &view, &store->kept, error);
     if (!status && csv)
-        status = write_file(&table, export_csv, csv, error);
+        status = table_file_print(write_csv, &table, csv, error);
     if (!status && hdf5)
-        status = write_file(&table, export_hdf5, hdf5, error);
+        status = table_file_write(export_hdf5, &table, hdf5, error);
     store_walk_end(&table.walk);
     sqlite3_finalize(table.row);
     return status;

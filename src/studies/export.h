@@ -15,17 +15,19 @@ typedef struct export_table {
     int columns;
     sqlite3_stmt *row; // of the sample at which the walk stands
     store_walk walk;
+    int64_t rockets; // given so far
 } export_table;
 
 // Before the first row.
 void export_begin(export_table *table);
-// The next row of a sample that is as it was kept, in table->row; *there: there is one.
+// The next row of a sample that is as it was kept, in table->row; *there: there is one. Refuses
+// others than were found when the study was opened.
 ld_status export_next(export_table *table, bool *there, ld_error *error);
 
 // The unit of a column, "" without.
 const char *export_unit(const export_table *table, int column);
 
-// Writes the table, from its first row, as an HDF5 file, in messages by its name.
-ld_status export_hdf5(export_table *table, const char *file, const char *name, ld_error *error);
+// Writes an export_table, from its first row, as an HDF5 file: a table_writer.
+ld_status export_hdf5(void *exported, const char *file, const char *name, ld_error *error);
 
 #endif

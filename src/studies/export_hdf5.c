@@ -175,8 +175,9 @@ static bool close_all(hdf5_writer *self)
     return fine;
 }
 
-ld_status export_hdf5(export_table *table, const char *file, const char *name, ld_error *error)
+ld_status export_hdf5(void *exported, const char *file, const char *name, ld_error *error)
 {
+    export_table *table = exported;
     hdf5_quiet quiet = hdf5_quiet_begin();
     hdf5_writer self = {.table = table, .status = H5Tcopy(H5T_C_S1), .error = error};
     H5Tset_size(self.status, STATUS);

@@ -70,37 +70,19 @@ static ld_status list_shards(shard_list *self, const char *folder, ld_error *err
 // The first cell that a query gives, to be freed; NULL: it gives none.
 static ld_status ask(study_store *self, const char *query, char **answer, ld_error *error)
 {
-    sqlite3_stmt *select = store_prepare(self, query, error);
-    *answer = NULL;
-    if (!select)
-        return store_status(self);
-    int result = sqlite3_step(select);
     const store_view view = store_main(self);
-    ld_status status = LD_OK;
-    if (result == SQLITE_ROW)
-        status = store_column_text(&view, select, 0, answer, error);
-    else if (result != SQLITE_DONE)
-        status = store_fail(self, "read", error);
-    sqlite3_finalize(select);
-    return status;
+    return store_first_text(&view, store_prepare(self, query, error), answer, error);
 }
 
 // Makes the tables that the attached database has, and copies what it says of the study.
-static ld_status begin_as(study_store *self, ld_error *error)
+static ld_status begin_as(study_store *self, const char *tables, ld_error *error)
 {
-    char *tables;
-    ld_status status =
-        ask(self, "SELECT group_concat(sql, ';') FROM part.sqlite_master WHERE sql NOT NULL",
-            &tables, error);
-    if (!status && tables)
-        status = store_execute(self, tables, error);
-    free(tables);
-    if (!status)
-        status = store_execute(self,
-                               "INSERT INTO main.study SELECT * FROM part.study;"
-                               "INSERT INTO main.point SELECT * FROM part.point",
-                               error);
-    return status;
+    ld_status status = store_execute(self, tables, error);
+    return status ? status
+                  : store_execute(self,
+                                  "INSERT INTO main.study SELECT * FROM part.study;"
+                                  "INSERT INTO main.point SELECT * FROM part.point",
+                                  error);
 }
 
 // Adds the samples of the attached database that are as they were kept; *damage: what of the
@@ -148,7 +130,9 @@ static ld_status expect_same(const store_view *part, ld_error *error)
     ld_status status =
         ask(self,
             "SELECT name FROM part.study AS p JOIN main.study AS m USING (name) WHERE "
-            "p.value != m.value AND name IN ('version', 'scenario')",
+            "p.value != m.value AND name IN ('version', 'scenario') UNION ALL "
+            "SELECT 'table ' || name FROM part.sqlite_master WHERE sql NOT IN "
+            "(SELECT sql FROM main.sqlite_master WHERE sql NOT NULL)",
             &differs, error);
     if (differs)
         status = ld_fail(error, LD_ERR_INPUT, "%s and %s are of different studies: in their %s",
@@ -162,7 +146,7 @@ static ld_status add_part(const store_view *part, ld_error *damage, ld_error *er
 {
     study_store *self = part->store;
     store_kept kept;
-    char *begun = NULL, *here = NULL;
+    char *begun = NULL, *here = NULL, *tables = NULL;
     ld_status status = ask(self, "SELECT 1 FROM part.sqlite_master", &begun, error);
     if (!status && begun)
         status = ask(self, "SELECT 1 FROM main.sqlite_master", &here, error);
@@ -173,7 +157,10 @@ static ld_status add_part(const store_view *part, ld_error *damage, ld_error *er
         return status;
     status = store_read_kept(part, &kept, error);
     if (!status)
-        status = first ? begin_as(self, error) : expect_same(part, error);
+        status = store_tables_of(part, &tables, error);
+    if (!status)
+        status = first ? begin_as(self, tables, error) : expect_same(part, error);
+    sqlite3_free(tables);
     if (!status)
         status = add_samples(part, &kept, damage, error);
     if (!status)

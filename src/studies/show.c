@@ -10,16 +10,20 @@
 #include "launchdyn/study.h"
 #include "simulation/study_results.h"
 #include "studies/sensitivity.h"
+#include "studies/show_against.h"
 #include "studies/show_measured.h"
 #include "studies/show_numbers.h"
 #include "studies/statistics.h"
 #include "studies/study_data.h"
+#include "studies/table_file.h"
 
 typedef struct shown {
     const study_data *data;
     const ld_study_view *view;
     FILE *stream;
     measured shots;              // beside which the study is shown, or none
+    against reference;           // against which points are shown, or none
+    show_against pairs;          // with those
     const study_column **column; // [count] what is shown
     int count;
     group_statistics *of; // [points][count]
@@ -28,7 +32,11 @@ typedef struct shown {
 
 static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,pitch,yaw,pitch_rate,"
                             "yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
-                            "tip_off.yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed";
+                            "tip_off.yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed,"
+                            "azimuth.error_rms,azimuth.torque_rms,azimuth.torque_peak,"
+                            "azimuth.saturated,azimuth.power_mean,elevation.error_rms,"
+                            "elevation.torque_rms,elevation.torque_peak,elevation.saturated,"
+                            "elevation.power_mean";
 static const char sensitive[] = "t_rear,muzzle_speed,pitch,yaw,pitch_rate,yaw_rate,downrange,drift";
 
 static ld_status no_memory(ld_error *error)
@@ -100,19 +108,24 @@ static ld_status compute_point(shown *self, const study_point *point, ld_error *
     return LD_OK;
 }
 
-static size_t values_of(const shown *self, int column)
+// Whether any point has a value of it; of the choice a sum that stays 0 is none.
+static bool has_values(const shown *self, int column)
 {
-    size_t count = 0;
-    for (int i = 0; i < self->data->point_count; i++)
-        count += statistics_at(self, &self->data->point[i])[column].count;
-    return count;
+    const quantity *row = study_result_like(self->column[column]->name);
+    bool sum = !self->view->what && row && row->from_zero;
+    for (int i = 0; i < self->data->point_count; i++) {
+        const group_statistics *of = &statistics_at(self, &self->data->point[i])[column];
+        if (of->count > 0 && !(sum && of->greatest == 0))
+            return true;
+    }
+    return false;
 }
 
 // Leaves out what no point has a value of.
 static void drop_empty(shown *self)
 {
     for (int c = self->count - 1; c >= 0; c--) {
-        if (values_of(self, c) > 0)
+        if (has_values(self, c))
             continue;
         size_t kept = 0, all = (size_t)self->data->point_count * (size_t)self->count;
         for (size_t i = 0; i < all; i++)
@@ -383,6 +396,8 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     ld_status status = print_counts(self, point, error);
     if (!status && self->view->measured)
         return show_measured(self->stream, &self->shots, data, point, &self->values, error);
+    if (!status && self->view->against)
+        return show_against_point(&self->pairs, point, self->stream, error);
     const group_statistics *of = statistics_at(self, point), *most = most_values(self, of);
     if (status || !most)
         return status;
@@ -446,21 +461,52 @@ static void print_side_by_side(const shown *self)
         print_beside(self, from, from + CELLS < points ? from + CELLS : points);
 }
 
+// Reads what the view asks for, and computes what all points want together.
+static ld_status prepare(shown *self, ld_error *error)
+{
+    const ld_study_view *view = self->view;
+    if (view->measured) {
+        ld_status status = measured_read(view->measured, self->data, &self->shots, error);
+        if (!status)
+            show_shots(self->stream, view->measured, &self->shots);
+        return status;
+    }
+    ld_status status = choose_columns(self, error);
+    if (status || !view->against)
+        return status ? status : compute(self, error);
+    self->pairs =
+        (show_against){.of = &self->reference, .column = self->column, .count = self->count};
+    return against_read(view->against, self->data, &self->reference, error);
+}
+
+static ld_status print_csv(void *pairs, FILE *stream, ld_error *error)
+{
+    return show_against_csv(pairs, stream, error);
+}
+
+// What follows all points.
+static ld_status conclude(shown *self, ld_error *error)
+{
+    const ld_study_view *view = self->view;
+    if (!view->against) {
+        if (self->data->point_count > 1 && !view->sensitivity && !view->measured)
+            print_side_by_side(self);
+        return LD_OK;
+    }
+    if (self->pairs.compared == 0)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "--against: no point has two pairs of rockets with the one that it is "
+                       "compared with");
+    return view->csv ? table_file_print(print_csv, &self->pairs, view->csv, error) : LD_OK;
+}
+
 static ld_status print_all(shown *self, ld_error *error)
 {
     const study_data *data = self->data;
-    const char *file = self->view->measured;
-    ld_status status =
-        file ? measured_read(file, data, &self->shots, error) : choose_columns(self, error);
-    if (!status && file)
-        show_shots(self->stream, file, &self->shots);
-    else if (!status)
-        status = compute(self, error);
+    ld_status status = prepare(self, error);
     for (int i = 0; i < data->point_count && !status; i++)
         status = print_point(self, &data->point[i], error);
-    if (!status && data->point_count > 1 && !self->view->sensitivity && !file)
-        print_side_by_side(self);
-    return status;
+    return status ? status : conclude(self, error);
 }
 
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
@@ -478,6 +524,9 @@ ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *str
     free(self.column);
     free(self.of);
     measured_free(&self.shots);
+    against_free(&self.reference);
+    for (int k = 0; k < 2; k++)
+        study_values_free(&self.pairs.values[k]);
     study_values_free(&self.values);
     study_data_close(&data);
     return status;

@@ -164,11 +164,24 @@ static ld_status prepare_all(study_store *self, ld_error *error)
     return self->find ? LD_OK : error->status;
 }
 
+// What acts of itself is none of a study's; what a view or a trigger of a forged one would do is
+// not done, even before it is refused.
+static int distrust(sqlite3 *database)
+{
+    static const int options[] = {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
+                                  SQLITE_DBCONFIG_TRUSTED_SCHEMA};
+    int result = SQLITE_OK;
+    for (size_t i = 0; i < sizeof options / sizeof *options && result == SQLITE_OK; i++)
+        result = sqlite3_db_config(database, options[i], 0, NULL);
+    return result;
+}
+
 static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
 {
     // one thread at a time
     const int mode = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-    if (sqlite3_open_v2(self->path, &self->database, mode, NULL) != SQLITE_OK)
+    if (sqlite3_open_v2(self->path, &self->database, mode, NULL) != SQLITE_OK ||
+        distrust(self->database) != SQLITE_OK)
         return store_fail(self, "open", error);
     sqlite3_busy_timeout(self->database, PATIENCE);
     self->journal = journal;
@@ -464,7 +477,7 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
         return ld_fail(error, LD_ERR_INPUT, "%s holds no study: cannot read %s: %s", folder,
                        self->path, strerror(errno));
     ld_status status = LD_OK;
-    if (open_to_read(self, folder) != SQLITE_OK ||
+    if (open_to_read(self, folder) != SQLITE_OK || distrust(self->database) != SQLITE_OK ||
         sqlite3_busy_timeout(self->database, PATIENCE) != SQLITE_OK ||
         sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM sqlite_master",
                      NULL, NULL, NULL) != SQLITE_OK)

@@ -111,11 +111,7 @@ static inline bool store_is_of_rocket(const study_store *self, int factor)
 // Opens and locks the lock file of the database at `path`; *lock -1: it could not be.
 ld_status store_lock(const char *path, int *lock, ld_error *error);
 
-// ---- what a database says of itself, so that damage is told (store_check.c)
-
-// Each sample has a digest of its rows (row_digest.h), and the row `kept` of the table `study` says
-// how many samples there are, the greatest number, the sum of their digests, and a digest of all
-// that is said once (the tables themselves, `study`, `point`, `origin`) and of these three numbers.
+// ---- its tables (store_tables.c)
 
 // A database that is looked at: the store's own, "main", or one attached to it.
 typedef struct store_view {
@@ -128,6 +124,20 @@ static inline store_view store_main(study_store *self)
     return (store_view){self, "main", self->path};
 }
 
+// The statements that make the tables of the store's study, for sqlite3_free().
+ld_status store_tables_of_study(const study_store *self, char **text, ld_error *error);
+// Refuses a database that has anything beside plain tables of a study: triggers, views, indices.
+ld_status store_check_tables(const store_view *self, ld_error *error);
+// The statements that make the tables which a database has, for sqlite3_free(); refuses one that
+// was made by others, as with computed columns.
+ld_status store_tables_of(const store_view *self, char **text, ld_error *error);
+
+// ---- what a database says of itself, so that damage is told (store_check.c)
+
+// Each sample has a digest of its rows (row_digest.h), and the row `kept` of the table `study` says
+// how many samples there are, the greatest number, the sum of their digests, and a digest of all
+// that is said once (the tables themselves, `study`, `point`, `origin`) and of these three numbers.
+
 // The text of that name in the table `study`, to be freed; NULL where there is none, no such table
 // either.
 ld_status store_view_text(const store_view *self, const char *name, char **text, ld_error *error);
@@ -135,7 +145,12 @@ ld_status store_view_text(const store_view *self, const char *name, char **text,
 ld_status store_column_text(const store_view *self, sqlite3_stmt *row, int column, char **text,
                             ld_error *error);
 
-// Reads the row `kept`; refuses another format, and what is said once where it is damaged.
+// The first cell that a statement gives, to be freed; NULL: it gives none. The statement, NULL
+// after an error, is finalized.
+ld_status store_first_text(const store_view *self, sqlite3_stmt *row, char **text, ld_error *error);
+
+// Reads the row `kept`; refuses another format, other tables, and what is said once where it is
+// damaged.
 ld_status store_read_kept(const store_view *self, store_kept *kept, ld_error *error);
 // Writes it, in a transaction of the caller's: after what is said once has changed, and `kept`.
 ld_status store_seal(study_store *self, ld_error *error);

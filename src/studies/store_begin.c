@@ -9,7 +9,6 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/version.h"
 #include "scenario/scenario.h"
-#include "simulation/study_results.h"
 #include "studies/store.h"
 
 // The scenario as text in which nothing is left out but when to stop: the rule, and the number of
@@ -31,39 +30,11 @@ static char *identity_of(const ld_model *model)
 
 static ld_status make_tables(study_store *self, ld_error *error)
 {
-    const ld_scatter *scatter = &self->study->nominal->scatter;
-    sqlite3_str *text = sqlite3_str_new(self->database);
-    sqlite3_str_appendall(
-        text, "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-              "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER NOT NULL, "
-              "status TEXT NOT NULL, reason TEXT");
-    for (int i = 0; i < scatter->factor_count; i++)
-        if (!store_is_of_rocket(self, i))
-            sqlite3_str_appendf(text, ", \"%w\" REAL", scatter->factor[i].path);
-    sqlite3_str_appendall(
-        text, ", digest INTEGER NOT NULL); CREATE TABLE point (point INTEGER PRIMARY KEY");
-    for (int i = 0; i < self->study->nominal->sweep_count; i++)
-        sqlite3_str_appendf(text, ", \"%w\" TEXT NOT NULL", self->study->nominal->sweep[i].path);
-    sqlite3_str_appendall(
-        text,
-        "); CREATE TABLE rocket (sample INTEGER NOT NULL, rocket INTEGER NOT NULL, tube INTEGER");
-    for (int i = 0; i < scatter->factor_count; i++)
-        if (store_is_of_rocket(self, i))
-            sqlite3_str_appendf(text, ", \"%w\" REAL", scatter->factor[i].path);
-    quantity_walk at = study_result_first(&self->study->things);
-    for (; at.row; study_result_next(&at)) {
-        char name[QUANTITY_NAME];
-        study_result_name(&at, name);
-        sqlite3_str_appendf(text, ", \"%w\" REAL", name);
-    }
-    sqlite3_str_appendall(
-        text,
-        ", PRIMARY KEY (sample, rocket)) WITHOUT ROWID; CREATE TABLE origin (kind TEXT NOT NULL, "
-        "name TEXT NOT NULL, text BLOB NOT NULL)");
-    char *whole = sqlite3_str_finish(text);
-    ld_status status = whole ? store_execute(self, whole, error)
-                             : ld_fail(error, LD_ERR_MEMORY, "no memory for the study's tables");
-    sqlite3_free(whole);
+    char *text;
+    ld_status status = store_tables_of_study(self, &text, error);
+    if (!status)
+        status = store_execute(self, text, error);
+    sqlite3_free(text);
     return status;
 }
 
@@ -128,6 +99,21 @@ static void first_difference(const char *before, const char *now, char line[96])
     snprintf(line, 96, "%.*s", (int)(length < 95 ? length : 95), text);
 }
 
+static ld_status compare_tables(const study_store *self, const store_view *view, ld_error *error)
+{
+    char *own, *there = NULL;
+    ld_status status = store_tables_of_study(self, &own, error);
+    if (!status)
+        status = store_tables_of(view, &there, error);
+    if (!status && strcmp(own, there) != 0)
+        status =
+            ld_fail(error, LD_ERR_INPUT,
+                    "%s is damaged or changed: its tables are not those of this study", self->path);
+    sqlite3_free(own);
+    sqlite3_free(there);
+    return status;
+}
+
 // Refuses a folder that holds something else, or is damaged.
 static ld_status compare(study_store *self, const char *identity, ld_error *error)
 {
@@ -155,6 +141,8 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
         status = ld_fail(error, LD_ERR_INPUT,
                          "%s was begun by launchdyn %s, this is %s; use another folder", self->path,
                          version, LD_VERSION);
+    } else {
+        status = compare_tables(self, &view, error);
     }
     free(before);
     free(version);

@@ -38,6 +38,21 @@ ld_status store_column_text(const store_view *self, sqlite3_stmt *row, int colum
                            : ld_fail(error, LD_ERR_MEMORY, "no memory to read %s", self->path);
 }
 
+ld_status store_first_text(const store_view *self, sqlite3_stmt *row, char **text, ld_error *error)
+{
+    *text = NULL;
+    if (!row)
+        return error->status;
+    ld_status status = LD_OK;
+    int result = sqlite3_step(row);
+    if (result == SQLITE_ROW)
+        status = store_column_text(self, row, 0, text, error);
+    else if (result != SQLITE_DONE)
+        status = fail(self, error);
+    sqlite3_finalize(row);
+    return status;
+}
+
 ld_status store_view_text(const store_view *self, const char *name, char **text, ld_error *error)
 {
     sqlite3_stmt *select = prepare(self, "SELECT value FROM %s.study WHERE name = ?", error);
@@ -46,14 +61,7 @@ ld_status store_view_text(const store_view *self, const char *name, char **text,
         return sqlite3_errcode(self->store->database) == SQLITE_ERROR ? LD_OK
                                                                       : store_status(self->store);
     sqlite3_bind_text(select, 1, name, -1, SQLITE_STATIC);
-    ld_status status = LD_OK;
-    int result = sqlite3_step(select);
-    if (result == SQLITE_ROW)
-        status = store_column_text(self, select, 0, text, error);
-    else if (result != SQLITE_DONE)
-        status = fail(self, error);
-    sqlite3_finalize(select);
-    return status;
+    return store_first_text(self, select, text, error);
 }
 
 // ---- what is said once
@@ -119,6 +127,8 @@ ld_status store_read_kept(const store_view *self, store_kept *kept, ld_error *er
     char again[128], *text;
     *kept = (store_kept){0};
     ld_status status = check_format(self, error);
+    if (!status)
+        status = store_check_tables(self, error);
     if (!status)
         status = find_facts(self, &kept->facts, error);
     if (status)

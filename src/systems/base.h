@@ -8,7 +8,7 @@
 #ifndef LD_SYSTEMS_BASE_H
 #define LD_SYSTEMS_BASE_H
 
-#include "elements/base_frame.h"
+#include "elements/exchange.h"
 #include "model/quantity.h"
 #include "systems/vehicle.h"
 
@@ -23,13 +23,14 @@ enum {
 
 typedef struct base_interface base_interface;
 
-// What may act on a base from outside, by name.
+// What may act on a launcher from outside, by name.
 typedef struct base_inputs {
     double motion[6]; // [m], [rad] x, y, z, yaw, pitch, roll of a base that goes where it is told
     double road[LD_MAX_WHEELS]; // [m] height under each wheel
     double command[HINGES];     // [rad]
     v3 force, moment;           // [N], [N m] on the chassis, in I, about its mass centre
     v3 tube_force, tube_moment; // [N], [N m] on what holds the tube, in T, about its origin
+    launching_load launching;   // on tube and rocket
 } base_inputs;
 
 // A base that is linearised is at rest on flat ground, whatever the scenario moves it by; what is
@@ -185,6 +186,9 @@ void base_angles(const base_system *self, double t, const base_frame *tube, doub
 // What its quantities are at an instant, where it has any of its own.
 void base_find(const base_system *self, const base_found *found, const base_output *output,
                const double *state, base_instant *instant);
+
+// The road under a vehicle of a run of its own (base_share) is this one, which outlives it.
+void base_ride_on(base_system *self, road *under);
 
 // A base of kind vehicle; NULL: it is none.
 const vehicle_system *base_as_vehicle(const base_system *self);

@@ -12,6 +12,12 @@ const vehicle_system *base_as_vehicle(const base_system *self)
     return self->kind == &base_vehicle ? self->own : NULL;
 }
 
+void base_ride_on(base_system *self, road *under)
+{
+    vehicle_system *vehicle = self->own;
+    vehicle->marching.road = under;
+}
+
 static const orientating_system *orientating_of(const base_system *self)
 {
     const vehicle_system *vehicle = self->own;
@@ -201,7 +207,7 @@ static int evaluate(const base_system *self, const base_found *found, const base
         .tube_moment = v3_add(load->moment, load->jet.moment),
         .rest = {load->rest.hinge[0], load->rest.hinge[1]},
         .held = load->held,
-        .linear = load->linear,
+        .linear = load->linear || disturbed,
     };
     if (disturbed)
         disturb(disturbed, &motion, &wrenches);

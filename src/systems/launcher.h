@@ -36,6 +36,9 @@ typedef struct launcher_output {
     base_output base; // of a base with a motion of its own
 } launcher_output;
 
+// Which of the base_inputs act on tube and rocket.
+extern const quantity_table launcher_inputs;
+
 // Builds the launcher, for the first rocket of the model's firing. `kept` as for launching_build.
 ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
                          ld_error *error);

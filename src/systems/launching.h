@@ -7,6 +7,7 @@
 #include "elements/adaptor.h"
 #include "elements/breech.h"
 #include "elements/crossflow.h"
+#include "elements/load.h"
 #include "elements/lock.h"
 #include "elements/slot.h"
 #include "elements/support.h"

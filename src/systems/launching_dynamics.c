@@ -62,6 +62,8 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     tube_forces(lanes, &self->tube, &now.tube, &now.on_tube, out);
     supports_add(lanes, &self->supports, &self->tube, &now);
     tube_factor(&self->tube, &now.tube);
+    if (input->load)
+        load_tip(lanes, input->load, &self->tube, &now);
     if (!phase->rocket) {
         finish_without_rocket(lanes, self, &now.tube, &now.on_tube, out);
         return LAUNCHING_OK;
@@ -70,6 +72,8 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
     rocket_forces(&self->rocket->motor, &now);
     crossflow_add(&self->crossflow, &self->tube, &now);
+    if (input->load)
+        load_rocket(input->load, &now);
     adaptors_add(lanes, &self->adaptors, &self->tube, &now);
     breech_add(lanes, &self->adaptors.law, &self->tube, &now);
 

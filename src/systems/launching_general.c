@@ -92,12 +92,16 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     tube_section(tube, tube->length, now->tube.w, q, q_dot, &u->tip);
     modal_energies(self, state, out);
     supports_add(lanes, &self->supports, &self->tube, now);
+    if (input->load)
+        load_tip(lanes, input->load, &self->tube, now);
     u->c.count = 0;
     if (phase->rocket) {
         rocket_load(&self->tube, at, state, &now->tube, &now->rocket, out);
         rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
         rocket_forces(&self->rocket->motor, now);
         crossflow_add(&self->crossflow, &self->tube, now);
+        if (input->load)
+            load_rocket(input->load, now);
         adaptors_add(lanes, &self->adaptors, &self->tube, now);
         breech_add(lanes, &self->adaptors.law, &self->tube, now);
         tube_section_state at_rocket;

@@ -105,7 +105,12 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "--sensitivity", 2, "are options of study show DIR\n");
     expect_complaint(STUDY "--measured x.csv", 2, "are options of study show DIR\n");
     expect_complaint("launchdyn study show x --measured x.csv --what pitch", 2,
-                     "--measured shows what its file has: neither --what nor --sensitivity goes");
+                     "--measured shows what its file has: neither --what nor --sensitivity nor");
+    expect_complaint(STUDY "--against 1", 2, "are options of study show DIR\n");
+    expect_complaint("launchdyn study show x --against 1 --sensitivity", 2,
+                     "--against and --sensitivity do not go together\n");
+    expect_complaint("launchdyn study show x --csv y.csv", 2,
+                     "--csv and --hdf5 are options of study export DIR");
     expect_complaint("launchdyn report x --measured x.csv", 2,
                      "--measured is an option of reports of studies\n");
     expect_complaint("launchdyn study show", 2, "study merge want DIR\n");
@@ -395,7 +400,7 @@ static void test_response(void **state)
                          "--what chassis.vy,elevation.torque"),
                      0);
     expect_in(shell.out, "Response to a road of class A, tracks same, 30 km/h; linear about the "
-                         "equilibrium, no Coulomb friction\n");
+                         "equilibrium, no Coulomb friction in the hinges\n");
     CHECK_WITHIN("rms of chassis.vy [mm/s]", number_of("chassis.vy"), 12.2, 12.3);
     CHECK_WITHIN("of elevation.torque [N m]", number_of("elevation.torque"), 274, 276);
     assert_int_equal(run("launchdyn response examples/reference.yaml --speeds '0:60:20 km/h' "
@@ -428,6 +433,59 @@ static void test_response(void **state)
     expect_in(shell.out, "\n\nQuantities\n  t ");
 }
 
+static void test_random_input(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("mkdir -p a; printf 'frequency [Hz],density [m2/Hz]\\n2,0\\n5,4e-6\\n8,0\\n' >a/d.csv; "
+            "launchdyn response examples/fixed.yaml -i base.y --density a/d.csv "
+            "-w base.y,tip.y -o a/e -p a/e/d.svg"),
+        0);
+    expect_in(shell.out, "Response to base.y, random as a/d.csv says; linear");
+    expect_in(shell.out,
+              "\n  base.y                     mm              3.464                  5\n");
+    assert_int_equal(run("ls a/e; head -n 1 a/e/response-spectrum.csv"), 0);
+    assert_string_equal(shell.out, "d.svg\nresponse-rms.csv\nresponse-spectrum.csv\n"
+                                   "frequency [Hz],base.y [m2/Hz],tip.y [m2/Hz]\n");
+    static const struct {
+        const char *text, *said;
+    } wrong[] = {
+        {"1,2,3", "1:1: expected two numbers, a frequency in Hz and a density\n"},
+        {"1,2\\n2,-1", "2:3: expected a number, 0 or above\n"},
+        {"1,2\\n1,1", "2:1: the frequencies must rise\n"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char line[256], said[128];
+        snprintf(line, sizeof line,
+                 "printf '%s\\n' >a/w.csv; launchdyn response examples/fixed.yaml -i base.y "
+                 "--density a/w.csv",
+                 wrong[i].text);
+        snprintf(said, sizeof said, "launchdyn: a/w.csv:%s", wrong[i].said);
+        assert_int_equal(run(line), 2);
+        assert_string_equal(shell.err, said);
+    }
+    assert_int_equal(run("launchdyn response examples/fixed.yaml -i base.y --density a/none.csv"),
+                     2);
+    assert_string_equal(shell.err, "launchdyn: a/none.csv: cannot be read: No such file or "
+                                   "directory\n");
+}
+
+static void test_exit_scatter(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn response examples/reference.yaml --exit --draws 4 -o a/x "
+                         "--what pitch_rate,t_release"),
+                     0);
+    expect_in(shell.out, "Scatter of the exit on a road of class A, tracks same, 30 km/h; linear "
+                         "about the equilibrium, hinges rub as the road moves them\n"
+                         "4 launches with drawn phases of the road\n");
+    CHECK_WITHIN("mean of pitch_rate [mrad/s]", number_of("pitch_rate"), -260, -230);
+    assert_int_equal(run("head -n 1 a/x/response-exit.csv"), 0);
+    assert_string_equal(shell.out,
+                        "speed [m/s],pitch_rate.mean [rad/s],pitch_rate.deviation [rad/s],"
+                        "t_release.mean [s],t_release.deviation [s]\n");
+}
+
 static void test_loop(void **state)
 {
     (void)state;
@@ -440,6 +498,7 @@ static void test_loop(void **state)
               "\n  gain may be raised by a factor of       1.569    3.91 dB, at 31.89 Hz\n");
     expect_in(shell.out, "\n  phase                                   28.39 degrees\n");
     expect_in(shell.out, "\n  peak of the sensitivity                 3.252 at 27.39 Hz\n");
+    expect_in(shell.out, "\n  most of the chassis' turning let in   0.004128 at 23.92 Hz\n");
     assert_int_equal(run("launchdyn response examples/reference.yaml --loop azimuth"), 0);
     expect_in(shell.out, "\n  gain may be raised by a factor of         any\n");
     expect_in(shell.out, "\n  sensitivity above one                 nowhere\n");
@@ -447,7 +506,8 @@ static void test_loop(void **state)
     assert_string_equal(shell.out, "l.svg\nresponse-loop.csv\n"
                                    "frequency [Hz],open.amplitude [1],open.phase [rad],"
                                    "tracking.amplitude [1],tracking.phase [rad],"
-                                   "sensitivity.amplitude [1],sensitivity.phase [rad]\n");
+                                   "sensitivity.amplitude [1],sensitivity.phase [rad],"
+                                   "rejection.amplitude [1],rejection.phase [rad]\n");
 }
 
 static void test_response_of_what_is_not_there(void **state)
@@ -472,6 +532,22 @@ static void test_response_of_what_is_not_there(void **state)
          "launchdyn: unknown hinge \"elevatio\", did you mean \"elevation\"?\n"},
         {"examples/reference.yaml --loop elevation -i road",
          "launchdyn: a loop is shown by itself at one speed: without input, quantities, speeds\n"},
+        {"examples/reference.yaml --density a.csv",
+         "launchdyn: a spectral density is that of an input: it wants the name of one (launchdyn "
+         "response --list lists them)\n"},
+        {"examples/reference.yaml --exit -i road",
+         "launchdyn: the road scatters the exit: it is shown without input and loop\n"},
+        {"examples/reference.yaml --draws 5",
+         "launchdyn: draws are those of the exit: they go with it alone\n"},
+        {"examples/reference.yaml --exit --draws 1",
+         "launchdyn: 1 draws: there are 2 or more, or 0: none\n"},
+        {"examples/reference.yaml -x -w pich",
+         "launchdyn: unknown result of a launch \"pich\", did you mean \"pitch\"?\n"},
+        {"examples/fixed.yaml -x", "launchdyn: there is no road: the base is no vehicle\n"},
+        {"examples/reference.yaml -x --draws 2 -w pitch -p a.svg",
+         "launchdyn: the exit's scatter is drawn over speeds: --speeds says which\n"},
+        {"examples/reference.yaml --rub --loop azimuth",
+         "launchdyn: a loop is shown without friction of the hinges\n"},
         {"examples/fixed.yaml --loop azimuth",
          "launchdyn: there is no loop: the base is no vehicle, and has no hinges\n"},
         {"examples/fixed.yaml",
@@ -597,6 +673,8 @@ int main(void)
         TEST(test_killed_at_work),
         TEST(test_modes_table),
         TEST(test_response),
+        TEST(test_random_input),
+        TEST(test_exit_scatter),
         TEST(test_loop),
         TEST(test_response_of_what_is_not_there),
         TEST(test_road),

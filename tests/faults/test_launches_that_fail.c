@@ -118,6 +118,28 @@ static void one_adaptor_holds_no_rocket(void **state)
                    "in the tube; \"run.start: undeformed\" starts without it");
 }
 
+// The first rocket starts without an equilibrium; the next tube must find one.
+static void one_adaptor_holds_no_next_rocket(void **state)
+{
+    (void)state;
+    ld_model model;
+    listener ear = {0};
+    outcome out;
+    reference_model(&model);
+    model.rocket.start_at = 2.9;
+    model.run.start = LD_START_UNDEFORMED;
+    model.firing[1] = (ld_firing){2, 0.3};
+    model.firing_count = 2;
+    run(&model, &ear, &out);
+    printf("    %s\n", out.error.text);
+    assert_int_equal(out.status, LD_ERR_LAUNCH);
+    assert_true(matches(out.error.text,
+                        "rocket.start_at: tube 2 finds no static equilibrium when it takes its "
+                        "place at t = # s: only the rear adaptor is in the tube"));
+    assert_true(isfinite(out.summary.rocket[0].t_rear));
+    assert_true(ear.ascending && ear.last == out.summary.t_end);
+}
+
 static void no_equilibrium_of_a_rope(void **state)
 {
     (void)state;
@@ -210,6 +232,7 @@ int main(void)
         cmocka_unit_test(violent_base),
         cmocka_unit_test(contacts_like_tar),
         cmocka_unit_test(contacts_like_honey),
+        cmocka_unit_test(one_adaptor_holds_no_next_rocket),
         cmocka_unit_test(thrust_not_a_number),
         cmocka_unit_test(base_table_too_short),
         cmocka_unit_test(caller_says_no),

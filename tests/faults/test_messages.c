@@ -16,7 +16,7 @@ enum { MAX_TEXT = 8192, MAX_SETS = 8 };
 typedef struct fault_case {
     char title[256], base[64];
     char find[MAX_TEXT], replace[MAX_TEXT], whole[MAX_TEXT], expected[MAX_TEXT];
-    char set[MAX_SETS][256];
+    char set[MAX_SETS][4096];
     int sets, wholes;
 } fault_case;
 

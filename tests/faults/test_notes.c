@@ -103,9 +103,10 @@ static bool is_as_said(const note_case *c)
 static int count_rules(void)
 {
     static const plausible_rule *const tables[] = {plausible_of_tube, plausible_of_rocket,
-                                                   plausible_of_vehicle, plausible_of_run};
+                                                   plausible_of_vehicle, plausible_of_stabiliser,
+                                                   plausible_of_run};
     int count = 0;
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 5; i++)
         for (const plausible_rule *rule = tables[i]; rule->path; rule++)
             count++;
     return count;
@@ -137,13 +138,17 @@ static void test_notes_are_exact(void **state)
 static void test_own_scenarios_are_silent(void **state)
 {
     (void)state;
-    static const char *const patterns[] = {"examples/*.yaml", "examples/marching/*.yaml",
-                                           "tests/data/nesc/*.yaml", "tests/faults/base.yaml",
+    static const char *const patterns[] = {"examples/*.yaml",
+                                           "examples/marching/*.yaml",
+                                           "examples/stabilisers/*.yaml",
+                                           "examples/stabilisers/*.yaml",
+                                           "tests/data/nesc/*.yaml",
+                                           "tests/faults/base.yaml",
                                            "tests/faults/vehicle.yaml"};
     glob_t found = {0};
     int noted = 0;
     assert_int_equal(chdir(LD_SOURCE_DIR), 0);
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 6; i++)
         assert_int_equal(glob(patterns[i], i > 0 ? GLOB_APPEND : 0, NULL, &found), 0);
     for (size_t i = 0; i < found.gl_pathc; i++) {
         char *printed = notes_of(found.gl_pathv[i], NULL, 0, true);

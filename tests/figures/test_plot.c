@@ -277,7 +277,7 @@ static void test_what_can_be_wrong(void **state)
 {
     (void)state;
     expect(in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
-           "there is no figure \"tipp\" (did you mean tip?); there are tip, tip-rate, ");
+           "there is no figure \"tipp\" (did you mean tip?); there are tip-inertial, tip-rate, ");
     expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT, "no figure \"spaghetti\"; there are");
     expect(in("run"), "tip", in("x.jpg"), LD_ERR_INPUT, "ends in .svg, .pdf or .png");
     expect(in("run"), "tip", in("none/x.svg"), LD_ERR_FILE, "No such file or directory");

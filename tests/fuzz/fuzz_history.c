@@ -351,6 +351,8 @@ static void read_all(void)
     }
     status = ld_origin_read(in_memory("run"), &origin, &error);
     must_say(status, &error);
+    char differs[256];
+    must(!ld_origin_differs(&origin, differs, sizeof differs) || differs[0]);
     ld_origin_free(&origin);
 }
 

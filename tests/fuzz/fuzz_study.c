@@ -206,8 +206,11 @@ static void show(void)
              &error);
     ld_status status = ld_study_read_origin(in_memory("study"), &origin, &error);
     must_say(status, &error);
-    if (status == LD_OK)
+    if (status == LD_OK) {
+        char differs[256];
+        must(!ld_origin_differs(&origin, differs, sizeof differs) || differs[0]);
         ld_origin_free(&origin);
+    }
     remove(in_memory("study/shard-1-of-2.db"));
     must(rename(in_memory("study/study.db"), in_memory("study/shard-1-of-2.db")) == 0);
     must_say(ld_study_merge(in_memory("study"), stream, &error), &error);

@@ -3,8 +3,9 @@
 //
 // By the environment: FAIL_KIND, one of the names below (none: nothing fails); FAIL_AT, the first
 // call that fails; FAIL_ON, if set: all after it, too; FAIL_ERROR, the error number; FAIL_LOG, a
-// file: of the call that fails, its stack; where nothing fails, a line "KIND N" for the first call
-// of each kind from each stack.
+// file: of the call that fails, its stack, and, behind a line "crash", that of a signal which ends
+// the program; where nothing fails, a line "KIND N" for the first call of each kind from each
+// stack.
 //
 // The processor time is always 0, so that results can be compared by their bytes.
 #include <dlfcn.h>
@@ -12,6 +13,7 @@
 #include <execinfo.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -84,6 +86,26 @@ static void log_stack(void)
     void *frame[DEEPEST];
     if (!atomic_exchange(&self.shared->told, true))
         backtrace_symbols_fd(frame, backtrace(frame, DEEPEST), self.log);
+}
+
+// Where the program is ended by a fault of its own.
+static void log_crash(int number)
+{
+    void *frame[DEEPEST];
+    dprintf(self.log, "crash\n");
+    backtrace_symbols_fd(frame, backtrace(frame, DEEPEST), self.log);
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+static void log_crashes(void)
+{
+    static const int numbers[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+    static char own[1 << 16]; // the program's stack may be full
+    const struct sigaction act = {.sa_handler = log_crash, .sa_flags = SA_NODEFER | SA_ONSTACK};
+    sigaltstack(&(stack_t){.ss_sp = own, .ss_size = sizeof own}, NULL);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        sigaction(numbers[i], &act, NULL);
 }
 
 // Logs the call if none of its kind came from this stack before.
@@ -277,8 +299,14 @@ FILE *fopen(const char *path, const char *mode)
 {
     int way = strchr(mode, '+') ? O_RDWR : mode[0] == 'r' ? O_RDONLY : O_WRONLY;
     int make = mode[0] == 'w' ? O_CREAT | O_TRUNC : mode[0] == 'a' ? O_CREAT | O_APPEND : 0;
-    int file = open(path, way | make | (strchr(mode, 'e') ? O_CLOEXEC : 0), 0666);
-    return file < 0 ? NULL : fdopen(file, mode);
+    void *volatile room =
+        malloc(sizeof(FILE)); // first, as the C library does: no file is made without
+    free(room);
+    int file = room ? open(path, way | make | (strchr(mode, 'e') ? O_CLOEXEC : 0), 0666) : -1;
+    busy = true;
+    FILE *stream = file < 0 ? NULL : fdopen(file, mode);
+    busy = false;
+    return stream;
 }
 
 FILE *fopen64(const char *path, const char *mode);
@@ -346,6 +374,8 @@ __attribute__((constructor)) static void begin(void)
     self.shared =
         mmap(NULL, sizeof *self.shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     backtrace(frame, 1); // loads what it needs
+    if (self.log >= 0)
+        log_crashes();
     unsetenv("LD_PRELOAD");
 }
 

@@ -63,6 +63,25 @@ async function checkOver(browser, runs) {
   await leave(page);
 }
 
+// One measure that all have, one of one run alone, one name for measures of two units: a row each, a dash where a run has none.
+async function checkMeasures(browser) {
+  console.log("runs of different measures");
+  const measure = (name, of) => `{name: ${name}, of: ${of}, take: value, at: t_rear}`;
+  const lists = [[measure("both", "tip.y"), measure("mine", "tip.z")], [measure("both", "tip.y"), measure("one", "tip.pitch")],
+    [measure("both", "tip.y"), measure("one", "tip.vy")], []];
+  const runs = lists.map((list, i) => runWith(`measures-${i}`, "fixed.yaml", `rocket.mass_error=${i} kg`, "run.end=tip", `measures=[${list.join(", ")}]`));
+  const page = await open(browser, reportOf("measures.html", ...runs), { width: 1400 });
+  const rows = await page.$$eval("#tables tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const found = rows.filter(([name]) => ["both", "mine", "one"].includes(name));
+  const has = { "both m": [0, 1, 2], "mine m": [0], "one rad": [1], "one m/s": [2] };
+  const wanted = Object.entries(has).map(([name, of]) => [name, runs.map(({ summary }, i) =>
+    (of.includes(i) ? summary.rockets[0].measure[name.split(" ")[0]] : null))]);
+  check("a row for each name and unit", found.map((row) => `${row[0]} ${row.at(-1)}`).join() === Object.keys(has).join(), found.join(" | "));
+  check("values where a run has them, dashes where not", wanted.every(([, values], k) => values.every((value, i) =>
+    (value === null ? found[k][i + 1] === "–" : near(Number(found[k][i + 1]), value, 1e-5)))), found.join(" | "));
+  await leave(page);
+}
+
 async function checkNarrow(browser, runs) {
   console.log("the same, dark, 400 pixels wide");
   const page = await open(browser, reportOf("narrow.html", ...runs), { width: 400, dark: true });
@@ -93,6 +112,7 @@ await inBrowser(async (browser) => {
   const runs = ["0.2 mm", "0.3 mm", "0.5 mm"].map((clearance, i) => runWith(`run-${i}`, "fixed.yaml",
     `rocket.adaptors.rear.clearance=${clearance}`, "measures=[{name: bound, of: tip.pitch_rate, take: rms, from: t_middle, to: t_rear}]"));
   await checkOver(browser, runs);
+  await checkMeasures(browser);
   await checkNarrow(browser, runs);
   await checkHostile(browser);
 });

@@ -1,10 +1,12 @@
 // A folder of results that is not as it was written: files that were flipped, cut, lengthened,
 // taken away, exchanged. None of it is taken for whole, and nothing crashes. LD_DAMAGES cases (of
 // scripts/prove) in place of a sample.
+// link: -lsqlite3
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/scratch.h"
 
+#include <sqlite3.h>
 #include <stdbool.h>
 #include <unistd.h>
 
@@ -355,7 +357,7 @@ static void test_earlier_version(void **state)
                   LD_ERR_INPUT, "\"rockets[0].muzzle_speed\" is no number", "No summary");
     expect_report(EARLIER " && jq 'del(.rockets)' run/summary.json >x && mv x run/summary.json",
                   LD_ERR_INPUT, "\"rockets\" is missing, or something else", "No summary");
-    expect_report(EARLIER " && printf 'x' >>run/summary.json", LD_ERR_INPUT, "it is no JSON",
+    expect_report(EARLIER " && printf 'x' >>run/summary.json", LD_ERR_INPUT, "malformed JSON",
                   "No summary");
     expect_report(EARLIER " && printf '\\0' >>run/summary.json", LD_ERR_INPUT, "it is no text",
                   "No summary");
@@ -414,13 +416,35 @@ static void test_parts_of_a_killed_run(void **state)
     assert_int_equal(shell("[ \"$(echo $(ls again))\" = 'history.h5 summary.json' ]"), 0);
 }
 
+// Where its reader of JSON gets no memory, a whole summary is not said to be damaged.
+static void test_little_memory(void **state)
+{
+    (void)state;
+    enum { STEP = 500, MOST_STEPS = 4000 };
+    int want = 0, read = 0;
+    manifest found;
+    ld_error error;
+    for (int i = 1; i < MOST_STEPS && !read; i++) {
+        sqlite3_hard_heap_limit64(sqlite3_memory_used() + (sqlite3_int64)STEP * i);
+        ld_status status = manifest_read(in("run"), &found, &error);
+        if (status != LD_ERR_MEMORY && (status || found.state != MANIFEST_WHOLE))
+            fail_msg("%d bytes: %d, \"%s\"", STEP * i, status, found.problem);
+        want += status == LD_ERR_MEMORY;
+        read += status == LD_OK;
+        manifest_free(&found);
+    }
+    sqlite3_hard_heap_limit64(0);
+    printf("    %d bytes are enough\n", STEP * (want + 1));
+    assert_true(want > 50 && read == 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_flips_and_cuts),        cmocka_unit_test(test_a_history_alone),
         cmocka_unit_test(test_what_is_said),          cmocka_unit_test(test_earlier_version),
         cmocka_unit_test(test_other_formats),         cmocka_unit_test(test_byte_4125),
-        cmocka_unit_test(test_parts_of_a_killed_run),
+        cmocka_unit_test(test_parts_of_a_killed_run), cmocka_unit_test(test_little_memory),
     };
     return cmocka_run_group_tests(tests, make_runs, scratch_remove);
 }

@@ -144,6 +144,99 @@ static void a_rigid_platform_late(void **state)
     reference_model_free(&model);
 }
 
+// ---- a chassis that turns about the hinge ----
+
+// It may turn the chassis, too, which is given its motion; its friction drags it along.
+static const double DRAG = 0.1, SHARE = 0.3;
+
+static double complex rejection_of_rigid(double u, double late)
+{
+    double complex s = I * u, D = cexp(-s * W * late);
+    return s * (DRAG - D * SHARE * 1.4) / (s * s + DRAG * s + D * (1 + 1.4 * s + 0.2 / s));
+}
+
+static double worst_rejection(const ld_model *model, const char *hinge, double late)
+{
+    ld_loop_margins margins;
+    ld_phasor at;
+    ld_error error;
+    double worst = 0;
+    ld_loop *loop = open_loop(model, hinge, &margins);
+    for (double f = 0.5; f < 100; f *= 1.7) {
+        double complex closed = rejection_of_rigid(two_pi * f / W, late);
+        assert_int_equal(ld_loop_rejection(loop, &f, 1, &at, &error), LD_OK);
+        worst = fmax(worst, cabs(number(at) / closed - 1));
+    }
+    ld_loop_free(loop);
+    return worst;
+}
+
+static void put_drag(ld_model *model, ld_turret *turret)
+{
+    ld_turret *other =
+        turret == &model->platform.azimuth ? &model->platform.elevation : &model->platform.azimuth;
+    for (int i = 0; i < 3; i++)
+        model->platform.chassis_inertia[i] = J;
+    turret->friction = (ld_hinge_friction){DRAG * J * W, 1, 1e-3};
+    turret->stabiliser.feedforward = SHARE;
+    turret->lock.present = false;
+    other->lock = (ld_hinge_lock){true, 1e16, 1e13};
+}
+
+static void what_turns_a_rigid_platform(void **state)
+{
+    (void)state;
+    ld_model model;
+    rigid(&model);
+    ld_turret *azimuth = &model.platform.azimuth, *elevation = &model.platform.elevation;
+    ld_stabiliser gains = elevation->stabiliser;
+    put_drag(&model, elevation);
+    azimuth->stabiliser.command.data[1] = 0.6;
+    elevation->stabiliser.sample = 4e-3;
+    elevation->stabiliser.delay = 3e-3;
+    CHECK_BELOW("elevation, to the side, late", worst_rejection(&model, "elevation", 5e-3), 1e-6);
+
+    // the azimuth platform carries the inertia; a turn of a level chassis is a yaw
+    model.base.vehicle.suspension.stiffness[1] *= 5;
+    model.base.vehicle.tyre.stiffness[1] *= 5;
+    elevation->stabiliser.command.data[1] = 0;
+    azimuth->stabiliser.kp = gains.kp;
+    azimuth->stabiliser.ki = gains.ki;
+    azimuth->stabiliser.kd = gains.kd;
+    azimuth->stabiliser.torque_limit = gains.torque_limit;
+    for (int i = 0; i < 3; i++) {
+        azimuth->inertia[i] = J;
+        elevation->inertia[i] = 1e3;
+    }
+    put_drag(&model, azimuth);
+    CHECK_BELOW("azimuth", worst_rejection(&model, "azimuth", 0), 1e-6);
+    reference_model_free(&model);
+}
+
+// The hinge stays where it is, wherever that is: its accelerations would turn the platform, whose
+// mass lies beside it, much more than its friction does.
+static void where_the_hinge_is_does_not_matter(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_loop_margins margins;
+    ld_phasor at[2];
+    ld_error error;
+    const double f = 5;
+    reference_vehicle(&model, speed);
+    model.tubes.modes.bending = 3;
+    model.tubes.modes.torsion = 1;
+    for (int i = 0; i < 2; i++) {
+        ld_loop *loop = open_loop(&model, "elevation", &margins);
+        assert_int_equal(ld_loop_rejection(loop, &f, 1, &at[i], &error), LD_OK);
+        ld_loop_free(loop);
+        model.platform.azimuth.hinge_at[0] += 0.3;
+        model.platform.elevation.hinge_at[1] += 0.2;
+    }
+    CHECK_BELOW("rejection, relative", cabs(number(at[1]) / number(at[0]) - 1), 1e-6);
+    reference_model_free(&model);
+}
+
 // ---- at the margin ----
 
 static void scale(ld_stabiliser *given, double factor)
@@ -261,6 +354,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rigid_platform),
         cmocka_unit_test(a_rigid_platform_late),
+        cmocka_unit_test(what_turns_a_rigid_platform),
+        cmocka_unit_test(where_the_hinge_is_does_not_matter),
         cmocka_unit_test(at_its_margins_modes_do_not_decay),
         cmocka_unit_test(what_has_no_loop_is_told),
     };

@@ -1,7 +1,7 @@
 // Random scenarios that are accepted, to the start of their run: then the run ends well, or with a
 // sentence about physics, and without much work, as none was asked for.
 //   LD_RANDOM_SCENARIOS   how many
-//   LD_RANDOM_FIRST       number of the first, to repeat one (1)
+//   LD_RANDOM_FIRST       number of the first, to repeat one (2)
 //   LD_RANDOM_PRINT       print the scenarios, too
 //   LD_RANDOM_SECONDS     CPU time that none may take [s], in the overall form five times (none)
 #include "support/check.h"
@@ -80,6 +80,26 @@ static const char *const kinds[] = {
     "height: 0.1 m}]}",
     "platform.azimuth.lock={stiffness: 1e8 N.m/rad, damping: 1e5 N.m.s/rad}",
     "platform.elevation.lock={stiffness: 1e8 N.m/rad, damping: 1e5 N.m.s/rad}",
+    "platform.azimuth.stabiliser.cascade={kp: 12 1/s, rate_kp: 3e5 N.m.s/rad, rate_ki: 3e5 "
+    "N.m/rad}",
+    "platform.azimuth.stabiliser={bandwidth: 60 Hz, slew: 5e6 N.m/s}",
+    "platform.azimuth.stabiliser={sample: 2 ms, sensor_resolution: {angle: 0.02 mrad, rate: 1 "
+    "mrad/s}}",
+    "platform.azimuth.stabiliser.gear={stiffness: 2e8 N.m/rad, damping: 2e5 N.m.s/rad, inertia: "
+    "80 kg.m2, backlash: 0.3 mrad}",
+    "platform.elevation.stabiliser={feedforward: 0.1, bandwidth: 60 Hz}",
+    "platform.elevation.stabiliser={cascade: {kp: 15 1/s, rate_kp: 4e5 N.m.s/rad}, sample: 1 ms}",
+    "platform.elevation.stabiliser={sample: 2 ms, delay: 1 ms, sensor_noise: {angle: 0.01 mrad, "
+    "rate: 1 mrad/s}}",
+    "platform.elevation.stabiliser.gear={stiffness: 2e8 N.m/rad, damping: 2e5 N.m.s/rad, inertia: "
+    "80 kg.m2}",
+    "platform={jet: [[0 m, 3 kN], [1 m, 2 kN], [4 m, 0 kN]], jet_scale: 1.2}",
+    "rocket.lock.at={x: 0.3 m, radius: 82.5 mm, angle: 30 deg}",
+    "rocket.dynamic_imbalance=1 -1 mrad",
+    "rocket.aerodynamics.emerged={nose: 2.5 m, drag: 1.2, diameter: 164 mm}",
+    "measures=[{name: a, of: tip.y, take: rms, from: t_ignition, to: t_rear}, {name: b, of: "
+    "rocket.pitch_rate, take: value, at: t_rear}, {name: c, of: tip.pitch_rate, take: peak, from: "
+    "t_front, to: end}]",
     "base.suspension.bump_stop={compression: 0.1 m, stiffness: 1e6 N/m}",
     "firing={order: [1, 3, 2], interval: 0.3 s}",
     "firing=[{tube: 2, at: 0.01 s}]",
@@ -160,8 +180,8 @@ static void change_key(uint64_t *seed, const language *all, ld_model *model)
 
 static ld_model *draw_scenario(uint64_t *seed, const language *all)
 {
-    static const char *const files[] = {"fixed", "prescribed", "reference", "aircraft",
-                                        "ship",  "flight",     "sequence",  "smooth"};
+    static const char *const files[] = {"fixed",  "prescribed", "reference", "aircraft", "ship",
+                                        "flight", "sequence",   "smooth",    "firm"};
     char name[256];
     ld_messages messages;
     ld_model *model;
@@ -260,7 +280,7 @@ static void every_scenario_ends(void **state)
     (void)state;
     static language all;
     int count = from_environment("LD_RANDOM_SCENARIOS", 10), ends[ENDS] = {0};
-    int first = from_environment("LD_RANDOM_FIRST", 1);
+    int first = from_environment("LD_RANDOM_FIRST", 2);
     double seconds = from_environment("LD_RANDOM_SECONDS", 0), longest = 0;
     ld_scenario_keys(take_key, &all);
     for (int i = first; ends[STOPPED] + ends[WENT_WELL] + ends[WRONG] < count; i++) {

@@ -6,6 +6,7 @@
 #include "support/check.h"
 #include "support/random_model.h"
 #include "support/reference_model.h"
+#include "support/stabiliser_options.h"
 
 static const double degree = 3.14159265358979323846 / 180;
 
@@ -80,6 +81,22 @@ static void draw_turret(uint64_t *seed, ld_turret *turret, double range)
     scale(seed, &turret->friction.rate);
     if (chance(seed, 0.2))
         turret->lock = (ld_hinge_lock){true, 1e7, 1e5};
+    if (chance(seed, 0.7))
+        draw_stabiliser_options(seed, stabiliser);
+}
+
+// Jets of rockets that have left, and a second rocket that feels what the first one's does.
+static void draw_jet(uint64_t *seed, ld_model *model)
+{
+    if (!chance(seed, 0.3))
+        return;
+    double reach = between(seed, 0.5, 10), force = between(seed, 0, 1e4);
+    model->platform.jet = reference_table(2, 2, (double[]){0, force, reach, 0});
+    model->platform.jet_scale = between(seed, 0, 2);
+    if (chance(seed, 0.5)) {
+        model->firing[1] = (ld_firing){1 + choice(seed, 7), model->firing[0].at + 0.4};
+        model->firing_count = 2;
+    }
 }
 
 static void draw_vehicle_model(uint64_t seed, ld_model *model)
@@ -103,6 +120,7 @@ static void draw_vehicle_model(uint64_t seed, ld_model *model)
     reference_model_free(&vehicle);
     // other tubes are carried along; gravity holds it on the road
     model->gravity = fmax(model->gravity, 5);
+    draw_jet(&seed, model);
     model->run.lead_in = chance(&seed, 0.5) ? between(&seed, 0, 0.2) : 0;
     model->run.coupling_step = chance(&seed, 0.15) ? 1e-4 : 0;
 }

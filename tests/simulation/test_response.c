@@ -220,6 +220,175 @@ static void wheels_carry_what_is_put_on(void **state)
     reference_model_free(&model);
 }
 
+// What is put on tube or rocket comes to the wheels through lock, adaptors and supports.
+static void wheels_carry_what_is_put_on_the_tube(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {"tip", "rocket"};
+    ld_model model;
+    random_road(&model, LD_TRACKS_SAME);
+    const ld_vehicle *vehicle = &model.base.vehicle;
+    ld_response *response = respond(&model, NAN, NAN);
+    double elevation = model.platform.elevation.stabiliser.command.data[1];
+    for (int i = 0; i < 2; i++) {
+        char input[32];
+        snprintf(input, sizeof input, "%s.force_y", parts[i]);
+        CHECK_BELOW("a force across the tube [N per N]",
+                    carried(response, vehicle, input, false) + cos(elevation), 3e-4);
+        snprintf(input, sizeof input, "%s.force_x", parts[i]);
+        CHECK_BELOW("along it", carried(response, vehicle, input, false) + sin(elevation), 3e-4);
+        snprintf(input, sizeof input, "%s.moment_z", parts[i]);
+        CHECK_BELOW("a moment [N m per N m]", carried(response, vehicle, input, true) + 1, 3e-2);
+    }
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// What a force does to the place of another one, that one does to the place of the first (Maxwell,
+// Rayleigh), at any frequency.
+static void loads_and_places_change_sides(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *load, *at; // its place's speed
+    } of[] = {
+        {"tip.force_y", "tip.vy"},
+        {"tip.force_z", "tip.vz"},
+        {"rocket.force_y", "tip_off.vy"},
+        {"rocket.force_z", "tip_off.vz"},
+        {"rocket.moment_z", "rocket.pitch_rate"},
+        {"tip.moment_z", "tip.pitch_rate"},
+        {"tip.moment_y", "tip.yaw_rate"},
+    };
+    enum { OF = sizeof of / sizeof *of };
+    ld_model model;
+    double worst = 0;
+    reference_model(&model);
+    model.gravity = 0;
+    model.rocket.contact.law = LD_CONTACT_BILATERAL;
+    model.rocket.contact.friction = 0;
+    ld_response *response = respond(&model, NAN, NAN);
+    for (double f = 0.5; f < 100; f *= 4)
+        for (int i = 0; i < OF; i++)
+            for (int j = 0; j < i; j++) {
+                double complex a = gain_of(response, 0, of[i].load, of[j].at, f);
+                double complex b = gain_of(response, 0, of[j].load, of[i].at, f);
+                double complex p = gain_of(response, 0, of[i].load, of[i].at, f);
+                double complex q = gain_of(response, 0, of[j].load, of[j].at, f);
+                worst = fmax(worst, cabs(a - b) / sqrt(cabs(p * q)));
+            }
+    CHECK_BELOW("what one does to the other, of what each does to itself", worst, 1e-7);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// ---- an input that is random ----
+
+static void a_density_becomes_a_root_mean_square(void **state)
+{
+    (void)state;
+    static const char *const column[] = {"base.y"};
+    static const double f[] = {2, 5, 8}, density[] = {0, 4e-6, 0};
+    ld_model model;
+    ld_error error;
+    double rms, strongest;
+    reference_model(&model);
+    ld_response *response = respond(&model, NAN, NAN);
+    choose(response, column, 1);
+    assert_int_equal(
+        ld_response_random(response, 0, "base.y", f, density, 3, &rms, &strongest, &error), LD_OK);
+    CHECK_BELOW("rms of the input itself", rms / sqrt(12e-6) - 1, 1e-9);
+    CHECK_BELOW("strongest at [Hz]", strongest - 5, 1e-2);
+    assert_int_equal(ld_response_random(response, 0, "base.y", (double[]){5, 5}, density, 2, &rms,
+                                        &strongest, &error),
+                     LD_ERR_INPUT);
+    assert_string_equal(error.text,
+                        "a spectral density wants two points or more, their frequencies rising "
+                        "from 0 or above, none of its values below 0");
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// The road's own density, given as that of the input "road", and the sum of its sines.
+static void the_road_as_a_density(void **state)
+{
+    (void)state;
+    static const char *const seen[] = {"chassis.vy", "lock.force", "elevation.error"};
+    enum { POINTS = 400, SEEN = 3 };
+    ld_model model;
+    ld_error error;
+    double lines[SEEN], rms[SEEN], strongest[SEEN], f[POINTS], density[POINTS], worst = 0;
+    random_road(&model, LD_TRACKS_SAME);
+    model.base.vehicle.road.harmonics = 2000;
+    ld_response *response = respond(&model, NAN, NAN);
+    choose(response, seen, SEEN);
+    for (int i = 0; i < POINTS; i++) {
+        f[i] = speed / 100 * pow(100 / 0.3, i / (POINTS - 1.0));
+        density[i] = road_class_density(1, f[i] / speed) / speed;
+    }
+    assert_int_equal(ld_response_on_road(response, speed, lines, NULL, &error), LD_OK);
+    assert_int_equal(
+        ld_response_random(response, speed, "road", f, density, POINTS, rms, strongest, &error),
+        LD_OK);
+    for (int i = 0; i < SEEN; i++)
+        worst = fmax(worst, fabs(rms[i] / lines[i] - 1));
+    CHECK_BELOW("rms from the density against that from 2000 sines", worst, 1e-3);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// ---- hinges that rub ----
+
+// Mean over a normal rate of deviation s of the slope of b/sqrt(b^2 + r^2).
+static double slope_at(double s, double r)
+{
+    double sum = 0, step = 1e-3;
+    for (double z = -8; z < 8; z += step)
+        sum += step * exp(-z * z / 2) / sqrt(two_pi) * r * r / pow(s * s * z * z + r * r, 1.5);
+    return sum;
+}
+
+// Their friction is the viscous one that the rates found with it call for.
+static void friction_of_hinges_is_a_viscous_one(void **state)
+{
+    (void)state;
+    static const char *const rates[] = {"azimuth.rate", "elevation.rate", "elevation.error"};
+    ld_model model;
+    ld_error error;
+    double rub[3], viscous[3], plain[3], worst = 0;
+    random_road(&model, LD_TRACKS_INDEPENDENT);
+    ld_response *response = respond(&model, NAN, NAN);
+    choose(response, rates, 3);
+    assert_int_equal(ld_response_on_road(response, speed, plain, NULL, &error), LD_OK);
+    assert_int_equal(ld_response_rub(response, true, &error), LD_OK);
+    assert_int_equal(ld_response_on_road(response, speed, rub, NULL, &error), LD_OK);
+    ld_response_free(response);
+    ld_turret *turret[2] = {&model.platform.azimuth, &model.platform.elevation};
+    // without it they have none
+    ld_model smooth = model;
+    smooth.platform.azimuth.friction.coulomb = smooth.platform.elevation.friction.coulomb = 0;
+    response = respond(&smooth, NAN, NAN);
+    choose(response, rates, 3);
+    assert_int_equal(ld_response_on_road(response, speed, viscous, NULL, &error), LD_OK);
+    ld_response_free(response);
+    for (int i = 0; i < 3; i++)
+        worst = fmax(worst, fabs(viscous[i] / plain[i] - 1));
+    CHECK_BELOW("hinges that do not rub, or that cannot", worst, 1e-9);
+    for (int i = 0; i < 2; i++) {
+        ld_hinge_friction *friction = &turret[i]->friction;
+        assert_true(friction->coulomb > 0 && rub[i] < 0.99 * plain[i]);
+        friction->viscous += friction->coulomb * slope_at(rub[i], friction->rate);
+    }
+    response = respond(&model, NAN, NAN);
+    choose(response, rates, 3);
+    assert_int_equal(ld_response_on_road(response, speed, viscous, NULL, &error), LD_OK);
+    for (int i = 0; i < 3; i++)
+        worst = fmax(worst, fabs(viscous[i] / rub[i] - 1));
+    CHECK_BELOW("rms with friction, with a viscous one like it", worst, 1e-3);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
 // ---- a base that goes where it is told ----
 
 static void a_slow_base_takes_all_along(void **state)
@@ -288,6 +457,11 @@ int main(void)
         cmocka_unit_test(coherence_goes_from_independent_to_same),
         cmocka_unit_test(the_road_is_among_the_columns),
         cmocka_unit_test(wheels_carry_what_is_put_on),
+        cmocka_unit_test(wheels_carry_what_is_put_on_the_tube),
+        cmocka_unit_test(loads_and_places_change_sides),
+        cmocka_unit_test(a_density_becomes_a_root_mean_square),
+        cmocka_unit_test(the_road_as_a_density),
+        cmocka_unit_test(friction_of_hinges_is_a_viscous_one),
         cmocka_unit_test(a_slow_base_takes_all_along),
         cmocka_unit_test(wrong_names_and_ranges_are_told),
     };

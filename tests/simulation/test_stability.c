@@ -1,4 +1,5 @@
 // Stabilisers that cannot hold their platforms are refused before the run, and no others.
+#include "simulation/simulation.h"
 #include "simulation/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"
@@ -83,12 +84,31 @@ static void bound_of_the_lag(void **state)
     reference_model_free(&model);
 }
 
+// A vehicle whose wheels stand all but in one line tips over, and its own weight does the work: a
+// stabiliser that gives a hundredth of it is not what makes it unstable.
+static void vehicle_that_tips(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error = {0};
+    ld_simulation *simulation;
+    reference_vehicle(&model, 0);
+    for (int i = 0; i < model.base.vehicle.wheel_count; i++)
+        model.base.vehicle.wheel[i].mount[2] *= 0.1;
+    assert_int_equal(start(&model, &error), LD_OK);
+    assert_int_equal(ld_simulation_create(&model, &simulation, &error), LD_OK);
+    CHECK_WITHIN("rate at which it tips [1/s]", simulation->growing.real, 0.5, 5);
+    ld_simulation_free(simulation);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unstable_stabiliser),
         cmocka_unit_test(bound_of_the_integral_gain),
         cmocka_unit_test(bound_of_the_lag),
+        cmocka_unit_test(vehicle_that_tips),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

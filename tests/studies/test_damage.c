@@ -315,7 +315,6 @@ static void test_odd_contents(void **state)
                           "DELETE FROM point WHERE point = 2",
                           "INSERT INTO point VALUES (3, '7')",
                           "DELETE FROM origin WHERE kind = 'file'",
-                          "CREATE TABLE more (a)",
                           "ALTER TABLE rocket ADD more REAL",
                           "ALTER TABLE rocket RENAME COLUMN pitch TO pitsch",
                       };
@@ -325,6 +324,7 @@ static void test_odd_contents(void **state)
     expect_told("DELETE FROM study", "holds no study");
     expect_told("DROP TABLE study", "holds no study");
     expect_told("DROP TABLE rocket", "what it says of the study");
+    expect_told("CREATE TABLE more (a)", "its table more is none of a study's");
     expect_told("DELETE FROM rocket WHERE sample = 7", kept);
     expect_told("DELETE FROM rocket", kept);
     expect_told("DELETE FROM sample WHERE sample = 7", kept);
@@ -339,6 +339,102 @@ static void test_odd_contents(void **state)
     expect_told("UPDATE rocket SET downrange = 9e999", kept);
     expect_told("UPDATE rocket SET rocket = 2 WHERE sample = 7", kept);
     expect_told("INSERT INTO rocket (sample, rocket) VALUES (99, 1)", "rockets of no sample");
+}
+
+// ---- forged, with the digests that belong to it
+
+// What a study's database is made to hold, its digests too; the sentence; whether who only reads it
+// takes it.
+typedef struct forgery {
+    const char *sql, *part;
+    bool readable;
+} forgery;
+
+static const forgery forgeries[] = {
+    {"CREATE TRIGGER steal AFTER INSERT ON sample BEGIN DELETE FROM rocket; END",
+     "its trigger steal is none of a study's", false},
+    {"CREATE VIEW more AS SELECT * FROM rocket", "its view more is none of a study's", false},
+    {"ALTER TABLE rocket RENAME TO r; CREATE VIEW rocket AS SELECT * FROM r",
+     "is none of a study's", false},
+    {"CREATE INDEX quick ON rocket (pitch)", "its index quick is none of a study's", false},
+    {"CREATE TABLE more (a)", "its table more is none of a study's", false},
+    {"ALTER TABLE rocket ADD more REAL AS (pitch + 1)", "its table rocket is none of a study's",
+     true},
+    {"ALTER TABLE study ADD more", "its table study is none of a study's", true},
+};
+
+static void expect_none_taken(const char *name)
+{
+    sqlite3 *database;
+    sqlite3_stmt *row;
+    assert_int_equal(sqlite3_open(in(name), &database), SQLITE_OK);
+    sqlite3_prepare_v2(database, "SELECT 1 FROM sqlite_master", -1, &row, NULL);
+    assert_int_equal(sqlite3_step(row), SQLITE_DONE);
+    sqlite3_finalize(row);
+    sqlite3_close(database);
+}
+
+static void expect_refused(ld_status status, const ld_error *error, const forgery *forged)
+{
+    if (status != LD_ERR_INPUT || !strstr(error->text, forged->part))
+        fail_msg("%s: %d, %s", forged->sql, status, error->text);
+}
+
+static void expect_forged(const ld_study *study, const forgery *forged)
+{
+    ld_error error = {0};
+    ld_study_counts counts;
+    FILE *stream = fopen("/dev/null", "w");
+    assert_non_null(stream);
+    run_command("rm -rf odd && cp -r good odd");
+    run_sql(in("odd/study.db"), forged->sql);
+    seal_study(in("odd/study.db"));
+    told found = look("odd");
+    if (!forged->readable) {
+        expect_refused(found.show, &found.shown, forged);
+        expect_refused(found.export, &found.exported, forged);
+    }
+    forget(&found);
+    ld_status status = ld_study_run(study, in("odd"), NULL, &counts, &error);
+    expect_refused(status, &error, forged);
+    run_command("mv odd/study.db odd/shard-1-of-1.db");
+    status = ld_study_merge(in("odd"), stream, &error);
+    expect_refused(status, &error, forged);
+    fclose(stream);
+    expect_none_taken("odd/study.db");
+}
+
+static void test_forged(void **state)
+{
+    (void)state;
+    ld_study *study = study_of(text);
+    for (size_t i = 0; i < sizeof forgeries / sizeof *forgeries; i++)
+        expect_forged(study, &forgeries[i]);
+    ld_study_free(study);
+}
+
+// A shard whose columns have changed their names is of another study than the one before it.
+static void test_other_columns(void **state)
+{
+    (void)state;
+    static const forgery renamed = {"ALTER TABLE rocket RENAME COLUMN pitch TO \"pitsch\"",
+                                    "of different studies: in their table rocket", true},
+                         alone = {"", "its tables are not those of this study", true};
+    ld_error error = {0};
+    ld_study_counts counts;
+    ld_study *study = study_of(text);
+    FILE *stream = fopen("/dev/null", "w");
+    assert_non_null(stream);
+    run_command("rm -rf odd && cp -r good odd && cp odd/study.db odd/shard-1-of-2.db");
+    run_sql(in("odd/study.db"), renamed.sql);
+    seal_study(in("odd/study.db"));
+    ld_status status = ld_study_run(study, in("odd"), NULL, &counts, &error);
+    expect_refused(status, &error, &alone);
+    run_command("mv odd/study.db odd/shard-2-of-2.db");
+    status = ld_study_merge(in("odd"), stream, &error);
+    expect_refused(status, &error, &renamed);
+    fclose(stream);
+    ld_study_free(study);
 }
 
 // Infinities that a run has found are shown as what they are.
@@ -402,6 +498,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_database),    cmocka_unit_test(test_going_on),
         cmocka_unit_test(test_left),        cmocka_unit_test(test_odd_contents),
+        cmocka_unit_test(test_forged),      cmocka_unit_test(test_other_columns),
         cmocka_unit_test(test_infinite),    cmocka_unit_test(test_both_zeros),
         cmocka_unit_test(test_other_files),
     };

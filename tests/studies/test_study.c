@@ -305,6 +305,43 @@ static void test_failures(void **state)
     ld_study_free(study);
 }
 
+// What `study show` prints of a study.
+static char *shown_of(const char *name)
+{
+    char *shown = NULL;
+    size_t length;
+    ld_error error;
+    FILE *stream = open_memstream(&shown, &length);
+    assert_int_equal(ld_study_show(in(name), NULL, stream, &error), LD_OK);
+    fclose(stream);
+    return shown;
+}
+
+// What stabilisers did is shown unasked; the time at their limits where there was any.
+static void test_stabilisers_are_shown(void **state)
+{
+    (void)state;
+    static const char vehicle[] =
+        "include: reference.yaml\nrun: {lead_in: 50 ms, end: tip}\nscatter:\n  samples: 2\n"
+        "  factors:\n    rocket.mass_error: {normal: 0.2 kg}\n";
+    ld_study *usual = study_of(vehicle);
+    ld_study *weak = study_with(vehicle, "platform.elevation.stabiliser.torque_limit=16.2 kN.m");
+    study_run(usual, "usual", 2);
+    study_run(weak, "weak", 2);
+    char *shown = shown_of("usual"), *limited = shown_of("weak");
+    static const char *const result[] = {"azimuth.error_rms", "elevation.torque_peak",
+                                         "elevation.power_mean"};
+    for (int i = 0; i < 3; i++)
+        assert_non_null(strstr(shown, result[i]));
+    assert_null(strstr(shown, "saturated"));
+    assert_non_null(strstr(limited, "elevation.saturated"));
+    assert_null(strstr(limited, "azimuth.saturated"));
+    free(shown);
+    free(limited);
+    ld_study_free(usual);
+    ld_study_free(weak);
+}
+
 // On a base that stands still the second rocket leaves as it would alone, with its own numbers.
 static void test_rockets_of_a_salvo(void **state)
 {
@@ -413,6 +450,7 @@ int main(void)
         cmocka_unit_test(test_one_sample_alone),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_stabilisers_are_shown),
         cmocka_unit_test(test_rockets_of_a_salvo),
         cmocka_unit_test(test_shown_to_others),
         cmocka_unit_test(test_size),

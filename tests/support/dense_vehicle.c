@@ -297,36 +297,90 @@ static double clip(double value, double limit)
     return value > limit ? limit : value < -limit ? -limit : value;
 }
 
-// Stabiliser or lock and friction of a hinge; rate of the integral.
+// Pitch (yaw) of the elevation platform's x axis, and its rate.
+static double measure(const equations *eq, int hinge, double *rate)
+{
+    v3 d = m3_column(eq->body[DENSE_ELEVATION].A, 0);
+    v3 d_dot = v3_cross(eq->body[DENSE_ELEVATION].w, d);
+    double level = d.x * d.x + d.z * d.z;
+    if (hinge == HINGE_AZIMUTH) {
+        *rate = (d.z * d_dot.x - d.x * d_dot.z) / level;
+        return atan2(-d.z, d.x);
+    }
+    *rate = d_dot.y / sqrt(level);
+    return atan2(d.y, sqrt(level));
+}
+
+// Torque that the loops ask for and rate of their integral, of a digital one between its samples. A
+// cascade is a PID whose integral takes the rate's error, too.
+static double ask(const equations *eq, int hinge, double e, double e_dot, double *z_dot)
+{
+    const ld_stabiliser *given = &turret_of(eq->vehicle, hinge)->stabiliser;
+    const ld_cascade *two = &given->cascade;
+    const double *state = eq->input->orientating, limit = given->torque_limit;
+    double kp = two->present ? two->rate_kp * two->kp : given->kp;
+    double kd = two->present ? two->rate_kp : given->kd;
+    double ki = two->present ? two->rate_ki * two->kp : given->ki;
+    double grows = ki * e + (two->present ? two->rate_ki * e_dot : 0);
+    double z = state[ORIENTATING_Z + hinge];
+    *z_dot = 0;
+    if (given->sample > 0 && !eq->input->frictionless)
+        return state[ORIENTATING_DRIVE + DRIVE_STATES * hinge + DRIVE_HELD];
+    if (fabs(z) < limit || z * grows <= 0)
+        *z_dot = grows;
+    return clip(kp * e + kd * e_dot + z, limit);
+}
+
+// Torque of a stabiliser's actuator and gear on the hinge, of what is asked for; their rates.
+static double actuate(equations *eq, int hinge, double asked, double b_dot)
+{
+    const ld_stabiliser *given = &turret_of(eq->vehicle, hinge)->stabiliser;
+    const ld_gear *gear = &given->gear;
+    int at = ORIENTATING_DRIVE + DRIVE_STATES * hinge;
+    const double *drive = eq->input->orientating + at;
+    double *rate = eq->output->orientating + at, torque = asked;
+    if (given->bandwidth > 0) {
+        torque = drive[DRIVE_TORQUE];
+        rate[DRIVE_TORQUE] = two_pi * given->bandwidth * (asked - torque);
+        if (given->slew > 0)
+            rate[DRIVE_TORQUE] = clip(rate[DRIVE_TORQUE], given->slew);
+    }
+    if (!gear->present)
+        return torque;
+    double twist = drive[DRIVE_TWIST], play = 0.5 * gear->backlash;
+    double side = twist < 0 ? -1 : 1, pressed = side * twist - play;
+    double push = gear->stiffness * pressed + gear->damping * side * (drive[DRIVE_RATE] - b_dot);
+    if (gear->backlash > 0 && !eq->input->frictionless && (pressed <= 0 || push <= 0))
+        push = 0;
+    rate[DRIVE_TWIST] = drive[DRIVE_RATE] - b_dot;
+    rate[DRIVE_RATE] = (torque - side * push) / gear->inertia;
+    return side * push;
+}
+
+// Stabiliser or lock and friction of a hinge; rates of what it has in the state.
 static void turn_hinge(equations *eq, int hinge)
 {
     const ld_turret *turret = turret_of(eq->vehicle, hinge);
     const ld_stabiliser *stabiliser = &turret->stabiliser;
     const double *state = eq->input->orientating;
     double b = state[ORIENTATING_ANGLE + hinge], b_dot = state[ORIENTATING_RATE + hinge];
-    double z = state[ORIENTATING_Z + hinge],
-           *z_dot = &eq->output->orientating[ORIENTATING_Z + hinge];
-    // pitch (yaw) of the elevation platform's x axis d, and its rate
-    v3 d = m3_column(eq->body[DENSE_ELEVATION].A, 0);
-    v3 d_dot = v3_cross(eq->body[DENSE_ELEVATION].w, d);
-    double level = d.x * d.x + d.z * d.z;
-    double yaw = atan2(-d.z, d.x), pitch = atan2(d.y, sqrt(level));
-    double yaw_rate = (d.z * d_dot.x - d.x * d_dot.z) / level;
-    double pitch_rate = d_dot.y / sqrt(level);
-    double measured = hinge == HINGE_AZIMUTH ? yaw : pitch;
-    double measured_rate = hinge == HINGE_AZIMUTH ? yaw_rate : pitch_rate;
+    double *z_dot = &eq->output->orientating[ORIENTATING_Z + hinge], measured_rate, command_rate;
+    // errors
+    double measured = measure(eq, hinge, &measured_rate);
+    double command =
+        command_of(&stabiliser->command, eq->input->t, eq->input->command_at, &command_rate);
+    double base_rate = v3_dot(eq->body[DENSE_CHASSIS].w, hinge_axis(eq, hinge));
+    double e = remainder(command - measured, two_pi);
+    double e_dot = command_rate - stabiliser->feedforward * base_rate - measured_rate;
     // torque
-    double command_rate, command = command_of(&stabiliser->command, eq->input->t,
-                                              eq->input->command_at, &command_rate);
-    double e = remainder(command - measured, two_pi), e_dot = command_rate - measured_rate;
-    double limit = stabiliser->torque_limit;
-    double torque = clip(stabiliser->kp * e + stabiliser->kd * e_dot + z, limit);
-    *z_dot = fabs(z) >= limit && z * e > 0 ? 0 : stabiliser->ki * e;
+    double torque;
     if (turret->lock.present) {
         const hinge_rest *rest = &eq->input->rest[hinge];
         torque = rest->torque - turret->lock.stiffness * (b - rest->angle) -
                  turret->lock.damping * b_dot;
         *z_dot = 0;
+    } else {
+        torque = actuate(eq, hinge, ask(eq, hinge, e, e_dot, z_dot), b_dot);
     }
     const ld_hinge_friction *friction = &turret->friction;
     double drag = -friction->viscous * b_dot;
@@ -342,6 +396,7 @@ static void turn_hinge(equations *eq, int hinge)
     eq->output->hinge[hinge].error = e;
     eq->output->hinge[hinge].torque = torque;
     eq->output->hinge[hinge].friction = drag;
+    eq->output->hinge[hinge].base_rate = base_rate;
 }
 
 static void load_tube(equations *eq)

@@ -39,18 +39,18 @@ void dense_vehicle_free(dense_vehicle *vehicle);
 typedef struct dense_vehicle_input {
     double t;                   // [s]
     double command_at;          // [s] an instant on the stretch of the command tables that holds
-    const double *orientating;  // [ORIENTATING_STATES]
+    const double *orientating;  // [ORIENTATING_STATES], with drives [ORIENTATING_MOST_STATES]
     const double *marching;     // [WHEEL_STATES n + 1]
     v3 tube_force, tube_moment; // [N], [N m] on the platform, in T, about T's origin
     double jet;                 // [N] on the elevation platform, along -x of T
     v3 jet_at;                  // [m] where it acts, from T's origin, in T
     hinge_rest rest[HINGES];    // of locked hinges
-    bool frictionless;          // Coulomb friction off
+    bool frictionless;          // Coulomb friction off, drives as linear ones
     bool still;                 // the drive gives nothing (equilibrium)
 } dense_vehicle_input;
 
 typedef struct dense_vehicle_output {
-    double orientating[ORIENTATING_STATES]; // rates of the states
+    double orientating[ORIENTATING_MOST_STATES]; // rates of the states
     double marching[DENSE_MARCHING_STATES];
     v3 acceleration[DENSE_BODIES], alpha[DENSE_BODIES]; // of the bodies' origins, in I
     base_frame tube;                                    // frame T
@@ -60,6 +60,7 @@ typedef struct dense_vehicle_output {
     } wheel[LD_MAX_WHEELS];
     struct {
         double measured, measured_rate, error, torque, friction; // [rad], [rad/s], [N m]
+        double base_rate; // [rad/s] of the chassis along the hinge's axis
     } hinge[HINGES];
     double kinetic, potential; // [J] of everything: gravity, suspension, bump stops
     double power;              // [W] of all forces that are not in `potential`

@@ -171,6 +171,46 @@ static void draw_rocket(uint64_t *seed, double length, ld_rocket *rocket)
     draw_contact(seed, &rocket->contact);
 }
 
+// A lock beside the axis, an inertia that is turned, air on what has come out of the tube.
+static void draw_rocket_options(uint64_t *seed, ld_rocket *rocket)
+{
+    if (chance(seed, 0.5)) {
+        rocket->lock.x = between(seed, -0.2, 2);
+        rocket->lock.radius = between(seed, 0, 0.0825);
+        rocket->lock.angle = between(seed, -3, 3);
+    }
+    for (int i = 0; i < 2 && chance(seed, 0.5); i++)
+        rocket->dynamic_imbalance[i] = 1e-2 * draw(seed);
+    if (chance(seed, 0.3)) {
+        ld_aerodynamics *air = &rocket->aerodynamics;
+        air->present = air->emerged.present = true;
+        air->model = LD_AERODYNAMICS_BODY;
+        air->area = 0.02;
+        air->drag = 0.4;
+        air->emerged.nose = between(seed, 2.5, 3.5);
+        air->emerged.drag = between(seed, 0.1, 2);
+        air->emerged.diameter = between(seed, 0.05, 0.165);
+    }
+}
+
+// Columns that every launch has, taken in all ways, between instants that every rocket has.
+static void draw_measures(uint64_t *seed, ld_model *model)
+{
+    static const char *const column[] = {"tip.pitch_rate", "rocket.s_dot", "slot.force", "tip.y"};
+    static const char *const instant[] = {"t_ignition", "t_front", "t_rear"};
+    for (int i = choice(seed, 4); i > 0; i--) {
+        ld_measure *measure = &model->measure[model->measure_count++];
+        int from = choice(seed, 2);
+        measure->take = (ld_take)choice(seed, 5);
+        measure->within[1] = 1e5;
+        snprintf(measure->name, sizeof measure->name, "m%d", i);
+        snprintf(measure->of, sizeof measure->of, "%s", column[choice(seed, 4)]);
+        snprintf(measure->from, sizeof measure->from, "%s", instant[from]);
+        if (measure->take != LD_TAKE_VALUE)
+            snprintf(measure->to, sizeof measure->to, "%s", instant[from + 1]);
+    }
+}
+
 void draw_random_model(uint64_t seed, ld_model *model)
 {
     reference_model(model);
@@ -182,6 +222,8 @@ void draw_random_model(uint64_t seed, ld_model *model)
     draw_base(&seed, &model->base);
     draw_tubes(&seed, &model->tubes);
     draw_rocket(&seed, model->tubes.length, &model->rocket);
+    draw_rocket_options(&seed, &model->rocket);
+    draw_measures(&seed, model);
     ld_run_settings *run = &model->run;
     run->start = chance(&seed, 0.3) ? LD_START_UNDEFORMED : LD_START_EQUILIBRIUM;
     run->formulation = chance(&seed, 0.1) ? LD_FORMULATION_OVERALL : LD_FORMULATION_REDUCED;
@@ -199,7 +241,7 @@ void draw_random_model(uint64_t seed, ld_model *model)
 
 typedef struct watcher {
     size_t columns, rocket_first, rocket_last; // the rocket's columns are NaN once it has left
-    long rows, not_finite;
+    long rows, not_finite, again;              // `again`: at the instant of the row before
     double last;
     bool ascending;
 } watcher;
@@ -210,7 +252,8 @@ static ld_status begin(void *self, const ld_column *columns, size_t count, ld_er
     watcher *watch = self;
     *watch = (watcher){.columns = count, .rocket_first = count, .ascending = true};
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(columns[i].name, "breech.force") == 0)
+        if (strcmp(columns[i].name, "breech.force") == 0 ||
+            strcmp(columns[i].name, "crossflow.z") == 0)
             watch->rocket_last = i + 1;
         if (strncmp(columns[i].name, "rocket.", 7) == 0 && watch->rocket_first == count)
             watch->rocket_first = i;
@@ -223,7 +266,8 @@ static ld_status row(void *self, const double *values, size_t count, ld_error *e
     (void)error;
     watcher *watch = self;
     bool gone = values[1] == 3; // phase
-    watch->ascending = watch->ascending && (watch->rows == 0 || values[0] > watch->last);
+    watch->ascending = watch->ascending && (watch->rows == 0 || values[0] >= watch->last);
+    watch->again += watch->rows > 0 && values[0] == watch->last;
     watch->last = values[0];
     watch->rows++;
     for (size_t i = 0; i < count; i++) {
@@ -241,6 +285,39 @@ static void check_sentence(const char *text)
     assert_true(strlen(text) > 20);
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf"));
+}
+
+// What the balance misses, of the largest work and of what lifts the rocket by 1 m: a launcher at
+// rest does hardly any work.
+static void check_balance(const ld_model *model, const ld_energy *energy)
+{
+    double largest = 0, lift = model->rocket.full.mass * model->gravity;
+    for (int i = 0; i < LD_MAX_WORKS; i++)
+        largest = fmax(largest, fabs(energy->work[i]));
+    double missed = fabs(energy->residual) / (largest + lift) / model->run.tolerance;
+    if (!(missed < 10))
+        printf("      the energy balance misses %.3g of %.3g J\n", energy->residual, largest);
+    assert_true(missed < 10);
+}
+
+// Of rockets that have left: measures, and of a vehicle how its hinges were held.
+static void check_results(const ld_model *model, const ld_summary *summary)
+{
+    for (int i = 0; i < summary->rocket_count; i++) {
+        const ld_rocket_summary *rocket = &summary->rocket[i];
+        bool left = isfinite(rocket->t_rear), held = model->base.kind == LD_BASE_VEHICLE;
+        bool passes = left && isfinite(rocket->t_front); // it may have been out at the start
+        for (int k = 0; k < model->measure_count && passes; k++)
+            assert_true(isfinite(rocket->measure[k]));
+        for (int k = 0; k < 2 && left && held; k++) {
+            const ld_hinge_summary *hinge = &rocket->hinge[k];
+            const double rounding = 1 + 1e-9;
+            assert_true(hinge->error_rms >= 0);
+            assert_true(hinge->torque_rms <= hinge->torque_peak * rounding);
+            assert_true(hinge->power_mean <= hinge->power_peak * rounding);
+            assert_true(hinge->saturated >= 0 && hinge->saturated <= rocket->t_rear + 1e-9);
+        }
+    }
 }
 
 // 0: refused, 1: could not happen, 2: happened.
@@ -264,6 +341,7 @@ static int run_random_model(int number, const ld_model *model)
            summary.statistics.cpu_seconds);
     assert_true(watch.not_finite == 0);
     assert_true(watch.rows == 0 || watch.ascending);
+    assert_true(watch.again < model->firing_count); // where another tube takes its place
     assert_true(isfinite(summary.t_end));
     assert_true(summary.complete == (status == LD_OK));
     if (status) {
@@ -279,7 +357,8 @@ static int run_random_model(int number, const ld_model *model)
         assert_true(isfinite(rocket->t_rear) && isfinite(rocket->pitch_rate));
         assert_true(rocket->muzzle_speed > 0);
     }
-    assert_true(isfinite(summary.energy.residual));
+    check_balance(model, &summary.energy);
+    check_results(model, &summary);
     return 2;
 }
 

@@ -1,6 +1,6 @@
 // Random vehicles and random states of them: rolling or parked, wheels on the road or in the air,
-// beyond and below the friction limit, stabilisers at their limits, locked hinges, every kind of
-// deterministic road.
+// beyond and below the friction limit, stabilisers at their limits and with their options, locked
+// hinges, every kind of deterministic road.
 #ifndef LD_TESTS_SUPPORT_VEHICLE_CASE_H
 #define LD_TESTS_SUPPORT_VEHICLE_CASE_H
 
@@ -9,10 +9,11 @@
 #include "support/dense_vehicle.h"
 #include "support/draw.h"
 #include "support/reference_model.h"
+#include "support/stabiliser_options.h"
 
 typedef struct vehicle_case {
     double t;
-    double orientating[ORIENTATING_STATES], marching[DENSE_MARCHING_STATES];
+    double orientating[ORIENTATING_MOST_STATES], marching[DENSE_MARCHING_STATES];
     v3 tube_force, tube_moment;
     hinge_rest rest[HINGES];
     bool frictionless;
@@ -70,6 +71,8 @@ static inline void draw_vehicle(uint64_t *seed, int kind, ld_model *model)
         shift3(seed, turret[i]->center, 0.4);
         shift3(seed, turret[i]->inertia, 30);
         turret[i]->lock = (ld_hinge_lock){(kind / 2 + i) % 4 == 0, 1e7, 1e5};
+        if (kind % 8 > 1)
+            draw_stabiliser_options(seed, &turret[i]->stabiliser);
         if (kind % 2) {
             free(turret[i]->stabiliser.command.data);
             turret[i]->stabiliser.command =
@@ -114,6 +117,21 @@ static inline void aim(uint64_t *seed, ld_model *model, m3 A, vehicle_case *c)
     }
 }
 
+// Drives anywhere: torques within the limits, teeth that press on either side or are free, a motor
+// about as fast as its hinge.
+static inline void drive(uint64_t *seed, const ld_platform *platform, double *o)
+{
+    const ld_turret *turret[HINGES] = {&platform->azimuth, &platform->elevation};
+    for (int i = 0; i < HINGES; i++) {
+        const ld_stabiliser *given = &turret[i]->stabiliser;
+        double *own = o + ORIENTATING_DRIVE + DRIVE_STATES * i;
+        for (int k = DRIVE_TORQUE; k <= DRIVE_COMPUTED; k++)
+            own[k] = given->torque_limit * draw(seed);
+        own[DRIVE_TWIST] = given->gear.backlash * draw(seed) + 1e-4 * draw(seed);
+        own[DRIVE_RATE] = o[ORIENTATING_RATE + i] + 1e-2 * draw(seed);
+    }
+}
+
 // Draws a state, moving the model's commands near to where the platform points.
 static inline void draw_vehicle_state(uint64_t *seed, ld_model *model, vehicle_case *c)
 {
@@ -138,6 +156,7 @@ static inline void draw_vehicle_state(uint64_t *seed, ld_model *model, vehicle_c
     }
     m3 turn = m3_mul(m3_rotation_y(o[ORIENTATING_ANGLE]), m3_rotation_z(o[ORIENTATING_ANGLE + 1]));
     aim(seed, model, m3_mul(A, turn), c);
+    drive(seed, &model->platform, o);
     // wheels about their mounts and about touching the road
     for (int i = 0; i < vehicle->wheel_count; i++) {
         double *wheel = c->marching + WHEEL_STATES * i, slope;

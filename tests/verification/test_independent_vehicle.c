@@ -10,10 +10,11 @@ enum { VEHICLES = 48, STATES = 21 }; // 1,008 states
 // What the states went through; a mode that none is in would not be tested.
 typedef struct coverage {
     int states, parked, in_air, sliding, limited, wound_up, locked, rough;
+    int held, lagging, slewing, pressed, free;
 } coverage;
 
 typedef struct differences {
-    double platforms, wheels, rate, tyre, hinge, frame;
+    double platforms, wheels, rate, tyre, hinge, drive, frame;
 } differences;
 
 typedef struct fast_vehicle {
@@ -114,6 +115,34 @@ static void compare_hinges(const ld_model *model, const orientating_motion *moti
     }
 }
 
+// Rates of lags, gears and motors, measured in the greatest that each may have; where the program
+// has no drives, the independent vehicle's are still.
+static void compare_drives(const ld_model *model, bool linear, const double *state,
+                           const double *orientating, const dense_vehicle_output *dense,
+                           differences *worst, coverage *seen)
+{
+    const ld_turret *turret[HINGES] = {&model->platform.azimuth, &model->platform.elevation};
+    for (int i = 0; i < HINGES; i++) {
+        const ld_stabiliser *s = &turret[i]->stabiliser;
+        int at = ORIENTATING_DRIVE + DRIVE_STATES * i;
+        const double *own = orientating + at, *other = dense->orientating + at;
+        double motor = s->gear.present ? s->torque_limit / s->gear.inertia : 1;
+        double size[DRIVE_STATES] = {s->torque_limit * fmax(s->bandwidth, 1), 1, 1, 1, motor};
+        if (turret[i]->lock.present)
+            continue;
+        for (int k = 0; k < DRIVE_STATES; k++)
+            worst->drive = fmax(worst->drive, differ(own[k], other[k], size[k]));
+        seen->held += s->sample > 0 && !linear;
+        seen->lagging += own[DRIVE_TORQUE] != 0;
+        seen->slewing += s->slew > 0 && fabs(own[DRIVE_TORQUE]) == s->slew;
+        if (s->gear.present && s->gear.backlash > 0 && !linear) {
+            bool touch = 2 * fabs(state[at + DRIVE_TWIST]) > s->gear.backlash;
+            seen->pressed += touch;
+            seen->free += !touch;
+        }
+    }
+}
+
 static void compare(fast_vehicle *fast, const dense_vehicle *vehicle, const vehicle_case *c,
                     differences *worst, coverage *seen)
 {
@@ -122,7 +151,7 @@ static void compare(fast_vehicle *fast, const dense_vehicle *vehicle, const vehi
     orientating_motion motion;
     marching_output wheel_forces;
     orientating_output hinge_forces;
-    double marching[DENSE_MARCHING_STATES], orientating[ORIENTATING_STATES];
+    double marching[DENSE_MARCHING_STATES], orientating[ORIENTATING_MOST_STATES] = {0};
     orientating_motion_at(&fast->orientating, c->t, c->orientating, &motion);
     marching_evaluate(&fast->marching, &motion.chassis, false, NULL, c->marching, marching,
                       &wheel_forces);
@@ -142,6 +171,7 @@ static void compare(fast_vehicle *fast, const dense_vehicle *vehicle, const vehi
     compare_rates(model->base.vehicle.wheel_count, orientating, marching, &dense, worst);
     compare_tyres(&model->base.vehicle, &wheel_forces, &dense, worst, seen);
     compare_hinges(model, &motion, orientating, &dense, worst, seen);
+    compare_drives(model, c->frictionless, c->orientating, orientating, &dense, worst, seen);
     worst->frame = fmax(worst->frame, v3_norm(v3_sub(motion.tube.r, dense.tube.r)));
     worst->frame = fmax(worst->frame, v3_norm(v3_sub(motion.tube.v, dense.tube.v)));
     worst->frame = fmax(worst->frame, v3_norm(v3_sub(motion.tube.w, dense.tube.w)));
@@ -176,6 +206,9 @@ static void random_states_of_random_vehicles(void **state)
         dense_vehicle_free(&vehicle);
         reference_model_free(&model);
     }
+    printf("    drives: %d digital, %d lagging, %d at their slew limit, teeth of %d pressed, %d "
+           "free\n",
+           seen.held, seen.lagging, seen.slewing, seen.pressed, seen.free);
     printf("    %d states, %d parked; wheels: %d in the air, %d near the friction limit, %d on "
            "slopes;\n    hinges: %d at the limit, %d locked, %d with a still integral\n",
            seen.states, seen.parked, seen.in_air, seen.sliding, seen.rough, seen.limited,
@@ -183,11 +216,14 @@ static void random_states_of_random_vehicles(void **state)
     assert_true(seen.states > 1000 && seen.parked > 100 && seen.in_air > 100 &&
                 seen.sliding > 100 && seen.rough > 100 && seen.limited > 100 && seen.locked > 100 &&
                 seen.wound_up > seen.locked);
+    assert_true(seen.held > 100 && seen.lagging > 100 && seen.slewing > 100 && seen.pressed > 100 &&
+                seen.free > 50);
     CHECK_BELOW("accelerations of chassis and hinges, of the largest", worst.platforms, 1e-13);
     CHECK_BELOW("accelerations of the wheels, of the largest", worst.wheels, 1e-13);
     CHECK_BELOW("other rates, of the largest", worst.rate, 3e-14);
     CHECK_BELOW("tyre forces and deflections, of the largest", worst.tyre, 2e-13);
     CHECK_BELOW("hinge torques and integrals [of their limits], angles", worst.hinge, 2e-13);
+    CHECK_BELOW("rates of drives, of the largest", worst.drive, 1e-12);
     CHECK_BELOW("tube's frame [m, m/s, rad/s]", worst.frame, 3e-14);
 }
 
