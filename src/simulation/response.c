@@ -486,16 +486,24 @@ ld_status ld_response_gain(ld_response *self, double speed, const char *input,
     return status;
 }
 
+// At the speed on its road, with room for what is answered; *z is freed.
+static ld_status go_on_road(ld_response *self, double speed, double **z, ld_phasor **y,
+                            ld_error *error)
+{
+    ld_status status = response_check_road(self, speed, error);
+    if (!status)
+        status = go_at(self, speed, error);
+    return status ? status : make_room(self, z, y, error);
+}
+
 ld_status response_states(ld_response *self, double speed, double frequency, ld_phasor *state,
                           ld_error *error)
 {
     int n = self->now.states;
     double *z;
     ld_phasor *y;
-    ld_status status = response_check_road(self, speed, error);
-    if (!status)
-        status = go_at(self, speed, error);
-    if (status || (status = make_room(self, &z, &y, error)))
+    ld_status status = go_on_road(self, speed, &z, &y, error);
+    if (status)
         return status;
     status = answer(self, &self->road[ROAD_OF_LEFT], 2, frequency, z, y, error);
     for (int k = 0; k < 2 && !status; k++)
@@ -535,10 +543,8 @@ ld_status ld_response_on_road(ld_response *self, double speed, double *rms, doub
     size_t count = (size_t)self->chosen_count;
     double *z;
     ld_phasor *y;
-    ld_status status = response_check_road(self, speed, error);
-    if (!status)
-        status = go_at(self, speed, error);
-    if (status || (status = make_room(self, &z, &y, error)))
+    ld_status status = go_on_road(self, speed, &z, &y, error);
+    if (status)
         return status;
     double *square = calloc(2 * count + 1, sizeof *square), *most = square + count;
     if (!square)
@@ -693,10 +699,8 @@ ld_status ld_response_density(ld_response *self, double speed, const double *fre
 {
     double *z;
     ld_phasor *y;
-    ld_status status = response_check_road(self, speed, error);
-    if (!status)
-        status = go_at(self, speed, error);
-    if (status || (status = make_room(self, &z, &y, error)))
+    ld_status status = go_on_road(self, speed, &z, &y, error);
+    if (status)
         return status;
     for (size_t k = 0; k < count && !status; k++) {
         double shared, *to = density + k * (size_t)self->chosen_count;
