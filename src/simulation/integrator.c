@@ -34,8 +34,9 @@ struct integrator {
     double next_step; // size to begin with after a restart; 0: the library chooses
     int *found;       // event flags of the last landing
     int failed_rhs;
-    bool anew;    // the next step starts anew
-    bool stopped; // the last step landed on a stop
+    ld_status failure; // of the step that failed
+    bool anew;         // the next step starts anew
+    bool stopped;      // the last step landed on a stop
 
     // What the library knows but does not tell, for those who save it.
     N_Vector y_previous, rate_previous; // where the last step began
@@ -263,15 +264,23 @@ ld_status integrator_start(integrator *self, double t, const double *y, ld_error
 
 static integrator_outcome fail(integrator *self, int flag, ld_error *error)
 {
+    self->failure = flag == ARK_MEM_FAIL && !self->failed_rhs ? LD_ERR_MEMORY : LD_ERR_NUMERIC;
     if (self->failed_rhs)
-        ld_fail(error, LD_ERR_NUMERIC,
-                "the equations of motion gave no finite result at t = %.9g s", self->t);
+        ld_fail(error, self->failure, "the equations of motion gave no finite result at t = %.9g s",
+                self->t);
+    else if (flag == ARK_MEM_FAIL) // the first step takes the rest of its memory
+        ld_fail(error, self->failure, "no memory for the integrator");
     else if (flag == ARK_ERR_FAILURE || flag == ARK_CONV_FAILURE || flag == ARK_TOO_CLOSE)
-        ld_fail(error, LD_ERR_NUMERIC, "the step size fell to nothing at t = %.9g s", self->t);
+        ld_fail(error, self->failure, "the step size fell to nothing at t = %.9g s", self->t);
     else
-        ld_fail(error, LD_ERR_NUMERIC, "the integrator gave up at t = %.9g s (code %d)", self->t,
+        ld_fail(error, self->failure, "the integrator gave up at t = %.9g s (code %d)", self->t,
                 flag);
     return INTEGRATOR_FAILED;
+}
+
+ld_status integrator_failure(const integrator *self)
+{
+    return self->failure;
 }
 
 // The library begins here with a step of size h; 0: it chooses.

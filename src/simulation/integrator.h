@@ -54,6 +54,9 @@ ld_status integrator_start(integrator *self, double t, const double *y, ld_error
 // next step starts anew, whether integrator_start was called or not.
 integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error);
 
+// Of the step that failed: LD_ERR_NUMERIC, LD_ERR_MEMORY.
+ld_status integrator_failure(const integrator *self);
+
 // Takes the last step anew so that it ends at t, which lies in it; where error control makes it
 // still shorter, before t. INTEGRATOR_STEPPED or _FAILED.
 integrator_outcome integrator_return(integrator *self, double t, ld_error *error);

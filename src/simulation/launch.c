@@ -97,6 +97,8 @@ static ld_status change_tube(ld_run *run, double t)
 static ld_status step_failed(ld_run *run)
 {
     double t = propagator_time(run->propagator);
+    if (run->error.status == LD_ERR_MEMORY)
+        return LD_ERR_MEMORY;
     if (launch_check_tube(run, t, propagator_state(run->propagator)) || !run->launch.jammed)
         return LD_ERR_NUMERIC;
     return ld_fail(&run->error, LD_ERR_LAUNCH,
@@ -195,7 +197,7 @@ ld_status launch_stand(ld_run *run)
         return run->status;
     double t = run->t;
     run->outcome = propagator_return(run->propagator, t, &run->error);
-    run->status = run->outcome == INTEGRATOR_FAILED ? LD_ERR_NUMERIC : LD_OK;
+    run->status = run->outcome == INTEGRATOR_FAILED ? run->error.status : LD_OK;
     // error control may have made the step still shorter
     run->t_input = t;
     launch_advance(run, t, false);

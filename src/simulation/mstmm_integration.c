@@ -47,7 +47,7 @@ static ld_status advance(run *r, integrator *stepper, double t_0, double t_1, ld
             if (integrator_step(stepper, t_stop, error) == INTEGRATOR_FAILED)
                 return r->failure.status ? ld_fail(error, r->failure.status, "%s (t = %.9g s)",
                                                    r->failure.text, integrator_time(stepper))
-                                         : LD_ERR_NUMERIC;
+                                         : integrator_failure(stepper);
         y = integrator_state(stepper);
         if (settings->sink && settings->sink(t_stop, y, y + r->q_count, settings->context))
             status = ld_fail(error, LD_ERR_INTERRUPTED, "stopped on request at t = %.9g s", t_stop);

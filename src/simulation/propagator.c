@@ -408,10 +408,10 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
         status = integrator_start(self->marching, t, marching, error);
     while (!status && integrator_time(self->orientating) < self->t_next)
         if (integrator_step(self->orientating, self->t_next, error) == INTEGRATOR_FAILED)
-            return LD_ERR_NUMERIC;
+            return integrator_failure(self->orientating);
     while (!status && integrator_time(self->marching) < self->t_next)
         if (integrator_step(self->marching, self->t_next, error) == INTEGRATOR_FAILED)
-            return LD_ERR_NUMERIC;
+            return integrator_failure(self->marching);
     if (status)
         return status;
 
