@@ -119,26 +119,32 @@ static void set_model(exit_bench *self, const ld_model *of, double speed)
     model->base.vehicle.road.form = LD_ROAD_FLAT;
 }
 
+// Runs on a road from the state `start->y`.
+static ld_status run_on(exit_bench *self, const ld_road *under, ld_error *error)
+{
+    ld_status status = road_build(under, 0, 0, &self->start.road, error);
+    if (!status)
+        status = run_from(self->simulation, &self->start, &self->summary, error);
+    road_free(self->start.road);
+    return status;
+}
+
 // Runs on the road `under`, from the state of rest with the pattern's part `share` of it.
 static ld_status launch(exit_bench *self, const double *pattern, double share, ld_error *error)
 {
     const road_rows *rows = &self->rows;
     const double *height = pattern + row_at(rows, HEIGHT);
-    launch_start *start = &self->start;
-    memcpy(start->y, self->rest.y, sizeof start->y);
+    double *y = self->start.y;
+    memcpy(y, self->rest.y, sizeof self->start.y);
     for (int i = 0; i < rows->unknowns; i++)
-        linear_displace(&self->state, &self->rest, i, share * pattern[i], start->y);
+        linear_displace(&self->state, &self->rest, i, share * pattern[i], y);
     for (int i = 0; i < rows->points; i++) {
         double *point = self->profile + 3 * i;
         point[0] = rows->from + i * rows->step;
         point[1] = share * height[i];
         point[2] = share * height[rows->points + i];
     }
-    ld_status status = road_build(&self->under, 0, 0, &start->road, error);
-    if (!status)
-        status = run_from(self->simulation, start, &self->summary, error);
-    road_free(start->road);
-    return status;
+    return run_on(self, &self->under, error);
 }
 
 static ld_status find_rest(exit_bench *self, ld_error *error)
@@ -386,11 +392,7 @@ static ld_status launch_from_rest(exit_bench *self, ld_error *error)
 {
     static const ld_road flat = {.iso_class = LD_ROAD_SMOOTH};
     memcpy(self->start.y, self->rest.y, sizeof self->start.y);
-    ld_status status = road_build(&flat, 0, 0, &self->start.road, error);
-    if (!status)
-        status = run_from(self->simulation, &self->start, &self->summary, error);
-    road_free(self->start.road);
-    return status;
+    return run_on(self, &flat, error);
 }
 
 static ld_status scatter(exit_bench *self, ld_response *response, double speed, int draws,
