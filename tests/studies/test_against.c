@@ -413,6 +413,20 @@ static char *shown(const char *name, const ld_study_view *view, ld_status expect
     return text;
 }
 
+// By hand: downranges of 13, 23, 35, 45 m against 11, 22, 33, 44 m, two rockets a sample; as shown
+// and in the table, each behind what leads to it.
+static void check_ratios(const char *text, const char *before, const char *format, double bound)
+{
+    const double expected[2] = {sqrt(584. / 605), 10. / 11};
+    double ratio[2];
+    size_t at = strcspn(text, "\n");
+    while (text[at] && strncmp(text + at, before, strlen(before)) != 0)
+        at++;
+    assert_int_equal(sscanf(text + at, format, &ratio[0], &ratio[1]), 2);
+    CHECK_BELOW("ratio", fabs(ratio[0] - expected[0]), bound);
+    CHECK_BELOW("  within samples", fabs(ratio[1] - expected[1]), bound);
+}
+
 static void test_shown(void **state)
 {
     (void)state;
@@ -427,13 +441,21 @@ static void test_shown(void **state)
     assert_non_null(strstr(text, "against point 2: 4 pairs of rockets, 2 independent groups"));
     assert_non_null(strstr(text, "\ndownrange [m]              1.5 [1.5, 1.5] "));
     assert_non_null(strstr(text, "\ndownrange and drift: areas "));
+    check_ratios(text, "\ndownrange [m] ", " downrange [m] %*f [%*f, %*f] %lf %lf", 5e-5);
     free(text);
     text = read_whole(in("made.csv"));
+    check_ratios(text, "\n4,15 km/h,\"[2, 1]\",2,downrange,",
+                 " 4,15 km/h,\"[2, 1]\",2,downrange,m,4,2,%*f,%*f,%*f,%lf,,,%lf,,", 1e-15);
     static const char header[] =
         "point,base.speed,firing.order,reference,result,unit,pairs,groups,difference,"
         "difference_low,difference_high,ratio,ratio_low,ratio_high,ratio_within,ratio_within_low,"
         "ratio_within_high\n4,15 km/h,\"[2, 1]\",2,downrange,m,4,2,1.5,";
     assert_memory_equal(text, header, sizeof header - 1);
+    double mean = 0, low = 0, high = 0; // drifts of 1, 2, 4, 6 m against 1, 4, 3, 4 m
+    const char *drift = strstr(text, "\n4,15 km/h,\"[2, 1]\",2,drift,m,4,2,");
+    assert_true(drift && sscanf(drift, " 4,15 km/h,\"[2, 1]\",2,drift,m,4,2,%lf,%lf,%lf,", &mean,
+                                &low, &high) == 3);
+    assert_true(mean == 0.25 && low < mean && mean < high);
     assert_non_null(strstr(text, "\n4,15 km/h,\"[2, 1]\",2,downrange and drift,m,4,2,,,,"));
     free(text);
     view = (ld_study_view){.against = "3", .what = "drift"};
