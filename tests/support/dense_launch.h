@@ -40,6 +40,8 @@ typedef struct dense_launch {
     int surface_count;
     dense_surface surface[DENSE_MAX_SURFACES];
     int mode_count; // 2 nb + nt + na
+    // stiffness int EI b'' b''^T dx and damping 2 zeta K^(1/2) of bending along y, along z
+    double K[2][LD_NB][LD_NB], D[2][LD_NB][LD_NB]; // [1/s2], [1/s]
     int point_count;
     dense_tube_point *point;
 } dense_launch;
@@ -47,6 +49,9 @@ typedef struct dense_launch {
 // Prepares `dense` (keeps both pointers). Free with dense_launch_free().
 void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube);
 void dense_launch_free(dense_launch *dense);
+
+// Whether the lock holds roll: in smooth bores and on round surfaces alone.
+bool dense_launch_holds_roll(const dense_launch *dense);
 
 // The base that carries the tube: the frame that the undeformed tube's rear end has on it.
 typedef struct dense_base {
