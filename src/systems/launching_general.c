@@ -116,7 +116,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
         crossflow_add(&self->crossflow, &self->tube, now);
         if (input->load)
             load_rocket(input->load, now);
-        adaptors_add(lanes, &self->adaptors, &self->tube, now);
+        launching_touch(lanes, self, now);
         breech_add(lanes, &self->adaptors.law, &self->tube, now);
         tube_factor(&self->tube, &now->tube);
         launching_constrain(lanes, self, now, &u->c);
