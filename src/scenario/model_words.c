@@ -117,7 +117,8 @@ static void tell_supports(FILE *stream, const ld_tubes *tubes)
 {
     fprintf(stream, "# supports:");
     for (int i = 0; i < tubes->support_count; i++)
-        fprintf(stream, "%s springs at %s", i ? "," : "", METRES(tubes->support[i].at));
+        fprintf(stream, "%s %s at %s", i ? "," : "",
+                tubes->support[i].clamped ? "a clamp" : "springs", METRES(tubes->support[i].at));
     fputc('\n', stream);
 }
 
