@@ -135,8 +135,8 @@ export class Rail {
     const { kind, solid, seenThrough } = motion.guide, rings = motion.stations.length;
     this.motion = motion;
     this.group = new Group();
-    const thin = angular(COLOURS.tube, { transparent: true, opacity: 0.3, depthWrite: false });
-    const faint = line(COLOURS.tube, { transparent: true, opacity: 0.6 });
+    const thin = angular(COLOURS.tube, { transparent: true, opacity: 0.12, depthWrite: false });
+    const faint = line(0x20262b, { transparent: true, opacity: 0.3 });
     this.beams = [[solid, angular(COLOURS.tube), edge], [seenThrough, thin, faint]].map(([profiles, surface, stroke]) => {
       const beams = new Beams(profiles.length, rings, surface, stroke);
       this.group.add(beams.group);
