@@ -55,21 +55,22 @@ static number_text degrees(double value)
 
 // ---- base ----
 
-static void tell_base(FILE *stream, const ld_base *base)
+static void tell_base(FILE *stream, const ld_model *model)
 {
-    static const char *const kind[] = {[LD_BASE_FIXED] = "fixed",
-                                       [LD_BASE_PRESCRIBED] = "moved as prescribed",
-                                       [LD_BASE_VEHICLE] = "a vehicle",
-                                       [LD_BASE_EXTERNAL] = "moved from outside"};
     static const char *const looks[] = {
-        [LD_LOOKS_PLAIN] = "", [LD_LOOKS_SHIP] = "a ship, ", [LD_LOOKS_AIRCRAFT] = "an aircraft, "};
-    bool vehicle = base->kind == LD_BASE_VEHICLE;
-    fprintf(stream, "# base: %s%s", vehicle ? "" : looks[base->looks], kind[base->kind]);
-    if (vehicle)
+        [LD_LOOKS_PLAIN] = "", [LD_LOOKS_SHIP] = ", a ship", [LD_LOOKS_AIRCRAFT] = ", an aircraft"};
+    const ld_base *base = &model->base;
+    char kind[16];
+    double elevation;
+    ld_model_text(model, "base.kind", kind, sizeof kind, NULL);
+    fprintf(stream, "# base: %s", kind);
+    if (model_has_vehicle(model))
         fprintf(stream, " on %d wheels", base->vehicle.wheel_count);
-    if (base->kind == LD_BASE_FIXED || base->kind == LD_BASE_PRESCRIBED) {
-        fprintf(stream, "; tube %s %s", DEGREES(fabs(base->elevation)),
-                base->elevation < 0 ? "down" : "up");
+    else
+        fputs(looks[base->looks], stream);
+    if (!ld_model_number(model, "base.elevation", &elevation, NULL)) {
+        fprintf(stream, "; launcher %s %s", DEGREES(fabs(elevation)),
+                elevation < 0 ? "down" : "up");
         if (base->azimuth != 0)
             fprintf(stream, ", %s to the %s", DEGREES(fabs(base->azimuth)),
                     base->azimuth < 0 ? "right" : "left");
@@ -232,7 +233,7 @@ void ld_model_describe(const ld_model *model, FILE *stream)
     if (!model_has_launcher(model))
         return;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
-    tell_base(stream, &model->base);
+    tell_base(stream, model);
     tell_guide(stream, &model->tubes);
     tell_slot(stream, &model->tubes.slot);
     tell_supports(stream, &model->tubes);

@@ -43,7 +43,7 @@ static void test_bore(void **state)
 {
     (void)state;
     check_words("examples/fixed.yaml", NULL, 0,
-                "# base: fixed; tube 19.8 deg up\n" GUIDE SUPPORTS ROCKET DRIVE);
+                "# base: fixed; launcher 19.8 deg up\n" GUIDE SUPPORTS ROCKET DRIVE);
     const char *sets[] = {"tubes.layout.rows=1",
                           "tubes.layout.columns=1",
                           "firing.1.tube=1",
@@ -52,7 +52,7 @@ static void test_bore(void **state)
                           "rocket.lock=none",
                           "rocket.contact.law=bilateral"};
     check_words("examples/fixed.yaml", sets, sizeof sets / sizeof *sets,
-                "# base: fixed; tube 5 deg down\n"
+                "# base: fixed; launcher 5 deg down\n"
                 "# guide: a bore, 3 m long\n"
                 "#   from 0 m: bore radius 82.5 mm, wall 2.5 mm, EI 969.1 kN.m2, GJ 745.4 kN.m2, "
                 "10.33 kg/m\n" SUPPORTS
@@ -68,7 +68,7 @@ static void check_guide(const char *guide, const char *words)
     const char *sets[] = {guide, "tubes.layout={rows: 1, columns: 1}", "firing.1.tube=1",
                           "tubes.slot=none", "rocket.adaptors.2.clearance=0 mm"};
     snprintf(expected, sizeof expected,
-             "# base: fixed; tube 19.8 deg up\n%s"
+             "# base: fixed; launcher 19.8 deg up\n%s"
              "#   from 0 m: wall 2.5 mm, EI 969.1 kN.m2, GJ 745.4 kN.m2, 10.33 kg/m\n" SUPPORTS
              "# rocket: 60 kg, from 0.1 m, on shoes rear (0 m, gaps 0.3 mm wider), middle "
              "(1.2 m), front (1.9 m, gaps 0.4 mm wider)\n" DRIVE,
@@ -99,10 +99,10 @@ static void test_bases(void **state)
     (void)state;
     check_words(
         "examples/ship.yaml", NULL, 0,
-        "# base: a ship, moved as prescribed; tube 40 deg up, 60 deg to the left\n" GUIDE SUPPORTS
-            ROCKET DRIVE);
+        "# base: prescribed, a ship; launcher 40 deg up, 60 deg to the left\n" GUIDE SUPPORTS ROCKET
+            DRIVE);
     check_words("examples/reference.yaml", NULL, 0,
-                "# base: a vehicle on 6 wheels\n" GUIDE SUPPORTS ROCKET DRIVE);
+                "# base: vehicle on 6 wheels\n" GUIDE SUPPORTS ROCKET DRIVE);
 }
 
 static void test_flight_alone(void **state)
