@@ -58,6 +58,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     now.phase = phase;
     now.out = out;
     memset(out->power, 0, sizeof out->power);
+    now.on_tube.record = input->record;
     tube_load(lanes, &self->tube, &self->layout, state, &now.tube);
     tube_forces(lanes, &self->tube, &now.tube, &now.on_tube, out);
     supports_add(lanes, &self->supports, &self->tube, &now);
@@ -85,6 +86,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     if (!constrain(lanes, self, &now, &constraints, &all))
         return LAUNCHING_JAMMED;
     constraints_report(&constraints, out);
+    constraints_record(&now, &constraints);
     out->a_O1 = all.a;
     out->alpha_B = all.alpha;
     tube_backward(&now.tube, all.rigid, &out->a, &out->w_dot);
@@ -150,7 +152,7 @@ void launching_project(const launching_system *self, const launching_input *inpu
     const constraint_direction *e = &set.e[0];
     double x = e->drift / direction_product(&now.tube, &set.shapes, e, e);
     v3 a, w_dot;
-    double q_dot[LD_MAX_MODAL];
+    double q_dot[LD_MAX_MODAL] = {0}; // axial modes, which the fast layout has not, get no impulse
     tube_backward(&now.tube, e->rigid, &a, &w_dot);
     tube_modal_accelerations(lanes, &self->tube, &now.tube, &set.shapes, &now.on_tube,
                              v3_neg(e->force), v3_neg(e->mu), a, w_dot, q_dot);
