@@ -147,7 +147,7 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
     const launching_layout *at = &self->layout;
     constraint_products D;
     constrained impulse = {.a = v3_zero()};
-    double x[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL];
+    double x[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
     v3 v, w;
     constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
     ldl_factor(set->count, LD_MAX_CONSTRAINTS, D.D[0]);
