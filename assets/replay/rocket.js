@@ -20,6 +20,7 @@ export class Rocket {
     this.half = Math.min(0.01 * motion.length, 0.15 * front); // half the length of an adaptor
     this.flame = new Mesh(new ConeGeometry(1, 1, 20, 1, true), material(COLOURS.flame,
       { transparent: true, opacity: 0.75, depthWrite: false, emissive: 0xff7a00 }));
+    this.powered = motion.largest("thrust") > 0;
     this.fins = new Group();
     for (let i = 0; i < 4; i++) this.fins.add(fin(body, (Math.PI * i) / 2));
     this.group = new Group();
@@ -55,7 +56,8 @@ export class Rocket {
       this.drawShoes(still, () => motion.guide.pads(0, 0));
     }
     this.fins.position.set(-motion.center, 0, 0);
-    this.fins.visible = this.straight = true;
+    this.straight = true;
+    this.fins.visible = this.powered;
     this.burn([-motion.center + this.profile[0].l, 0, 0], [-1, 0, 0], burning);
   }
   drawAlong(at, roll, radius, burning) {
