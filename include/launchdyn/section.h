@@ -12,6 +12,7 @@ typedef enum ld_section_form {
     LD_SECTION_STIFFNESS, ///< stiffnesses and masses per length, as they stand: nothing to compute
     LD_SECTION_ANNULUS,   ///< inner and outer radius
     LD_SECTION_AREA,      ///< area and second moments, with masses per length
+    LD_SECTION_PLANES,    ///< as LD_SECTION_STIFFNESS, with a bending stiffness of each plane
 } ld_section_form;
 
 /// A stretch of the tube with constant section, from `from` to the next section's or to the end.
@@ -25,7 +26,10 @@ typedef struct ld_section {
     double torsion_constant;  ///< [m4] I_t (area)
     double mass_per_length;   ///< [kg/m]
     double axial_stiffness;   ///< [N] E A
-    double bending_stiffness; ///< [N m2] E I, the same in both planes
+    double bending_stiffness; ///< [N m2] E I, the same in both planes (not of the planes' form)
+    /// [N m2] E I about y: of deflections along z; and about z: of deflections along y (the planes'
+    /// form). The principal axes lie along y and z, the line of the masses is the elastic axis.
+    double bending_stiffness_y, bending_stiffness_z;
     double torsion_stiffness; ///< [N m2] G I_t
     double polar_inertia;     ///< [kg m] rho I_p per length
 } ld_section;

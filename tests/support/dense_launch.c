@@ -24,6 +24,35 @@ static const ld_section *section_at(const ld_tubes *tubes, double x)
     return &tubes->section[i];
 }
 
+// D = 2 zeta K^(1/2) of one plane.
+static void damp_plane(int nb, double zeta, double K[LD_NB][LD_NB], double D[LD_NB][LD_NB])
+{
+    double vector[LD_NB * LD_NB], value[LD_NB];
+    for (int i = 0; i < nb; i++)
+        for (int j = 0; j < nb; j++)
+            vector[i * nb + j] = K[i][j];
+    if (nb > 0)
+        LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'L', nb, vector, nb, value);
+    for (int m = 0; m < nb; m++)
+        for (int i = 0; i < nb; i++)
+            for (int j = 0; j < nb; j++)
+                D[i][j] += 2 * zeta * sqrt(value[m]) * vector[m * nb + i] * vector[m * nb + j];
+}
+
+// Adds a point's share of int E I b'' b''^T dx to the stiffness of both planes; `stiffness` [N m2]
+// of deflections along y and z, times the point's weight.
+static void bend_planes(dense_launch *dense, const tube_element *element, double at,
+                        const double stiffness[2])
+{
+    double curvature[LD_NB];
+    for (int m = 0; m < dense->tube->nb; m++)
+        curvature[m] = 2 * element->b[2][m] + 6 * element->b[3][m] * (at - element->x0);
+    for (int plane = 0; plane < 2; plane++)
+        for (int i = 0; i < dense->tube->nb; i++)
+            for (int j = 0; j < dense->tube->nb; j++)
+                dense->K[plane][i][j] += stiffness[plane] * curvature[i] * curvature[j];
+}
+
 void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube)
 {
     const ld_tubes *tubes = &model->tubes;
@@ -42,9 +71,14 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
             const ld_section *section = section_at(tubes, 0.5 * (from + to));
             for (int g = 0; g < GAUSS; g++) {
                 double weight = 0.5 * (to - from) * gauss_weight[g];
+                double at = 0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g];
+                bool planes = section->form == LD_SECTION_PLANES;
+                double EI = section->bending_stiffness;
                 dense->point[dense->point_count++] = (dense_tube_point){
-                    0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g],
-                    weight * section->mass_per_length, weight * section->polar_inertia};
+                    at, weight * section->mass_per_length, weight * section->polar_inertia};
+                bend_planes(dense, &tube->element[i], at,
+                            (double[2]){weight * (planes ? section->bending_stiffness_z : EI),
+                                        weight * (planes ? section->bending_stiffness_y : EI)});
             }
             from = to;
         }
@@ -52,6 +86,8 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
     for (int i = 0; i < tubes->point_mass_count; i++)
         dense->point[dense->point_count++] =
             (dense_tube_point){tubes->point_mass[i].at, tubes->point_mass[i].mass, 0};
+    for (int plane = 0; plane < 2; plane++)
+        damp_plane(tube->nb, tubes->modes.damping, dense->K[plane], dense->D[plane]);
 }
 
 void dense_launch_free(dense_launch *dense)
@@ -441,10 +477,22 @@ static void add_rigid(equations *eq, const jet_frame *body, double mass, const d
 static void add_modes(equations *eq, const jet_scene *scene)
 {
     const flexible_tube *tube = scene->dense->tube;
-    const double *om2[4] = {tube->om2_b, tube->om2_b, tube->om2_t, tube->om2_a};
-    const double *dmp[4] = {tube->dmp_b, tube->dmp_b, tube->dmp_t, tube->dmp_a};
-    int count[4] = {tube->nb, tube->nb, tube->nt, tube->na};
-    for (int part = 0, k = 0; part < 4; part++)
+    const double *om2[2] = {tube->om2_t, tube->om2_a}, *dmp[2] = {tube->dmp_t, tube->dmp_a};
+    int count[2] = {tube->nt, tube->na};
+    for (int plane = 0; plane < 2; plane++)
+        for (int i = 0; i < tube->nb; i++) {
+            const double *q = scene->state->q + plane * tube->nb;
+            const double *q_dot = scene->state->q_dot + plane * tube->nb;
+            double elastic = 0, damped = 0;
+            for (int j = 0; j < tube->nb; j++) {
+                elastic += scene->dense->K[plane][i][j] * q[j];
+                damped += scene->dense->D[plane][i][j] * q_dot[j];
+            }
+            eq->h[6 + plane * tube->nb + i] -= elastic + damped;
+            eq->other[6 + plane * tube->nb + i] -= damped;
+            eq->potential += 0.5 * elastic * q[i];
+        }
+    for (int part = 0, k = 2 * tube->nb; part < 2; part++)
         for (int m = 0; m < count[part]; m++, k++) {
             double q = scene->state->q[k], q_dot = scene->state->q_dot[k];
             eq->h[6 + k] -= om2[part][m] * q + dmp[part][m] * q_dot;

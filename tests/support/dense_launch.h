@@ -23,13 +23,16 @@ typedef struct dense_tube_point {
     double at, mass, polar;
 } dense_tube_point;
 
-// A model made ready: quadrature points along the tube.
+// A model made ready: quadrature points along the tube; bending's modal stiffness and damping in
+// the planes y and z, from the shapes' curvature and the sections' stiffnesses.
 typedef struct dense_launch {
     const ld_model *model;
     const flexible_tube *tube;
     int mode_count; // 2 nb + nt + na
     int point_count;
     dense_tube_point *point;
+    double K[2][LD_NB][LD_NB]; // [1/s2] int E I b'' b''^T dx
+    double D[2][LD_NB][LD_NB]; // [1/s] 2 zeta K^(1/2)
 } dense_launch;
 
 // Prepares `dense` (keeps both pointers). Free with dense_launch_free().
