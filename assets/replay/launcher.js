@@ -1,18 +1,19 @@
-// The bodies of a launcher: vehicle or simple base, platforms, tubes, the launching tube, rockets.
+// The bodies of a launcher: vehicle, platforms, tubes, the launching tube, rockets.
 import { BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute, Group, LineLoop,
   Mesh } from "three";
-import { box, cylinder, line, material, place, point, Sleeve } from "./shapes.js";
+import { box, cylinder, line, material, place, point, prism, Sleeve } from "./shapes.js";
 import { add, apply, scaled, subtract } from "./vector.js";
 
 const RING = 32; // points of a circle
 
 export const COLOURS = {
   tube: 0x2f7fd0, inside: 0x9cc3ea, rocket: 0xe8602c, stripe: 0xffd9c4, adaptor: 0xf2b632, force: 0x17a05d,
-  vehicle: 0x6d7b62, platform: 0x8a9480, wheel: 0x33383d, hub: 0xb9bfc4, other: 0x7f8fa0, flame: 0xffb300,
+  vehicle: 0x8f989f, platform: 0xaab2b8, bright: 0xd3d8dc, wheel: 0x33383d, hub: 0xb9bfc4, other: 0x7f8fa0,
+  flame: 0xffb300,
 };
 
-const edge = line(0x20262b, { transparent: true, opacity: 0.55 });
-const paint = Object.fromEntries(Object.entries(COLOURS).map(([name, color]) => [name, material(color)]));
+export const edge = line(0x20262b, { transparent: true, opacity: 0.55 });
+export const paint = Object.fromEntries(Object.entries(COLOURS).map(([name, color]) => [name, material(color)]));
 
 // ---- what carries the tubes ----
 
@@ -36,6 +37,7 @@ export class Vehicle {
       this.azimuth.add(box([e[0] - 0.16, 0.1, z - 0.04], [e[0] + 0.16, e[1] + 0.12, z + 0.04], paint.platform, edge));
     this.azimuth.add(box([Math.min(0, e[0]) - 0.2, 0.05, -width], [Math.max(0, e[0]) + 0.3, 0.16, width], paint.platform, edge));
     this.wheels = mounts.map(() => wheel(R));
+    this.eye = { distance: 1, direction: [4.4, 2.8, 9.9] };
     group.add(this.chassis, this.azimuth, ...this.wheels);
   }
   width() {
@@ -54,12 +56,21 @@ export class Vehicle {
   }
 }
 
+// A cab with a raked windscreen, side windows, lamps and a bumper.
 function cab(rear, front, floor, deck, side) {
-  const group = new Group(), top = deck + 0.75;
-  side += 0.01;
-  group.add(box([rear, floor, -side], [front, top, side], paint.vehicle, edge));
-  group.add(box([rear + 0.35, deck + 0.2, -side - 0.012], [front - 0.2, top - 0.1, side + 0.012], paint.wheel));
-  group.add(box([front - 0.02, deck + 0.15, -side + 0.12], [front + 0.012, top - 0.1, side - 0.12], paint.wheel));
+  const group = new Group(), top = deck + 0.75, rake = 0.28, sill = deck + 0.18, out = side + 0.01;
+  const outline = [[rear, floor], [front, floor], [front, sill], [front - rake, top], [rear, top]];
+  const across = (points, half, surface, stroke) =>
+    group.add(prism(points.map(([x, y]) => [x, y, -half]), [0, 0, 2 * half], surface, stroke));
+  across(outline, out, paint.vehicle, edge);
+  const edgeAt = (y) => front - rake * ((y - sill) / (top - sill));
+  const pane = [[rear + 0.25, sill + 0.04], [edgeAt(sill + 0.04) - 0.12, sill + 0.04], [edgeAt(top - 0.1) - 0.12, top - 0.1], [rear + 0.25, top - 0.1]];
+  across(pane, out + 0.012, paint.wheel);
+  const glass = [[edgeAt(sill + 0.06) + 0.012, sill + 0.06], [edgeAt(top - 0.08) + 0.012, top - 0.08], [edgeAt(top - 0.08) - 0.05, top - 0.08], [edgeAt(sill + 0.06) - 0.05, sill + 0.06]];
+  across(glass, out - 0.14, paint.wheel);
+  group.add(box([front - 0.1, floor - 0.05, -out], [front + 0.08, floor + 0.17, out], paint.wheel));
+  for (const z of [-out + 0.3, out - 0.3])
+    group.add(cylinder([front - 0.02, floor + 0.35, z], [front + 0.03, floor + 0.35, z], 0.1, paint.bright));
   return group;
 }
 
@@ -74,25 +85,6 @@ function wheel(R) {
   return group;
 }
 
-// A plate with a post below each support; the tube is where it is on the base.
-export class Stand {
-  constructor(motion, group) {
-    this.group = new Group();
-    const at = motion.supports.map((x) => apply(motion.mount, [x, 0, 0]));
-    const low = Math.min(0, ...at.map(([, y]) => y)) - 0.7;
-    const xs = at.map(([x]) => x), zs = at.map(([, , z]) => z);
-    this.group.add(box([Math.min(...xs) - 0.7, low - 0.12, Math.min(...zs) - 0.7],
-      [Math.max(...xs) + 0.7, low, Math.max(...zs) + 0.7], paint.platform, edge));
-    for (const foot of at)
-      this.group.add(cylinder([foot[0], low, foot[2]], subtract(foot, [0, motion.outer, 0]), 0.07, paint.vehicle, edge));
-    this.low = low - 0.12;
-    group.add(this.group);
-  }
-  show(state, anchor) {
-    place(this.group, subtract(state.base.r, anchor), state.base.A);
-  }
-}
-
 // ---- tubes ----
 
 // The other tubes in their places, seen through, and the frames that hold all of them.
@@ -105,7 +97,7 @@ export class Pack {
     this.beam = material(COLOURS.platform, { transparent: true });
     this.rim = line(COLOURS.other, { transparent: true });
     this.tubes = motion.places.map((at) => this.tube(at));
-    if (motion.vehicle) this.frames();
+    if (motion.places.length > 1) this.frames();
     this.group.add(...this.tubes);
     group.add(this.group);
   }

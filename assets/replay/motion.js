@@ -43,6 +43,8 @@ export class Motion {
     this.elevationHinge = single("elevation.hinge");
     const mount = single("base.mount");
     this.mount = mount ? multiply(aboutY(mount[0]), aboutZ(mount[1])) : IDENTITY;
+    this.looks = single("base.looks")?.[0] ?? 0;
+    this.envelope = this.around();
     const named = (head, tail) => [...table.column.keys()].filter((name) => name.startsWith(head) &&
       name.endsWith(tail)).map((name) => name.slice(head.length, name.length - tail.length));
     this.adaptorNames = named("contact.", ".force");
@@ -52,6 +54,14 @@ export class Motion {
 
   get vehicle() {
     return this.mounts.length > 0 && this.mounts.length === this.wheelNames.length;
+  }
+
+  // Corners [y, z] of all tubes' frames across the first launching tube, in T.
+  around() {
+    const room = this.places.length > 1 ? 1.5 * this.outer : this.outer;
+    const from = this.places[(this.rockets[0]?.tube ?? 1) - 1] ?? this.places[0];
+    const span = (of, by) => [1, 2].map((i) => of(...this.places.map((p) => p[i] - from[i])) + by);
+    return { low: span(Math.min, -room), high: span(Math.max, room) };
   }
 
   // The largest value of a column, in size.

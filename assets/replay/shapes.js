@@ -90,6 +90,37 @@ export function cylinder(from, to, radius, surface, edge, segments = 24) {
   return made;
 }
 
+// A prism: a plane polygon without hollows, and the same moved by a vector.
+export function prism(polygon, along, surface, edge) {
+  const moved = polygon.map((p) => add(p, along)), faces = [];
+  for (let i = 2; i < polygon.length; i++)
+    for (const side of [polygon, moved]) faces.push(side[0], side[i - 1], side[i]);
+  polygon.forEach((a, i) => {
+    const k = (i + 1) % polygon.length;
+    faces.push(a, polygon[k], moved[k], a, moved[k], moved[i]);
+  });
+  return edged(flat(faces), surface, edge);
+}
+
+// A surface over lists of points, as many in each.
+export function loft(lists, surface, edge) {
+  const faces = [];
+  for (let j = 0; j + 1 < lists.length; j++)
+    for (let i = 0; i + 1 < lists[j].length; i++) {
+      const [a, b, c, d] = [lists[j][i], lists[j][i + 1], lists[j + 1][i + 1], lists[j + 1][i]];
+      faces.push(a, b, c, a, c, d);
+    }
+  return edged(flat(faces), surface, edge);
+}
+
+// Triangles by their corners, each with its own direction.
+function flat(corners) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(corners.flat()), 3));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
 // Puts an object's y axis along a direction.
 export function point(object, at, direction) {
   object.position.set(...at);

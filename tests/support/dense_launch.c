@@ -748,6 +748,119 @@ static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene 
     memcpy(output->contact[index].force, f, sizeof f);
 }
 
+// How much of a generalised force h is a force on the rocket (in I) and a moment about `center`.
+static void wrench_on_rocket(const jet_scene *scene, const double *h, const double center[3],
+                             double force[3], double moment[3])
+{
+    int first = scene->n - 6;
+    const dense_state *state = scene->state;
+    turn(moment, state->A_B[0], h + first + 3); // about O1
+    for (int i = 0; i < 3; i++)
+        force[i] += h[first + i];
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        moment[i] -= (center[j] - state->r_O1[j]) * h[first + k] -
+                     (center[k] - state->r_O1[k]) * h[first + j];
+    }
+}
+
+// Friction of a surface that presses with `normal` where its point W, given in the section, is.
+static void add_rubbing(equations *eq, const jet_scene *scene, const jet_frame *material,
+                        const double W[3], double angle, double normal)
+{
+    const ld_contact *law = &scene->dense->model->rocket.contact;
+    double place[3], slip[3], out[3], along = 0, square = 0, f[3];
+    for (int i = 0; i < 3; i++) {
+        place[i] = material->r.c[i].v;
+        for (int j = 0; j < 3; j++)
+            place[i] += material->A.c[i][j].v * W[j];
+        out[i] = material->A.c[i][1].v * cos(angle) + material->A.c[i][2].v * sin(angle);
+    }
+    slip_at(slip, scene, material, place);
+    for (int i = 0; i < 3; i++)
+        along += slip[i] * out[i];
+    for (int i = 0; i < 3; i++) {
+        f[i] = slip[i] - along * out[i];
+        square += f[i] * f[i];
+    }
+    double drag =
+        -law->friction * normal / sqrt(square + law->friction_speed * law->friction_speed);
+    for (int i = 0; i < 3; i++)
+        f[i] *= drag;
+    add_pair(eq->h, scene, material, place, f);
+    add_pair(eq->other, scene, material, place, f);
+}
+
+// One surface of a shoe whose centre's foot is the section at s: the penetration is written as a
+// function of the coordinates, and the normal force does the work -F_n dp.
+static void add_surface(equations *eq, const jet_scene *scene, const dense_conditions *on,
+                        int index, jet s, dense_launch_output *output)
+{
+    const dense_launch *dense = scene->dense;
+    const dense_surface *surface = &dense->surface[index];
+    const ld_model *model = dense->model;
+    double n_y = cos(surface->normal), n_z = sin(surface->normal);
+    double from_line[2] = {surface->round ? 0 : surface->y, surface->round ? 0 : surface->z};
+    jet3 local = jet3_constant(
+        (double[]){model->rocket.adaptor[surface->shoe].at, from_line[0], from_line[1]});
+    jet3 point = point_in(&scene->B, &local);
+    jet_frame section = section_in_I(scene, s);
+    jet3 there = seen_from(&section, &point);
+    jet delta[2];
+    for (int i = 0; i < 2; i++)
+        delta[i] = jet_sub(there.c[1 + i], jet_constant(dense->line[i] + from_line[i]));
+    jet p = jet_add(jet_scale(n_y, delta[0]), jet_scale(n_z, delta[1]));
+    p.v -= surface->gap;
+    output->surface[index].penetration = p.v;
+    output->surface[index].penetration_rate = p.e;
+    if (on->passed[surface->shoe] || p.v <= 0)
+        return;
+    double normal = normal_force(&model->rocket.contact, p.v, p.e, on->surface_touch_speed[index]);
+    output->surface[index].normal = normal;
+    for (int k = 0; k < eq->n; k++) {
+        eq->h[k] -= normal * p.d[k];
+        eq->other[k] -= normal * p.d[k];
+    }
+    if (on->frictionless)
+        return;
+    double sideways = surface->round ? -n_z * delta[0].v + n_y * delta[1].v : 0;
+    double W[3] = {0, dense->line[0] + surface->y - n_z * sideways,
+                   dense->line[1] + surface->z + n_y * sideways};
+    jet_frame material = section_in_I(scene, jet_constant(s.v));
+    add_rubbing(eq, scene, &material, W, surface->normal, normal);
+}
+
+// All surfaces of a shoe.
+static void add_shoe(equations *eq, const jet_scene *moving, const jet_scene *still,
+                     const dense_conditions *on, int index, double guess,
+                     dense_launch_output *output)
+{
+    const dense_launch *dense = moving->dense;
+    double before[DENSE_MAX_COORDINATES], C[3];
+    jet3 center = jet3_constant((double[]){dense->model->rocket.adaptor[index].at, 0, 0});
+    center = point_in(&moving->B, &center);
+    jet s = foot_of(moving, still, &center, guess);
+    memcpy(before, eq->h, sizeof before);
+    output->contact[index].s = s.v;
+    output->contact[index].penetration = -INFINITY;
+    for (int k = 0; k < dense->surface_count; k++) {
+        if (dense->surface[k].shoe != index)
+            continue;
+        add_surface(eq, moving, on, k, s, output);
+        output->contact[index].normal += output->surface[k].normal;
+        if (output->surface[k].penetration > output->contact[index].penetration) {
+            output->contact[index].penetration = output->surface[k].penetration;
+            output->contact[index].penetration_rate = output->surface[k].penetration_rate;
+        }
+    }
+    for (int i = 0; i < 3; i++)
+        C[i] = center.c[i].v;
+    for (int k = 0; k < eq->n; k++)
+        before[k] = eq->h[k] - before[k];
+    wrench_on_rocket(moving, before, C, output->contact[index].force,
+                     output->contact[index].moment);
+}
+
 // A stop at the breech's station for O1, which is at station s: along e_x of the section at s.
 static void add_breech(equations *eq, const jet_scene *scene, const dense_conditions *on, jet s,
                        dense_launch_output *output)
@@ -1061,7 +1174,8 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     add_modes(&eq, &moving);
     add_supports(&eq, &moving, &conditions->base, output);
     for (int i = 0; i < rocket->adaptor_count; i++)
-        add_adaptor(&eq, &moving, &still, conditions, i, state->s + rocket->adaptor[i].at, output);
+        (dense->surface_count ? add_shoe : add_adaptor)(&eq, &moving, &still, conditions, i,
+                                                        state->s + rocket->adaptor[i].at, output);
     add_thrust(&eq, &moving, conditions->thrust);
     // constraints
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
