@@ -56,6 +56,56 @@ export class Sleeve {
   }
 }
 
+// Beams side by side: profiles of four corners along the same rings, moved as often as one likes.
+export class Beams {
+  constructor(parts, rings, surface, stroke) {
+    Object.assign(this, { parts, rings });
+    const count = 4 * parts * rings, faces = [], edges = [];
+    const at = (part, ring, corner) => 4 * (part * rings + ring) + (corner % 4);
+    const quad = (a, b, c, d) => faces.push(a, b, c, a, c, d);
+    for (let part = 0; part < parts; part++) {
+      for (let ring = 0; ring + 1 < rings; ring++)
+        for (let i = 0; i < 4; i++) {
+          quad(at(part, ring, i), at(part, ring, i + 1), at(part, ring + 1, i + 1), at(part, ring + 1, i));
+          edges.push(at(part, ring, i), at(part, ring + 1, i));
+        }
+      for (const ring of [0, rings - 1]) {
+        quad(at(part, ring, 0), at(part, ring, 1), at(part, ring, 2), at(part, ring, 3));
+        for (let i = 0; i < 4; i++) edges.push(at(part, ring, i), at(part, ring, i + 1));
+      }
+    }
+    this.position = new BufferAttribute(new Float32Array(3 * count), 3);
+    const geometry = (index) => {
+      const made = new BufferGeometry();
+      made.setAttribute("position", this.position);
+      made.setIndex(index);
+      return made;
+    };
+    this.group = new Group();
+    this.group.add(new Mesh(geometry(faces), surface), new LineSegments(geometry(edges), stroke));
+    for (const child of this.group.children) child.frustumCulled = false;
+  }
+  // `corner(part, ring, i)`: where corner i of a profile is.
+  draw(corner) {
+    let k = 0;
+    for (let part = 0; part < this.parts; part++)
+      for (let ring = 0; ring < this.rings; ring++)
+        for (let i = 0; i < 4; i++) this.position.setXYZ(k++, ...corner(part, ring, i));
+    this.position.needsUpdate = true;
+  }
+  // Mean of a profile's corners, from the vertices as they are drawn.
+  centre(part, ring) {
+    const sum = [0, 0, 0];
+    for (let i = 0; i < 4; i++) {
+      const k = 4 * (part * this.rings + ring) + i;
+      sum[0] += this.position.getX(k) / 4;
+      sum[1] += this.position.getY(k) / 4;
+      sum[2] += this.position.getZ(k) / 4;
+    }
+    return sum;
+  }
+}
+
 // Directions at a point of a curve: along it, and across it from y and z.
 function framesAt(curve, j) {
   const a = curve[Math.max(0, j - 1)].at, b = curve[Math.min(curve.length - 1, j + 1)].at;
@@ -66,6 +116,7 @@ function framesAt(curve, j) {
 
 // Seen from both sides, all of them: the fewer kinds, the fewer programs the browser has to compile.
 export const material = (color, more = {}) => new MeshLambertMaterial({ color, side: DoubleSide, ...more });
+export const angular = (color, more = {}) => material(color, { flatShading: true, ...more });
 
 // A body with its edges drawn.
 function edged(geometry, surface, edge) {

@@ -4,7 +4,9 @@ import { AmbientLight, DirectionalLight, HemisphereLight, PerspectiveCamera, Sce
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { carrierOf } from "./carriers.js";
 import { Grid, Horizon, Map, Path, Road, Sea } from "./ground.js";
-import { Forces, Pack, Rocket, Tube, Vehicle } from "./launcher.js";
+import { Vehicle } from "./launcher.js";
+import { Forces, Rocket } from "./rocket.js";
+import { Pack, Rail, Tube } from "./tubes.js";
 import { add, apply, scaled, subtract, turnedBack } from "./vector.js";
 
 const FIELD = 32; // degrees that the eye takes in from top to bottom
@@ -26,14 +28,13 @@ export class Stage {
     this.sea = this.base.sea ? new Sea(this.base.ground, this.scene) : null;
     this.horizon = this.base.horizon ? new Horizon(this.scene) : null;
     this.pack = new Pack(motion, this.scene);
-    this.tube = new Tube(motion, this.scene);
+    this.tube = new (motion.guide.kind === "bore" ? Tube : Rail)(motion, this.scene);
     this.bodies = rockets.map(() => new Rocket(motion, this.scene));
     this.forces = new Forces(motion, this.scene);
     this.paths = flights.map((flight) => flight && new Path(flight, this.scene));
     this.map = this.paths.some(Boolean) ? new Map(this.extent(), this.scene) : null;
     this.thrust = Math.max(motion.largest("thrust"), 1e-9);
     this.scale = this.gap = 1;
-    this.mostClearance = Math.max(0, ...motion.clearances.flat());
     this.view = "launcher";
     this.target = null;
     this.seen = false; // nothing is drawn while the canvas is out of sight
@@ -46,7 +47,7 @@ export class Stage {
   // Deflections by `scale`; gaps as much, as far as they leave something of the adaptors.
   setScale(scale) {
     this.scale = scale;
-    const most = this.mostClearance > 0 ? (0.3 * this.motion.bore) / this.mostClearance : scale;
+    const { mostGap, room } = this.motion.guide, most = mostGap > 0 ? room / mostGap : scale;
     this.gap = Math.min(scale, most);
   }
   resize(width, height) {
@@ -79,7 +80,7 @@ export class Stage {
       if (gone || i < state.number || (i === state.number && !state.rocket)) fired.add(this.rockets[i].tube);
       if (gone) body.showInFlight(gone, this.anchor, gone.thrust / this.thrust);
       else if (turn) {
-        const clearances = motion.clearances[i] ?? motion.clearances[0];
+        const { clearances: all } = motion.guide, clearances = all[i] ?? all[0];
         body.showInTube(state, this.anchor, this.scale, this.gap, clearances, state.thrust / this.thrust);
       } else body.hide();
     });

@@ -305,7 +305,6 @@ static void adaptor_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
     const ld_rocket *rocket = &model->rocket;
-    double bore = model->tubes.section_count > 0 ? model->tubes.section[0].bore_radius : NAN;
     for (int i = 0; i < rocket->adaptor_count; i++) {
         const ld_adaptor *adaptor = &rocket->adaptor[i];
         if (i == 0 && adaptor->at > 0)
@@ -322,17 +321,6 @@ static void adaptor_rules(const rule_set *rules)
                 broken(rules, "rocket.adaptors.#.name", i + 1, "\"%s\" is the name of adaptor %d",
                        other, j + 1);
         }
-        if ((int)rocket->contact.law < 0 || contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
-            continue;
-        if (isnan(adaptor->clearance))
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "missing; expected a number with a unit of m, > 0 m");
-        if (adaptor->clearance == 0)
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "must be > 0 m; without clearance take the contact law bilateral");
-        if (adaptor->clearance >= bore)
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "%g m must be less than the bore's radius, %g m", adaptor->clearance, bore);
     }
     if (rocket->start_at >= model->tubes.length)
         broken(rules, "rocket.start_at", 0, "%g m is not before the tube's tip at %g m",
@@ -476,6 +464,7 @@ static void launch_rules(const rule_set *rules)
     support_rules(rules);
     slot_rules(rules);
     adaptor_rules(rules);
+    guide_rules(rules);
     contact_rules(rules);
     if (model->rocket.motor.absent)
         broken(rules, "rocket.motor", 0, "a launch needs one");

@@ -29,21 +29,23 @@ static void lay_out(launching_layout *at, int nq)
 void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 {
     self->rocket = rocket;
+    const ld_tubes *tubes = &self->model->tubes;
     adaptors_build(rocket, &self->adaptors);
-    slot_build(&self->model->tubes.slot, rocket, &self->slot);
-    lock_build(&rocket->lock, &self->model->tubes.slot, &self->lock);
+    surfaces_build(&tubes->guide, rocket, &self->surfaces);
+    slot_build(&tubes->slot, rocket, &self->slot);
+    lock_build(&rocket->lock, self->slot.present || self->surfaces.flat, &self->lock);
     crossflow_build(&rocket->aerodynamics, &self->crossflow);
     self->work_count = model_has_crossflow(self->model) ? POWER_COUNT : POWER_ALWAYS;
 }
 
-// Modes and coefficients follow from all keys of `tubes` but those of the slot and of where the
+// Modes and coefficients follow from all keys of `tubes` but those of slot, guide and where the
 // tubes are.
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
-        bool apart = key->offset == offsetof(ld_tubes, layout) ||
-                     key->offset == offsetof(ld_tubes, empty) ||
-                     key->offset == offsetof(ld_tubes, slot);
+        bool apart =
+            key->offset == offsetof(ld_tubes, layout) || key->offset == offsetof(ld_tubes, empty) ||
+            key->offset == offsetof(ld_tubes, slot) || key->offset == offsetof(ld_tubes, guide);
         if (!apart && !field_same(key, a, b))
             return false;
     }

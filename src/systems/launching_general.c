@@ -94,7 +94,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
         crossflow_add(&self->crossflow, &self->tube, now);
         if (input->load)
             load_rocket(input->load, now);
-        adaptors_add(lanes, &self->adaptors, &self->tube, now);
+        launching_touch(lanes, self, now);
         breech_add(lanes, &self->adaptors.law, &self->tube, now);
         tube_section_state at_rocket;
         tube_factor(&self->tube, &now->tube);

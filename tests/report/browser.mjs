@@ -154,7 +154,7 @@ async function checkDrawn(page, run, adaptors) {
       return { y, z, gap: stage.gap, adaptors: stage.motion.adaptors.map((l, i) => {
         const { centre, radius } = body.adaptor(i), x = stage.motion.deflection(stage.state, centre[0]);
         return { y: centre[1] - amount * x[1], z: centre[2] - amount * x[2], radius };
-      }), bore: stage.motion.bore, clearances: stage.motion.clearances[0] };
+      }), bore: stage.motion.guide.radius, clearances: stage.motion.guide.clearances[0] };
     }, [t[row], scale]);
     const error = Math.hypot(shown.y / scale - at("tip.y"), shown.z / scale - at("tip.z"));
     check(`t ${t[row]} s, deflection x ${scale}: tip drawn where tip.y, tip.z of the results are`,

@@ -24,33 +24,50 @@ static const ld_section *section_at(const ld_tubes *tubes, double x)
     return &tubes->section[i];
 }
 
-// D = 2 zeta K^(1/2) of one plane.
-static void damp_plane(int nb, double zeta, double K[LD_NB][LD_NB], double D[LD_NB][LD_NB])
+bool dense_launch_holds_roll(const dense_launch *dense)
 {
-    double vector[LD_NB * LD_NB], value[LD_NB];
+    bool smooth = dense->model->tubes.slot.kind == LD_SLOT_NONE;
+    for (int k = 0; k < dense->surface_count; k++)
+        smooth = smooth && dense->surface[k].round;
+    return smooth;
+}
+
+// [N m2] of deflections along y (plane 0) or z.
+static double bending_of(const ld_section *section, int plane)
+{
+    if (section->form != LD_SECTION_PLANES)
+        return section->bending_stiffness;
+    return plane ? section->bending_stiffness_y : section->bending_stiffness_z;
+}
+
+// K += int EI b'' b''^T dx of a stretch: b'' is linear along it.
+static void add_bending(double K[LD_NB][LD_NB], const tube_element *element, int nb, double from,
+                        double to, double EI)
+{
+    for (int g = 0; g < GAUSS; g++) {
+        double xi = 0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g] - element->x0;
+        double weight = 0.5 * (to - from) * gauss_weight[g] * EI;
+        for (int i = 0; i < nb; i++)
+            for (int j = 0; j < nb; j++)
+                K[i][j] += weight * (2 * element->b[2][i] + 6 * xi * element->b[3][i]) *
+                           (2 * element->b[2][j] + 6 * xi * element->b[3][j]);
+    }
+}
+
+// D = 2 zeta K^(1/2), by K's eigenvectors: the shapes have unit mass.
+static void damp_bending(double D[LD_NB][LD_NB], double K[LD_NB][LD_NB], int nb, double zeta)
+{
+    double vector[LD_NB * LD_NB], square[LD_NB];
     for (int i = 0; i < nb; i++)
         for (int j = 0; j < nb; j++)
             vector[i * nb + j] = K[i][j];
-    if (nb > 0)
-        LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'L', nb, vector, nb, value);
-    for (int m = 0; m < nb; m++)
+    if (nb)
+        LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', nb, vector, nb, square);
+    for (int k = 0; k < nb; k++)
         for (int i = 0; i < nb; i++)
             for (int j = 0; j < nb; j++)
-                D[i][j] += 2 * zeta * sqrt(value[m]) * vector[m * nb + i] * vector[m * nb + j];
-}
-
-// Adds a point's share of int E I b'' b''^T dx to the stiffness of both planes; `stiffness` [N m2]
-// of deflections along y and z, times the point's weight.
-static void bend_planes(dense_launch *dense, const tube_element *element, double at,
-                        const double stiffness[2])
-{
-    double curvature[LD_NB];
-    for (int m = 0; m < dense->tube->nb; m++)
-        curvature[m] = 2 * element->b[2][m] + 6 * element->b[3][m] * (at - element->x0);
-    for (int plane = 0; plane < 2; plane++)
-        for (int i = 0; i < dense->tube->nb; i++)
-            for (int j = 0; j < dense->tube->nb; j++)
-                dense->K[plane][i][j] += stiffness[plane] * curvature[i] * curvature[j];
+                D[i][j] +=
+                    2 * zeta * sqrt(fmax(0, square[k])) * vector[k * nb + i] * vector[k * nb + j];
 }
 
 void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube)
@@ -71,23 +88,21 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
             const ld_section *section = section_at(tubes, 0.5 * (from + to));
             for (int g = 0; g < GAUSS; g++) {
                 double weight = 0.5 * (to - from) * gauss_weight[g];
-                double at = 0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g];
-                bool planes = section->form == LD_SECTION_PLANES;
-                double EI = section->bending_stiffness;
                 dense->point[dense->point_count++] = (dense_tube_point){
-                    at, weight * section->mass_per_length, weight * section->polar_inertia};
-                bend_planes(dense, &tube->element[i], at,
-                            (double[2]){weight * (planes ? section->bending_stiffness_z : EI),
-                                        weight * (planes ? section->bending_stiffness_y : EI)});
+                    0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g],
+                    weight * section->mass_per_length, weight * section->polar_inertia};
             }
+            for (int plane = 0; plane < 2; plane++)
+                add_bending(dense->K[plane], &tube->element[i], tube->nb, from, to,
+                            bending_of(section, plane));
             from = to;
         }
     }
+    for (int plane = 0; plane < 2; plane++)
+        damp_bending(dense->D[plane], dense->K[plane], tube->nb, tubes->modes.damping);
     for (int i = 0; i < tubes->point_mass_count; i++)
         dense->point[dense->point_count++] =
             (dense_tube_point){tubes->point_mass[i].at, tubes->point_mass[i].mass, 0};
-    for (int plane = 0; plane < 2; plane++)
-        damp_plane(tube->nb, tubes->modes.damping, dense->K[plane], dense->D[plane]);
 }
 
 void dense_launch_free(dense_launch *dense)
@@ -474,30 +489,31 @@ static void add_rigid(equations *eq, const jet_frame *body, double mass, const d
     add_mass(eq, &p, rest, gravity);
 }
 
+// Bending in each plane, then torsion and stretch, whose modes have frequencies of their own.
 static void add_modes(equations *eq, const jet_scene *scene)
 {
-    const flexible_tube *tube = scene->dense->tube;
-    const double *om2[2] = {tube->om2_t, tube->om2_a}, *dmp[2] = {tube->dmp_t, tube->dmp_a};
-    int count[2] = {tube->nt, tube->na};
+    const dense_launch *dense = scene->dense;
+    const flexible_tube *tube = dense->tube;
+    const double *state_q = scene->state->q, *state_rate = scene->state->q_dot;
     for (int plane = 0; plane < 2; plane++)
         for (int i = 0; i < tube->nb; i++) {
-            const double *q = scene->state->q + plane * tube->nb;
-            const double *q_dot = scene->state->q_dot + plane * tube->nb;
-            double elastic = 0, damped = 0;
+            int at = plane * tube->nb;
+            double spring = 0, damper = 0;
             for (int j = 0; j < tube->nb; j++) {
-                elastic += scene->dense->K[plane][i][j] * q[j];
-                damped += scene->dense->D[plane][i][j] * q_dot[j];
+                spring += dense->K[plane][i][j] * state_q[at + j];
+                damper += dense->D[plane][i][j] * state_rate[at + j];
             }
-            eq->h[6 + plane * tube->nb + i] -= elastic + damped;
-            eq->other[6 + plane * tube->nb + i] -= damped;
-            eq->potential += 0.5 * elastic * q[i];
+            eq->h[6 + at + i] -= spring + damper;
+            eq->other[6 + at + i] -= damper;
+            eq->potential += 0.5 * spring * state_q[at + i];
         }
-    for (int part = 0, k = 2 * tube->nb; part < 2; part++)
+    const double *om2[2] = {tube->om2_t, tube->om2_a}, *dmp[2] = {tube->dmp_t, tube->dmp_a};
+    int count[2] = {tube->nt, tube->na}, k = 2 * tube->nb;
+    for (int part = 0; part < 2; part++)
         for (int m = 0; m < count[part]; m++, k++) {
-            double q = scene->state->q[k], q_dot = scene->state->q_dot[k];
-            eq->h[6 + k] -= om2[part][m] * q + dmp[part][m] * q_dot;
-            eq->other[6 + k] -= dmp[part][m] * q_dot;
-            eq->potential += 0.5 * om2[part][m] * q * q;
+            eq->h[6 + k] -= om2[part][m] * state_q[k] + dmp[part][m] * state_rate[k];
+            eq->other[6 + k] -= dmp[part][m] * state_rate[k];
+            eq->potential += 0.5 * om2[part][m] * state_q[k] * state_q[k];
         }
 }
 
@@ -1185,7 +1201,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)
-        add_lock(&eq, &moving, s, !slotted, output);
+        add_lock(&eq, &moving, s, dense_launch_holds_roll(dense), output);
     write_relative(&moving, s, output);
     double x_ddot[DENSE_MAX_COORDINATES], multiplier[ROWS], sign;
     bool rubs = slotted && !conditions->locked && !conditions->frictionless &&

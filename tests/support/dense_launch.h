@@ -32,9 +32,7 @@ typedef struct dense_surface {
 
 enum { DENSE_MAX_SURFACES = 256 };
 
-// A model made ready: quadrature points along the tube, surfaces of every shoe; bending's modal
-// stiffness and damping in the planes y and z, from the shapes' curvature and the sections'
-// stiffnesses.
+// A model made ready: quadrature points along the tube, surfaces of every shoe.
 typedef struct dense_launch {
     const ld_model *model;
     const flexible_tube *tube;
@@ -42,15 +40,18 @@ typedef struct dense_launch {
     int surface_count;
     dense_surface surface[DENSE_MAX_SURFACES];
     int mode_count; // 2 nb + nt + na
+    // stiffness int EI b'' b''^T dx and damping 2 zeta K^(1/2) of bending along y, along z
+    double K[2][LD_NB][LD_NB], D[2][LD_NB][LD_NB]; // [1/s2], [1/s]
     int point_count;
     dense_tube_point *point;
-    double K[2][LD_NB][LD_NB]; // [1/s2] int E I b'' b''^T dx
-    double D[2][LD_NB][LD_NB]; // [1/s] 2 zeta K^(1/2)
 } dense_launch;
 
 // Prepares `dense` (keeps both pointers). Free with dense_launch_free().
 void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube);
 void dense_launch_free(dense_launch *dense);
+
+// Whether the lock holds roll: in smooth bores and on round surfaces alone.
+bool dense_launch_holds_roll(const dense_launch *dense);
 
 // The base that carries the tube: the frame that the undeformed tube's rear end has on it.
 typedef struct dense_base {
