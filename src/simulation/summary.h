@@ -105,6 +105,8 @@ typedef struct ld_rocket_summary {
     ld_aim aim;         ///< the same against where that stood at the ignition
     double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
     double max_slot_force;                     ///< [N] |N|
+    double max_pressure;                       ///< [Pa] net
+    double max_recoil[LD_MAX_SUPPORTS];        ///< [m] of the slides, in their order
     ld_hinge_summary hinge[2];                 ///< azimuth, elevation
     double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
                            ///< moved against the platform

@@ -9,6 +9,7 @@
 #include "elements/crossflow.h"
 #include "elements/load.h"
 #include "elements/lock.h"
+#include "elements/pressure.h"
 #include "elements/slot.h"
 #include "elements/support.h"
 
@@ -24,6 +25,7 @@ typedef struct launching_system {
     slot_system slot;
     lock_system lock;
     crossflow_body crossflow;
+    pressure_system pressure;
     int work_count;         // of the powers: the first so many
     bool wide_instructions; // AVX2 is there
 } launching_system;
