@@ -1,6 +1,6 @@
 // What a launcher stands on: a road with its heights, a grid, and the way of a rocket in flight.
-import { BufferAttribute, BufferGeometry, Float32BufferAttribute, Group, Line, LineSegments, Mesh, Points,
-  PointsMaterial } from "three";
+import { BufferAttribute, BufferGeometry, CircleGeometry, Float32BufferAttribute, Group, Line, LineLoop, LineSegments, Mesh,
+  MeshBasicMaterial, Points, PointsMaterial } from "three";
 import { COLOURS } from "./launcher.js";
 import { line, material } from "./shapes.js";
 
@@ -55,16 +55,17 @@ export class Road {
   }
 }
 
-// A grid of lines that goes on as far as one sees.
+// A grid of lines that goes on as far as one sees; `sea`: on water.
 export class Grid {
-  constructor(height, group) {
+  constructor(height, sea, group) {
     const points = [];
     for (let i = -GRID; i <= GRID; i += CELL)
       for (let j = -GRID; j < GRID; j += CELL) points.push(i, 0, j, i, 0, j + CELL, j, 0, i, j + CELL, 0, i);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
     this.height = height;
-    this.stroke = line(0xffffff, { transparent: true, opacity: 0.8 });
+    this.colour = sea ? "card" : "line";
+    this.stroke = line(0xffffff, { transparent: true, opacity: sea ? 0.5 : 0.8 });
     this.lines = new LineSegments(geometry, this.stroke);
     group.add(this.lines);
   }
@@ -73,7 +74,47 @@ export class Grid {
     this.lines.position.set(-rest(anchor[0]), this.height - anchor[1], -rest(anchor[2]));
   }
   paint(colour) {
-    this.stroke.color.set(colour("line"));
+    this.stroke.color.set(colour(this.colour));
+  }
+}
+
+const FAR = 380; // radius of what is seen of sea and horizon
+
+// A flat sea as far as one sees; what is below it is seen through it.
+export class Sea {
+  constructor(height, group) {
+    this.height = height;
+    this.water = new MeshBasicMaterial({ transparent: true, opacity: 0.72, depthWrite: false });
+    this.disc = new Mesh(new CircleGeometry(FAR, 96).rotateX(-Math.PI / 2), this.water);
+    this.disc.renderOrder = -1;
+    group.add(this.disc);
+  }
+  show(anchor, visible) {
+    this.disc.visible = visible;
+    this.disc.position.y = this.height - anchor[1] - 0.01;
+  }
+  paint(colour) {
+    this.water.color.set(colour("sea"));
+  }
+}
+
+// The horizon around an eye far above the ground.
+export class Horizon {
+  constructor(group) {
+    const points = Array.from({ length: 96 }, (_, i) => (2 * Math.PI * i) / 96)
+      .flatMap((angle) => [FAR * Math.cos(angle), 0, FAR * Math.sin(angle)]), geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+    this.stroke = line(0xffffff);
+    this.circle = new LineLoop(geometry, this.stroke);
+    this.circle.frustumCulled = false;
+    group.add(this.circle);
+  }
+  show(eye, visible) {
+    this.circle.visible = visible;
+    this.circle.position.copy(eye);
+  }
+  paint(colour) {
+    this.stroke.color.set(colour("soft"));
   }
 }
 

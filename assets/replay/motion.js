@@ -1,5 +1,6 @@
 // Where everything of a launcher is at an instant, from the columns of its history and its geometry.
 // Frames: I inertial, T undeformed launching tube (origin at its rear end, x along it), R tube.
+import { guideOf } from "./guide.js";
 import { add, apply, aboutX, aboutY, aboutZ, multiply, pose, rotation, scaled, subtract } from "./vector.js";
 
 // An array of the geometry as a list of rows.
@@ -28,14 +29,12 @@ export class Motion {
     this.stations = rows("tube.station").map(([x]) => x);
     this.shapes = { b: rows("tube.bending"), slope: rows("tube.bending_slope"), torsion: rows("tube.torsion") };
     this.length = this.stations.at(-1);
-    const section = single("tube.section");
-    this.bore = section[1];
-    this.outer = section[2] ?? 1.03 * this.bore;
+    this.guide = guideOf(rows, this.length);
+    this.outer = this.guide.outer;
     this.supports = rows("tube.support").map(([x]) => x);
     this.places = rows("tubes.rear_end");
     this.empty = rows("tubes.empty").map(([number]) => number);
     this.adaptors = rows("rocket.adaptor").map(([x]) => x);
-    this.clearances = rows("rocket.clearance").map((row) => row.map((c) => c ?? 0));
     this.center = single("rocket.center")?.[0] ?? 0;
     this.mounts = rows("wheel.mount");
     this.wheelRadius = single("wheel.radius")?.[0] ?? 0;
@@ -43,6 +42,8 @@ export class Motion {
     this.elevationHinge = single("elevation.hinge");
     const mount = single("base.mount");
     this.mount = mount ? multiply(aboutY(mount[0]), aboutZ(mount[1])) : IDENTITY;
+    this.looks = single("base.looks")?.[0] ?? 0;
+    this.envelope = this.around();
     const named = (head, tail) => [...table.column.keys()].filter((name) => name.startsWith(head) &&
       name.endsWith(tail)).map((name) => name.slice(head.length, name.length - tail.length));
     this.adaptorNames = named("contact.", ".force");
@@ -52,6 +53,19 @@ export class Motion {
 
   get vehicle() {
     return this.mounts.length > 0 && this.mounts.length === this.wheelNames.length;
+  }
+
+  // Corners [y, z] of all guides with their frames across the first launching tube, in T.
+  around() {
+    const { low, high } = this.guide.envelope, room = this.places.length > 1 ? 0.5 * this.outer : 0;
+    const from = this.places[(this.rockets[0]?.tube ?? 1) - 1] ?? this.places[0];
+    const span = (of, by) => [1, 2].map((i) => of(...this.places.map((p) => p[i] - from[i])) + by[i - 1]);
+    return { low: span(Math.min, low.map((v) => v - room)), high: span(Math.max, high.map((v) => v + room)) };
+  }
+
+  // The node next to a station.
+  nearest(x) {
+    return this.stations.reduce((best, s, i) => (Math.abs(s - x) < Math.abs(this.stations[best] - x) ? i : best), 0);
   }
 
   // The largest value of a column, in size.
@@ -102,11 +116,9 @@ export class Motion {
     state.A_TR = A;
     state.nodes = this.stations.map((x, k) => {
       const u = [sum(this.shapes.b[k], 0), sum(this.shapes.b[k], n)];
-      return {
-        x, u, slope: [sum(this.shapes.slope[k], 0), sum(this.shapes.slope[k], n)],
-        twist: sum(this.shapes.torsion[k] ?? [], 2 * n),
-        offset: subtract(add(r, apply(A, [x, ...u])), [x, 0, 0]),
-      };
+      const slope = [sum(this.shapes.slope[k], 0), sum(this.shapes.slope[k], n)];
+      const twist = sum(this.shapes.torsion[k] ?? [], 2 * n);
+      return { x, u, slope, twist, P: [x, ...u], A: rotation([twist, -slope[1], slope[0]]) };
     });
     state.r_TR = r;
   }
@@ -130,9 +142,30 @@ export class Motion {
     };
   }
 
-  // Offset of the tube's axis in T at a station.
+  // How far a point y, z from the guide line is from its place in T on the undeformed tube; `section`: where.
+  moved(state, { P, A }, y = 0, z = 0) {
+    const [oy, oz] = this.guide.line, at = [P[0], oy + y, oz + z];
+    const off = oy + y === 0 && oz + z === 0 ? P : add(P, apply(A, [0, at[1], at[2]]));
+    return subtract(add(state.r_TR, apply(state.A_TR, off)), at);
+  }
+
+  // Offset in T of the guide line at a station from that of the undeformed tube.
   deflection(state, x) {
-    return subtract(add(state.r_TR, apply(state.A_TR, this.section(state, x).P)), [x, 0, 0]);
+    return this.moved(state, this.section(state, x));
+  }
+
+  // Where the guide's point at node k, y and z from the guide line, is drawn in T.
+  drawnGuide(state, k, y, z, scale) {
+    const node = state.nodes[k], [oy, oz] = this.guide.line;
+    const d = this.moved(state, node, y, z);
+    return [node.x + d[0], oy + y + scale * d[1], oz + z + scale * d[2]];
+  }
+
+  // Where the rocket's point l, y, z is drawn in T: off the drawn guide by `gap` times what it is off it.
+  drawnRocket(state, [l, y, z], scale, gap) {
+    const p = state.rocket.point(l, y, z), d = this.moved(state, this.section(state, p[0]), y, z);
+    const drawn = (i, at) => at + scale * d[i] + gap * (p[i] - at - d[i]), [oy, oz] = this.guide.line;
+    return [p[0], drawn(1, oy + y), drawn(2, oz + z)];
   }
 
   // The rocket while it is in the tube: points of its axis in T, its roll.
@@ -142,9 +175,9 @@ export class Motion {
     if (!Number.isFinite(s)) return;
     const { P, A } = this.section(state, s), roll = read("rocket.gamma");
     const O1 = add(P, apply(A, [0, read("rocket.y"), read("rocket.z")]));
-    const axis = apply(A, apply(multiply(aboutZ(read("rocket.psi")), aboutY(read("rocket.theta"))), [1, 0, 0]));
+    const body = multiply(A, multiply(aboutZ(read("rocket.psi")), multiply(aboutY(read("rocket.theta")), aboutX(roll))));
     state.rocket = {
-      s, roll, point: (l) => add(state.r_TR, apply(state.A_TR, add(O1, scaled(l, axis)))),
+      s, roll, point: (l, y = 0, z = 0) => add(state.r_TR, apply(state.A_TR, add(O1, apply(body, [l, y, z])))),
     };
   }
 

@@ -8,6 +8,8 @@ const SPEEDS = [["auto", "automatic"], [1, "1"], [1 / 3, "1/3"], [1 / 10, "1/10"
   [1 / 100, "1/100"], [1 / 300, "1/300"], [1 / 1000, "1/1000"]];
 const AUTOMATIC = { before: 1, tube: 1 / 50, after: 1, flight: 4 };
 
+const capital = (word) => word[0].toUpperCase() + word.slice(1);
+
 // The time slider gives each phase a share of its width: the tube half of it.
 class Clock {
   constructor(motion, flights) {
@@ -94,7 +96,7 @@ class Replay {
       oninput: () => { this.setScale(10 ** Number(this.amount.value)); this.redraw(); } });
     this.amountText = element("output", { className: "scale" });
     this.views = ["launcher", "tube", "rocket", ...(this.ways.some(Boolean) ? ["path"] : [])].map((view) =>
-      button(view[0].toUpperCase() + view.slice(1), () => this.look(view), { value: view }));
+      button(capital(view === "tube" ? this.motion.guide.words.guide : view), () => this.look(view), { value: view }));
     this.reading = element("output", { className: "reading" });
     host.append(
       element("div", { className: "screen" }, this.canvas, this.photo, this.legend()),
@@ -108,8 +110,9 @@ class Replay {
   legend() {
     const { element } = this.tools, item = (name, text) =>
       element("span", {}, element("i", { className: name }), text);
-    return element("div", { className: "key" }, item("tube", "tube"), item("rocket", "rocket"),
-      item("adaptor", "adaptors"), item("force", "contact forces"));
+    const { guide, shoes } = this.motion.guide.words;
+    return element("div", { className: "key" }, item("tube", guide), item("rocket", "rocket"),
+      item("adaptor", shoes), item("force", "contact forces"));
   }
   // The key instants below the slider, their names in two lines where the ones before leave room,
   // before the line where there is none behind it.

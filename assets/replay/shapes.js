@@ -56,6 +56,56 @@ export class Sleeve {
   }
 }
 
+// Beams side by side: profiles of four corners along the same rings, moved as often as one likes.
+export class Beams {
+  constructor(parts, rings, surface, stroke) {
+    Object.assign(this, { parts, rings });
+    const count = 4 * parts * rings, faces = [], edges = [];
+    const at = (part, ring, corner) => 4 * (part * rings + ring) + (corner % 4);
+    const quad = (a, b, c, d) => faces.push(a, b, c, a, c, d);
+    for (let part = 0; part < parts; part++) {
+      for (let ring = 0; ring + 1 < rings; ring++)
+        for (let i = 0; i < 4; i++) {
+          quad(at(part, ring, i), at(part, ring, i + 1), at(part, ring + 1, i + 1), at(part, ring + 1, i));
+          edges.push(at(part, ring, i), at(part, ring + 1, i));
+        }
+      for (const ring of [0, rings - 1]) {
+        quad(at(part, ring, 0), at(part, ring, 1), at(part, ring, 2), at(part, ring, 3));
+        for (let i = 0; i < 4; i++) edges.push(at(part, ring, i), at(part, ring, i + 1));
+      }
+    }
+    this.position = new BufferAttribute(new Float32Array(3 * count), 3);
+    const geometry = (index) => {
+      const made = new BufferGeometry();
+      made.setAttribute("position", this.position);
+      made.setIndex(index);
+      return made;
+    };
+    this.group = new Group();
+    this.group.add(new Mesh(geometry(faces), surface), new LineSegments(geometry(edges), stroke));
+    for (const child of this.group.children) child.frustumCulled = false;
+  }
+  // `corner(part, ring, i)`: where corner i of a profile is.
+  draw(corner) {
+    let k = 0;
+    for (let part = 0; part < this.parts; part++)
+      for (let ring = 0; ring < this.rings; ring++)
+        for (let i = 0; i < 4; i++) this.position.setXYZ(k++, ...corner(part, ring, i));
+    this.position.needsUpdate = true;
+  }
+  // Mean of a profile's corners, from the vertices as they are drawn.
+  centre(part, ring) {
+    const sum = [0, 0, 0];
+    for (let i = 0; i < 4; i++) {
+      const k = 4 * (part * this.rings + ring) + i;
+      sum[0] += this.position.getX(k) / 4;
+      sum[1] += this.position.getY(k) / 4;
+      sum[2] += this.position.getZ(k) / 4;
+    }
+    return sum;
+  }
+}
+
 // Directions at a point of a curve: along it, and across it from y and z.
 function framesAt(curve, j) {
   const a = curve[Math.max(0, j - 1)].at, b = curve[Math.min(curve.length - 1, j + 1)].at;
@@ -66,6 +116,7 @@ function framesAt(curve, j) {
 
 // Seen from both sides, all of them: the fewer kinds, the fewer programs the browser has to compile.
 export const material = (color, more = {}) => new MeshLambertMaterial({ color, side: DoubleSide, ...more });
+export const angular = (color, more = {}) => material(color, { flatShading: true, ...more });
 
 // A body with its edges drawn.
 function edged(geometry, surface, edge) {
@@ -88,6 +139,37 @@ export function cylinder(from, to, radius, surface, edge, segments = 24) {
   const made = edged(new CylinderGeometry(radius, radius, length, segments), surface, edge);
   point(made, scaled(0.5, add(from, to)), axis);
   return made;
+}
+
+// A prism: a plane polygon without hollows, and the same moved by a vector.
+export function prism(polygon, along, surface, edge) {
+  const moved = polygon.map((p) => add(p, along)), faces = [];
+  for (let i = 2; i < polygon.length; i++)
+    for (const side of [polygon, moved]) faces.push(side[0], side[i - 1], side[i]);
+  polygon.forEach((a, i) => {
+    const k = (i + 1) % polygon.length;
+    faces.push(a, polygon[k], moved[k], a, moved[k], moved[i]);
+  });
+  return edged(flat(faces), surface, edge);
+}
+
+// A surface over lists of points, as many in each.
+export function loft(lists, surface, edge) {
+  const faces = [];
+  for (let j = 0; j + 1 < lists.length; j++)
+    for (let i = 0; i + 1 < lists[j].length; i++) {
+      const [a, b, c, d] = [lists[j][i], lists[j][i + 1], lists[j + 1][i + 1], lists[j + 1][i]];
+      faces.push(a, b, c, a, c, d);
+    }
+  return edged(flat(faces), surface, edge);
+}
+
+// Triangles by their corners, each with its own direction.
+function flat(corners) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(corners.flat()), 3));
+  geometry.computeVertexNormals();
+  return geometry;
 }
 
 // Puts an object's y axis along a direction.

@@ -2,8 +2,11 @@
 // launcher, so that small numbers stay small.
 import { AmbientLight, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { Grid, Map, Path, Road } from "./ground.js";
-import { Forces, Pack, Rocket, Stand, Tube, Vehicle } from "./launcher.js";
+import { carrierOf } from "./carriers.js";
+import { Grid, Horizon, Map, Path, Road, Sea } from "./ground.js";
+import { Vehicle } from "./launcher.js";
+import { Forces, Rocket } from "./rocket.js";
+import { Pack, Rail, Tube } from "./tubes.js";
 import { add, apply, scaled, subtract, turnedBack } from "./vector.js";
 
 const FIELD = 32; // degrees that the eye takes in from top to bottom
@@ -19,18 +22,19 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => { if (!this.following) this.draw(); });
     this.light();
-    this.base = motion.vehicle ? new Vehicle(motion, this.scene) : new Stand(motion, this.scene);
+    this.base = motion.vehicle ? new Vehicle(motion, this.scene) : carrierOf(motion, this.scene);
     this.road = motion.vehicle ? new Road(motion, this.scene) : null;
-    this.grid = new Grid(this.groundBelow(), this.scene);
+    this.grid = new Grid(motion.vehicle ? -0.02 : this.base.ground, this.base.sea, this.scene);
+    this.sea = this.base.sea ? new Sea(this.base.ground, this.scene) : null;
+    this.horizon = this.base.horizon ? new Horizon(this.scene) : null;
     this.pack = new Pack(motion, this.scene);
-    this.tube = new Tube(motion, this.scene);
+    this.tube = new (motion.guide.kind === "bore" ? Tube : Rail)(motion, this.scene);
     this.bodies = rockets.map(() => new Rocket(motion, this.scene));
     this.forces = new Forces(motion, this.scene);
     this.paths = flights.map((flight) => flight && new Path(flight, this.scene));
     this.map = this.paths.some(Boolean) ? new Map(this.extent(), this.scene) : null;
     this.thrust = Math.max(motion.largest("thrust"), 1e-9);
     this.scale = this.gap = 1;
-    this.mostClearance = Math.max(0, ...motion.clearances.flat());
     this.view = "launcher";
     this.target = null;
     this.seen = false; // nothing is drawn while the canvas is out of sight
@@ -40,15 +44,10 @@ export class Stage {
     sun.position.set(4, 9, 7);
     this.scene.add(sun, new HemisphereLight(0xffffff, 0x8a8f94, 1.5), new AmbientLight(0xffffff, 0.35));
   }
-  groundBelow() {
-    if (this.motion.vehicle) return -0.02;
-    const foot = this.motion.value("base.y")[0] + this.base.low;
-    return foot > 0.3 ? 0 : foot - 0.01;
-  }
   // Deflections by `scale`; gaps as much, as far as they leave something of the adaptors.
   setScale(scale) {
     this.scale = scale;
-    const most = this.mostClearance > 0 ? (0.3 * this.motion.bore) / this.mostClearance : scale;
+    const { mostGap, room } = this.motion.guide, most = mostGap > 0 ? room / mostGap : scale;
     this.gap = Math.min(scale, most);
   }
   resize(width, height) {
@@ -63,6 +62,8 @@ export class Stage {
     this.grid.paint(colour);
     this.road?.paint(colour);
     this.map?.paint(colour);
+    this.sea?.paint(colour);
+    this.horizon?.paint(colour);
   }
 
   // ---- an instant ----
@@ -79,7 +80,7 @@ export class Stage {
       if (gone || i < state.number || (i === state.number && !state.rocket)) fired.add(this.rockets[i].tube);
       if (gone) body.showInFlight(gone, this.anchor, gone.thrust / this.thrust);
       else if (turn) {
-        const clearances = motion.clearances[i] ?? motion.clearances[0];
+        const { clearances: all } = motion.guide, clearances = all[i] ?? all[0];
         body.showInTube(state, this.anchor, this.scale, this.gap, clearances, state.thrust / this.thrust);
       } else body.hide();
     });
@@ -92,6 +93,7 @@ export class Stage {
     const afar = this.view === "path";
     this.paths.forEach((path, i) => path?.show(this.anchor, this.flying[i], afar));
     this.map?.show(this.anchor, afar);
+    this.sea?.show(this.anchor, !afar);
     this.follow();
     this.draw();
   }
@@ -101,6 +103,7 @@ export class Stage {
     const to = subtract(subtract(this.camera.position.toArray(), middle), subtract(state.tube.r, this.anchor));
     const [, y, z] = turnedBack(state.tube.A, to);
     this.tube.show(state, this.anchor, this.scale, Math.atan2(z, y));
+    this.horizon?.show(this.camera.position, this.view !== "path");
     if (this.seen) this.render();
   }
   render() {
@@ -125,7 +128,7 @@ export class Stage {
     if (this.view === "rocket" && flying) return subtract(flying.center, anchor);
     if (this.view === "rocket" && state.rocket) return inTube(state.rocket.s + 0.5 * Math.max(...motion.adaptors));
     if (this.view === "launcher")
-      return motion.vehicle ? [0.1, state.chassis.r[1] + 0.7, 0] : add(inTube(0.5 * motion.length), [0, -0.1, 0]);
+      return motion.vehicle ? [0.1, state.chassis.r[1] + 0.7, 0] : add(inTube(0.5 * motion.length), this.base.eye.aim);
     return inTube(0.55 * motion.length);
   }
   // From where, in the view's own place.
@@ -140,7 +143,8 @@ export class Stage {
       return this.flying[this.watched()] ? scaled(wide * 2.2 * motion.length / 3, [-1.7, 0.9, 3.1])
         : across(scaled(wide * motion.length / 3, [0.5, 1.3, 3.2]));
     if (this.view === "tube") return across(scaled(wide * motion.length / 3, [0.6, 1.6, 6.4]));
-    return scaled(wide * (motion.vehicle ? 1 : motion.length / 4.6), [4.4, 2.8, 9.9]);
+    const { distance, direction } = this.base.eye;
+    return scaled(wide * distance, direction);
   }
   // Corners of all flights together.
   extent() {

@@ -152,6 +152,10 @@ bool ld_model_has_vehicle(const ld_model *model);
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again.
 void ld_model_print(const ld_model *model, FILE *stream);
 
+/// Tells in words what carries, guides, holds and drives the rocket: some lines that begin with
+/// "# ", comments of the scenario language. Nothing of a flight alone.
+void ld_model_describe(const ld_model *model, FILE *stream);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -68,8 +68,10 @@ static int check_points(const ld_model *model, void *data)
         starts += start;
         code = check_point(model, point, start);
     }
-    if (!code)
+    if (!code) {
+        ld_model_describe(model, stdout);
         ld_model_print(model, stdout);
+    }
     return code;
 }
 

@@ -63,6 +63,17 @@ static void read_complaint(FILE *printed, char *complaint, size_t size)
     }
 }
 
+// What gnuplot reads, draws and complains to. Returns 0 or the number of what went wrong.
+static int connect_gnuplot(posix_spawn_file_actions_t *actions, int script, int drawn, int printed)
+{
+    int problem = posix_spawn_file_actions_adddup2(actions, script, STDIN_FILENO);
+    if (!problem)
+        problem = posix_spawn_file_actions_adddup2(actions, drawn, STDOUT_FILENO);
+    if (!problem)
+        problem = posix_spawn_file_actions_adddup2(actions, printed, STDERR_FILENO);
+    return problem;
+}
+
 // Starts gnuplot from PATH, without a shell and without the user's settings; what it draws goes to
 // `drawn`. A cut pipe and a limit of files do to it what they do by default.
 static int start_gnuplot(FILE *script, int drawn, FILE *printed, pid_t *child)
@@ -74,15 +85,18 @@ static int start_gnuplot(FILE *script, int drawn, FILE *printed, pid_t *child)
     sigemptyset(&signals);
     sigaddset(&signals, SIGPIPE);
     sigaddset(&signals, SIGXFSZ);
-    posix_spawnattr_init(&attributes);
+    int problem = posix_spawnattr_init(&attributes);
+    if (problem)
+        return problem;
     posix_spawnattr_setsigdefault(&attributes, &signals);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, fileno(script), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, drawn, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, fileno(printed), STDERR_FILENO);
-    int problem = posix_spawnp(child, arguments[0], &actions, &attributes, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    problem = posix_spawn_file_actions_init(&actions);
+    if (!problem) {
+        problem = connect_gnuplot(&actions, fileno(script), drawn, fileno(printed));
+        if (!problem)
+            problem = posix_spawnp(child, arguments[0], &actions, &attributes, arguments, environ);
+        posix_spawn_file_actions_destroy(&actions);
+    }
     posix_spawnattr_destroy(&attributes);
     return problem;
 }

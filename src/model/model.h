@@ -158,6 +158,9 @@ typedef enum ld_base_kind {
     LD_BASE_EXTERNAL, ///< told where it is by whoever runs the launch, step by step
 } ld_base_kind;
 
+/// What a base without wheels is drawn as; nothing of its mechanics.
+typedef enum ld_looks { LD_LOOKS_PLAIN, LD_LOOKS_SHIP, LD_LOOKS_AIRCRAFT } ld_looks;
+
 /// How an external base goes on between the instants at which it is told.
 typedef enum ld_extrapolation {
     LD_EXTRAPOLATION_ACCELERATION, ///< with the acceleration that its last two velocities tell
@@ -342,6 +345,7 @@ typedef struct ld_base {
     ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
     ld_vehicle vehicle;
     ld_extrapolation extrapolation; ///< (external)
+    ld_looks looks;                 ///< (not of a vehicle)
 } ld_base;
 
 /// Isotropic material of the tube; NaN: not given.

@@ -373,6 +373,8 @@ static const field_word base_words[] = {{"fixed", LD_BASE_FIXED},
 static const field_word extrapolation_words[] = {{"acceleration", LD_EXTRAPOLATION_ACCELERATION},
                                                  {"velocity", LD_EXTRAPOLATION_VELOCITY},
                                                  {NULL, 0}};
+static const field_word looks_words[] = {
+    {"plain", LD_LOOKS_PLAIN}, {"ship", LD_LOOKS_SHIP}, {"aircraft", LD_LOOKS_AIRCRAFT}, {NULL, 0}};
 #define FIXED_OR_PRESCRIBED (FORM(LD_BASE_FIXED) | FORM(LD_BASE_PRESCRIBED))
 #define VEHICLE FORM(LD_BASE_VEHICLE)
 #define EXTERNAL FORM(LD_BASE_EXTERNAL)
@@ -405,6 +407,9 @@ static const field_row base_fields[] = {
      DEFAULT(LD_EXTRAPOLATION_ACCELERATION), .forms = EXTERNAL,
      .doc = "how it goes on between two instants at which it is told: with the acceleration of its "
             "last two velocities, or with the last velocity"},
+    {"looks", CHOICE(ld_base, looks, looks_words), DEFAULT(LD_LOOKS_PLAIN),
+     .forms = FIXED_OR_PRESCRIBED | EXTERNAL,
+     .doc = "what the replay draws it as: a plate with posts, a ship, an aircraft; no mechanics"},
     {0}};
 static const field_block base_block = {.fields = base_fields,
                                        .form = base_words,

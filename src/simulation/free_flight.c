@@ -6,6 +6,7 @@
 #include "simulation/dormand_prince.h"
 #include "simulation/measuring.h"
 #include "simulation/simulation.h"
+#include "simulation/step_limit.h"
 
 typedef struct flight_run {
     const free_flight *job;
@@ -472,6 +473,20 @@ static ld_status after_step(flight_run *run, bool stopped)
     return status ? status : report_progress(run, steps->t, steps->y);
 }
 
+// A flight whose steps are so short hardly goes on.
+static ld_status check_steps(const flight_run *run)
+{
+    const dormand_prince *steps = &run->steps;
+    double spent = steps->t - run->job->t_start;
+    double least = least_step(run->job->model->run.flight_tolerance, 1e-7, 5e-5, steps->steps);
+    if (steps->steps < 1000 || spent >= least * (double)steps->steps)
+        return LD_OK;
+    return ld_fail(run->error, LD_ERR_NUMERIC,
+                   "the flight's steps are too short to go on: %lld for %.6g s, up to t = %.9g s; "
+                   "are the air's forces far too strong for the rocket's inertia?",
+                   (long long)steps->steps, spent, steps->t);
+}
+
 static ld_status loop(flight_run *run)
 {
     dormand_prince *steps = &run->steps;
@@ -485,6 +500,8 @@ static ld_status loop(flight_run *run)
                 steps->t);
         bool stopped = steps->t == stop;
         ld_status status = after_step(run, stopped);
+        if (!status)
+            status = check_steps(run);
         if (status)
             return status;
         if (stopped && pass_corners(run, steps->t))

@@ -138,6 +138,9 @@ static void add_base(geometry *all, const base_system *base)
     if (!base_as_vehicle(base)) {
         double mount[2] = {model->base.azimuth, model->base.elevation};
         add_row(all, "base.mount", "rad", 2, mount, "tube against the base: azimuth, elevation");
+        double looks = model->base.looks;
+        add_row(all, "base.looks", "1", looks != LD_LOOKS_PLAIN, &looks,
+                "what the base is drawn as: 1 ship, 2 aircraft; a plain one has none");
         return;
     }
     add_row(all, "azimuth.hinge", "m", 3, model->platform.azimuth.hinge_at,
@@ -158,7 +161,7 @@ static size_t room_for(const ld_simulation *self)
     size_t nodes = (size_t)tube->element_count + 1;
     return nodes * (size_t)(1 + 2 * tube->nb + tube->nt + tube->na) + 3 * LD_MAX_SECTIONS +
            LD_MAX_SUPPORTS + 4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS +
-           3 * LD_MAX_WHEELS + 16;
+           3 * LD_MAX_WHEELS + 17;
 }
 
 ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error)

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "simulation/launch_run.h"
+#include "simulation/step_limit.h"
 
 ld_status launch_check_tube(ld_run *run, double t, const double *y)
 {
@@ -81,15 +82,6 @@ ld_status launch_check_base(ld_run *run, double t)
                    first, last, t);
 }
 
-// Length of the n-th step below which a run hardly goes on [s]: n times 10 ps (a microsecond of the
-// 100 000th), of a tolerance below 1e-5 less by as much as its steps are shorter and more; never
-// more than half the longest step.
-static double least_step(const ld_run_settings *run, int64_t n)
-{
-    double finer = fmin(1, pow(run->tolerance / 1e-5, 0.4));
-    return fmin(1e-11 * finer * (double)n, run->max_step / 2);
-}
-
 // Steps of less than 50 ns on the average over a millisecond, or shorter on the average than that
 // over the whole run: it would hardly go on.
 static ld_status check_steps(ld_run *run, double t)
@@ -100,9 +92,11 @@ static ld_status check_steps(ld_run *run, double t)
                        "the steps became too short to go on: more than %lld within a millisecond, "
                        "up to t = %.9g s",
                        (long long)most, t);
-    int64_t steps = propagator_steps(run->propagator);
+    int64_t steps = propagator_most_steps(run->propagator);
     double spent = t - run->t_start;
-    if (spent < 1e-3 || spent >= least_step(&run->launch.model->run, steps) * (double)steps)
+    const ld_run_settings *settings = &run->launch.model->run;
+    double least = least_step(settings->tolerance, 1e-5, settings->max_step / 2, steps);
+    if (spent < 1e-3 || spent >= least * (double)steps)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_NUMERIC,
                    "the steps are too short to go on: %lld for %.6g s, up to t = %.9g s; is a "

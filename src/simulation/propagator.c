@@ -376,6 +376,23 @@ static void join(const propagator *self, double t, const double *y, double *whol
     base_between(self, t, whole);
 }
 
+// Takes a subsystem to the next exchange.
+static ld_status go_to(integrator *part, double t_next, ld_error *error)
+{
+    double t = integrator_time(part), most = 20000 * fmax(1, (t_next - t) / 1e-3);
+    for (int64_t steps = 0; integrator_time(part) < t_next; steps++) {
+        if ((double)steps > most)
+            return ld_fail(error, LD_ERR_NUMERIC,
+                           "the steps became too short to go on: more than %.0f between two "
+                           "exchanges of the subsystems, up to t = %.9g s; is a damper or a "
+                           "friction of the vehicle far too hard?",
+                           most, integrator_time(part));
+        if (integrator_step(part, t_next, error) == INTEGRATOR_FAILED)
+            return integrator_failure(part);
+    }
+    return LD_OK;
+}
+
 // Exchange at t: frames and wrenches at the state y; then chassis and wheels go on to the next
 // instant, the corners of commands at `t_stop` before it.
 static ld_status exchange(propagator *self, double t, const double *y, double t_stop,
@@ -409,12 +426,10 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     ld_status status = integrator_start(self->orientating, t, orientating, error);
     if (!status)
         status = integrator_start(self->marching, t, marching, error);
-    while (!status && integrator_time(self->orientating) < self->t_next)
-        if (integrator_step(self->orientating, self->t_next, error) == INTEGRATOR_FAILED)
-            return integrator_failure(self->orientating);
-    while (!status && integrator_time(self->marching) < self->t_next)
-        if (integrator_step(self->marching, self->t_next, error) == INTEGRATOR_FAILED)
-            return integrator_failure(self->marching);
+    if (!status)
+        status = go_to(self->orientating, self->t_next, error);
+    if (!status)
+        status = go_to(self->marching, self->t_next, error);
     if (status)
         return status;
 
@@ -623,6 +638,16 @@ int propagator_event(const propagator *self, event_kind kind, int index)
 int64_t propagator_steps(const propagator *self)
 {
     return integrator_steps(self->integrator);
+}
+
+int64_t propagator_most_steps(const propagator *self)
+{
+    int64_t most = propagator_steps(self);
+    for (int i = 0; self->apart && i < 2; i++) {
+        int64_t steps = integrator_steps(i ? self->marching : self->orientating);
+        most = steps > most ? steps : most;
+    }
+    return most;
 }
 
 int64_t propagator_evaluations(const propagator *self)

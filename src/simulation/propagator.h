@@ -23,6 +23,8 @@ const double *propagator_state(const propagator *self);
 void propagator_interpolate(propagator *self, double t, double *y);
 int propagator_event(const propagator *self, event_kind kind, int index);
 int64_t propagator_steps(const propagator *self);
+// Of the integrator that took most: apart from the tube's, the base's have theirs.
+int64_t propagator_most_steps(const propagator *self);
 int64_t propagator_evaluations(const propagator *self);
 // As integrator_archive, into one of an equal launch in the same state.
 void propagator_archive(propagator *self, archive *bytes);

@@ -94,6 +94,30 @@ STOPS(receiver_of_rows_fails, 0.0097, LD_ERR_FILE, "the disk is full",
 STOPS(receiver_of_rows_fails_silently, 0, LD_ERR_FILE, "the receiver of the rows stopped the run",
       (ear.fail_at = 1, ear.failure = LD_ERR_FILE, ear.silent = true))
 
+// Turned so hard by the air that its flight would go on by nanoseconds; the launch is told.
+static void rocket_like_a_parachute(void **state)
+{
+    (void)state;
+    ld_model model;
+    listener ear = {0};
+    outcome out;
+    reference_model(&model);
+    model.run.end = LD_END_LANDING;
+    model.rocket.aerodynamics = (ld_aerodynamics){.present = true,
+                                                  .model = LD_AERODYNAMICS_BODY,
+                                                  .area = 1000,
+                                                  .damping = {-400, -400, -400},
+                                                  .lengths = {40, 40, 40}};
+    run(&model, &ear, &out);
+    printf("    %s\n", out.error.text);
+    assert_int_equal(out.status, LD_ERR_NUMERIC);
+    assert_true(matches(out.error.text, "the flight's steps are too short to go on: 1000 for # s, "
+                                        "up to t = # s; are the air's forces far too strong for "
+                                        "the rocket's inertia?"));
+    assert_string_equal(out.summary.stopped, out.error.text);
+    CHECK_BELOW("rear adaptor out [s]", out.summary.rocket[0].t_rear - 0.1595, 1e-3);
+}
+
 static void base_table_begins_too_late(void **state)
 {
     (void)state;
@@ -233,6 +257,7 @@ int main(void)
         cmocka_unit_test(contacts_like_tar),
         cmocka_unit_test(contacts_like_honey),
         cmocka_unit_test(one_adaptor_holds_no_next_rocket),
+        cmocka_unit_test(rocket_like_a_parachute),
         cmocka_unit_test(thrust_not_a_number),
         cmocka_unit_test(base_table_too_short),
         cmocka_unit_test(caller_says_no),

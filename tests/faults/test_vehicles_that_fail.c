@@ -57,6 +57,25 @@ static void drives_against_a_wall(void **state)
     CHECK_BELOW("energy balance, relative", out.summary.energy.residual_relative, 1e-6);
 }
 
+// A damper so hard that the vehicle, integrated apart, would go on by femtoseconds between two
+// exchanges.
+static void damper_like_rock(void **state)
+{
+    (void)state;
+    ld_model model;
+    outcome out;
+    listener ear = {0};
+    reference_vehicle(&model, 30 / 3.6);
+    model.base.vehicle.suspension.damping[2] = 2.5e14;
+    model.run.coupling_step = 5e-4;
+    run(&model, &ear, &out);
+    printf("    %s\n", out.error.text);
+    assert_int_equal(out.status, LD_ERR_NUMERIC);
+    assert_true(matches(out.error.text, "the steps became too short to go on: more than 20000 "
+                                        "between two exchanges of the subsystems, up to t = # s; "
+                                        "is a damper or a friction of the vehicle far too hard?"));
+}
+
 // Not failures: launches that look odd but happen.
 #define HAPPENS(name, speed, ...)                                                                  \
     static void name(void **state)                                                                 \
@@ -87,6 +106,7 @@ int main(void)
         cmocka_unit_test(mass_centre_before_the_wheels),
         cmocka_unit_test(weightless),
         cmocka_unit_test(drives_against_a_wall),
+        cmocka_unit_test(damper_like_rock),
         cmocka_unit_test(wheels_leave_the_road),
         cmocka_unit_test(on_ice),
         cmocka_unit_test(parked_on_ice),

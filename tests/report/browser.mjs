@@ -154,7 +154,7 @@ async function checkDrawn(page, run, adaptors) {
       return { y, z, gap: stage.gap, adaptors: stage.motion.adaptors.map((l, i) => {
         const { centre, radius } = body.adaptor(i), x = stage.motion.deflection(stage.state, centre[0]);
         return { y: centre[1] - amount * x[1], z: centre[2] - amount * x[2], radius };
-      }), bore: stage.motion.bore, clearances: stage.motion.clearances[0] };
+      }), bore: stage.motion.guide.radius, clearances: stage.motion.guide.clearances[0] };
     }, [t[row], scale]);
     const error = Math.hypot(shown.y / scale - at("tip.y"), shown.z / scale - at("tip.z"));
     check(`t ${t[row]} s, deflection x ${scale}: tip drawn where tip.y, tip.z of the results are`,
@@ -267,6 +267,35 @@ async function checkFallbacks(browser, run) {
   await leave(page);
 }
 
+// A ship floats: its hull goes from below the sea, which lies where I's y is 0, to above it, around the launcher.
+async function checkShip(browser) {
+  console.log("ship.yaml");
+  const run = runOf("ship.yaml", "--set", "run.lead_in='0.05 s'"), page = await open(browser, run.file, { width: 700 });
+  const at = await page.evaluate(() => {
+    const { stage } = window.launchdyn.current, low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
+    stage.scene.updateMatrixWorld();
+    stage.base.group.traverse(({ geometry, matrixWorld }) => {
+      const corners = geometry?.attributes.position;
+      for (let i = 0; i < (corners?.count ?? 0); i++) {
+        const corner = stage.camera.position.clone().fromBufferAttribute(corners, i).applyMatrix4(matrixWorld).toArray();
+        corner.forEach((v, k) => {
+          low[k] = Math.min(low[k], v + stage.anchor[k]);
+          high[k] = Math.max(high[k], v + stage.anchor[k]);
+        });
+      }
+    });
+    return { low, high, sea: stage.sea.disc.position.y + stage.anchor[1], rear: stage.anchor, length: stage.motion.length };
+  });
+  const text = JSON.stringify(at);
+  check("the sea lies where y is 0", Math.abs(at.sea) < 0.02, at.sea);
+  check("the hull goes through it", at.low[1] < -0.3 && at.high[1] > 4, text);
+  check("and around the launcher", at.low[0] < at.rear[0] - 3 * at.length && at.high[0] > at.rear[0] + 2 * at.length, text);
+  const whole = await look(page), bare = await look(page, "replay.stage.base.group.visible = false;");
+  check("it is seen", whole.sum !== bare.sum);
+  await picture(page, "ship.png");
+  await leave(page);
+}
+
 // Keeps the numbers along the upright axis of each plot and the names in it as they are drawn; code
 // of the page.
 function keepLabels() {
@@ -340,6 +369,7 @@ async function checkHostile(browser) {
 await inBrowser(async (browser) => {
   await checkLaunch(browser);
   await checkReplay(browser);
+  await checkShip(browser);
   await checkLooks(browser);
   await checkHostile(browser);
 });

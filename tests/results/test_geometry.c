@@ -152,6 +152,7 @@ static void test_fixed(void **state)
     run_example("fixed.yaml", NULL, 0, &read);
     check_run(&read);
     assert_null(history_array_named(&read, "wheel.mount"));
+    assert_null(history_array_named(&read, "base.looks"));
     history_free(&read);
 }
 
@@ -162,6 +163,7 @@ static void test_ship(void **state)
     history_data read;
     run_example("ship.yaml", sets, 1, &read);
     check_run(&read);
+    CHECK_WITHIN("looks of a ship", array(&read, "base.looks")->value[0], 1, 1);
     history_free(&read);
 }
 

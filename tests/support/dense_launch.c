@@ -24,6 +24,44 @@ static const ld_section *section_at(const ld_tubes *tubes, double x)
     return &tubes->section[i];
 }
 
+bool dense_launch_holds_roll(const dense_launch *dense)
+{
+    bool smooth = dense->model->tubes.slot.kind == LD_SLOT_NONE;
+    for (int k = 0; k < dense->surface_count; k++)
+        smooth = smooth && dense->surface[k].round;
+    return smooth;
+}
+
+// K += int EI b'' b''^T dx of a stretch: b'' is linear along it.
+static void add_bending(double K[LD_NB][LD_NB], const tube_element *element, int nb, double from,
+                        double to, double EI)
+{
+    for (int g = 0; g < GAUSS; g++) {
+        double xi = 0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g] - element->x0;
+        double weight = 0.5 * (to - from) * gauss_weight[g] * EI;
+        for (int i = 0; i < nb; i++)
+            for (int j = 0; j < nb; j++)
+                K[i][j] += weight * (2 * element->b[2][i] + 6 * xi * element->b[3][i]) *
+                           (2 * element->b[2][j] + 6 * xi * element->b[3][j]);
+    }
+}
+
+// D = 2 zeta K^(1/2), by K's eigenvectors: the shapes have unit mass.
+static void damp_bending(double D[LD_NB][LD_NB], double K[LD_NB][LD_NB], int nb, double zeta)
+{
+    double vector[LD_NB * LD_NB], square[LD_NB];
+    for (int i = 0; i < nb; i++)
+        for (int j = 0; j < nb; j++)
+            vector[i * nb + j] = K[i][j];
+    if (nb)
+        LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', nb, vector, nb, square);
+    for (int k = 0; k < nb; k++)
+        for (int i = 0; i < nb; i++)
+            for (int j = 0; j < nb; j++)
+                D[i][j] +=
+                    2 * zeta * sqrt(fmax(0, square[k])) * vector[k * nb + i] * vector[k * nb + j];
+}
+
 void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube)
 {
     const ld_tubes *tubes = &model->tubes;
@@ -46,9 +84,14 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
                     0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g],
                     weight * section->mass_per_length, weight * section->polar_inertia};
             }
+            for (int plane = 0; plane < 2; plane++)
+                add_bending(dense->K[plane], &tube->element[i], tube->nb, from, to,
+                            section->bending_stiffness);
             from = to;
         }
     }
+    for (int plane = 0; plane < 2; plane++)
+        damp_bending(dense->D[plane], dense->K[plane], tube->nb, tubes->modes.damping);
     for (int i = 0; i < tubes->point_mass_count; i++)
         dense->point[dense->point_count++] =
             (dense_tube_point){tubes->point_mass[i].at, tubes->point_mass[i].mass, 0};
@@ -439,18 +482,31 @@ static void add_rigid(equations *eq, const jet_frame *body, double mass, const d
     add_mass(eq, &p, rest, gravity);
 }
 
+// Bending in each plane, then torsion and stretch, whose modes have frequencies of their own.
 static void add_modes(equations *eq, const jet_scene *scene)
 {
-    const flexible_tube *tube = scene->dense->tube;
-    const double *om2[4] = {tube->om2_b, tube->om2_b, tube->om2_t, tube->om2_a};
-    const double *dmp[4] = {tube->dmp_b, tube->dmp_b, tube->dmp_t, tube->dmp_a};
-    int count[4] = {tube->nb, tube->nb, tube->nt, tube->na};
-    for (int part = 0, k = 0; part < 4; part++)
+    const dense_launch *dense = scene->dense;
+    const flexible_tube *tube = dense->tube;
+    const double *state_q = scene->state->q, *state_rate = scene->state->q_dot;
+    for (int plane = 0; plane < 2; plane++)
+        for (int i = 0; i < tube->nb; i++) {
+            int at = plane * tube->nb;
+            double spring = 0, damper = 0;
+            for (int j = 0; j < tube->nb; j++) {
+                spring += dense->K[plane][i][j] * state_q[at + j];
+                damper += dense->D[plane][i][j] * state_rate[at + j];
+            }
+            eq->h[6 + at + i] -= spring + damper;
+            eq->other[6 + at + i] -= damper;
+            eq->potential += 0.5 * spring * state_q[at + i];
+        }
+    const double *om2[2] = {tube->om2_t, tube->om2_a}, *dmp[2] = {tube->dmp_t, tube->dmp_a};
+    int count[2] = {tube->nt, tube->na}, k = 2 * tube->nb;
+    for (int part = 0; part < 2; part++)
         for (int m = 0; m < count[part]; m++, k++) {
-            double q = scene->state->q[k], q_dot = scene->state->q_dot[k];
-            eq->h[6 + k] -= om2[part][m] * q + dmp[part][m] * q_dot;
-            eq->other[6 + k] -= dmp[part][m] * q_dot;
-            eq->potential += 0.5 * om2[part][m] * q * q;
+            eq->h[6 + k] -= om2[part][m] * state_q[k] + dmp[part][m] * state_rate[k];
+            eq->other[6 + k] -= dmp[part][m] * state_rate[k];
+            eq->potential += 0.5 * om2[part][m] * state_q[k] * state_q[k];
         }
 }
 
@@ -735,6 +791,119 @@ static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene 
     output->contact[index].penetration_rate = rate;
     output->contact[index].normal = normal;
     memcpy(output->contact[index].force, f, sizeof f);
+}
+
+// How much of a generalised force h is a force on the rocket (in I) and a moment about `center`.
+static void wrench_on_rocket(const jet_scene *scene, const double *h, const double center[3],
+                             double force[3], double moment[3])
+{
+    int first = scene->n - 6;
+    const dense_state *state = scene->state;
+    turn(moment, state->A_B[0], h + first + 3); // about O1
+    for (int i = 0; i < 3; i++)
+        force[i] += h[first + i];
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        moment[i] -= (center[j] - state->r_O1[j]) * h[first + k] -
+                     (center[k] - state->r_O1[k]) * h[first + j];
+    }
+}
+
+// Friction of a surface that presses with `normal` where its point W, given in the section, is.
+static void add_rubbing(equations *eq, const jet_scene *scene, const jet_frame *material,
+                        const double W[3], double angle, double normal)
+{
+    const ld_contact *law = &scene->dense->model->rocket.contact;
+    double place[3], slip[3], out[3], along = 0, square = 0, f[3];
+    for (int i = 0; i < 3; i++) {
+        place[i] = material->r.c[i].v;
+        for (int j = 0; j < 3; j++)
+            place[i] += material->A.c[i][j].v * W[j];
+        out[i] = material->A.c[i][1].v * cos(angle) + material->A.c[i][2].v * sin(angle);
+    }
+    slip_at(slip, scene, material, place);
+    for (int i = 0; i < 3; i++)
+        along += slip[i] * out[i];
+    for (int i = 0; i < 3; i++) {
+        f[i] = slip[i] - along * out[i];
+        square += f[i] * f[i];
+    }
+    double drag =
+        -law->friction * normal / sqrt(square + law->friction_speed * law->friction_speed);
+    for (int i = 0; i < 3; i++)
+        f[i] *= drag;
+    add_pair(eq->h, scene, material, place, f);
+    add_pair(eq->other, scene, material, place, f);
+}
+
+// One surface of a shoe whose centre's foot is the section at s: the penetration is written as a
+// function of the coordinates, and the normal force does the work -F_n dp.
+static void add_surface(equations *eq, const jet_scene *scene, const dense_conditions *on,
+                        int index, jet s, dense_launch_output *output)
+{
+    const dense_launch *dense = scene->dense;
+    const dense_surface *surface = &dense->surface[index];
+    const ld_model *model = dense->model;
+    double n_y = cos(surface->normal), n_z = sin(surface->normal);
+    double from_line[2] = {surface->round ? 0 : surface->y, surface->round ? 0 : surface->z};
+    jet3 local = jet3_constant(
+        (double[]){model->rocket.adaptor[surface->shoe].at, from_line[0], from_line[1]});
+    jet3 point = point_in(&scene->B, &local);
+    jet_frame section = section_in_I(scene, s);
+    jet3 there = seen_from(&section, &point);
+    jet delta[2];
+    for (int i = 0; i < 2; i++)
+        delta[i] = jet_sub(there.c[1 + i], jet_constant(dense->line[i] + from_line[i]));
+    jet p = jet_add(jet_scale(n_y, delta[0]), jet_scale(n_z, delta[1]));
+    p.v -= surface->gap;
+    output->surface[index].penetration = p.v;
+    output->surface[index].penetration_rate = p.e;
+    if (on->passed[surface->shoe] || p.v <= 0)
+        return;
+    double normal = normal_force(&model->rocket.contact, p.v, p.e, on->surface_touch_speed[index]);
+    output->surface[index].normal = normal;
+    for (int k = 0; k < eq->n; k++) {
+        eq->h[k] -= normal * p.d[k];
+        eq->other[k] -= normal * p.d[k];
+    }
+    if (on->frictionless)
+        return;
+    double sideways = surface->round ? -n_z * delta[0].v + n_y * delta[1].v : 0;
+    double W[3] = {0, dense->line[0] + surface->y - n_z * sideways,
+                   dense->line[1] + surface->z + n_y * sideways};
+    jet_frame material = section_in_I(scene, jet_constant(s.v));
+    add_rubbing(eq, scene, &material, W, surface->normal, normal);
+}
+
+// All surfaces of a shoe.
+static void add_shoe(equations *eq, const jet_scene *moving, const jet_scene *still,
+                     const dense_conditions *on, int index, double guess,
+                     dense_launch_output *output)
+{
+    const dense_launch *dense = moving->dense;
+    double before[DENSE_MAX_COORDINATES], C[3];
+    jet3 center = jet3_constant((double[]){dense->model->rocket.adaptor[index].at, 0, 0});
+    center = point_in(&moving->B, &center);
+    jet s = foot_of(moving, still, &center, guess);
+    memcpy(before, eq->h, sizeof before);
+    output->contact[index].s = s.v;
+    output->contact[index].penetration = -INFINITY;
+    for (int k = 0; k < dense->surface_count; k++) {
+        if (dense->surface[k].shoe != index)
+            continue;
+        add_surface(eq, moving, on, k, s, output);
+        output->contact[index].normal += output->surface[k].normal;
+        if (output->surface[k].penetration > output->contact[index].penetration) {
+            output->contact[index].penetration = output->surface[k].penetration;
+            output->contact[index].penetration_rate = output->surface[k].penetration_rate;
+        }
+    }
+    for (int i = 0; i < 3; i++)
+        C[i] = center.c[i].v;
+    for (int k = 0; k < eq->n; k++)
+        before[k] = eq->h[k] - before[k];
+    wrench_on_rocket(moving, before, C, output->contact[index].force,
+                     output->contact[index].moment);
 }
 
 // A stop at the breech's station for O1, which is at station s: along e_x of the section at s.
@@ -1088,7 +1257,8 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     add_modes(&eq, &moving);
     add_supports(&eq, &moving, &conditions->base, output);
     for (int i = 0; i < rocket->adaptor_count; i++)
-        add_adaptor(&eq, &moving, &still, conditions, i, state->s + rocket->adaptor[i].at, output);
+        (dense->surface_count ? add_shoe : add_adaptor)(&eq, &moving, &still, conditions, i,
+                                                        state->s + rocket->adaptor[i].at, output);
     add_thrust(&eq, &moving, conditions->thrust);
     // constraints
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
@@ -1099,7 +1269,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)
-        add_lock(&eq, &moving, s, !slotted, output);
+        add_lock(&eq, &moving, s, dense_launch_holds_roll(dense), output);
     write_relative(&moving, s, output);
     double x_ddot[DENSE_MAX_COORDINATES], multiplier[ROWS], sign;
     bool rubs = slotted && !conditions->locked && !conditions->frictionless &&

@@ -23,11 +23,25 @@ typedef struct dense_tube_point {
     double at, mass, polar;
 } dense_tube_point;
 
-// A model made ready: quadrature points along the tube.
+// A plane of a rail beside one shoe, or what a round shoe touches of it.
+typedef struct dense_surface {
+    int shoe;                 // an adaptor
+    double y, z, normal, gap; // [m] from the guide line; [rad] from y towards z; [m]
+    bool round;               // the shoe's centre counts, not the body's point at (y, z)
+} dense_surface;
+
+enum { DENSE_MAX_SURFACES = 256 };
+
+// A model made ready: quadrature points along the tube, surfaces of every shoe.
 typedef struct dense_launch {
     const ld_model *model;
     const flexible_tube *tube;
+    double line[2]; // [m] guide line from the tube's axis, y and z
+    int surface_count;
+    dense_surface surface[DENSE_MAX_SURFACES];
     int mode_count; // 2 nb + nt + na
+    // stiffness int EI b'' b''^T dx and damping 2 zeta K^(1/2) of bending along y, along z
+    double K[2][LD_NB][LD_NB], D[2][LD_NB][LD_NB]; // [1/s2], [1/s]
     int point_count;
     dense_tube_point *point;
 } dense_launch;
@@ -35,6 +49,9 @@ typedef struct dense_launch {
 // Prepares `dense` (keeps both pointers). Free with dense_launch_free().
 void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube);
 void dense_launch_free(dense_launch *dense);
+
+// Whether the lock holds roll: in smooth bores and on round surfaces alone.
+bool dense_launch_holds_roll(const dense_launch *dense);
 
 // The base that carries the tube: the frame that the undeformed tube's rear end has on it.
 typedef struct dense_base {
@@ -60,8 +77,9 @@ typedef struct dense_conditions {
     bool frictionless;                   // all friction off (for the equilibrium)
     bool passed[LD_MAX_ADAPTORS];        // adaptor has left the tube
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] of Lankarani-Nikravesh; 0: the reference speed
-    double breech, breech_speed;         // [m] station of the breech; [m/s] touched at, likewise
-    double air[3], density;              // [m/s] velocity of the air, in I; [kg/m3]
+    double surface_touch_speed[DENSE_MAX_SURFACES]; // the same, where the guide has surfaces
+    double breech, breech_speed; // [m] station of the breech; [m/s] touched at, likewise
+    double air[3], density;      // [m/s] velocity of the air, in I; [kg/m3]
 } dense_conditions;
 
 // State as the program has it: rocket relative to the tube, speeds absolute, in R axes.
@@ -103,7 +121,11 @@ typedef struct dense_launch_output {
         double penetration_rate; // [m/s]
         double normal;           // [N] F_n
         double force[3];         // [N] on the rocket, normal and friction, in I
-    } contact[LD_MAX_ADAPTORS];
+        double moment[3];        // [N m] the same about the shoe's centre (surfaces alone)
+    } contact[LD_MAX_ADAPTORS];  // with surfaces: deepest penetration, sum of forces
+    struct {
+        double penetration, penetration_rate, normal; // [m], [m/s], [N]
+    } surface[DENSE_MAX_SURFACES];
     double base_force[3], base_moment[3]; // on the base, in its axes, about its origin
     double kinetic;                       // [J] of everything
     double potential; // [J] modes, support springs, gravity of everything (from I's origin)

@@ -22,10 +22,11 @@ typedef struct launch_run {
     double ignition;                    // [s] on the run's clock
     bool locked, passed[LD_MAX_ADAPTORS];
     bool on_breech;                      // starts there, without a lock
-    bool apart[LD_MAX_ADAPTORS];         // adaptor was off the wall
+    bool apart[DENSE_MAX_SURFACES];      // adaptor (or surface of a shoe) was off the wall
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] when it last touched
-    int slot_piece;                      // stretch of the slot's table, as in dense_conditions
-    double s;                            // [m] where O1 was last
+    double surface_touch_speed[DENSE_MAX_SURFACES]; // the same of a surface
+    int slot_piece; // stretch of the slot's table, as in dense_conditions
+    double s;       // [m] where O1 was last
     double step;
     dense_summary *summary;
 } launch_run;
@@ -190,6 +191,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, con
     on->slot_piece = launch->slot_piece;
     memcpy(on->passed, launch->passed, sizeof on->passed);
     memcpy(on->touch_speed, launch->touch_speed, sizeof on->touch_speed);
+    memcpy(on->surface_touch_speed, launch->surface_touch_speed, sizeof on->surface_touch_speed);
 }
 
 // ---------------------------------------------------------------- numbers to integrate
@@ -355,12 +357,16 @@ static bool take_step(launch_run *launch, double t, double h, const double *x, c
 // ---------------------------------------------------------------- start
 
 // Unknowns: base-relative place and turning of R (6), q, y_S, z_S, psi, theta, lock force on the
-// rocket (on the breech: s less the start), slot force or roll moment. Residuals: all generalised
-// forces.
+// rocket (on the breech: s less the start), slot force or roll moment, on surfaces that the lock
+// does not keep from rolling gamma. Residuals: all generalised forces. On surfaces soft springs
+// [N/m, and N m/rad] hold the rocket in its centred place; they are let go in steps, the last hold
+// what no surface does.
 typedef struct balance_problem {
     const launch_run *launch;
     dense_conditions on;
     int n;
+    bool rolls; // gamma is unknown
+    double soft;
 } balance_problem;
 
 static void start_input(const balance_problem *balance, const double *u, dense_launch_input *input)
@@ -385,7 +391,23 @@ static void start_input(const balance_problem *balance, const double *u, dense_l
     input->z = u[7 + nq];
     input->psi = u[8 + nq];
     input->theta = u[9 + nq];
+    input->gamma = balance->rolls ? u[balance->n - 1] : 0;
     input->conditions = balance->on;
+}
+
+// The soft springs' generalised forces, on the rocket alone.
+static void add_soft(const balance_problem *balance, const dense_launch_input *input,
+                     double *residual)
+{
+    const double *line = balance->launch->dense.line;
+    double offset[2] = {input->y - line[0], input->z - line[1]};
+    double turn[3] = {input->gamma, input->theta, input->psi};
+    double *rocket = residual + balance->n - 6;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 2; j++)
+            rocket[i] -= balance->soft * balance->on.base.A[i][1 + j] * offset[j];
+        rocket[3 + i] -= balance->soft * turn[i];
+    }
 }
 
 static bool residual_of(const balance_problem *balance, const double *u, double *residual,
@@ -401,9 +423,10 @@ static bool residual_of(const balance_problem *balance, const double *u, double 
     if (!dense_launch_rates(dense, &state, &balance->on, &rates, output))
         return false;
     double lock = balance->launch->on_breech ? 0 : u[balance->n - 2];
+    double across = balance->rolls ? 0 : u[balance->n - 1];
     for (int i = 0; i < balance->n; i++)
-        residual[i] =
-            rates.h[i] + lock * rates.G[0][i] + u[balance->n - 1] * rates.G[slotted ? 1 : 2][i];
+        residual[i] = rates.h[i] + lock * rates.G[0][i] + across * rates.G[slotted ? 1 : 2][i];
+    add_soft(balance, &input, residual);
     return true;
 }
 
@@ -427,7 +450,8 @@ static bool find_balance(const balance_problem *balance, double *u)
         return false;
     for (int iteration = 0; iteration < 60; iteration++) {
         for (int j = 0; j < n; j++) {
-            bool length = j < n - 2 || (j == n - 2 && balance->launch->on_breech);
+            bool length = j < n - 2 || (j == n - 2 && balance->launch->on_breech) ||
+                          (j == n - 1 && balance->rolls);
             double h = length ? 1e-7 : 1;
             for (int i = 0; i < 2; i++) {
                 memcpy(trial, u, sizeof trial);
@@ -480,6 +504,17 @@ static void lay_down(const ld_rocket *rocket, double center, double *height, dou
         }
 }
 
+// Balance on a base that is at rest, in a bore from where the rocket lies, on surfaces from its
+// centred place, held ever more softly.
+static bool find_balance_held(balance_problem *balance, double *u)
+{
+    bool found = true;
+    balance->soft = balance->launch->dense.surface_count ? 1e7 : 0;
+    for (; found && balance->soft > 1e-3; balance->soft /= 10)
+        found = find_balance(balance, u);
+    return found && find_balance(balance, u);
+}
+
 static void co_move(dense_state *state, const dense_base *base)
 {
     double *place[2] = {state->r, state->r_O1}, *speed[2] = {state->v, state->v_O1};
@@ -525,7 +560,7 @@ static bool find_balance_on_vehicle(balance_problem *balance, launch_run *launch
                                        x + launch->wheels, launch->rest, &residual))
             return false;
         hold_base(launch, t, x, &balance->on);
-        if (!find_balance(balance, u) || !residual_of(balance, u, left, &output))
+        if (!find_balance_held(balance, u) || !residual_of(balance, u, left, &output))
             return false;
         change = 0;
         for (int k = 0; k < 3; k++) {
@@ -544,11 +579,12 @@ static bool settle(launch_run *launch, double t, balance_problem *balance, doubl
     int nq = launch->dense.mode_count;
     dense_launch_output output;
     double residual[DENSE_MAX_COORDINATES];
-    lay_down(rocket, balance->on.center[0], &u[6 + nq], &u[8 + nq]);
+    if (launch->dense.surface_count == 0)
+        lay_down(rocket, balance->on.center[0], &u[6 + nq], &u[8 + nq]);
     if (launch->on_breech)
         u[balance->n - 2] = -5e-6;
     bool found = launch->on_vehicle ? find_balance_on_vehicle(balance, launch, t, x, u)
-                                    : find_balance(balance, u);
+                                    : find_balance_held(balance, u);
     if (!found || !residual_of(balance, u, residual, &output))
         return false;
     dense_summary *summary = launch->summary;
@@ -576,6 +612,10 @@ static bool start(launch_run *launch, double t, double *x)
     double u[DENSE_MAX_COORDINATES] = {0};
     launch->on_breech = model->run.start == LD_START_EQUILIBRIUM && !model->rocket.lock.present;
     launch->locked = !launch->on_breech;
+    balance.rolls =
+        launch->dense.surface_count && !(launch->locked && dense_launch_holds_roll(&launch->dense));
+    u[6 + launch->dense.mode_count] = launch->dense.line[0];
+    u[7 + launch->dense.mode_count] = launch->dense.line[1];
     if (launch->on_vehicle)
         x[launch->platform + ORIENTATING_QUATERNION] = 1;
     hold_base(launch, t, x, &balance.on);
@@ -610,7 +650,26 @@ static bool start(launch_run *launch, double t, double *x)
 // ---------------------------------------------------------------- events and summary
 
 // Exit of adaptor i is event i, its touch TOUCH + i.
-enum { RELEASE = LD_MAX_ADAPTORS, SLOT_POINT, TOUCH, EVENTS = TOUCH + LD_MAX_ADAPTORS };
+enum { RELEASE = LD_MAX_ADAPTORS, SLOT_POINT, TOUCH, EVENTS = TOUCH + DENSE_MAX_SURFACES };
+
+// What touch `number` is of: an adaptor, or a surface of a shoe.
+static int shoe_of(const launch_run *launch, int number)
+{
+    return launch->dense.surface_count ? launch->dense.surface[number].shoe : number;
+}
+
+static int touch_count(const launch_run *launch)
+{
+    int surfaces = launch->dense.surface_count;
+    return surfaces ? surfaces : launch->model->rocket.adaptor_count;
+}
+
+static double penetration_of(const launch_run *launch, const dense_launch_output *output,
+                             int number)
+{
+    return launch->dense.surface_count ? output->surface[number].penetration
+                                       : output->contact[number].penetration;
+}
 
 // Positive once the event has happened; negative where it cannot (any more).
 static double event(const launch_run *launch, int which, const dense_launch_output *output)
@@ -623,13 +682,15 @@ static double event(const launch_run *launch, int which, const dense_launch_outp
         return launch->slot_piece && launch->slot_piece <= (int)angle->rows
                    ? output->s - angle->data[2 * (launch->slot_piece - 1)]
                    : -1;
-    int adaptor = which < TOUCH ? which : which - TOUCH;
-    if (adaptor >= model->rocket.adaptor_count || launch->passed[adaptor])
-        return -1;
     if (which < TOUCH)
-        return output->contact[adaptor].s - model->tubes.length;
+        return which < model->rocket.adaptor_count && !launch->passed[which]
+                   ? output->contact[which].s - model->tubes.length
+                   : -1;
+    int number = which - TOUCH;
     bool latches = model->rocket.contact.law == LD_CONTACT_LANKARANI_NIKRAVESH;
-    return latches && launch->apart[adaptor] ? output->contact[adaptor].penetration : -1;
+    if (!latches || launch->passed[shoe_of(launch, number)] || !launch->apart[number])
+        return -1;
+    return penetration_of(launch, output, number);
 }
 
 // A step that ends at the first event within it, if there is one (*which; else -1).
@@ -641,7 +702,7 @@ static bool step_to_event(launch_run *launch, double t, double *h, const double 
     *which = -1;
     if (!take_step(launch, t, *h, x, k1, after, rate, output))
         return false;
-    for (int i = 0; i < EVENTS; i++) {
+    for (int i = 0; i < TOUCH + touch_count(launch); i++) {
         double low = 0, high = *h, f_low = event(launch, i, before),
                f_high = event(launch, i, output);
         if (f_high <= 0)
@@ -677,12 +738,12 @@ static bool step_to_event(launch_run *launch, double t, double *h, const double 
 static void watch(launch_run *launch, const dense_launch_output *output)
 {
     dense_summary *summary = launch->summary;
-    for (int i = 0; i < launch->model->rocket.adaptor_count; i++) {
+    for (int i = 0; i < launch->model->rocket.adaptor_count; i++)
         summary->max_contact_force[i] =
             fmax(summary->max_contact_force[i], norm_of(output->contact[i].force, 3));
-        if (output->contact[i].penetration < -1e-11)
+    for (int i = 0; i < touch_count(launch); i++)
+        if (penetration_of(launch, output, i) < -1e-11)
             launch->apart[i] = true;
-    }
     summary->max_slot_force = fmax(summary->max_slot_force, fabs(output->slot_force));
     summary->slot_drift = fmax(summary->slot_drift, fabs(output->slot_drift));
     launch->s = output->s;
@@ -703,8 +764,12 @@ static void note_event(launch_run *launch, int which, double t, const dense_laun
         return;
     }
     if (which >= TOUCH) {
-        launch->apart[which - TOUCH] = false;
-        launch->touch_speed[which - TOUCH] = output->contact[which - TOUCH].penetration_rate;
+        int number = which - TOUCH;
+        launch->apart[number] = false;
+        if (launch->dense.surface_count)
+            launch->surface_touch_speed[number] = output->surface[number].penetration_rate;
+        else
+            launch->touch_speed[number] = output->contact[number].penetration_rate;
         return;
     }
     launch->passed[which] = true;

@@ -134,6 +134,31 @@ static void random_input(const bench *b, dense_launch_input *in)
     on->thrust = 15e3;
 }
 
+// Surfaces of every shoe, flat and round, most of them pressed in, beside an offset guide line.
+static void random_surfaces(bench *b)
+{
+    b->model.tubes.slot.kind = LD_SLOT_NONE;
+    b->dense.surface_count = 0;
+    for (int i = 0; i < 2; i++)
+        b->dense.line[i] = 0.1 * random_number();
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 5; k++)
+            b->dense.surface[b->dense.surface_count++] = (dense_surface){i,
+                                                                         0.1 * random_number(),
+                                                                         0.1 * random_number(),
+                                                                         3 * random_number(),
+                                                                         2e-3 * random_number(),
+                                                                         k % 2 == 0};
+}
+
+// The rocket centred on the guide line, hardly rolled.
+static void put_on_line(const bench *b, dense_launch_input *in)
+{
+    in->y += b->dense.line[0];
+    in->z += b->dense.line[1];
+    in->gamma *= 0.01;
+}
+
 // ---------------------------------------------------------------- motion for a short time
 
 static void rotate(double A[3][3], const double th[3])
@@ -269,6 +294,47 @@ static void energy_changes_by_the_power_of_the_forces(void **state)
     bench_close(&b);
 }
 
+// Without friction and damping the contacts' power is the change of their springs' energy.
+static void surfaces_change_energy_by_their_power(void **state)
+{
+    (void)state;
+    bench b;
+    bench_open(&b, 3, 2, 1, false);
+    double worst = 0, penetration = 0, conserved = 0;
+    int pressed = 0;
+    for (int i = 0; i < 100; i++) {
+        dense_launch_input in;
+        dense_launch_output out;
+        double rate[LIST];
+        random_surfaces(&b);
+        random_input(&b, &in);
+        put_on_line(&b, &in);
+        b.model.rocket.contact.restitution = i % 3 == 0 ? 1 : 0.5;
+        in.conditions.frictionless = i % 3 == 0;
+        in.conditions.locked = i % 4 == 0;
+        derivatives(&b, &in, rate, &out);
+        worst = larger(worst, (rate[ENERGY] - out.power) / (fabs(out.power) + 1e6));
+        penetration = larger(penetration, rate[PENETRATION] - out.contact[2].penetration_rate);
+        double springs = 0, without = out.power;
+        for (int k = 0; k < b.dense.surface_count; k++) {
+            pressed += out.surface[k].normal > 0;
+            springs += out.surface[k].normal * out.surface[k].penetration_rate;
+        }
+        dense_launch_output apart;
+        for (int k = 0; k < b.dense.surface_count; k++)
+            b.dense.surface[k].gap = 1;
+        assert_true(dense_launch_evaluate(&b.dense, &in, &apart));
+        // the lock's force depends on the contacts; open, all else keeps its power
+        if (in.conditions.frictionless && !in.conditions.locked)
+            conserved = larger(conserved, (without - apart.power + springs) / (fabs(springs) + 1));
+    }
+    CHECK_WITHIN("surfaces pressed, of a state", pressed / 100.0, 5, 10);
+    CHECK_BELOW("d/dt(energy) - power, of power + 1 MW", worst, 1e-9);
+    CHECK_BELOW("d/dt(p) - p_dot of the front shoe [m/s]", penetration, 1e-7);
+    CHECK_BELOW("power + F p_dot, no friction [relative]", conserved, 1e-11);
+    bench_close(&b);
+}
+
 static void inner_forces_keep_the_momenta(void **state)
 {
     (void)state;
@@ -285,6 +351,11 @@ static void inner_forces_keep_the_momenta(void **state)
         in.conditions.thrust = 0;
         in.conditions.locked = i % 3 == 0;
         b.model.tubes.slot.kind = i % 4 == 1 ? LD_SLOT_NONE : LD_SLOT_HELIX;
+        if (i % 4 == 2) {
+            random_surfaces(&b);
+            put_on_line(&b, &in);
+        } else
+            b.dense.surface_count = 0;
         derivatives(&b, &in, rate, &out);
         if (in.conditions.locked && b.model.tubes.slot.kind == LD_SLOT_NONE)
             roll = larger(roll, rate[LOCK_ROLL]);
@@ -476,6 +547,7 @@ int main(void)
         cmocka_unit_test(support_springs_hold_their_potential),
         cmocka_unit_test(helix_follows_the_closed_form),
         cmocka_unit_test(energy_changes_by_the_power_of_the_forces),
+        cmocka_unit_test(surfaces_change_energy_by_their_power),
         cmocka_unit_test(inner_forces_keep_the_momenta),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,167 @@
+// What a base without wheels is drawn as: a plate, a ship or an aircraft, with posts to the supports.
+// All of it in the axes of the base, whose origin is the launching tube's rear end; made up around
+// the launcher, from whose length its sizes follow.
+import { Group } from "three";
+import { edge, paint } from "./launcher.js";
+import { box, cylinder, loft, place, prism, Sleeve } from "./shapes.js";
+import { apply } from "./vector.js";
+
+// Places of a list of 0 to 1 where curves of hulls and bodies have their points.
+const steps = (count) => Array.from({ length: count + 1 }, (_, i) => i / count);
+
+// What all of them have: posts between launcher and carrier, and how the eye sees it.
+class Carrier {
+  constructor(motion, scene) {
+    this.group = new Group();
+    this.motion = motion;
+    this.feet = motion.supports.map((x) => this.foot(x, motion.envelope.low[0]));
+    this.eye = { distance: motion.length / 4.6, direction: [4.4, 2.8, 9.9], aim: [0, -0.1, 0] };
+    scene.add(this.group);
+  }
+  // A point of the launcher's lower or upper side at a station, in the base's axes.
+  foot(x, y) {
+    const { low, high } = this.motion.envelope;
+    return apply(this.motion.mount, [x, y, 0.5 * (low[1] + high[1])]);
+  }
+  // Corners of the launcher in the base's axes.
+  corners() {
+    const { envelope: { low, high }, length, mount } = this.motion, ends = [0, length];
+    return ends.flatMap((x) => [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => apply(mount, [x, y, z]))));
+  }
+  // Posts from the feet down to a level.
+  stand(level) {
+    const radius = Math.max(0.07, 0.025 * this.motion.length);
+    for (const [x, y, z] of this.feet)
+      this.group.add(cylinder([x, level, z], [x, y, z], radius, paint.platform, edge));
+  }
+  // Level of what it stands on: below launcher and supports.
+  level() {
+    return Math.min(0, ...this.corners().map(([, y]) => y)) - 0.2 * this.motion.length;
+  }
+  show(state, anchor) {
+    place(this.group, [0, 1, 2].map((i) => state.base.r[i] - anchor[i]), state.base.A);
+  }
+}
+
+class Plate extends Carrier {
+  constructor(motion, scene) {
+    super(motion, scene);
+    const level = this.level(), xs = this.feet.map(([x]) => x), zs = this.feet.map(([, , z]) => z);
+    this.group.add(box([Math.min(...xs) - 0.7, level - 0.12, Math.min(...zs) - 0.7],
+      [Math.max(...xs) + 0.7, level, Math.max(...zs) + 0.7], paint.vehicle, edge));
+    this.stand(level);
+    const foot = motion.value("base.y")[0] + level - 0.12;
+    this.ground = foot > 0.3 ? 0 : foot - 0.01;
+  }
+}
+
+// The launcher on the foredeck, or on the quarterdeck where it points aft; the sea where I's y is 0,
+// if the deck is above it.
+class Ship extends Carrier {
+  constructor(motion, scene) {
+    super(motion, scene);
+    const deck = this.level(), height = motion.value("base.y")[0] + deck;
+    const freeboard = height > 0.8 ? height : 0.5 * motion.length;
+    const length = Math.max(5.5 * freeboard, 9 * motion.length), aft = motion.mount[0] < -0.2;
+    Object.assign(this, { deck, freeboard, length, beam: 0.17 * length, stern: (aft ? -0.2 : -0.68) * length });
+    this.ground = height - freeboard;
+    this.sea = true;
+    this.hull();
+    this.house(aft);
+    this.stand(deck);
+    this.eye = { distance: length / 15.5, direction: [6.6, 3, 8.2], aim: [-0.06 * length, -0.06 * length, 0] };
+  }
+  // The side at a share of the length, from the stern: half the breadth and the height of a line of
+  // the hull (0 the keel, 1 the water, 2 the deck), which ends the nearer to the stern the lower it is.
+  point(share, line) {
+    const { length, beam, stern, deck, freeboard } = this;
+    const fore = Math.max(0, (share - 0.55) / 0.45), after = Math.max(0, (0.15 - share) / 0.15);
+    const breadth = 0.5 * beam * [0.35, 0.9, 1][line] * (1 - fore ** [1.3, 1.7, 2.6][line]) * (1 - 0.15 * after ** 2);
+    const rise = line === 2 ? 0.3 * freeboard * Math.max(0, (share - 0.78) / 0.22) ** 2 : 0;
+    const y = [deck - freeboard - 0.05 * length, deck - freeboard, deck][line] + rise;
+    return { x: stern + share * length * [0.9, 0.95, 1][line], y, half: breadth };
+  }
+  hull() {
+    const at = (line, side) => steps(24).map((share) => {
+      const { x, y, half } = this.point(share, line);
+      return [x, y, side * half];
+    });
+    for (const side of [-1, 1]) {
+      this.group.add(loft([at(0, side), at(1, side)], paint.wheel), loft([at(1, side), at(2, side)], paint.vehicle, edge));
+    }
+    this.group.add(loft([at(2, -1), at(2, 1)], paint.platform), loft([at(0, -1), at(0, 1)], paint.wheel));
+    const transom = [0, 1, 2].map((line) => this.point(0, line));
+    this.group.add(loft([-1, 1].map((side) => transom.map(({ x, y, half }) => [x, y, side * half])), paint.vehicle, edge));
+  }
+  // Bridge, mast and funnel behind the launcher, or before it.
+  house(aft) {
+    const { deck, beam, length, group } = this, u = length / 40, xs = this.corners().map(([x]) => x);
+    const front = aft ? Math.max(...xs) + 0.32 * length : Math.min(...xs) - 1.5 * u, half = 0.36 * beam;
+    const tier = (from, to, low, high, share) =>
+      group.add(box([front - to, deck + low, -share * half], [front - from, deck + high, share * half], paint.bright, edge));
+    tier(0, 11 * u, 0, 2.3 * u, 1);
+    tier(1 * u, 5.5 * u, 2.3 * u, 4.5 * u, 0.85);
+    group.add(box([front - 3 * u, deck + 3.2 * u, -0.87 * half], [front - 0.98 * u, deck + 3.9 * u, 0.87 * half], paint.wheel));
+    const mast = front - 4.4 * u, top = deck + 8.5 * u;
+    group.add(cylinder([mast, deck + 4.5 * u, 0], [mast, top, 0], 0.14 * u, paint.vehicle));
+    group.add(cylinder([mast, top - 1.4 * u, -1.2 * u], [mast, top - 1.4 * u, 1.2 * u], 0.08 * u, paint.vehicle));
+    const funnel = [[-7, 2.3], [-9.4, 2.3], [-9, 4.2], [-7.2, 4.2]].map(([x, y]) => [front + x * u, deck + y * u, -0.8 * u]);
+    group.add(prism(funnel, [0, 0, 1.6 * u], paint.vehicle, edge));
+  }
+}
+
+// The launcher below the fuselage; on its back where it points up by more than 15 degrees.
+class Aircraft extends Carrier {
+  constructor(motion, scene) {
+    super(motion, scene);
+    const length = Math.max(4.4 * motion.length, 6), radius = 0.062 * length, above = motion.mount[3] > 0.26;
+    const ys = this.corners().map(([, y]) => y), gap = 0.45 * radius;
+    const axis = above ? Math.min(...ys) - gap - radius : Math.max(...ys) + gap + radius;
+    const middle = apply(motion.mount, [0.5 * motion.length, 0, 0]);
+    Object.assign(this, { length, radius, axis, nose: middle[0] + 0.5 * length, side: middle[2] });
+    this.ground = -1e9;
+    this.horizon = true;
+    this.body();
+    this.wings();
+    this.pylons(above);
+    this.eye = { distance: length / 10.5, direction: above ? [4.4, 3.4, 9.9] : [5.6, -1.4, 9.2],
+      aim: [0, 0.6 * (axis - middle[1]), 0] };
+  }
+  // Point at a share of the length behind the nose, above the axis and to the right, in radii.
+  at(share, up, right) {
+    return [this.nose - share * this.length, this.axis + up * this.radius, this.side + right * this.radius];
+  }
+  body() {
+    const form = (share) => share < 0.24 ? Math.sqrt(1 - (1 - share / 0.24) ** 2)
+      : share < 0.58 ? 1 : 1 - 0.9 * ((share - 0.58) / 0.42) ** 1.4;
+    const rise = (share) => 0.55 * Math.max(0, (share - 0.58) / 0.42) ** 1.4;
+    const curve = steps(48).map((k) => k ** 1.7).map((share) => ({ at: this.at(share, rise(share), 0), radius: this.radius * form(share) }));
+    const fuselage = new Sleeve(curve.length, 32, paint.bright), glass = new Sleeve(13, 24, paint.wheel);
+    fuselage.draw(curve);
+    glass.draw(steps(12).map((k) => ({
+      at: this.at(0.09 + 0.16 * k, 0.42 + 0.25 * k, 0), radius: 0.68 * this.radius * Math.sqrt(1 - (2 * k - 1) ** 2) })));
+    this.group.add(fuselage.mesh, glass.mesh);
+  }
+  wings() {
+    const thick = (t) => [0, -t * this.radius, 0], plate = (corners, t) =>
+      this.group.add(prism(corners.map((corner) => this.at(...corner)), thick(t), paint.vehicle, edge));
+    for (const side of [-1, 1]) {
+      plate([[0.36, 0.5, 0], [0.56, 0.5, 0], [0.58, 0.62, 8 * side], [0.5, 0.62, 8 * side]], 0.16);
+      plate([[0.87, 0.55, 0], [0.98, 0.55, 0], [0.99, 0.6, 3.2 * side], [0.94, 0.6, 3.2 * side]], 0.1);
+    }
+    const fin = [[0.82, 0.9], [0.98, 0.7], [1, 3.3], [0.93, 3.3]].map(([share, up]) => this.at(share, up, -0.06));
+    this.group.add(prism(fin, [0, 0, 0.12 * this.radius], paint.vehicle, edge));
+  }
+  pylons(above) {
+    const half = 0.1 * this.radius, { low, high } = this.motion.envelope;
+    for (const s of this.motion.supports) {
+      const [x, y, z] = this.foot(s, above ? low[0] : high[0]), width = 0.05 * this.length;
+      this.group.add(box([x - width / 2, Math.min(y, this.axis), z - half],
+        [x + width / 2, Math.max(y, this.axis), z + half], paint.vehicle, edge));
+    }
+  }
+}
+
+const LOOKS = [Plate, Ship, Aircraft]; // by the geometry's base.looks
+
+export const carrierOf = (motion, scene) => new LOOKS[motion.looks](motion, scene);

@@ -1,0 +1,165 @@
+// A rocket with its adaptors or shoes, and the forces on it.
+import { ConeGeometry, CylinderGeometry, BufferGeometry, Float32BufferAttribute, Group, Mesh } from "three";
+import { COLOURS, edge, RING } from "./launcher.js";
+import { angular, Beams, material, place, point, Sleeve } from "./shapes.js";
+import { add, scaled, subtract } from "./vector.js";
+
+// The body is drawn slimmer than it is, so that adaptors and clearances can be seen.
+export class Rocket {
+  constructor(motion, group) {
+    const { adaptors, guide } = motion, { body } = guide, front = Math.max(...adaptors);
+    this.motion = motion;
+    this.bodyRadius = body;
+    this.length = front + 0.1 + 5 * body;
+    this.profile = profile(body, front + 0.1, this.length);
+    this.skin = material(0xffffff, { vertexColors: true });
+    this.body = new Sleeve(this.profile.length, RING, this.skin);
+    this.body.geometry.setAttribute("color", stripes(this.profile.length));
+    this.rings = adaptors.map(() => new Sleeve(7, RING, material(COLOURS.adaptor)));
+    this.shoes = adaptors.map(() => new Beams(guide.pads(0, 0).length, 2, angular(COLOURS.adaptor), edge));
+    this.half = Math.max(0.03, 0.008 * motion.length); // half the length of an adaptor
+    this.flame = new Mesh(new ConeGeometry(1, 1, 20, 1, true), material(COLOURS.flame,
+      { transparent: true, opacity: 0.75, depthWrite: false, emissive: 0xff7a00 }));
+    this.fins = new Group();
+    for (let i = 0; i < 4; i++) this.fins.add(fin(body, (Math.PI * i) / 2));
+    this.group = new Group();
+    this.group.add(this.body.mesh, this.flame, this.fins, ...this.rings.map(({ mesh }) => mesh),
+      ...this.shoes.map((shoe) => shoe.group));
+    group.add(this.group);
+    this.straight = false;
+  }
+  hide() {
+    this.group.visible = false;
+  }
+  // In the tube: each point is where the scaled tube is there, and from it by the scaled offset.
+  showInTube(state, anchor, scale, gap, clearances, burning) {
+    const { motion } = this;
+    place(this.group, subtract(state.tube.r, anchor), state.tube.A);
+    const { guide } = motion, at = (l, y = 0, z = 0) => motion.drawnRocket(state, [l, y, z], scale, gap);
+    this.drawAlong(at, state.rocket.roll, (i) => guide.ring(clearances[i], gap), burning);
+    this.drawShoes(at, (i) => guide.pads(clearances[i], gap));
+    this.fins.visible = false;
+    this.offsets = motion.adaptors.map((l) => {
+      const p = state.rocket.point(l), d = motion.deflection(state, p[0]);
+      return [1, 2].map((k) => p[k] - guide.line[k - 1] - d[k]);
+    });
+    this.straight = false;
+  }
+  // In flight: rigid, origin at its mass centre.
+  showInFlight(flight, anchor, burning) {
+    const { motion } = this;
+    place(this.group, subtract(flight.center, anchor), flight.A);
+    const still = (l, y = 0, z = 0) => [l - motion.center, y, z];
+    if (!this.straight) {
+      this.drawAlong(still, 0, () => (motion.guide.ring(0, 0) ? 1.02 * this.bodyRadius : null), 0);
+      this.drawShoes(still, () => motion.guide.pads(0, 0));
+    }
+    this.fins.position.set(-motion.center, 0, 0);
+    this.fins.visible = this.straight = true;
+    this.burn([-motion.center + this.profile[0].l, 0, 0], [-1, 0, 0], burning);
+  }
+  drawAlong(at, roll, radius, burning) {
+    this.group.visible = true;
+    this.body.draw(this.profile.map(({ l, r, slope }) => ({ at: at(l), radius: r, slope })), roll, roll + 2 * Math.PI);
+    this.rings.forEach((ring, i) => {
+      const l = this.motion.adaptors[i], { half } = this, low = this.bodyRadius, high = radius(i);
+      ring.mesh.visible = high !== null;
+      if (high === null) return;
+      ring.draw([[-half, low], [-half, high], [-half / 2, high], [0, high], [half / 2, high], [half, high], [half, low]]
+        .map(([step, r]) => ({ at: at(l + step), radius: r })));
+    });
+    const rear = at(this.profile[0].l), ahead = at(this.profile[1].l + 0.1);
+    this.burn(rear, subtract(rear, ahead), burning);
+  }
+  // The pads of each shoe; `at`: where a point of the rocket is drawn, `quads`: the profiles of shoe i.
+  drawShoes(at, quads) {
+    this.shoes.forEach((shoe, i) => {
+      const profiles = quads(i), ends = [-this.half, this.half].map((step) => this.motion.adaptors[i] + step);
+      shoe.draw((part, ring, corner) => at(ends[ring], ...profiles[part][corner]));
+    });
+  }
+  // `burning`: thrust over its largest.
+  burn(at, direction, burning) {
+    this.flame.visible = burning > 0.01;
+    if (!this.flame.visible) return;
+    const length = 0.25 + 0.9 * burning, width = 0.75 * this.bodyRadius;
+    const back = scaled(1 / Math.hypot(...direction), direction);
+    point(this.flame, add(at, scaled(length / 2, back)), back);
+    this.flame.scale.set(width, length, width);
+  }
+  // Adaptor i's centre as drawn [m], of a shoe that of its first pad, and its radius, from the vertices.
+  adaptor(i) {
+    const [ring, shoe] = [this.rings[i], this.shoes[i]];
+    if (ring.mesh.visible) return { centre: ring.centre(3), radius: ring.radius(3) };
+    return { centre: scaled(0.5, add(shoe.centre(0, 0), shoe.centre(0, 1))), radius: 0 };
+  }
+}
+
+// Radius over the length: nozzle, body, ogive.
+function profile(body, shoulder, length) {
+  const out = [{ l: -0.09, r: 0.66 * body }, { l: -0.03, r: 0.5 * body }, { l: -0.03, r: body }];
+  for (let i = 0; i <= 12; i++) out.push({ l: -0.03 + ((shoulder + 0.03) * i) / 12, r: body });
+  for (let i = 1; i <= 10; i++) {
+    const x = i / 10, r = body * Math.max(0.002, 1 - x * x);
+    out.push({ l: shoulder + (length - shoulder) * x, r, slope: (-2 * x * body) / (length - shoulder) });
+  }
+  return out;
+}
+
+// A light stripe along the body, and one across from it half as wide, show the roll.
+function stripes(rings) {
+  const colours = [], rgb = (hex) => [hex >> 16, (hex >> 8) & 255, hex & 255].map((v) => (v / 255) ** 2.2);
+  const plain = rgb(COLOURS.rocket), light = rgb(COLOURS.stripe);
+  for (let j = 0; j < rings; j++)
+    for (let i = 0; i <= RING; i++) colours.push(...(i < 4 || i === 18 || i === 19 ? light : plain));
+  return new Float32BufferAttribute(colours, 3);
+}
+
+function fin(body, angle) {
+  const geometry = new BufferGeometry(), c = Math.cos(angle), s = Math.sin(angle);
+  const corners = [[-0.03, 0.9], [0.28, 0.9], [0.1, 3], [-0.03, 3]].map(([x, r]) => [x, r * body * c, r * body * s]);
+  geometry.setAttribute("position", new Float32BufferAttribute(corners.flat(), 3));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  geometry.computeVertexNormals();
+  return new Mesh(geometry, material(COLOURS.rocket));
+}
+
+// ---- forces ----
+
+// Contact forces on the rocket: an arrow from outside the guide, along the force at an adaptor.
+export class Forces {
+  constructor(motion, group) {
+    this.motion = motion;
+    this.group = new Group();
+    this.most = Math.max(1e-9, ...motion.adaptorNames.map((name) => motion.largest(`contact.${name}.force`)));
+    this.arrows = motion.adaptors.map(() => {
+      const arrow = new Group(), paintIt = material(COLOURS.force, { emissive: 0x0b5c35 });
+      arrow.shaft = new Mesh(new CylinderGeometry(0.013, 0.013, 1, 12), paintIt);
+      arrow.head = new Mesh(new ConeGeometry(0.036, 0.09, 16), paintIt);
+      arrow.add(arrow.shaft, arrow.head);
+      this.group.add(arrow);
+      return arrow;
+    });
+    group.add(this.group);
+  }
+  show(state, anchor, rocket) {
+    place(this.group, subtract(state.tube.r, anchor), state.tube.A);
+    this.arrows.forEach((arrow, i) => {
+      const force = state.forces[i], [y, z] = rocket?.offsets?.[i] ?? [0, 0], e = Math.hypot(y, z);
+      arrow.visible = Boolean(rocket) && force > 1e-3 * this.most && e > 0;
+      if (!arrow.visible) return;
+      const inward = [0, -y / e, -z / e], { centre } = rocket.adaptor(i);
+      const tip = subtract(centre, scaled(this.reach(centre, inward), inward)), length = 0.09 + 0.75 * (force / this.most);
+      point(arrow, tip, inward);
+      arrow.head.position.set(0, -0.045, 0);
+      arrow.shaft.position.set(0, -0.09 - (length - 0.09) / 2, 0);
+      arrow.shaft.scale.set(1, Math.max(1e-3, length - 0.09), 1);
+    });
+  }
+  // How far from a point, against a direction, one is outside the guide.
+  reach([, y, z], [, dy, dz]) {
+    const { kind, outer, envelope: { low, high } } = this.motion.guide, far = (at, d, i) =>
+      Math.abs(d) < 1e-6 ? Infinity : ((d > 0 ? at - low[i] : high[i] - at) + 0.01) / Math.abs(d);
+    return kind === "bore" ? outer : Math.max(0, Math.min(far(y, dy, 0), far(z, dz, 1)));
+  }
+}
