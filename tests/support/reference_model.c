@@ -53,7 +53,9 @@ static void fill_tubes(ld_tubes *tubes)
         set3(support->damping, 2e4, 2e4, 2e4);
         set3(support->rotational_stiffness, 2e5, 2e5, 2e5);
         set3(support->rotational_damping, 2e2, 2e2, 2e2);
+        support->recoil = (ld_recoil){.friction_speed = 0.01, .stroke = NAN};
     }
+    tubes->pressure.scale = 1;
     tubes->slot.kind = LD_SLOT_HELIX;
     tubes->slot.angle = reference_table(1, 2, (double[]){0, 4 * degree});
     tubes->slot.radius = 0.0825;
