@@ -31,9 +31,10 @@ typedef struct launching_phase {
     bool locked;
     bool passed[LD_MAX_ADAPTORS];
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] at first touch (law lankarani-nikravesh)
-    double breech;                       // [m] its station: it stops a rocket without a lock there
-    double breech_speed;                 // [m/s] at which that one touched it last
-    bool frictionless;                   // Coulomb friction off (equilibrium, linearisation)
+    double surface_speed[LD_MAX_ADAPTORS][LD_MAX_SURFACES]; // [m/s] the same of each surface
+    double breech;       // [m] its station: it stops a rocket without a lock there
+    double breech_speed; // [m/s] at which that one touched it last
+    bool frictionless;   // Coulomb friction off (equilibrium, linearisation)
 } launching_phase;
 
 // What is put on tube and rocket, in R: on the section at the tube's tip, on the rocket at its mass
@@ -56,9 +57,16 @@ typedef struct launching_input {
 typedef struct adaptor_report {
     double s, y, z;     // [m] foot and offset
     double penetration; // [m]
-    double normal;      // [N] normal force
+    double normal;      // [N] normal force, of several surfaces their sum
     double force;       // [N] with friction
 } adaptor_report;
+
+// What the surfaces of a guide do to a shoe, in the axes of the section at its foot.
+typedef struct shoe_report {
+    double penetration[LD_MAX_SURFACES]; // [m] of each surface, negative: gap
+    double force_y, force_z;             // [N] on the rocket
+    double moment_x;                     // [N m] on it, about the guide line
+} shoe_report;
 
 // Powers [W] by kind of force, and the works [J] that they add up to.
 #define LAUNCHING_WORKS(X)                                                                         \
@@ -117,6 +125,7 @@ typedef struct launching_output {
     bool fell_back;             // overall form alone
     adaptor_report adaptor[LD_MAX_ADAPTORS];
     slide_report slide[LD_MAX_SUPPORTS]; // of the supports that are slides, in their order
+    shoe_report shoe[LD_MAX_ADAPTORS];   // on surfaces alone
 } launching_output;
 
 #endif

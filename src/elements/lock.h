@@ -38,10 +38,12 @@ LD_INLINE void lock_constrain(const lock_system *self, const launching_instant *
         roll_constrain(now, set);
 }
 
-LD_INLINE void lock_build(const ld_lock *lock, const ld_slot *slot, lock_system *self)
+// `carried`: slot or guide hold the roll by themselves.
+LD_INLINE void lock_build(const ld_lock *lock, bool carried, lock_system *self)
 {
     self->at = v3_make(lock->x, lock->radius * cos(lock->angle), lock->radius * sin(lock->angle));
-    self->holds_roll = slot->kind == LD_SLOT_NONE;
+    self->holds_roll =
+        lock->holds_roll == LD_HOLD_YES || (lock->holds_roll == LD_HOLD_BY_GUIDE && !carried);
 }
 
 #endif

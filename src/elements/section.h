@@ -134,14 +134,14 @@ LD_INLINE void section_foot(const tube_system *self, const modal_state *q, v3 C,
     section_load(self, motion, x, s);
 }
 
-// Adds force f at point W (in R) of the tube's section s.
-LD_INLINE void apply_at_section(const int lanes, const tube_system *self, const axis_section *s,
-                                v3 W, v3 f, tube_force *h)
+// Adds force f on the tube's section s with moment m about R's origin, of which the modes feel the
+// moment about the section's root, mu = Jl^T m_root.
+LD_INLINE void apply_generalised(const int lanes, const tube_system *self, const axis_section *s,
+                                 v3 f, v3 m, v3 mu, tube_force *h)
 {
     const packed_element *element = &self->packed[s->index];
-    v3 mu = m3_apply_transposed(s->Jl, v3_cross(v3_sub(W, s->root), f));
     h->f = v3_add(h->f, f);
-    h->m = v3_add(h->m, v3_cross(W, f));
+    h->m = v3_add(h->m, m);
     double xi = s->xi, x2 = xi * xi, x3 = x2 * xi;
     // weights of the powers of xi: b and b' against force and moment
     double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};
@@ -159,6 +159,22 @@ LD_INLINE void apply_at_section(const int lanes, const tube_system *self, const 
         h->t[j] += mu.x * (element->tau[j][0] + xi * element->tau[j][1]);
     for (int j = 0; j < self->flexible.na; j++)
         h->a[j] += f.x * (element->a[j][0] + xi * element->a[j][1]);
+}
+
+// Adds force f at point W (in R) of the tube's section s.
+LD_INLINE void apply_at_section(const int lanes, const tube_system *self, const axis_section *s,
+                                v3 W, v3 f, tube_force *h)
+{
+    v3 mu = m3_apply_transposed(s->Jl, v3_cross(v3_sub(W, s->root), f));
+    apply_generalised(lanes, self, s, f, v3_cross(W, f), mu, h);
+}
+
+// Adds force f on the tube's section s with moment m about its point P (in R).
+LD_INLINE void apply_wrench_at_section(const int lanes, const tube_system *self,
+                                       const axis_section *s, v3 f, v3 m, tube_force *h)
+{
+    v3 mu = m3_apply_transposed(s->Jl, v3_add(m, v3_cross(v3_sub(s->P, s->root), f)));
+    apply_generalised(lanes, self, s, f, v3_add(m, v3_cross(s->P, f)), mu, h);
 }
 
 // Shapes at a section for every mode, and their products.

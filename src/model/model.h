@@ -21,6 +21,7 @@ enum {
     LD_MAX_POINT_MASSES = 16,
     LD_MAX_SUPPORTS = 8,
     LD_MAX_ADAPTORS = 8,
+    LD_MAX_SURFACES = 12,
     LD_MAX_SINES = 16,
     LD_MAX_WHEELS = 32,
     LD_MAX_BUMPS = 16,
@@ -427,6 +428,54 @@ typedef struct ld_pressure {
     double ambient;       ///< [Pa] p_a, before the rocket
 } ld_pressure;
 
+typedef enum ld_surface_shape {
+    LD_SURFACE_FLAT,  ///< the shoe's point beside the surface's counts: roll opens and closes gaps
+    LD_SURFACE_ROUND, ///< the shoe's centre counts: roll changes nothing
+} ld_surface_shape;
+
+/// A surface on which every shoe slides: model.md, section 5.
+typedef struct ld_surface {
+    char name[LD_MAX_NAME];
+    double at[2];  ///< [m] y, z of a point of it, from the guide line
+    double normal; ///< [rad] of the normal from shoe to surface, from y towards z
+    double gap;    ///< [m] between a shoe in its centred place and the surface
+    ld_surface_shape shape;
+} ld_surface;
+
+/// Six flat surfaces: over, under and beside both lips of a slot.
+typedef struct ld_t_slot {
+    double at[2];    ///< [m] y, z of its middle, from the guide line
+    double lips;     ///< [m] from one lip's middle to the other's, along z
+    double gap;      ///< [m] over and under the lips
+    double side_gap; ///< [m] on either side
+} ld_t_slot;
+
+/// Round surfaces around the guide line, evenly spaced.
+typedef struct ld_tower {
+    int rails;
+    double first;  ///< [rad] of the first rail, from y towards z
+    double gap;    ///< [m] radial
+    double radius; ///< [m] from the guide line to the rails' surfaces, where friction acts
+} ld_tower;
+
+typedef enum ld_guide_form {
+    LD_GUIDE_SURFACES,
+    LD_GUIDE_T_SLOT,
+    LD_GUIDE_TOWER,
+} ld_guide_form;
+
+/// What guides the rocket. Of surfaces: guide_surfaces() in model/guide.h makes one list of each
+/// form.
+typedef struct ld_guide {
+    bool present; ///< false: a bore, with a radial clearance for each adaptor
+    ld_guide_form form;
+    double line[2]; ///< [m] y, z of the guide line, from the elastic axis
+    int surface_count;
+    ld_surface surface[LD_MAX_SURFACES];
+    ld_t_slot t_slot;
+    ld_tower tower;
+} ld_guide;
+
 typedef struct ld_layout {
     int rows, columns;
     double pitch;    ///< [m]
@@ -449,6 +498,7 @@ typedef struct ld_tubes {
     ld_support support[LD_MAX_SUPPORTS];
     ld_slot slot;
     ld_pressure pressure;
+    ld_guide guide;
 } ld_tubes;
 
 /// Mass data of the rocket at one instant.
@@ -461,7 +511,8 @@ typedef struct ld_mass_data {
 typedef struct ld_adaptor {
     char name[LD_MAX_NAME];
     double at;        ///< [m] l_i, from the rear adaptor
-    double clearance; ///< [m] radial; not used by the law `bilateral`, NaN there if not given
+    double clearance; ///< [m] radial; not used by the law `bilateral`, NaN there if not given. On
+                      ///< surfaces: added to their gaps at this shoe, NaN: nothing
 } ld_adaptor;
 
 /// The contact laws, the first by default: each with its word and its traits. Their forces stand in
@@ -503,11 +554,14 @@ typedef struct ld_contact {
     double friction_speed;        ///< [m/s] v_eps, of tube contact and slot
 } ld_contact;
 
+typedef enum ld_hold { LD_HOLD_BY_GUIDE, LD_HOLD_YES, LD_HOLD_NO } ld_hold;
+
 typedef struct ld_lock {
     bool present;         ///< false: the rocket is free from the start
     double release_force; ///< [N]
     double x, radius,
-        angle; ///< [m], [m], [rad] of the point held, in B: (x, radius cos, radius sin)
+        angle;          ///< [m], [m], [rad] of the point held, in B: (x, radius cos, radius sin)
+    ld_hold holds_roll; ///< by the guide: yes without slot and flat surfaces
 } ld_lock;
 
 typedef struct ld_motor {
@@ -841,6 +895,12 @@ static inline bool model_has_vehicle(const ld_model *model)
 {
     return model->base.kind == LD_BASE_VEHICLE;
 }
+/// Whether the rocket's shoes slide on surfaces, not in a bore.
+static inline bool model_has_surfaces(const ld_model *model)
+{
+    return model_has_launcher(model) && model->tubes.guide.present;
+}
+
 /// Whether the air acts on what has come out of the tube.
 static inline bool model_has_crossflow(const ld_model *model)
 {

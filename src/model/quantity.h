@@ -22,6 +22,7 @@ typedef enum quantity_each {
     EACH_EARTH,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,
+    EACH_SHOE,  // an adaptor on a guide's surfaces
     EACH_HINGE, // azimuth, elevation
     EACH_WHEEL,
     EACH_MEASURE, // that the scenario asks for

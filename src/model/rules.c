@@ -325,7 +325,6 @@ static void adaptor_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
     const ld_rocket *rocket = &model->rocket;
-    double bore = model->tubes.section_count > 0 ? model->tubes.section[0].bore_radius : NAN;
     for (int i = 0; i < rocket->adaptor_count; i++) {
         const ld_adaptor *adaptor = &rocket->adaptor[i];
         if (i == 0 && adaptor->at > 0)
@@ -342,17 +341,6 @@ static void adaptor_rules(const rule_set *rules)
                 broken(rules, "rocket.adaptors.#.name", i + 1, "\"%s\" is the name of adaptor %d",
                        other, j + 1);
         }
-        if ((int)rocket->contact.law < 0 || contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
-            continue;
-        if (isnan(adaptor->clearance))
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "missing; expected a number with a unit of m, > 0 m");
-        if (adaptor->clearance == 0)
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "must be > 0 m; without clearance take the contact law bilateral");
-        if (adaptor->clearance >= bore)
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "%g m must be less than the bore's radius, %g m", adaptor->clearance, bore);
     }
     if (rocket->start_at >= model->tubes.length)
         broken(rules, "rocket.start_at", 0, "%g m is not before the tube's tip at %g m",
@@ -432,6 +420,9 @@ static void pressure_rules(const rule_set *rules)
         broken(rules, "platform.jet", 0, "goes with a motor, whose jet it is");
     if (!pressure->present)
         return;
+    if (model_has_surfaces(model))
+        broken(rules, "tubes.pressure", 0,
+               "goes with a bore; a guide of surfaces is open behind the rocket");
     if (pressure->form == LD_PRESSURE_OVER_TIME)
         over_time_rules(rules);
     if (pressure->form == LD_PRESSURE_OVER_TRAVEL)
@@ -545,6 +536,7 @@ static void launch_rules(const rule_set *rules)
     recoil_rules(rules);
     slot_rules(rules);
     adaptor_rules(rules);
+    guide_rules(rules);
     contact_rules(rules);
     pressure_rules(rules);
 }

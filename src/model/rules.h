@@ -41,6 +41,8 @@ void rising_rule(const rule_set *rules, const char *path, const ld_table *table,
 void inertia_rule(const rule_set *rules, const char *path, const double J[3],
                   const double products[3]);
 
+// Rules of what guides the rocket.
+void guide_rules(const rule_set *rules);
 // Rules of a vehicle and its platforms.
 void vehicle_rules(const rule_set *rules);
 

@@ -597,8 +597,8 @@ static const field_row section_fields[] = {
      .forms = ANNULUS, .doc = "radius of the bore"},
     {"outer_radius", NUMBER(ld_section, outer_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
      .forms = ANNULUS, .doc = "outer radius"},
-    {"bore_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
-     .forms = AREA | STIFFNESS, .doc = "radius of the bore"},
+    {"bore_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10),
+     NO_DEFAULT("needed by a bore"), .forms = AREA | STIFFNESS, .doc = "radius of the bore"},
     {"mass_per_length", NUMBER(ld_section, mass_per_length, "kg/m"), POSITIVE, REQUIRED,
      .forms = AREA | STIFFNESS, .doc = "mass per length"},
     {"area", NUMBER(ld_section, area, "m2"), POSITIVE, REQUIRED, .forms = AREA,
@@ -765,6 +765,62 @@ static const field_block pressure_block = {.fields = pressure_fields,
                                            .form_offset = offsetof(ld_pressure, form),
                                            .form_from_keys = true};
 
+static const field_word shape_words[] = {
+    {"flat", LD_SURFACE_FLAT}, {"round", LD_SURFACE_ROUND}, {NULL, 0}};
+#define GAP FROM_TO(0, 1)
+static const field_row surface_fields[] = {
+    {"name", WORD(ld_surface, name), .required = true, .doc = "its name in messages and paths"},
+    {"at", VECTOR(ld_surface, at, "m", 2), FROM_TO(-10, 10), REQUIRED,
+     .doc = "y, z of a point of it, from the guide line"},
+    {"normal", NUMBER(ld_surface, normal, "rad"), FROM_TO(-2 * PI, 2 * PI), REQUIRED,
+     .doc = "where the surface is as seen from the shoe, from y towards z"},
+    {"gap", NUMBER(ld_surface, gap, "m"), GAP, REQUIRED, .doc = "to a shoe in its centred place"},
+    {"shape", CHOICE(ld_surface, shape, shape_words), DEFAULT(LD_SURFACE_FLAT),
+     .doc = "flat: roll opens and closes the gap; round: the shoe is round about its centre"},
+    {0}};
+static const field_block surface_block = {.fields = surface_fields};
+
+static const field_row t_slot_fields[] = {
+    {"at", VECTOR(ld_t_slot, at, "m", 2), FROM_TO(-10, 10), REQUIRED,
+     .doc = "y, z of its middle, from the guide line"},
+    {"lips", NUMBER(ld_t_slot, lips, "m"), ABOVE_TO(0, 10), REQUIRED,
+     .doc = "distance of the lips' middles, along z"},
+    {"gap", NUMBER(ld_t_slot, gap, "m"), GAP, REQUIRED, .doc = "over and under the lips"},
+    {"side_gap", NUMBER(ld_t_slot, side_gap, "m"), GAP, REQUIRED, .doc = "on either side"},
+    {0}};
+static const field_block t_slot_block = {.fields = t_slot_fields};
+
+static const field_row tower_fields[] = {
+    {"rails", INTEGER(ld_tower, rails, 2, LD_MAX_SURFACES), DEFAULT(4),
+     .doc = "how many, evenly spaced around the line"},
+    {"first", NUMBER(ld_tower, first, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .doc = "where the first one is, from y towards z"},
+    {"gap", NUMBER(ld_tower, gap, "m"), GAP, REQUIRED, .doc = "radial, to each rail"},
+    {"radius", NUMBER(ld_tower, radius, "m"), FROM_TO(0, 10), DEFAULT(0),
+     .doc = "from the line to the rails' surfaces, where their friction acts"},
+    {0}};
+static const field_block tower_block = {.fields = tower_fields};
+
+static const field_word guide_forms[] = {{"a guide given by surfaces", LD_GUIDE_SURFACES},
+                                         {"a T-slot", LD_GUIDE_T_SLOT},
+                                         {"a tower", LD_GUIDE_TOWER},
+                                         {NULL, 0}};
+static const field_word guide_words[] = {{"bore", 0}, {"", 1}, {NULL, 0}};
+static const field_row guide_fields[] = {
+    {"line", VECTOR(ld_guide, line, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
+     .doc = "y, z of the guide line, from the elastic axis"},
+    {"surfaces", LIST(ld_guide, surface, surface_count, surface_block, 1, LD_MAX_SURFACES),
+     .required = true, .forms = FORM(LD_GUIDE_SURFACES), .doc = "on which every shoe slides"},
+    {"t_slot", BLOCK(ld_guide, t_slot, t_slot_block), .required = true,
+     .forms = FORM(LD_GUIDE_T_SLOT), .doc = "six flat surfaces in place of a list of them"},
+    {"tower", BLOCK(ld_guide, tower, tower_block), .required = true, .forms = FORM(LD_GUIDE_TOWER),
+     .doc = "round surfaces around the line in place of a list of them"},
+    {0}};
+static const field_block guide_block = {.fields = guide_fields,
+                                        .form = guide_forms,
+                                        .form_offset = offsetof(ld_guide, form),
+                                        .form_from_keys = true};
+
 static const field_row tubes_fields[] = {
     {"layout", BLOCK(ld_tubes, layout, layout_block), .initial_doc = "one tube",
      .doc = "where the tubes are"},
@@ -792,6 +848,9 @@ static const field_row tubes_fields[] = {
      SWITCH(ld_tubes, pressure.present, pressure_words), .other_is_bool = true,
      .doc = "on the rocket's rear, from the ignition until it leaves, beside or in place of a "
             "motor"},
+    {"guide", BLOCK(ld_tubes, guide, guide_block), .initial_doc = "bore",
+     SWITCH(ld_tubes, guide.present, guide_words), .other_is_bool = true,
+     .doc = "what guides the rocket: the bore, or surfaces on which its adaptors slide as shoes"},
     {0}};
 const field_block tubes_block = {.fields = tubes_fields};
 
@@ -811,8 +870,9 @@ static const field_row adaptor_fields[] = {
     {"at", NUMBER(ld_adaptor, at, "m"), FROM_TO(0, 100), REQUIRED,
      .doc = "x of its centre from the rear adaptor's"},
     {"clearance", NUMBER(ld_adaptor, clearance, "m"), FROM_TO(0, 10),
-     NO_DEFAULT("needed unless the law is `bilateral`"),
-     .doc = "radial: inner radius at the tube's rear end less the adaptor's radius, > 0"},
+     NO_DEFAULT("needed in a bore unless the law is `bilateral`"),
+     .doc = "radial: inner radius at the tube's rear end less the adaptor's radius, > 0; on "
+            "surfaces: added to each gap of this shoe"},
     {0}};
 static const field_block adaptor_block = {.fields = adaptor_fields};
 
@@ -855,11 +915,16 @@ static const field_row lock_at_fields[] = {
     {0}};
 static const field_block lock_at_block = {.fields = lock_at_fields};
 
+static const field_word hold_words[] = {
+    {"by-guide", LD_HOLD_BY_GUIDE}, {"yes", LD_HOLD_YES}, {"no", LD_HOLD_NO}, {NULL, 0}};
 static const field_row lock_fields[] = {
     {"release_force", NUMBER(ld_lock, release_force, "N"), POSITIVE, REQUIRED,
      .doc = "carried force at which it lets go"},
     {"at", SAME_STRUCT(lock_at_block), .initial_doc = "the rear adaptor's centre",
      .doc = "point of the rocket that it holds along the tube"},
+    {"holds_roll", CHOICE(ld_lock, holds_roll, hold_words), DEFAULT(LD_HOLD_BY_GUIDE),
+     .doc = "whether it holds the roll, too; `by-guide`: where there is neither a slot nor a flat "
+            "surface"},
     {0}};
 static const field_block lock_block = {.fields = lock_fields};
 static const field_word lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};

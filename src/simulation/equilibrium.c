@@ -5,15 +5,24 @@
 #include <string.h>
 
 #include "math/rotation_vector.h"
+#include "simulation/carried.h"
 #include "simulation/launch_state.h"
 
-enum { MAX_FREEDOMS = 11 + LD_MAX_MODAL + BASE_MOST_FREEDOMS };
+enum { MAX_FREEDOMS = 12 + LD_MAX_MODAL + BASE_MOST_FREEDOMS };
 
-// Unknowns of the launching subsystem: R's place and attitude (6), q, then y_S, z_S, psi, theta,
-// and s where the breech carries the rocket.
+// Of the rocket on its way: y_S, z_S, psi, theta, and gamma on surfaces where no lock holds it.
+static int rocket_freedoms(const launch_state *self)
+{
+    const launching_system *launching = &self->launcher.launching;
+    bool held = self->rocket->lock.present && launching->lock.holds_roll;
+    return launching->surfaces.count && !held ? 5 : 4;
+}
+
+// Unknowns of the launching subsystem: R's place and attitude (6), q, then those of the rocket, and
+// s where the breech carries it.
 static int launching_freedoms(const launch_state *self)
 {
-    return 10 + self->launcher.launching.layout.nq + self->on_breech;
+    return 6 + self->launcher.launching.layout.nq + rocket_freedoms(self) + self->on_breech;
 }
 
 int simulation_freedoms(const launch_state *self)
@@ -34,7 +43,7 @@ void simulation_displace(const launch_state *self, int freedom, double change, d
         memcpy(y + at->quaternion, &q, sizeof q);
     } else if (freedom < 6 + at->nq) {
         y[at->q + freedom - 6] += change;
-    } else if (freedom < 10 + at->nq) {
+    } else if (freedom < 6 + at->nq + rocket_freedoms(self)) {
         y[at->x + X_Y + freedom - 6 - at->nq] += change;
     } else if (freedom < launching_freedoms(self)) {
         y[at->x + X_S] += change;
@@ -56,6 +65,8 @@ launching_phase simulation_start_phase(const launch_state *self)
     for (int i = 0; i < rocket->adaptor_count; i++) {
         phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= out;
         phase.touch_speed[i] = rocket->contact.reference_speed;
+        for (int k = 0; k < LD_MAX_SURFACES; k++)
+            phase.surface_speed[i][k] = rocket->contact.reference_speed;
     }
     return phase;
 }
@@ -67,6 +78,8 @@ void simulation_straight(const launch_state *self, const base_frame *base, doubl
     v3_store(y + at->r, base->r);
     memcpy(y + at->quaternion, &base->q, sizeof base->q);
     y[at->x + X_S] = self->rocket->start_at;
+    y[at->x + X_Y] = self->launcher.launching.surfaces.line_y;
+    y[at->x + X_Z] = self->launcher.launching.surfaces.line_z;
 }
 
 void simulation_move_with_base(const launch_state *self, double t, double *y)
@@ -102,9 +115,10 @@ typedef struct problem {
     const launching_phase *phase;
     int first, count;
     bool dead;
-    double spring;    // [1/s2] holds y_S, z_S, psi, theta to the tube's axis
-    double h;         // [m, rad, ...] step of the differences
-    double *jacobian; // [count + 1][count + 1] of Newton's method, by columns
+    double spring; // [1/s2] holds the rocket's freedoms to the axis, or guide line
+    const carried_directions *carried; // less what surfaces carry; NULL: all
+    double h;                          // [m, rad, ...] step of the differences
+    double *jacobian;                  // [count + 1][count + 1] of Newton's method, by columns
 } problem;
 
 // Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
@@ -120,12 +134,23 @@ static void dead_load(const problem *the, const launcher_input *input, launching
     out->base_moment = v3_cross(moment, down);
 }
 
+// How far the rocket stands from its centred place, less what surfaces carry.
+static void off_the_line(const problem *the, const double *y, double off[SHOE_FREEDOMS])
+{
+    const launching_system *launching = &the->self->launcher.launching;
+    const double *x = y + launching->layout.x + X_Y;
+    const double centred[SHOE_FREEDOMS] = {launching->surfaces.line_y, launching->surfaces.line_z};
+    for (int i = 0; i < SHOE_FREEDOMS; i++)
+        off[i] = x[i] - centred[i];
+    if (the->carried)
+        carried_remove(the->carried, off);
+}
+
 // Accelerations of tube and rocket that the lock and the slot leave free.
 static void launching_residual(const problem *the, const double *y, const launching_output *given,
                                double *r)
 {
     const launch_state *self = the->self;
-    const double *x = y + self->launcher.launching.layout.x;
     launching_pose pose;
     launching_output out = *given;
     int nq = self->launcher.launching.layout.nq;
@@ -140,10 +165,15 @@ static void launching_residual(const problem *the, const double *y, const launch
     rocket[1] = a.z;
     rocket[2] = alpha.z;
     rocket[3] = alpha.y;
-    for (int i = 0; i < 4; i++)
-        rocket[i] -= the->spring * x[1 + i];
+    int count = rocket_freedoms(self);
+    if (count > 4)
+        rocket[4] = alpha.x;
+    double off[SHOE_FREEDOMS];
+    off_the_line(the, y, off);
+    for (int i = 0; i < count; i++)
+        rocket[i] -= the->spring * off[i];
     if (self->on_breech)
-        rocket[4] = a.x;
+        rocket[count] = a.x;
 }
 
 // What must vanish in equilibrium.
@@ -249,6 +279,31 @@ static double newton(const problem *the, double *y)
             break;
     }
     return now;
+}
+
+// Newton's method with whole steps: where surfaces are touched and let go of it finds which of them
+// carry, as halved steps, which stop at the kinks, do not. Leaves the best state in y.
+static double newton_whole(const problem *the, double *y)
+{
+    int n = the->count;
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
+    double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], best = INFINITY;
+    memcpy(trial, y, size);
+    for (int iteration = 0; iteration < 30; iteration++) {
+        if (residual(the, trial, r))
+            break;
+        double now = norm(n, r);
+        bool rounding = now > 0.1 * best && best < 1e-6;
+        if (now < best) {
+            best = now;
+            memcpy(y, trial, size);
+        }
+        if (rounding || newton_step(the, trial, r, step))
+            break;
+        for (int j = 0; j < n; j++)
+            simulation_displace(the->self, the->first + j, step[j], trial);
+    }
+    return best;
 }
 
 // How deep a contact is pressed in by `load` [N].
@@ -477,6 +532,76 @@ static double try_upright(const problem *the, const double *start, double accept
     return best;
 }
 
+// Which directions the surfaces carry in y.
+static void find_carried(const problem *the, const double *y, carried_directions *carried)
+{
+    const launch_state *self = the->self;
+    launcher_input input;
+    launcher_output out;
+    simulation_input(self, the->t, y, &input);
+    launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
+    carried_find(&self->launcher.launching, the->phase, &out.launching, rocket_freedoms(self) > 4,
+                 carried);
+}
+
+// Equilibrium of a rocket on surfaces: soft springs hold it to its centred place and are let go in
+// steps, until where it has play the surfaces touched carry it. What they do not carry stays
+// centred, held by a spring that must find nothing to pull.
+static double find_on_surfaces(problem *the, const double *start, carried_directions *carried,
+                               double accepted, double *y)
+{
+    const double softest = 1e-3, widest = 0.1;
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
+    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], best = INFINITY, held = 1e7, factor = 0.3;
+    problem soft = *the;
+    soft.count = launching_freedoms(the->self);
+    guess_straight(the, start, y);
+    while (held > softest && factor < 0.99) {
+        soft.spring = factor * held;
+        memcpy(trial, y, size);
+        double reached = newton_whole(&soft, trial);
+        off_the_line(&soft, trial, off);
+        if (!(hypot(hypot(off[0], off[1]), hypot(off[2], hypot(off[3], off[4]))) < widest))
+            break; // nothing carries it that way
+        if (reached > accepted) {
+            factor = sqrt(factor);
+            continue;
+        }
+        memcpy(y, trial, size);
+        held = soft.spring;
+        factor = fmax(0.1, factor * factor);
+    }
+    find_carried(the, y, carried);
+    the->carried = carried;
+    the->spring = 1e4;
+    for (; the->h > 1e-13 && !(best <= accepted); the->h *= 0.1) {
+        newton_whole(the, y);
+        best = newton(the, y);
+    }
+    return best;
+}
+
+// Says so where gravity pulls the rocket along a direction in which nothing carries it.
+static ld_status check_carried(const problem *the, const double *y, double accepted,
+                               ld_error *error)
+{
+    static const char *const names[] = {"along y of the guide", "along z of the guide",
+                                        "about z of the guide", "about y of the guide",
+                                        "about the guide line"};
+    double off[SHOE_FREEDOMS];
+    off_the_line(the, y, off);
+    int worst = 0;
+    for (int i = 1; i < rocket_freedoms(the->self); i++)
+        if (fabs(off[i]) > fabs(off[worst]))
+            worst = i;
+    if (!the->carried || the->spring * fabs(off[worst]) <= accepted)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_LAUNCH,
+                   "run.start: no static equilibrium: gravity pulls the rocket %s, and no surface "
+                   "carries it there; \"run.start: undeformed\" starts without it",
+                   names[worst]);
+}
+
 // Equilibrium of tube and rocket, and of the base with them where that is among the unknowns, which
 // stands in `start` in its place. Returns the residual; the state is in y.
 static double find_rest(const problem *the, const double *start, double accepted, double *y)
@@ -498,10 +623,13 @@ static double find_rest(const problem *the, const double *start, double accepted
 // Finds the equilibrium as find_rest() does, with the lock closed. Where there is none, and gravity
 // presses the rocket on the breech by more than nothing, it then goes there: s is an unknown, too.
 static double find_start(launch_state *self, problem *the, launching_phase *phase,
-                         const double *start, double accepted, double *y)
+                         const double *start, carried_directions *carried, double accepted,
+                         double *y)
 {
     self->on_breech = false;
-    double best = find_rest(the, start, accepted, y);
+    double best = self->launcher.launching.surfaces.count
+                      ? find_on_surfaces(the, start, carried, accepted, y)
+                      : find_rest(the, start, accepted, y);
     double pressed = -self->motor->full.m * pull_at(self, the->t, start).x;
     if (self->rocket->lock.present ||
         !(pressed > 1e-9 * self->motor->full.m * self->model->gravity) || !(best <= accepted))
@@ -612,7 +740,8 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
     status = make_room(&whole, error);
     if (status)
         return status;
-    double best = find_start(self, &whole, &phase, start, accepted, y);
+    carried_directions carried;
+    double best = find_start(self, &whole, &phase, start, &carried, accepted, y);
     free(whole.jacobian);
     if (!(best <= accepted))
         return ld_fail(
@@ -620,7 +749,9 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
             "run.start: no static equilibrium was found (smallest residual %.3g m/s2): is the "
             "rocket held by gravity on two adaptors? \"run.start: undeformed\" starts without it",
             best);
-    status = keep_rest(self, t, y, error);
+    status = check_carried(&whole, y, accepted, error);
+    if (!status)
+        status = keep_rest(self, t, y, error);
     if (status)
         return status;
     report(&whole, y, summary);
@@ -728,13 +859,17 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     if (status)
         return status;
     double found[LD_MAX_STATES];
-    double best = find_start(self, &tube, &phase, still, accepted, found);
+    carried_directions carried;
+    double best = find_start(self, &tube, &phase, still, &carried, accepted, found);
     free(tube.jacobian);
     if (!(best <= accepted))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "tube %d finds no static equilibrium when it takes its place at t = %.6g s "
                        "(smallest residual %.3g m/s2)",
                        self->model->firing[next].tube, t, best);
+    status = check_carried(&tube, found, accepted, error);
+    if (status)
+        return status;
     memcpy(y, found, launching);
 
     if (!speeds) {

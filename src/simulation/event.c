@@ -9,10 +9,13 @@ static void add(event_list *self, event_kind kind, int count)
 event_list events_of(const launch_state *self, bool base)
 {
     event_list list = {0};
-    int adaptors = self->launcher.launching.adaptors.count;
+    const launching_system *launching = &self->launcher.launching;
+    int adaptors = launching->adaptors.count, surfaces = launching->surfaces.count;
+    bool by_touch = launching->adaptors.law.by_touch;
     add(&list, EVENT_RELEASE, 1);
     add(&list, EVENT_EXIT, adaptors);
-    add(&list, EVENT_TOUCH, adaptors);
+    add(&list, EVENT_TOUCH, surfaces ? 0 : adaptors);
+    add(&list, EVENT_SURFACE, by_touch ? adaptors * surfaces : 0);
     add(&list, EVENT_BASE, base ? self->launcher.base.event_count : 0);
     add(&list, EVENT_BREECH, 1);
     return list;
@@ -47,6 +50,10 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
     }
     case EVENT_TOUCH:
         return touching && !phase->passed[one.index] ? adaptor[one.index].penetration / 1e-3 : away;
+    case EVENT_SURFACE: {
+        int i = one.index / launching->surfaces.count, k = one.index % launching->surfaces.count;
+        return phase->passed[i] ? away : out->launching.shoe[i].penetration[k] / 1e-3;
+    }
     case EVENT_BREECH: // the rear adaptor is at s
         return touching && !phase->locked ? (phase->breech - adaptor[0].s) / 1e-3 : away;
     default:

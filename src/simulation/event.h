@@ -8,6 +8,7 @@ typedef enum event_kind {
     EVENT_RELEASE, // the lock carries its release force
     EVENT_EXIT,    // adaptor `index` passes the tip
     EVENT_TOUCH,   // adaptor `index` touches the tube (law lankarani-nikravesh alone)
+    EVENT_SURFACE, // an adaptor touches a surface, index = adaptor * surfaces + surface (the same)
     EVENT_BASE,    // number `index` of the base (integrated together alone)
     EVENT_BREECH,  // the rocket touches the breech (law lankarani-nikravesh alone)
 } event_kind;
@@ -20,7 +21,7 @@ typedef struct event {
 // In the order in which the integrator has them.
 typedef struct event_list {
     int count;
-    event event[2 + 2 * LD_MAX_ADAPTORS + BASE_MOST_EVENTS];
+    event event[2 + LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + BASE_MOST_EVENTS];
 } event_list;
 
 // All events that a launch can have; those of the base if asked for.

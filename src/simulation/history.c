@@ -33,6 +33,9 @@ typedef struct launch_instant {
     ld_tip_off tip_off;
     ld_aim aim;
     instant_contact contact[LD_MAX_ADAPTORS];
+    struct {
+        double force_y, force_z, moment;
+    } shoe[LD_MAX_ADAPTORS];
     base_instant of_base;
     ld_energy energy;
 } launch_instant;
@@ -143,10 +146,16 @@ static const quantity motor_now[] = {
 };
 static const quantity contacts[] = {
     {"contact.%s.force", "N", "adaptor %s: norm of contact force", EACH(contact, force)},
-    {"contact.%s.normal", "N", "adaptor %s: normal force", EACH(contact, normal)},
-    {"contact.%s.penetration", "m", "adaptor %s: offset less clearance (negative: gap)", EACH(contact, penetration)},
-    {"contact.%s.y", "m", "adaptor %s: offset from the axis", EACH(contact, y)},
-    {"contact.%s.z", "m", "adaptor %s: offset from the axis", EACH(contact, z)},
+    {"contact.%s.normal", "N", "adaptor %s: normal force, of several surfaces their sum", EACH(contact, normal)},
+    {"contact.%s.penetration", "m", "adaptor %s: offset less clearance (negative: gap), of several surfaces the deepest", EACH(contact, penetration)},
+    {"contact.%s.y", "m", "adaptor %s: offset from the axis, or from the guide line", EACH(contact, y)},
+    {"contact.%s.z", "m", "adaptor %s: offset from the axis, or from the guide line", EACH(contact, z)},
+};
+// In the axes of the section at the shoe's foot.
+static const quantity shoes[] = {
+    {"shoe.%s.force_y", "N", "shoe %s: force of the guide on the rocket, along y of the section", EACH(shoe, force_y)},
+    {"shoe.%s.force_z", "N", "shoe %s: force of the guide on the rocket, along z of the section", EACH(shoe, force_z)},
+    {"shoe.%s.moment", "N.m", "shoe %s: moment of the guide on the rocket about the guide line", EACH(shoe, moment)},
 };
 static const quantity guidance[] = {
     {"slot.force", "N", "slot force N on the knob", AT(out.launching.N)},
@@ -197,6 +206,7 @@ static const quantity_group groups[] = {
     {.title = "rocket against the launcher", ROCKET, QUANTITY_ROWS(against_launcher)},
     {.title = "mass and thrust", ROCKET, QUANTITY_ROWS(motor_now)},
     {.title = "each adaptor", .each = EACH_ADAPTOR, ROCKET, QUANTITY_ROWS(contacts)},
+    {.title = "each shoe on a guide of surfaces", .each = EACH_SHOE, ROCKET, QUANTITY_ROWS(shoes)},
     {.title = "slot, lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
     {.title = "air on the emerged part of the rocket", .each = EACH_CROSSFLOW, ROCKET, QUANTITY_ROWS(crossflow)},
     {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
@@ -255,6 +265,11 @@ static void find_contacts(const launch_state *self, launch_instant *now)
                               ? (instant_contact){0, 0, NAN, NAN, NAN}
                               : (instant_contact){adaptor->force, adaptor->normal,
                                                   adaptor->penetration, adaptor->y, adaptor->z};
+        const shoe_report *shoe = &now->out.launching.shoe[i];
+        bool touches = self->launcher.launching.surfaces.count && !self->phase.passed[i];
+        now->shoe[i].force_y = touches ? shoe->force_y : 0;
+        now->shoe[i].force_z = touches ? shoe->force_z : 0;
+        now->shoe[i].moment = touches ? shoe->moment_x : 0;
     }
 }
 

@@ -12,6 +12,8 @@ static void archive_phase(archive *bytes, launching_phase *phase)
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
         archive_bool(bytes, &phase->passed[i]);
     archive_doubles(bytes, phase->touch_speed, LD_MAX_ADAPTORS);
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        archive_doubles(bytes, phase->surface_speed[i], LD_MAX_SURFACES);
     archive_double(bytes, &phase->breech);
     archive_double(bytes, &phase->breech_speed);
 }

@@ -64,6 +64,27 @@ static void let_go(ld_run *run, double t, const double *y)
     launch_tell(run, LD_EVENT_RELEASE, t, -1);
 }
 
+// A shoe's first touch of a surface, whose speed is kept for the whole contact.
+static bool touch_surfaces(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    const launching_system *launching = &self->launcher.launching;
+    int surfaces = launching->surfaces.count;
+    bool touched = false;
+    for (int i = launching->adaptors.count - 1; i >= 0; i--)
+        for (int k = 0; k < surfaces; k++) {
+            int which = i * surfaces + k;
+            if (self->phase.passed[i] ||
+                propagator_event(run->propagator, EVENT_SURFACE, which) <= 0)
+                continue;
+            double speed = launching_surface_rate(launching, y, i, k);
+            self->phase.surface_speed[i][k] = touch_speed(self, speed);
+            launch_tell(run, LD_EVENT_TOUCH, t, i);
+            touched = true;
+        }
+    return touched;
+}
+
 // Switches what the events just located say; true where the equations changed.
 bool launch_switch_phase(ld_run *run, double t, const double *y)
 {
@@ -95,6 +116,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
         launch_tell(run, LD_EVENT_BREECH, t, -1);
         changed = true;
     }
+    changed |= touch_surfaces(run, t, y);
     for (int j = 0; j < self->launcher.base.event_count; j++) {
         int direction = propagator_event(run->propagator, EVENT_BASE, j);
         if (direction)

@@ -8,7 +8,8 @@
 #include "simulation/propagator.h"
 #include "systems/flight.h"
 
-enum { MOST_EVENTS = 2 * LD_MAX_ADAPTORS + LD_MAX_WHEELS + 8 }; // at one instant
+// At one instant.
+enum { MOST_EVENTS = LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + LD_MAX_WHEELS + 8 };
 
 // Of a hinge's error, torque and power since the ignition, for its means.
 typedef struct hinge_watch {

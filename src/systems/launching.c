@@ -29,9 +29,11 @@ static void lay_out(launching_layout *at, int nq)
 void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 {
     self->rocket = rocket;
+    const ld_tubes *tubes = &self->model->tubes;
     adaptors_build(rocket, &self->adaptors);
-    slot_build(&self->model->tubes.slot, rocket, &self->slot);
-    lock_build(&rocket->lock, &self->model->tubes.slot, &self->lock);
+    surfaces_build(&tubes->guide, rocket, &self->surfaces);
+    slot_build(&tubes->slot, rocket, &self->slot);
+    lock_build(&rocket->lock, self->slot.present || self->surfaces.flat, &self->lock);
     crossflow_build(&rocket->aerodynamics, &self->crossflow);
     self->pressure.start = rocket->start_at;
 }
@@ -45,14 +47,15 @@ static int works_of(const ld_model *model)
                                         : POWER_ALWAYS;
 }
 
-// Modes and coefficients follow from all keys of `tubes` but those of the slot, of the pressure and
-// of where the tubes are.
+// Modes and coefficients follow from all keys of `tubes` but those of slot, guide, pressure and of
+// where the tubes are.
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
         bool apart =
             key->offset == offsetof(ld_tubes, layout) || key->offset == offsetof(ld_tubes, empty) ||
-            key->offset == offsetof(ld_tubes, slot) || key->offset == offsetof(ld_tubes, pressure);
+            key->offset == offsetof(ld_tubes, slot) ||
+            key->offset == offsetof(ld_tubes, pressure) || key->offset == offsetof(ld_tubes, guide);
         if (!apart && !field_same(key, a, b))
             return false;
     }

@@ -10,6 +10,7 @@
 #include "elements/load.h"
 #include "elements/lock.h"
 #include "elements/pressure.h"
+#include "elements/shoe.h"
 #include "elements/slot.h"
 #include "elements/support.h"
 
@@ -22,6 +23,7 @@ typedef struct launching_system {
     tube_system tube; // with its tail
     support_set supports;
     adaptor_set adaptors;
+    surface_set surfaces; // of a guide that is no bore
     slot_system slot;
     lock_system lock;
     crossflow_body crossflow;
@@ -99,6 +101,8 @@ void launching_section_at(const launching_system *self, const double *state, dou
 
 // Rate [m/s] at which adaptor i's offset from the axis grows, the foot's motion included.
 double launching_offset_rate(const launching_system *self, const double *state, int i);
+// Rate [m/s] at which adaptor i goes into surface k of the guide.
+double launching_surface_rate(const launching_system *self, const double *state, int i, int k);
 
 // Kinetic energy of tube, tail and (if in the tube) rocket [J].
 double launching_kinetic_energy(const launching_system *self, const launching_input *input,

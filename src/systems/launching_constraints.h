@@ -1,8 +1,18 @@
-// The list of constraints between rocket and tube, for every form of the launching subsystem.
+// What acts between rocket and guide, for every form of the launching subsystem: contact with bore
+// or surfaces, and the list of constraints.
 #ifndef LD_SYSTEMS_LAUNCHING_CONSTRAINTS_H
 #define LD_SYSTEMS_LAUNCHING_CONSTRAINTS_H
 
 #include "systems/launching.h"
+
+LD_INLINE void launching_touch(const int lanes, const launching_system *self,
+                               launching_instant *now)
+{
+    if (self->surfaces.count)
+        shoes_add(lanes, &self->surfaces, &self->adaptors, &self->tube, now);
+    else
+        adaptors_add(lanes, &self->adaptors, &self->tube, now);
+}
 
 LD_INLINE void launching_constrain(const launching_system *self, const launching_instant *now,
                                    constraint_set *set)

@@ -75,7 +75,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     pressure_add(&self->pressure, &now);
     if (input->load)
         load_rocket(input->load, &now);
-    adaptors_add(lanes, &self->adaptors, &self->tube, &now);
+    launching_touch(lanes, self, &now);
     breech_add(lanes, &self->adaptors.law, &self->tube, &now);
 
     constraint_set constraints;
@@ -204,4 +204,18 @@ double launching_offset_rate(const launching_system *self, const double *state, 
     adaptor_rates(&tube, &rocket, i, v_C, &adaptor);
     double e = sqrt(adaptor.y * adaptor.y + adaptor.z * adaptor.z);
     return (adaptor.y * adaptor.y_dot + adaptor.z * adaptor.z_dot) / e;
+}
+
+double launching_surface_rate(const launching_system *self, const double *state, int i, int k)
+{
+    tube_state tube;
+    rocket_state rocket;
+    launching_output unused;
+    shoe_state shoe;
+    shoe_motion motion;
+    tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
+    rocket_load(&self->tube, &self->layout, state, &tube, &rocket, &unused);
+    shoe_load(&self->adaptors, &self->tube, &tube, &rocket, i, &shoe);
+    shoe_motion_load(&tube, &rocket, i, &shoe, &motion);
+    return surface_contact_of(&self->surfaces.surface[k], &rocket, &shoe, &motion).rate;
 }

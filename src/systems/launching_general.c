@@ -103,7 +103,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
         pressure_add(&self->pressure, now);
         if (input->load)
             load_rocket(input->load, now);
-        adaptors_add(lanes, &self->adaptors, &self->tube, now);
+        launching_touch(lanes, self, now);
         breech_add(lanes, &self->adaptors.law, &self->tube, now);
         tube_section_state at_rocket;
         tube_factor(&self->tube, &now->tube);

@@ -1,0 +1,17 @@
+// The surfaces of a guide, whichever way it is given.
+#ifndef LD_MODEL_GUIDE_H
+#define LD_MODEL_GUIDE_H
+
+#include "model/model.h"
+
+/// Fills `surface` with those of the guide, of a T-slot or a tower with the ones that these stand
+/// for; returns how many there are, 0 for a bore.
+int guide_surfaces(const ld_guide *guide, ld_surface surface[LD_MAX_SURFACES]);
+
+/// Whether one of them is flat, so that the guide carries roll.
+bool guide_is_flat(const ld_guide *guide);
+
+/// What a shoe adds to the gap of each surface [m].
+double guide_clearance(const ld_adaptor *shoe);
+
+#endif
