@@ -146,6 +146,11 @@ void launching_free(launching_system *self)
     pressure_free(&self->pressure);
 }
 
+bool launching_holds_places(const launching_system *self)
+{
+    return self->adaptors.law.held;
+}
+
 // ---- rates ----
 
 void launching_rates(const launching_system *self, const double *state, const launching_output *out,

@@ -368,7 +368,8 @@ static jet foot_of(const jet_scene *moving, const jet_scene *still, const jet3 *
 
 // ---------------------------------------------------------------- equations
 
-enum { LOCK, SLOT, ROLL, ROWS };
+// those of adaptors held on the axis: two each, from HELD on
+enum { LOCK, SLOT, ROLL, HELD, ROWS = HELD + 4 };
 
 typedef struct equations {
     int n;
@@ -733,6 +734,15 @@ static double normal_force(const ld_contact *contact, double p, double p_dot, do
     return contact->stiffness * d_0 * pow(p / d_0, contact->exponent) * fmax(0, 1 + chi * p_dot);
 }
 
+// Holds what x is at no acceleration, by a force along its gradient.
+static void hold(equations *eq, int row, const jet *x)
+{
+    eq->active[row] = true;
+    memcpy(eq->C[row], x->d, (size_t)eq->n * sizeof *x->d);
+    memcpy(eq->G[row], x->d, (size_t)eq->n * sizeof *x->d);
+    eq->rhs[row] = -x->te;
+}
+
 static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene *still,
                         const dense_conditions *on, int index, double guess,
                         dense_launch_output *output)
@@ -755,7 +765,10 @@ static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene 
             axis[i][j] = section.A.c[i][j].v;
     jet_frame material = section_in_I(moving, jet_constant(s.v));
     bool inside = !on->passed[index];
-    if (inside && law->law == LD_CONTACT_BILATERAL) {
+    if (inside && law->law == LD_CONTACT_IDEAL) {
+        hold(eq, HELD + 2 * index, &offset.c[1]);
+        hold(eq, HELD + 2 * index + 1, &offset.c[2]);
+    } else if (inside && law->law == LD_CONTACT_BILATERAL) {
         double f_y = -law->stiffness * y - law->damping * offset.c[1].e;
         double f_z = -law->stiffness * z - law->damping * offset.c[2].e;
         normal = hypot(f_y, f_z);
@@ -1209,6 +1222,8 @@ static void write_output(const dense_launch *dense, const dense_state *state, co
     output->lock_force = -multiplier[LOCK];
     output->slot_force = multiplier[SLOT];
     output->lock_moment = multiplier[ROLL];
+    for (int i = 0; eq->active[HELD] && i < 2; i++)
+        output->contact[i].normal = hypot(multiplier[HELD + 2 * i], multiplier[HELD + 2 * i + 1]);
     output->kinetic = eq->kinetic;
     output->potential = eq->potential;
     memcpy(output->momentum, eq->momentum, sizeof eq->momentum);
