@@ -39,6 +39,8 @@ LD_INLINE void pressure_add(const pressure_system *self, launching_instant *now)
     v3 axis = m3_column(rocket->at.A, 0);
     now->f = v3_axpy(now->f, force, axis);
     now->on_tube.f.x -= force;
+    if (__builtin_expect(now->on_tube.record != NULL, 0))
+        guide_forces_add(now->on_tube.record, 0, v3_make(-force, 0, 0), v3_zero());
     out->power[POWER_PRESSURE] = force * (v3_dot(axis, rocket->v_O1) - now->tube.v.x);
 }
 

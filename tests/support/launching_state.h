@@ -44,6 +44,11 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     y[at->x] = 0.3 + 0.25 * (1 + draw(seed));
     for (int i = 1; i < 6; i++)
         y[at->x + i] = draw(seed) * (i < 3 ? 1e-3 : i < 5 ? 2e-3 : 3);
+    if (system->surfaces.count) { // near the guide line, hardly rolled
+        y[at->x + 1] += system->surfaces.line_y;
+        y[at->x + 2] += system->surfaces.line_z;
+        y[at->x + 5] *= 0.01;
+    }
     v3 v = v3_from(y + at->v), w = v3_from(y + at->w);
     launching_pose pose;
     launching_output out;
