@@ -14,7 +14,9 @@ class Carrier {
   constructor(motion, scene) {
     this.group = new Group();
     this.motion = motion;
-    this.feet = motion.supports.map((x) => this.foot(x, motion.envelope.low[0]));
+    const { length, slides, outer } = motion, low = motion.envelope.low[0] - (slides.length > 0 ? outer + 0.02 * length : 0);
+    this.feet = motion.supports.map((x) => this.foot(x, low));
+    if (slides.length > 0) this.cradle(low);
     this.eye = { distance: motion.length / 4.6, direction: [4.4, 2.8, 9.9], aim: [0, -0.1, 0] };
     scene.add(this.group);
   }
@@ -23,16 +25,32 @@ class Carrier {
     const { low, high } = this.motion.envelope;
     return apply(this.motion.mount, [x, y, 0.5 * (low[1] + high[1])]);
   }
+  // What a tube that recoils slides on: a beam below it that stays with the base.
+  cradle(low) {
+    const { motion } = this, { length, outer, supports } = motion, slide = new Group();
+    slide.add(box([Math.min(...supports) - 0.08 * length, low, -outer], [Math.max(...supports) + 0.08 * length, low + 0.02 * length, outer],
+      paint.vehicle, edge));
+    place(slide, [0, 0, 0], motion.mount);
+    this.group.add(slide);
+  }
   // Corners of the launcher in the base's axes.
   corners() {
     const { envelope: { low, high }, length, mount } = this.motion, ends = [0, length];
     return ends.flatMap((x) => [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => apply(mount, [x, y, z]))));
   }
-  // Posts from the feet down to a level.
+  // Posts from the feet down to a level; below a steep launcher a mast with an arm to each foot.
   stand(level) {
-    const radius = Math.max(0.07, 0.025 * this.motion.length);
-    for (const [x, y, z] of this.feet)
-      this.group.add(cylinder([x, level, z], [x, y, z], radius, paint.platform, edge));
+    const { length, mount, outer } = this.motion, radius = 0.018 * length;
+    const post = (from, to, r) => this.group.add(cylinder(from, to, r, paint.platform, edge));
+    if (mount[3] < 0.8) {
+      for (const [x, y, z] of this.feet) post([x, level, z], [x, y, z], radius);
+      return;
+    }
+    const top = this.feet.reduce((best, foot) => (foot[1] > best[1] ? foot : best));
+    const down = apply(mount, [0, -1, 0]), run = Math.hypot(down[0], down[2]) || 1, away = 0.06 * length + outer;
+    const [x, z] = [top[0] + (away * down[0]) / run, top[2] + (away * down[2]) / run];
+    post([x, level, z], [x, top[1] + 2 * radius, z], radius);
+    for (const foot of this.feet) post([x, foot[1], z], foot, 0.5 * radius);
   }
   // Level of what it stands on: below launcher and supports.
   level() {
@@ -47,10 +65,11 @@ class Plate extends Carrier {
   constructor(motion, scene) {
     super(motion, scene);
     const level = this.level(), xs = this.feet.map(([x]) => x), zs = this.feet.map(([, , z]) => z);
-    this.group.add(box([Math.min(...xs) - 0.7, level - 0.12, Math.min(...zs) - 0.7],
-      [Math.max(...xs) + 0.7, level, Math.max(...zs) + 0.7], paint.vehicle, edge));
+    const margin = 0.23 * motion.length, thick = 0.04 * motion.length;
+    this.group.add(box([Math.min(...xs) - margin, level - thick, Math.min(...zs) - margin],
+      [Math.max(...xs) + margin, level, Math.max(...zs) + margin], paint.vehicle, edge));
     this.stand(level);
-    const foot = motion.value("base.y")[0] + level - 0.12;
+    const foot = motion.value("base.y")[0] + level - thick;
     this.ground = foot > 0.3 ? 0 : foot - 0.01;
   }
 }

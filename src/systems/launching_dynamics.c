@@ -62,6 +62,7 @@ LD_INLINE void load_and_touch_rocket(const int lanes, const launching_system *se
     rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
     rocket_forces(&self->rocket->motor, now);
     crossflow_add(&self->crossflow, &self->tube, now);
+    pressure_add(&self->pressure, now);
     if (input->load)
         load_rocket(input->load, now);
     launching_touch(lanes, self, now);
@@ -77,6 +78,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     now.phase = phase;
     now.out = out;
     memset(out->power, 0, sizeof out->power);
+    now.on_tube.record = input->record;
     tube_load(lanes, &self->tube, &self->layout, state, &now.tube);
     tube_forces(lanes, &self->tube, &now.tube, &now.on_tube, out);
     supports_add(lanes, &self->supports, &self->tube, &now);
@@ -93,6 +95,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     if (!constrain(lanes, self, &now, &constraints.set, &all))
         return LAUNCHING_JAMMED;
     launching_report(self, &now, &constraints.set, out);
+    constraints_record(&now, &constraints.set);
     out->a_O1 = all.a;
     out->alpha_B = all.alpha;
     accelerate_tube(lanes, self, &now, &constraints.set, &all, &out->a, &out->w_dot, out->q_ddot);
@@ -168,7 +171,7 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
     for (int pass = 0; pass < 3; pass++) {
         launching_constraints clamps;
         constrained shift;
-        double wrong[LD_MAX_CONSTRAINTS], q[LD_MAX_MODAL], most = 0;
+        double wrong[LD_MAX_CONSTRAINTS], q[LD_MAX_MODAL] = {0}, most = 0; // no axial ones
         v3 r, turn;
         load_to_project(lanes, self, state, &now);
         launching_constrain(lanes, self, &now, &clamps);
@@ -194,7 +197,7 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
 {
     const launching_layout *at = &self->layout;
     constrained impulse;
-    double drift[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL];
+    double drift[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
     v3 v, w;
     for (int i = 0; i < set->count; i++)
         drift[i] = set->e[i].drift;
