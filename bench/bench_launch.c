@@ -78,6 +78,28 @@ static void bench_run(const ld_model *model)
            1e9 * run[REPEATS / 2] / (double)summary.statistics.rhs_evaluations);
 }
 
+// The same rocket on two shoes in a T-slot below it, one evaluation.
+static void bench_shoes(const ld_model *model)
+{
+    ld_model on_shoes = *model;
+    ld_simulation *simulation;
+    launch_state launch;
+    on_shoes.tubes.slot.kind = LD_SLOT_NONE;
+    on_shoes.tubes.guide =
+        (ld_guide){.present = true,
+                   .form = LD_GUIDE_T_SLOT,
+                   .line = {0.15, 0},
+                   .t_slot = {.at = {-0.08, 0}, .lips = 0.04, .gap = 0.5e-3, .side_gap = 0.3e-3}};
+    on_shoes.rocket.adaptor[1] = on_shoes.rocket.adaptor[2];
+    on_shoes.rocket.adaptor_count = 2;
+    if (ld_simulation_create(&on_shoes, &simulation, NULL))
+        return;
+    if (launch_state_begin(&launch, simulation, NULL) == LD_OK)
+        bench_evaluation(&launch, 2, "evaluation, reduced, two shoes in a T-slot");
+    launch_state_end(&launch);
+    ld_simulation_free(simulation);
+}
+
 int main(void)
 {
     ld_model model;
@@ -95,6 +117,7 @@ int main(void)
     bench_form(&launch, LD_FORMULATION_OVERALL, "evaluation, overall 19 x 19");
     launch_state_end(&launch);
     ld_simulation_free(simulation);
+    bench_shoes(&model);
     bench_run(&model);
     model_clear(&model);
     return 0;
