@@ -28,11 +28,19 @@ class Carrier {
     const { envelope: { low, high }, length, mount } = this.motion, ends = [0, length];
     return ends.flatMap((x) => [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => apply(mount, [x, y, z]))));
   }
-  // Posts from the feet down to a level.
+  // Posts from the feet down to a level; below a steep launcher a mast with an arm to each foot.
   stand(level) {
-    const radius = Math.max(0.07, 0.025 * this.motion.length);
-    for (const [x, y, z] of this.feet)
-      this.group.add(cylinder([x, level, z], [x, y, z], radius, paint.platform, edge));
+    const { length, mount, outer } = this.motion, radius = Math.max(0.05, 0.018 * length);
+    const post = (from, to, r) => this.group.add(cylinder(from, to, r, paint.platform, edge));
+    if (mount[3] < 0.8) {
+      for (const [x, y, z] of this.feet) post([x, level, z], [x, y, z], radius);
+      return;
+    }
+    const top = this.feet.reduce((best, foot) => (foot[1] > best[1] ? foot : best));
+    const down = apply(mount, [0, -1, 0]), run = Math.hypot(down[0], down[2]) || 1, away = 0.06 * length + outer;
+    const [x, z] = [top[0] + (away * down[0]) / run, top[2] + (away * down[2]) / run];
+    post([x, level, z], [x, top[1] + 2 * radius, z], radius);
+    for (const foot of this.feet) post([x, foot[1], z], foot, 0.5 * radius);
   }
   // Level of what it stands on: below launcher and supports.
   level() {

@@ -10,7 +10,7 @@ export function guideOf(rows, length) {
   const surfaces = rows("guide.surface").map((at, k) => ({
     at, normal: rows("guide.normal")[k][0], gap: rows("guide.gap")[k][0], round: rows("guide.round")[k][0] === 1 }));
   const given = { kind, line, surfaces, length, diameter: rows("rocket.diameter")[0]?.[0] ?? 0,
-    outline: rows("tube.outline"), sections: rows("tube.section"), clearances: clearancesOf(rows) };
+    outline: rows("guide.outline"), sections: rows("tube.section"), clearances: clearancesOf(rows) };
   const made = { bore, surfaces: plain, "t-slot": slotted, tower }[kind](given);
   const words = kind === "bore" ? { guide: "tube", shoes: "adaptors" } : { guide: kind === "tower" ? "tower" : "rail", shoes: "shoes" };
   return { ...given, ...made, words, envelope: envelopeOf(made, line) };

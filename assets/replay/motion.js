@@ -99,6 +99,7 @@ export class Motion {
       tube: { r: base.r, A: multiply(base.A, this.mount) },
       thrust: read("thrust"),
       forces: this.adaptorNames.map((name) => read(`contact.${name}.force`)),
+      pushes: this.adaptorNames.map((name) => all(`shoe.${name}.`, "force_y", "force_z")),
     };
     this.bend(state);
     this.putRocket(state);

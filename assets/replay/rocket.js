@@ -145,16 +145,20 @@ export class Forces {
   show(state, anchor, rocket) {
     place(this.group, subtract(state.tube.r, anchor), state.tube.A);
     this.arrows.forEach((arrow, i) => {
-      const force = state.forces[i], [y, z] = rocket?.offsets?.[i] ?? [0, 0], e = Math.hypot(y, z);
+      const [y, z] = rocket ? this.direction(state, rocket, i) : [0, 0], e = Math.hypot(y, z), force = state.forces[i];
       arrow.visible = Boolean(rocket) && force > 1e-3 * this.most && e > 0;
       if (!arrow.visible) return;
-      const inward = [0, -y / e, -z / e], { centre } = rocket.adaptor(i);
+      const inward = [0, y / e, z / e], { centre } = rocket.adaptor(i);
       const tip = subtract(centre, scaled(this.reach(centre, inward), inward)), length = 0.09 + 0.75 * (force / this.most);
       point(arrow, tip, inward);
       arrow.head.position.set(0, -0.045, 0);
       arrow.shaft.position.set(0, -0.09 - (length - 0.09) / 2, 0);
       arrow.shaft.scale.set(1, Math.max(1e-3, length - 0.09), 1);
     });
+  }
+  // Where the force at an adaptor points across the guide: as a shoe's surfaces push, in a bore towards its axis.
+  direction(state, rocket, i) {
+    return Number.isFinite(state.pushes[i][0]) ? state.pushes[i] : (rocket.offsets?.[i] ?? [0, 0]).map((v) => -v);
   }
   // How far from a point, against a direction, one is outside the guide.
   reach([, y, z], [, dy, dz]) {

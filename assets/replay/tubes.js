@@ -135,9 +135,10 @@ export class Rail {
     const { kind, solid, seenThrough } = motion.guide, rings = motion.stations.length;
     this.motion = motion;
     this.group = new Group();
-    const thin = angular(COLOURS.tube, { transparent: true, opacity: 0.35, depthWrite: false });
-    this.beams = [[solid, angular(COLOURS.tube)], [seenThrough, thin]].map(([profiles, surface]) => {
-      const beams = new Beams(profiles.length, rings, surface, edge);
+    const thin = angular(COLOURS.tube, { transparent: true, opacity: 0.12, depthWrite: false });
+    const faint = line(0x20262b, { transparent: true, opacity: 0.3 });
+    this.beams = [[solid, angular(COLOURS.tube), edge], [seenThrough, thin, faint]].map(([profiles, surface, stroke]) => {
+      const beams = new Beams(profiles.length, rings, surface, stroke);
       this.group.add(beams.group);
       return { profiles, beams };
     });

@@ -2,12 +2,14 @@
 import { decodeTable, filled, inflated, readable, rowAt } from "./data.js";
 import { colour, element, onColours, themeSwitch } from "./page.js";
 import { originBlock } from "./origin.js";
+import { namedFigures, namingOf } from "./naming.js";
 import { instantsOf, panelsOf } from "./panels.js";
 import { addFigures, homeOf, PlotGroup, windowButtons } from "./plot_group.js";
 import { showSummary } from "./summary.js";
 
 const host = document.getElementById("report");
-const data = JSON.parse(document.getElementById("data").textContent);
+const data = JSON.parse(document.getElementById("data").textContent), named = namingOf(data.geometry);
+data.figures = namedFigures(data.figures, named);
 
 // The summary and its tables; neither where there is none, or one that makes no sense: then a note says so.
 function readSummary() {
@@ -15,7 +17,7 @@ function readSummary() {
   if (!node) return {};
   try {
     const summary = JSON.parse(node.textContent);
-    return { summary, tables: showSummary(summary), notes: (summary.notes ?? []).map(String) };
+    return { summary, tables: showSummary(summary, named), notes: (summary.notes ?? []).map(String) };
   } catch {
     data.notes.push("No summary: summary.json is not one of a run.");
     return {};

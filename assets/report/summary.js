@@ -80,20 +80,21 @@ function measures(summaries) {
   return [...rows.values()].map(({ name, unit, of }) => [(rocket) => of.get(rocket), name.replaceAll("_", " "), unit === "1" ? "" : unit, 1]);
 }
 
-function modes(list) {
+function modes(list, named) {
   const rows = (list ?? []).map((mode, i) => [String(mode.shape), "",
     [readable(mode.frequency), readable(100 * mode.damping)]]);
-  return tableOf("Natural frequencies of the tube on its supports", rows, ["Hz", "damping, %"]);
+  return tableOf(named("Natural frequencies of the tube on its supports"), rows, ["Hz", "damping, %"]);
 }
 
-export function showSummary(summary) {
-  const rockets = summary.rockets ?? [];
+// `named`: puts words for its guide into a text.
+export function showSummary(summary, named) {
+  const rockets = summary.rockets ?? [], rocket = ROCKET.map(([path, label, ...more]) => [path, named(label), ...more]);
   return element("div", { id: "tables" },
-    tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...measures([summary])]),
+    tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, [...rocket, ...measures([summary])]),
       rockets.length > 1 ? rockets.map((_, i) => String(i + 1)) : null),
     tableOf("Energy balance at the end", rowsOf([summary.energy ?? {}], ENERGY)),
     tableOf("Equilibrium at the start", rowsOf([summary.equilibrium ?? {}], EQUILIBRIUM)),
-    modes(summary.modes),
+    modes(summary.modes, named),
     tableOf("Computation", rowsOf([summary.statistics ?? {}], STATISTICS)));
 }
 

@@ -9,6 +9,8 @@
 #include "elements/contact.h"
 #include "elements/rocket.h"
 
+enum { IDEAL_MOST_ADAPTORS = 2 }; // that can be held on the axis: three hold more than there is
+
 typedef struct adaptor_set {
     int count;
     double at[LD_MAX_ADAPTORS];        // [m] from the rear adaptor
@@ -155,11 +157,11 @@ LD_INLINE void adaptor_add(const int lanes, const adaptor_set *self, const tube_
     apply_at_section(lanes, guide, adaptor.foot, W, v3_neg(force), &now->on_tube);
 }
 
-// All that have not passed the tip.
+// All that have not passed the tip; of those that are held ideal.h tells.
 LD_INLINE void adaptors_add(const int lanes, const adaptor_set *self, const tube_system *guide,
                             launching_instant *now)
 {
-    for (int i = 0; i < self->count; i++)
+    for (int i = 0; !self->law.held && i < self->count; i++)
         if (!now->phase->passed[i])
             adaptor_add(lanes, self, guide, i, now);
 }

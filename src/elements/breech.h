@@ -2,7 +2,8 @@
 // section 5).
 //
 // Penetration p = s_0 - s, p_dot = -s_dot; where p > 0 and no lock holds, the contact law's force
-// acts on the rocket along e_x of S at O1, the opposite on section s_0 at the same point.
+// acts on the rocket along e_x of S at O1, the opposite on section s_0 at the same point. A law
+// without stiffness, whose rocket a lock holds, has no breech.
 #ifndef LD_ELEMENTS_BREECH_H
 #define LD_ELEMENTS_BREECH_H
 
@@ -17,7 +18,7 @@ LD_INLINE void breech_add(const int lanes, const contact_law *law, const tube_sy
     const launching_phase *phase = now->phase;
     double penetration = phase->breech - rocket->s;
     now->out->breech_force = 0;
-    if (penetration <= 0 || phase->locked)
+    if (penetration <= 0 || phase->locked || isnan(law->k))
         return;
     element_motion motion;
     axis_section wall;

@@ -1,8 +1,9 @@
-// Constraints between rocket and tube: directions in which a force (or moment) acts on the rocket
-// at a point of the section at s, the opposite on the tube, and which the solve keeps from moving
-// (formulation.md, sections 3 and 4).
+// Constraints of rocket and tube: directions in which a force (or moment) acts on the rocket at a
+// point of a section of the tube, the opposite on the tube, and which the solve keeps from moving
+// (formulation.md, sections 3 and 4). The sections may be several: that at s, those of other
+// adaptors.
 //
-// G: unit wrench on the rocket about O1; B = L(s)^T of the same on the tube. Held is
+// G: unit wrench on the rocket about O1; B = L^T of the same on the tube, L of its section. Held is
 //   G^T V - B^T eta = 0;   D x = -(G^T r_O - B^T e_0 + beta),   D_ij = G_i^T M3^-1 G_j + B_i^T
 //   M2^-1 B_j
 #ifndef LD_ELEMENTS_CONSTRAINT_H
@@ -11,11 +12,12 @@
 #include "elements/rocket.h"
 #include "math/ldl.h"
 
-enum { LD_MAX_CONSTRAINTS = 8 };
+enum { LD_MAX_CONSTRAINTS = 8, LD_MAX_CONSTRAINT_SECTIONS = 2 };
 
 // A direction of constraint: unit wrench on the rocket about O1 and on the tube (formulation.md,
 // section 3, G_e and B_e), and what the solve makes of them.
 typedef struct constraint_direction {
+    int section;     // on which it acts, of the set's
     v3 G_f, G_m;     // on the rocket
     v3 r_a, r_alpha; // M3^-1 G
     v3 force, mu;    // at the section: force, and Jl^T moment, that act on the modes
@@ -25,20 +27,38 @@ typedef struct constraint_direction {
     int work;        // of its force, which among the powers
 } constraint_direction;
 
-// Velocity-dependent accelerations of the section at s (formulation.md, section 4: gv, gw).
+// Velocity-dependent accelerations of a section (formulation.md, section 4: gv, gw).
 typedef struct section_bias {
     v3 gv, gw;
 } section_bias;
 
+// A section on which constraints act.
+typedef struct constraint_section {
+    const element_motion *motion;
+    const axis_section *at;
+    const section_rates *rates;
+    double s_dot; // of its station
+    v3 v_P, w_P;  // section's material velocity and rate, inertial, in R
+    v3 Om;        // rate of the frame that goes along with the station, against R
+    section_shapes shapes;
+    section_bias bias;
+} constraint_section;
+
+// Products of the shapes at two sections p, q.
+typedef struct shape_products {
+    double bb, bb1, b1b, b1b1, tt; // b_p . b_q, b_p . b'_q, b'_p . b_q, ...
+} shape_products;
+
 // The constraints in force, in the order in which their elements have put them; friction of one of
 // them acts along a tangent.
 typedef struct constraint_set {
-    section_shapes shapes; // at the rocket's section, on which all act
-    section_bias bias;
+    int section_count; // the first is the rocket's
+    constraint_section section[LD_MAX_CONSTRAINT_SECTIONS];
     int count;
     constraint_direction e[LD_MAX_CONSTRAINTS];
-    double x[LD_MAX_CONSTRAINTS]; // forces found
-    int slot_row, lock_row;       // of these, or -1
+    double x[LD_MAX_CONSTRAINTS];     // forces found
+    int slot_row, lock_row;           // of these, or -1
+    int adaptor_row[LD_MAX_ADAPTORS]; // the first of the two of an adaptor held on the axis
     // friction of the slot, -rub |x| along the tangent
     bool sliding;
     constraint_direction tangent;
@@ -50,14 +70,16 @@ typedef struct constraint_set {
 // Products of the directions in force; Dt: of each on the tangent.
 typedef struct constraint_products {
     double D[LD_MAX_CONSTRAINTS][LD_MAX_CONSTRAINTS], Dt[LD_MAX_CONSTRAINTS];
+    // of the shapes at sections p < q
+    shape_products cross[LD_MAX_CONSTRAINT_SECTIONS][LD_MAX_CONSTRAINT_SECTIONS];
 } constraint_products;
 
 // Accelerations with the constraint forces so far: of the rocket, of the tube
-// (forward-substituted), and the force on its section that the modes still have to feel.
+// (forward-substituted), and the forces on the sections that the modes still have to feel.
 typedef struct constrained {
     v3 a, alpha;
     double rigid[6];
-    v3 force, mu;
+    v3 force[LD_MAX_CONSTRAINT_SECTIONS], mu[LD_MAX_CONSTRAINT_SECTIONS];
 } constrained;
 
 // Modal part of B_1^T M^-1 B_2 for forces at one section.
@@ -71,14 +93,39 @@ LD_INLINE double modal_product(const section_shapes *shapes, const constraint_di
            shapes->tt * p->mu.x * q->mu.x;
 }
 
+// The same for forces at two sections.
+LD_INLINE double modal_cross_product(const shape_products *shapes, const constraint_direction *p,
+                                     const constraint_direction *q)
+{
+    return shapes->bb * (p->force.y * q->force.y + p->force.z * q->force.z) +
+           shapes->b1b1 * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
+           shapes->bb1 * (p->force.y * q->mu.z - p->force.z * q->mu.y) +
+           shapes->b1b * (p->mu.z * q->force.y - p->mu.y * q->force.z) +
+           shapes->tt * p->mu.x * q->mu.x;
+}
+
+LD_INLINE void shape_products_load(const int lanes, const tube_system *guide,
+                                   const section_shapes *p, const section_shapes *q,
+                                   shape_products *products)
+{
+    products->bb = v4d_dot(lanes, p->b, q->b);
+    products->bb1 = v4d_dot(lanes, p->b, q->b1);
+    products->b1b = v4d_dot(lanes, p->b1, q->b);
+    products->b1b1 = v4d_dot(lanes, p->b1, q->b1);
+    products->tt = 0;
+    for (int j = 0; j < guide->flexible.nt; j++)
+        products->tt += p->tau[j] * q->tau[j];
+}
+
 // Sets up a direction from its wrench at the section: force f at the section's point P + r_T and
 // pure moment m on the rocket, opposite on the tube.
-LD_INLINE void direction_load(const launching_instant *now, const section_shapes *shapes, v3 f,
+LD_INLINE void direction_load(const launching_instant *now, const constraint_section *section, v3 f,
                               v3 m, v3 r_T, v3 rho, constraint_direction *e)
 {
     const tube_state *tube = &now->tube;
-    const rocket_state *rocket = &now->rocket;
-    const axis_section *s = &rocket->at;
+    const element_motion *motion = section->motion;
+    const section_shapes *shapes = &section->shapes;
+    const axis_section *s = section->at;
     e->G_f = f;
     e->G_m = v3_add(m, v3_cross(rho, f));
     rocket_solve(&now->inertia, e->G_f, e->G_m, &e->r_a, &e->r_alpha);
@@ -86,8 +133,8 @@ LD_INLINE void direction_load(const launching_instant *now, const section_shapes
     e->force = f;
     e->mu = m3_apply_transposed(s->Jl, v3_add(m, v3_cross(v3_sub(W, s->root), f)));
     // B_r - C B_q, with C B_q from the shapes' own products
-    double uz = poly0(rocket->motion.z, s->xi), uz1 = poly1(rocket->motion.z, s->xi);
-    double uy = poly0(rocket->motion.y, s->xi), uy1 = poly1(rocket->motion.y, s->xi);
+    double uz = poly0(motion->z, s->xi), uz1 = poly1(motion->z, s->xi);
+    double uy = poly0(motion->y, s->xi), uy1 = poly1(motion->y, s->xi);
     v3 B_f = f, B_m = v3_add(m, v3_cross(W, f));
     B_f.y -= shapes->ct0 * f.y + shapes->ct1 * e->mu.z;
     B_f.z -= shapes->ct0 * f.z - shapes->ct1 * e->mu.y;
@@ -98,11 +145,16 @@ LD_INLINE void direction_load(const launching_instant *now, const section_shapes
 }
 
 // G_p^T M3^-1 G_q + B_p^T M2^-1 B_q.
-LD_INLINE double direction_product(const tube_state *tube, const section_shapes *shapes,
-                                   const constraint_direction *p, const constraint_direction *q)
+LD_INLINE double direction_product(const tube_state *tube, const constraint_set *set,
+                                   const constraint_products *D, const constraint_direction *p,
+                                   const constraint_direction *q)
 {
+    double modal = p->section == q->section ? modal_product(&set->section[p->section].shapes, p, q)
+                   : p->section < q->section
+                       ? modal_cross_product(&D->cross[p->section][q->section], p, q)
+                       : modal_cross_product(&D->cross[q->section][p->section], q, p);
     return v3_dot(p->G_f, q->r_a) + v3_dot(p->G_m, q->r_alpha) +
-           tube_product(tube, p->rigid, q->rigid) + modal_product(shapes, p, q);
+           tube_product(tube, p->rigid, q->rigid) + modal;
 }
 
 // G^T r_O - B^T e_0 for the accelerations without constraint forces.
@@ -119,35 +171,36 @@ LD_INLINE double free_acceleration(const int lanes, const tube_system *self, con
            modal;
 }
 
-LD_INLINE section_bias bias_of(const tube_state *tube, const rocket_state *rocket)
+LD_INLINE section_bias bias_of(const tube_state *tube, const constraint_section *section)
 {
-    const axis_section *s = &rocket->at;
-    const section_rates *r = &rocket->rates;
+    const axis_section *s = section->at;
+    const section_rates *r = section->rates;
     v3 w = tube->w;
     section_bias bias;
     v3 inner = v3_add(v3_cross(w, s->P), v3_scale(2, r->u_dot));
-    bias.gv = v3_axpy(v3_cross(w, inner), rocket->s_dot, v3_add(v3_cross(w, s->t), r->u1_dot));
+    bias.gv = v3_axpy(v3_cross(w, inner), section->s_dot, v3_add(v3_cross(w, s->t), r->u1_dot));
     // gamma_rot = Jl_dot Psi q_dot + w x (Jl Psi q_dot); then the convective part along s
     bias.gw = v3_add(rv_left_jacobian_derivative(s->th, r->th_dot, r->th_dot), v3_cross(w, r->w));
     v3 along =
         v3_add(m3_apply(s->Jl, r->k0_dot), rv_left_jacobian_derivative(s->th, s->k0, r->th_dot));
-    bias.gw = v3_axpy(bias.gw, rocket->s_dot, along);
+    bias.gw = v3_axpy(bias.gw, section->s_dot, along);
     return bias;
 }
 
 // beta and drift of a direction of force n at the knob (or O1): formulation.md, section 4.
-LD_INLINE void force_bias(const launching_instant *now, const section_bias *bias, v3 n, v3 dn_dt,
-                          v3 r_T, v3 rho, constraint_direction *e)
+LD_INLINE void force_bias(const launching_instant *now, const constraint_section *section, v3 n,
+                          v3 dn_dt, v3 r_T, v3 rho, constraint_direction *e)
 {
     const tube_state *tube = &now->tube;
     const rocket_state *rocket = &now->rocket;
+    const section_bias *bias = &section->bias;
     v3 v_E = v3_add(rocket->v_O1, v3_cross(rocket->w_B, rho));
-    v3 v_rel = v3_sub(v_E, v3_add(rocket->v_P, v3_cross(rocket->w_P, r_T)));
-    v3 n_dot = v3_add(dn_dt, v3_cross(v3_add(tube->w, rocket->Om), n));
+    v3 v_rel = v3_sub(v_E, v3_add(section->v_P, v3_cross(section->w_P, r_T)));
+    v3 n_dot = v3_add(dn_dt, v3_cross(v3_add(tube->w, section->Om), n));
     v3 sum = v3_cross(rocket->w_B, v3_cross(rocket->w_B, rho));
     sum = v3_sub(sum, v3_add(bias->gv, v3_cross(bias->gw, r_T)));
-    v3 r_T_dot = v3_axpy(v3_sub(v_E, rocket->v_P), -rocket->s_dot, rocket->at.t);
-    sum = v3_sub(sum, v3_cross(rocket->w_P, r_T_dot));
+    v3 r_T_dot = v3_axpy(v3_sub(v_E, section->v_P), -section->s_dot, section->at->t);
+    sum = v3_sub(sum, v3_cross(section->w_P, r_T_dot));
     e->beta = v3_dot(n, sum) + v3_dot(n_dot, v_rel);
     e->drift = v3_dot(n, v_rel);
 }
@@ -159,43 +212,79 @@ LD_INLINE void constraint_apply(const constraint_direction *e, double x, constra
     to->alpha = v3_axpy(to->alpha, x, e->r_alpha);
     for (int i = 0; i < 6; i++)
         to->rigid[i] -= x * e->rigid[i];
-    to->force = v3_axpy(to->force, x, e->force);
-    to->mu = v3_axpy(to->mu, x, e->mu);
+    v3 *force = &to->force[e->section], *mu = &to->mu[e->section];
+    *force = v3_axpy(*force, x, e->force);
+    *mu = v3_axpy(*mu, x, e->mu);
 }
 
-// Empties the set; shapes and bias are those of the rocket's section.
+// No accelerations of the tube, and no forces on its sections.
+LD_INLINE void constrained_begin(constrained *to)
+{
+    for (int i = 0; i < LD_MAX_CONSTRAINT_SECTIONS; i++)
+        to->force[i] = to->mu[i] = v3_zero();
+}
+
+// Counts the set's next section in, of which all but shapes and bias is there: its number.
+LD_INLINE int constraint_section_add(const int lanes, const tube_system *guide,
+                                     const tube_state *tube, constraint_set *set)
+{
+    constraint_section *section = &set->section[set->section_count];
+    shapes_load(lanes, guide, section->at, &section->shapes);
+    section->bias = bias_of(tube, section);
+    return set->section_count++;
+}
+
+// Empties the set but for the rocket's section.
 LD_INLINE void constraints_begin(const int lanes, const tube_system *guide,
                                  const launching_instant *now, constraint_set *set)
 {
-    shapes_load(lanes, guide, &now->rocket.at, &set->shapes);
-    set->bias = bias_of(&now->tube, &now->rocket);
+    const rocket_state *rocket = &now->rocket;
+    constraint_section *section = &set->section[0];
+    section->motion = &rocket->motion;
+    section->at = &rocket->at;
+    section->rates = &rocket->rates;
+    section->s_dot = rocket->s_dot;
+    section->v_P = rocket->v_P;
+    section->w_P = rocket->w_P;
+    section->Om = rocket->Om;
+    set->section_count = 0;
+    constraint_section_add(lanes, guide, &now->tube, set);
     set->count = 0;
     set->slot_row = set->lock_row = -1;
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        set->adaptor_row[i] = -1;
     set->sliding = false;
     set->friction = set->v_tau = 0;
 }
 
 // The next direction, a force along n at the point P + r_T of the section, O1 + rho of the rocket;
 // what it does counts as that work.
-LD_INLINE constraint_direction *constrain_force(const launching_instant *now, v3 n, v3 dn_dt,
-                                                v3 r_T, v3 rho, int work, constraint_set *set)
+LD_INLINE constraint_direction *constrain_force(const launching_instant *now, int section, v3 n,
+                                                v3 dn_dt, v3 r_T, v3 rho, int work,
+                                                constraint_set *set)
 {
     constraint_direction *e = &set->e[set->count++];
+    e->section = section;
     e->work = work;
-    direction_load(now, &set->shapes, n, v3_zero(), r_T, rho, e);
-    force_bias(now, &set->bias, n, dn_dt, r_T, rho, e);
+    direction_load(now, &set->section[section], n, v3_zero(), r_T, rho, e);
+    force_bias(now, &set->section[section], n, dn_dt, r_T, rho, e);
     return e;
 }
 
 // All D_ij of the set in the fast layout.
-LD_INLINE void constraint_products_load(const tube_state *tube, const constraint_set *set,
+LD_INLINE void constraint_products_load(const int lanes, const tube_system *guide,
+                                        const tube_state *tube, const constraint_set *set,
                                         constraint_products *D)
 {
+    for (int i = 0; i < set->section_count; i++)
+        for (int j = i + 1; j < set->section_count; j++)
+            shape_products_load(lanes, guide, &set->section[i].shapes, &set->section[j].shapes,
+                                &D->cross[i][j]);
     for (int i = 0; i < set->count; i++) {
         for (int j = i; j < set->count; j++)
-            D->D[i][j] = direction_product(tube, &set->shapes, &set->e[i], &set->e[j]);
+            D->D[i][j] = direction_product(tube, set, D, &set->e[i], &set->e[j]);
         if (set->sliding)
-            D->Dt[i] = direction_product(tube, &set->shapes, &set->e[i], &set->tangent);
+            D->Dt[i] = direction_product(tube, set, D, &set->e[i], &set->tangent);
     }
 }
 

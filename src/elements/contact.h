@@ -9,6 +9,7 @@
 typedef struct contact_law {
     ld_contact_law kind;
     bool two_sided, by_touch;
+    bool held;    // on the axis, exactly: no force of a law but constraints
     double k;     // [N/m]
     double n;     // exponent
     double d0;    // [m] reference penetration
@@ -26,6 +27,7 @@ LD_INLINE contact_law contact_law_of(const ld_contact *model)
     return (contact_law){.kind = model->law,
                          .two_sided = contact_has(model->law, LD_CONTACT_TWO_SIDED),
                          .by_touch = contact_has(model->law, LD_CONTACT_BY_TOUCH),
+                         .held = contact_has(model->law, LD_CONTACT_HELD),
                          .k = model->stiffness,
                          .n = model->exponent,
                          .d0 = model->reference_penetration,

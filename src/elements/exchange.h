@@ -35,6 +35,8 @@ typedef struct launching_phase {
     double breech;       // [m] its station: it stops a rocket without a lock there
     double breech_speed; // [m/s] at which that one touched it last
     bool frictionless;   // Coulomb friction off (equilibrium, linearisation)
+    // [1/s2] what constraints hold in place is pulled back there by so much (equilibrium); else 0
+    double restoring;
 } launching_phase;
 
 // What is put on tube and rocket, in R: on the section at the tube's tip, on the rocket at its mass

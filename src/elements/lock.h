@@ -18,11 +18,12 @@ LD_INLINE void roll_constrain(const launching_instant *now, constraint_set *set)
     const rocket_state *rocket = &now->rocket;
     constraint_direction *roll = &set->e[set->count++];
     v3 axis = m3_column(rocket->at.A, 0);
-    direction_load(now, &set->shapes, v3_zero(), axis, v3_zero(), v3_zero(), roll);
+    roll->section = 0;
+    direction_load(now, &set->section[0], v3_zero(), axis, v3_zero(), v3_zero(), roll);
     v3 axis_dot = v3_cross(v3_add(now->tube.w, rocket->Om), axis);
     v3 w_rel = v3_sub(rocket->w_B, rocket->w_P);
     roll->work = POWER_LOCK;
-    roll->beta = v3_dot(axis_dot, w_rel) - v3_dot(axis, set->bias.gw);
+    roll->beta = v3_dot(axis_dot, w_rel) - v3_dot(axis, set->section[0].bias.gw);
     roll->drift = v3_dot(axis, w_rel);
 }
 
@@ -32,7 +33,7 @@ LD_INLINE void lock_constrain(const lock_system *self, const launching_instant *
     const rocket_state *rocket = &now->rocket;
     v3 rho = m3_apply(rocket->A_RB, self->at);
     set->lock_row = set->count;
-    constrain_force(now, m3_column(rocket->at.A, 0), v3_zero(), v3_add(rocket->Ad, rho), rho,
+    constrain_force(now, 0, m3_column(rocket->at.A, 0), v3_zero(), v3_add(rocket->Ad, rho), rho,
                     POWER_LOCK, set);
     if (self->holds_roll)
         roll_constrain(now, set);

@@ -271,4 +271,18 @@ LD_INLINE void tube_modal_accelerations(const int lanes, const tube_system *self
             h->t[j] - self->flexible.cp[j] * w_dot.x - (shapes ? shapes->tau[j] * mu.x : 0);
 }
 
+// Takes what the opposite of a force and of a moment (Jl^T m) on one more section does to the modes
+// from their accelerations.
+LD_INLINE void react_on_modes(const tube_system *self, const section_shapes *shapes, v3 force,
+                              v3 mu, double *q_ddot)
+{
+    int nb = self->flexible.nb;
+    for (int j = 0; j < nb; j++) {
+        q_ddot[j] -= force.y * shapes->b[j] + mu.z * shapes->b1[j];
+        q_ddot[nb + j] -= force.z * shapes->b[j] - mu.y * shapes->b1[j];
+    }
+    for (int j = 0; j < self->flexible.nt; j++)
+        q_ddot[2 * nb + j] -= shapes->tau[j] * mu.x;
+}
+
 #endif

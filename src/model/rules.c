@@ -324,11 +324,33 @@ static void adaptor_rules(const rule_set *rules)
                rocket->start_at, model->tubes.length);
 }
 
+// Adaptors that are held on the axis exactly.
+static void held_rules(const rule_set *rules)
+{
+    const ld_rocket *rocket = &rules->model->rocket;
+    if (rocket->adaptor_count > 2)
+        broken(rules, "rocket.contact.law", 0,
+               "ideal holds at most two adaptors on the axis, which a rigid rocket follows; here "
+               "are %d",
+               rocket->adaptor_count);
+    if (rocket->contact.friction > 0)
+        broken(rules, "rocket.contact.friction", 0,
+               "%g; adaptors of the law ideal are held without friction", rocket->contact.friction);
+    if (!rocket->lock.present && isnan(rocket->contact.stiffness))
+        broken(rules, "rocket.contact.stiffness", 0,
+               "missing; without a lock the breech bears the rocket, with this stiffness");
+}
+
 static void contact_rules(const rule_set *rules)
 {
     const ld_contact *contact = &rules->model->rocket.contact;
     if ((int)contact->law < 0)
         return;
+    if (contact_has(contact->law, LD_CONTACT_HELD))
+        held_rules(rules);
+    else if (isnan(contact->stiffness))
+        broken(rules, "rocket.contact.stiffness", 0,
+               "missing; expected a number with a unit of N/m, > 0 N/m");
     bool linear = contact_has(contact->law, LD_CONTACT_LINEAR);
     if (linear && contact->exponent > 1)
         broken(rules, "rocket.contact.exponent", 0, "%g; this law is linear, its exponent is 1",

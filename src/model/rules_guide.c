@@ -43,7 +43,7 @@ static void surface_rules(const rule_set *rules)
     if ((int)model->rocket.contact.law >= 0 &&
         contact_has(model->rocket.contact.law, LD_CONTACT_TWO_SIDED))
         broken(rules, "rocket.contact.law", 0,
-               "bilateral holds adaptors on the axis of a bore; on surfaces take a law of contact");
+               "this law holds adaptors on the axis of a bore; on surfaces take a law of contact");
 }
 
 void guide_rules(const rule_set *rules)

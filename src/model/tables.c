@@ -800,7 +800,7 @@ static const field_row adaptor_fields[] = {
     {"at", NUMBER(ld_adaptor, at, "m"), FROM_TO(0, 100), REQUIRED,
      .doc = "x of its centre from the rear adaptor's"},
     {"clearance", NUMBER(ld_adaptor, clearance, "m"), FROM_TO(0, 10),
-     NO_DEFAULT("needed in a bore unless the law is `bilateral`"),
+     NO_DEFAULT("needed in a bore unless the law is `bilateral` or `ideal`"),
      .doc = "radial: inner radius at the tube's rear end less the adaptor's radius, > 0; on "
             "surfaces: added to each gap of this shoe"},
     {0}};
@@ -810,9 +810,11 @@ static const field_block adaptor_block = {.fields = adaptor_fields};
 static const field_word law_words[] = {LD_CONTACT_LAWS(LAW_WORD){NULL, 0}};
 static const field_row contact_fields[] = {
     {"law", CHOICE(ld_contact, law, law_words), DEFAULT(0),
-     .doc = "force over penetration; bilateral holds the adaptors on the axis"},
-    {"stiffness", NUMBER(ld_contact, stiffness, "N/m"), POSITIVE, REQUIRED,
-     .doc = "k, in N/m for every exponent"},
+     .doc = "force over penetration; bilateral holds the adaptors on the axis by springs, ideal "
+            "exactly"},
+    {"stiffness", NUMBER(ld_contact, stiffness, "N/m"), POSITIVE,
+     NO_DEFAULT("needed unless the law is `ideal`"),
+     .doc = "k, in N/m for every exponent; of ideal that of the breech alone"},
     {"exponent", NUMBER(ld_contact, exponent, ""), FROM_TO(1, 5), DEFAULT(1),
      .doc = "n of k d_0 (p/d_0)^n; 1 for the laws kelvin-voigt and bilateral"},
     {"reference_penetration", NUMBER(ld_contact, reference_penetration, "m"), ABOVE_TO(0, 1),
@@ -824,7 +826,7 @@ static const field_row contact_fields[] = {
     {"damping", NUMBER(ld_contact, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "c (kelvin-voigt and bilateral only)"},
     {"friction", NUMBER(ld_contact, friction, ""), FROM_TO(0, 10), DEFAULT(0),
-     .doc = "Coulomb coefficient between adaptors and tube (all laws but bilateral)"},
+     .doc = "Coulomb coefficient between adaptors and tube (all laws but bilateral and ideal)"},
     {"friction_speed", NUMBER(ld_contact, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
      .doc = "v_eps, speed at which friction is at 71 %, of tube contact and slot"},
     {0}};

@@ -56,7 +56,7 @@ bool report_replay_shows(const char *name, bool flight)
     if (flight)
         return is_one_of(name, of_flight, sizeof of_flight / sizeof *of_flight);
     return is_one_of(name, of_launcher, sizeof of_launcher / sizeof *of_launcher) ||
-           is_one_of(name, derived, DERIVED) ||
+           is_one_of(name, derived, DERIVED) || strncmp(name, "shoe.", 5) == 0 ||
            (*name == 'q' && name[1] && strspn(name + 1, "0123456789") == strlen(name + 1));
 }
 

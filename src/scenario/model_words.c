@@ -55,21 +55,22 @@ static number_text degrees(double value)
 
 // ---- base ----
 
-static void tell_base(FILE *stream, const ld_base *base)
+static void tell_base(FILE *stream, const ld_model *model)
 {
-    static const char *const kind[] = {[LD_BASE_FIXED] = "fixed",
-                                       [LD_BASE_PRESCRIBED] = "moved as prescribed",
-                                       [LD_BASE_VEHICLE] = "a vehicle",
-                                       [LD_BASE_EXTERNAL] = "moved from outside"};
     static const char *const looks[] = {
-        [LD_LOOKS_PLAIN] = "", [LD_LOOKS_SHIP] = "a ship, ", [LD_LOOKS_AIRCRAFT] = "an aircraft, "};
-    bool vehicle = base->kind == LD_BASE_VEHICLE;
-    fprintf(stream, "# base: %s%s", vehicle ? "" : looks[base->looks], kind[base->kind]);
-    if (vehicle)
+        [LD_LOOKS_PLAIN] = "", [LD_LOOKS_SHIP] = ", a ship", [LD_LOOKS_AIRCRAFT] = ", an aircraft"};
+    const ld_base *base = &model->base;
+    char kind[16];
+    double elevation;
+    ld_model_text(model, "base.kind", kind, sizeof kind, NULL);
+    fprintf(stream, "# base: %s", kind);
+    if (model_has_vehicle(model))
         fprintf(stream, " on %d wheels", base->vehicle.wheel_count);
-    if (base->kind == LD_BASE_FIXED || base->kind == LD_BASE_PRESCRIBED) {
-        fprintf(stream, "; tube %s %s", DEGREES(fabs(base->elevation)),
-                base->elevation < 0 ? "down" : "up");
+    else
+        fputs(looks[base->looks], stream);
+    if (!ld_model_number(model, "base.elevation", &elevation, NULL)) {
+        fprintf(stream, "; launcher %s %s", DEGREES(fabs(elevation)),
+                elevation < 0 ? "down" : "up");
         if (base->azimuth != 0)
             fprintf(stream, ", %s to the %s", DEGREES(fabs(base->azimuth)),
                     base->azimuth < 0 ? "right" : "left");
@@ -79,25 +80,80 @@ static void tell_base(FILE *stream, const ld_base *base)
 
 // ---- guide ----
 
-static void tell_section(FILE *stream, const ld_section *s)
+static void tell_section(FILE *stream, const ld_section *s, bool bore)
 {
     fprintf(stream, "#   from %s:", METRES(s->from));
-    fprintf(stream, " bore radius %s", MILLIMETRES(s->bore_radius));
+    if (bore)
+        fprintf(stream, " bore radius %s,", MILLIMETRES(s->bore_radius));
     if (s->form == LD_SECTION_ANNULUS)
-        fprintf(stream, ", wall %s", MILLIMETRES(s->outer_radius - s->bore_radius));
-    fprintf(stream, ", EI %s", STIFFNESS(s->bending_stiffness));
+        fprintf(stream, " wall %s,", MILLIMETRES(s->outer_radius - s->bore_radius));
+    fprintf(stream, " EI %s", STIFFNESS(s->bending_stiffness));
     fprintf(stream, ", GJ %s, %.4g kg/m\n", STIFFNESS(s->torsion_stiffness), s->mass_per_length);
+}
+
+// Where a point is across the guide: "80 mm below and 5 mm right of the line".
+static void tell_place(FILE *stream, const double at[2], const char *from)
+{
+    if (at[0] == 0 && at[1] == 0)
+        fprintf(stream, "on");
+    if (at[0] != 0)
+        fprintf(stream, "%s %s", MILLIMETRES(fabs(at[0])), at[0] < 0 ? "below" : "above");
+    if (at[1] != 0)
+        fprintf(stream, "%s%s %s of", at[0] != 0 ? " and " : "", MILLIMETRES(fabs(at[1])),
+                at[1] < 0 ? "left" : "right");
+    fprintf(stream, " the %s", from);
+}
+
+static void tell_surfaces(FILE *stream, const ld_guide *guide)
+{
+    for (int k = 0; k < guide->surface_count; k++) {
+        const ld_surface *surface = &guide->surface[k];
+        bool flat = surface->shape == LD_SURFACE_FLAT;
+        fprintf(stream, "#   surface %s: %s, ", VISIBLE(surface->name), flat ? "flat" : "round");
+        tell_place(stream, surface->at, "line");
+        fprintf(stream, ", towards %s, gap %s\n", DEGREES(surface->normal),
+                MILLIMETRES(surface->gap));
+    }
+}
+
+static void tell_slide(FILE *stream, const ld_guide *guide)
+{
+    if (guide->form == LD_GUIDE_T_SLOT) {
+        fprintf(stream, "#   T-slot ");
+        tell_place(stream, guide->t_slot.at, "line");
+        fprintf(stream, ", lips %s apart, gap %s, at the sides %s\n",
+                MILLIMETRES(guide->t_slot.lips), MILLIMETRES(guide->t_slot.gap),
+                MILLIMETRES(guide->t_slot.side_gap));
+    } else if (guide->form == LD_GUIDE_TOWER) {
+        fprintf(stream, "#   the first rail at %s, gap %s\n", DEGREES(guide->tower.first),
+                MILLIMETRES(guide->tower.gap));
+    } else {
+        tell_surfaces(stream, guide);
+    }
 }
 
 static void tell_guide(FILE *stream, const ld_tubes *tubes)
 {
+    const ld_guide *guide = &tubes->guide;
+    bool tower = guide->present && guide->form == LD_GUIDE_TOWER;
+    const char *noun = tower ? "tower" : guide->present ? "rail" : "bore";
     int count = tubes->layout.rows * tubes->layout.columns;
-    fprintf(stream, "# guide: ");
     if (count > 1)
-        fprintf(stream, "%d tubes, each ", count);
-    fprintf(stream, "a bore, %s long\n", METRES(tubes->length));
+        fprintf(stream, "# guides: %d %ss", count, noun);
+    else
+        fprintf(stream, "# guide: a %s", noun);
+    if (tower)
+        fprintf(stream, " of %d rails", guide->tower.rails);
+    fprintf(stream, ", %s%s long", count > 1 ? "each " : "", METRES(tubes->length));
+    if (guide->present && (guide->line[0] != 0 || guide->line[1] != 0)) {
+        fprintf(stream, ", its line ");
+        tell_place(stream, guide->line, "elastic axis");
+    }
+    fputc('\n', stream);
+    if (guide->present)
+        tell_slide(stream, guide);
     for (int i = 0; i < tubes->section_count; i++)
-        tell_section(stream, &tubes->section[i]);
+        tell_section(stream, &tubes->section[i], !guide->present);
 }
 
 static void tell_slot(FILE *stream, const ld_slot *slot)
@@ -123,19 +179,32 @@ static void tell_supports(FILE *stream, const ld_tubes *tubes)
 
 // ---- rocket ----
 
-static void tell_rocket(FILE *stream, const ld_rocket *rocket)
+// What is around an adaptor, or more than the guide's gaps around a shoe.
+static void tell_clearance(FILE *stream, const ld_model *model, int i)
 {
-    bool gaps = !contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED);
-    fprintf(stream, "# rocket: %.4g kg, from %s, on adaptors", rocket->full.mass,
-            METRES(rocket->start_at));
+    double clearance = model->rocket.adaptor[i].clearance;
+    if (contact_has(model->rocket.contact.law, LD_CONTACT_TWO_SIDED))
+        return;
+    if (!model->tubes.guide.present)
+        fprintf(stream, ", %s%s", i ? "" : "clearance ", MILLIMETRES(clearance));
+    else if (clearance > 0)
+        fprintf(stream, ", gaps %s wider", MILLIMETRES(clearance));
+}
+
+static void tell_rocket(FILE *stream, const ld_model *model)
+{
+    const ld_rocket *rocket = &model->rocket;
+    fprintf(stream, "# rocket: %.4g kg, from %s, on %s", rocket->full.mass,
+            METRES(rocket->start_at), model->tubes.guide.present ? "shoes" : "adaptors");
     for (int i = 0; i < rocket->adaptor_count; i++) {
         const ld_adaptor *adaptor = &rocket->adaptor[i];
         fprintf(stream, "%s %s (%s", i ? "," : "", VISIBLE(adaptor->name), METRES(adaptor->at));
-        if (gaps)
-            fprintf(stream, ", %s%s", i ? "" : "clearance ", MILLIMETRES(adaptor->clearance));
+        tell_clearance(stream, model, i);
         fputc(')', stream);
     }
-    fprintf(stream, gaps ? "\n" : ", held on the axis\n");
+    if (contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
+        fprintf(stream, ", held on the axis");
+    fputc('\n', stream);
 }
 
 static void tell_motor(FILE *stream, const ld_motor *motor)
@@ -164,11 +233,11 @@ void ld_model_describe(const ld_model *model, FILE *stream)
     if (!model_has_launcher(model))
         return;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
-    tell_base(stream, &model->base);
+    tell_base(stream, model);
     tell_guide(stream, &model->tubes);
     tell_slot(stream, &model->tubes.slot);
     tell_supports(stream, &model->tubes);
-    tell_rocket(stream, &model->rocket);
+    tell_rocket(stream, model);
     tell_drive(stream, model);
     uselocale(before);
     freelocale(plain);

@@ -106,6 +106,17 @@ void simulation_move_with_base(const launch_state *self, double t, double *y)
 
 // Step of Newton's differences.
 static const double DIFFERENCE = 1e-8;
+// Pulls back to its place what constraints hold there: else it could rest anywhere.
+static const double RESTORING = 1e6;
+
+// The phase in which equilibria are found.
+static launching_phase resting_phase(const launch_state *self)
+{
+    launching_phase phase = simulation_start_phase(self);
+    phase.frictionless = true;
+    phase.restoring = RESTORING;
+    return phase;
+}
 
 // What Newton's method solves: the unknowns from `first` on. With `dead` the tube and its rocket
 // are a dead load on the base.
@@ -317,6 +328,8 @@ static double depth_under(const ld_contact *contact, double load)
 static double offset_under(const ld_rocket *rocket, int i, double load, double extra)
 {
     const ld_contact *contact = &rocket->contact;
+    if (contact_has(contact->law, LD_CONTACT_HELD))
+        return 0;
     if (contact_has(contact->law, LD_CONTACT_TWO_SIDED))
         return load / contact->stiffness;
     return copysign(rocket->adaptor[i].clearance + depth_under(contact, fabs(load)) + extra, load);
@@ -759,8 +772,7 @@ static double accepted_residual(const launch_state *self)
 
 ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_error *error)
 {
-    launching_phase phase = simulation_start_phase(self);
-    phase.frictionless = true;
+    launching_phase phase = resting_phase(self);
     ld_status status = settle_base(self, t, &phase, accepted_residual(self), y, error);
     if (!status)
         status = keep_rest(self, t, y, error);
@@ -775,8 +787,7 @@ ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_erro
 ld_status simulation_equilibrium(launch_state *self, double t, double *y,
                                  ld_equilibrium_summary *summary, ld_error *error)
 {
-    launching_phase phase = simulation_start_phase(self);
-    phase.frictionless = true;
+    launching_phase phase = resting_phase(self);
     const char *why = held_by_one(&phase, self->launcher.launching.adaptors.count);
     if (why)
         return ld_fail(error, LD_ERR_LAUNCH,
@@ -885,7 +896,7 @@ static ld_status speeds_from_momentum(const launch_state *self, double t, const 
 
 ld_status simulation_change_tube(launch_state *self, int next, double t, double *y, ld_error *error)
 {
-    launching_phase phase = simulation_start_phase(self), without = {.rocket = false};
+    launching_phase phase = resting_phase(self), without = {.rocket = false};
     const launcher_system *launcher = &self->launcher;
     double p[BASE_MOST_SPEEDS], still[LD_MAX_STATES], accepted = accepted_residual(self);
     size_t launching = (size_t)launcher->launching.layout.count * sizeof(double);
@@ -902,7 +913,6 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
                        self->model->firing[next].tube, t, why);
 
     // the new tube in equilibrium on the base held still
-    phase.frictionless = true;
     memcpy(still, y, (size_t)launcher->state_count * sizeof(double));
     memset(still + speeds_at, 0, speeds);
     self->on_breech = false;

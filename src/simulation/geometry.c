@@ -2,10 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/guide.h"
 #include "model/salvo.h"
 #include "simulation/simulation.h"
 
-enum { MOST_ARRAYS = 24 };
+enum { MOST_ARRAYS = 32 };
 
 // Arrays under way; their values lie one after the other in `value`.
 typedef struct geometry {
@@ -97,6 +98,46 @@ static void add_tube(geometry *all, const ld_tubes *tubes)
         support[i] = tubes->support[i].at;
 }
 
+// Half height and half width of the solid rectangle that has a section's polar inertia over its
+// mass and the ratio of its bending stiffnesses; NaN where there is no such.
+static void section_outline(const ld_section *section, double outline[2])
+{
+    double y = section->bending_stiffness, z = section->bending_stiffness;
+    double radius2 = section->polar_inertia / section->mass_per_length;
+    outline[0] = sqrt(3 * radius2 * y / (y + z));
+    outline[1] = sqrt(3 * radius2 * z / (y + z));
+}
+
+static void add_guide(geometry *all, const ld_tubes *tubes)
+{
+    ld_surface surface[LD_MAX_SURFACES];
+    size_t count = (size_t)guide_surfaces(&tubes->guide, surface);
+    if (count == 0)
+        return;
+    double form = tubes->guide.form + 1;
+    add_row(all, "guide.form", "1", 1, &form,
+            "a guide of 1 surfaces, 2 a T-slot, 3 a tower's rails");
+    add_row(all, "guide.line", "m", 2, tubes->guide.line, "y, z of the guide line in R");
+    double *at =
+        add(all, "guide.surface", "m", count, 2, "y, z of each surface's point, from the line");
+    double *normal = add(all, "guide.normal", "rad", count, 1,
+                         "direction from the shoe to each surface, from y towards z");
+    double *gap =
+        add(all, "guide.gap", "m", count, 1, "gap of each surface; of a shoe its clearance more");
+    double *round = add(all, "guide.round", "1", count, 1, "1: the surface is round, 0: flat");
+    for (size_t k = 0; k < count; k++) {
+        at[2 * k] = surface[k].at[0];
+        at[2 * k + 1] = surface[k].at[1];
+        normal[k] = surface[k].normal;
+        gap[k] = surface[k].gap;
+        round[k] = surface[k].shape == LD_SURFACE_ROUND;
+    }
+    double *outline = add(all, "guide.outline", "m", (size_t)tubes->section_count, 2,
+                          "half height and half width of a solid rectangle like each section");
+    for (int i = 0; i < tubes->section_count; i++)
+        section_outline(&tubes->section[i], outline + 2 * i);
+}
+
 static void add_layout(geometry *all, const ld_tubes *tubes)
 {
     int count = tubes->layout.rows * tubes->layout.columns;
@@ -118,8 +159,9 @@ static void add_rocket(geometry *all, const ld_model *model)
     int count = rocket->adaptor_count, firings = model->salvo ? model->firing_count : 1;
     double *at = add(all, "rocket.adaptor", "m", (size_t)count, 1,
                      "centres of the adaptors on the axis, from the rear one's");
-    double *clearance = add(all, "rocket.clearance", "m", (size_t)firings, (size_t)count,
-                            "radial clearance of each adaptor, by firing where rockets differ");
+    double *clearance = add(
+        all, "rocket.clearance", "m", (size_t)firings, (size_t)count,
+        "radial clearance of each adaptor, added to a shoe's gaps; by firing where rockets differ");
     for (int i = 0; i < count; i++)
         at[i] = rocket->adaptor[i].at;
     for (int i = 0; i < firings * count; i++)
@@ -160,8 +202,8 @@ static size_t room_for(const ld_simulation *self)
     const flexible_tube *tube = &self->launcher.launching.tube.flexible;
     size_t nodes = (size_t)tube->element_count + 1;
     return nodes * (size_t)(1 + 2 * tube->nb + tube->nt + tube->na) + 3 * LD_MAX_SECTIONS +
-           LD_MAX_SUPPORTS + 4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS +
-           3 * LD_MAX_WHEELS + 17;
+           2 * LD_MAX_SECTIONS + LD_MAX_SUPPORTS + 5 * LD_MAX_SURFACES + 4 * LD_MAX_TUBES +
+           (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS + 20;
 }
 
 ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error)
@@ -174,6 +216,7 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the geometry");
     add_shapes(&all, &self->launcher.launching.tube.flexible);
     add_tube(&all, &self->model->tubes);
+    add_guide(&all, &self->model->tubes);
     add_layout(&all, &self->model->tubes);
     add_rocket(&all, self->model);
     add_base(&all, &self->launcher.base);

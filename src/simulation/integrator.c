@@ -115,6 +115,14 @@ static int call_events(double t, N_Vector y, double *g, void *user)
     return failed;
 }
 
+static int call_project(double t, N_Vector y, void *user)
+{
+    integrator *self = user;
+    int failed = self->settings.project(t, data(y), self->settings.self);
+    self->failed_rhs |= failed;
+    return failed ? -1 : 0;
+}
+
 static int error_weights(N_Vector y, N_Vector weights, void *user)
 {
     integrator *self = user;
@@ -180,6 +188,8 @@ static int configure(integrator *self)
     bad |= ERKStepSetMaxGrowth(self->erk, growth);
     if (settings->max_step > 0)
         bad |= ERKStepSetMaxStep(self->erk, settings->max_step);
+    if (settings->project)
+        bad |= ERKStepSetPostprocessStepFn(self->erk, call_project);
     if (settings->events)
         bad |= ERKStepRootInit(self->erk, settings->event_count, call_events);
     return bad;

@@ -14,6 +14,9 @@ typedef struct integrator integrator;
 
 // y_dot = f(t, y); a return value other than 0 ends the integration with LD_ERR_NUMERIC.
 typedef int (*integrator_rhs)(double t, const double *y, double *y_dot, void *self);
+// Takes out of the state y that a step has reached at t what it has drifted; other than 0 ends the
+// integration likewise.
+typedef int (*integrator_project)(double t, double *y, void *self);
 // g[i] = 0 is event i.
 typedef int (*integrator_events)(double t, const double *y, double *g, void *self);
 
@@ -31,9 +34,10 @@ typedef struct integrator_settings {
     const bool *absolute; // [n] states without relative tolerance (copied); NULL: none
     double max_step;      // 0: none
     integrator_rhs rhs;
-    integrator_events events; // NULL: none
+    integrator_project project; // NULL: none
+    integrator_events events;   // NULL: none
     int event_count;
-    void *self; // handed to rhs and events
+    void *self; // handed to rhs, project and events
 } integrator_settings;
 
 typedef enum integrator_outcome {

@@ -210,6 +210,16 @@ static int rhs(double t, const double *y, double *y_dot, void *user)
     return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
 }
 
+// What constraints hold in place neither drifts away nor is driven.
+static int project(double t, double *y, void *user)
+{
+    const launch_state *self = ((propagator *)user)->launch;
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    launching_project(&self->launcher.launching, &input.launching, &self->phase, y);
+    return 0;
+}
+
 static int events(double t, const double *y, double *g, void *user)
 {
     propagator *self = user;
@@ -232,6 +242,13 @@ static void take_wrench(held_wrench *held, v3 force, v3 moment, double since)
     held->moment = moment;
 }
 
+static void launching_input_apart(const propagator *self, double t, const double *y,
+                                  launching_input *input)
+{
+    held_frame_at(&self->tube, t - self->t, &input->base);
+    surround(self->launch, t, y, input);
+}
+
 static int launching_rhs(double t, const double *y, double *y_dot, void *user)
 {
     propagator *self = user;
@@ -239,8 +256,7 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     const launcher_system *launcher = &launch->launcher;
     launching_input input;
     launching_output *out = &launch->latest.out.launching;
-    held_frame_at(&self->tube, t - self->t, &input.base);
-    surround(launch, t, y, &input);
+    launching_input_apart(self, t, y, &input);
     launch->latest.known = false; // not one of the whole
     launching_outcome outcome = launcher_evaluate_tube(launcher, launch->model->run.formulation,
                                                        &input, &launch->phase, y, out);
@@ -252,6 +268,15 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     int works = launcher->launching.work_count;
     memcpy(y_dot + count, out->power, (size_t)works * sizeof *y_dot);
     return all_finite(count + works, y_dot) ? 0 : -1;
+}
+
+static int launching_project_apart(double t, double *y, void *user)
+{
+    const propagator *self = user;
+    launching_input input;
+    launching_input_apart(self, t, y, &input);
+    launching_project(&self->launch->launcher.launching, &input, &self->launch->phase, y);
+    return 0;
 }
 
 static int launching_events_apart(double t, const double *y, double *g, void *user)
@@ -465,6 +490,7 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
     integrator_settings settings = *whole;
     settings.events = NULL;
     settings.event_count = 0;
+    settings.project = NULL;
     settings.max_step = 0;
     settings.n = (size_t)self->orientating_count;
     settings.rhs = orientating_rhs;
@@ -494,6 +520,7 @@ static ld_status create_integrators(propagator *self, ld_error *error)
         .absolute = all.absolute,
         .max_step = launch->model->run.max_step,
         .rhs = rhs,
+        .project = launching_holds_places(&launcher->launching) ? project : NULL,
         .events = events,
         .event_count = self->events.count,
         .self = self,
@@ -508,6 +535,7 @@ static ld_status create_integrators(propagator *self, ld_error *error)
     }
     settings.n = (size_t)(count + works);
     settings.rhs = launching_rhs;
+    settings.project = settings.project ? launching_project_apart : NULL;
     settings.events = launching_events_apart;
     return status ? status : integrator_create(&settings, &self->integrator, error);
 }

@@ -129,6 +129,11 @@ void launching_free(launching_system *self)
     self->tube.packed = NULL;
 }
 
+bool launching_holds_places(const launching_system *self)
+{
+    return self->adaptors.law.held;
+}
+
 // ---- rates ----
 
 void launching_rates(const launching_system *self, const double *state, const launching_output *out,

@@ -7,6 +7,7 @@
 #include "elements/adaptor.h"
 #include "elements/breech.h"
 #include "elements/crossflow.h"
+#include "elements/ideal.h"
 #include "elements/load.h"
 #include "elements/lock.h"
 #include "elements/shoe.h"
@@ -108,7 +109,11 @@ double launching_kinetic_energy(const launching_system *self, const launching_in
 // Potential energy of tube and tail in gravity [J], from the origin of I.
 double launching_potential_energy(const launching_system *self, const double *state);
 
-// Removes the velocity drift of the slot (formulation.md, section 3) from `state`; keeps all
+// Whether constraints hold something in its place, from which the state must not drift.
+bool launching_holds_places(const launching_system *self);
+
+// Puts the rocket where the adaptors that are held have no offset from the axis, and removes the
+// velocity drift of all constraints (formulation.md, section 3) from `state`; that keeps all
 // momenta.
 void launching_project(const launching_system *self, const launching_input *input,
                        const launching_phase *phase, double *state);

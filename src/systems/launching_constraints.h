@@ -21,13 +21,22 @@ LD_INLINE void launching_touch(const int lanes, const launching_system *self,
         adaptors_add(lanes, &self->adaptors, &self->tube, now);
 }
 
-LD_INLINE void launching_constrain(const launching_system *self, const launching_instant *now,
-                                   constraint_set *set)
+// The constraints in force at an instant, with what they stand on.
+typedef struct launching_constraints {
+    constraint_set set;
+    adaptor_state adaptor[IDEAL_MOST_ADAPTORS];
+} launching_constraints;
+
+LD_INLINE void launching_constrain(const int lanes, const launching_system *self,
+                                   const launching_instant *now, launching_constraints *all)
 {
+    constraint_set *set = &all->set;
+    constraints_begin(lanes, &self->tube, now, set);
     if (self->slot.present)
         slot_constrain(&self->slot, now, set);
     if (now->phase->locked)
         lock_constrain(&self->lock, now, set);
+    ideal_constrain(lanes, &self->adaptors, &self->tube, now, all->adaptor, set);
 }
 
 #endif

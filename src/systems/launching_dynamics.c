@@ -24,7 +24,7 @@ LD_INLINE void accelerate_freely(const int lanes, const launching_system *self,
     rocket_solve(&now->inertia, now->f, now->m, &to->a, &to->alpha);
     tube_condense(lanes, &self->tube, &now->tube, h, &f, &m);
     tube_forward(&now->tube, v3_sub(h->f, f), v3_sub(h->m, m), to->rigid);
-    to->force = to->mu = v3_zero();
+    constrained_begin(to);
 }
 
 // Finds the forces of the constraints and adds what they do. False where the knob jams.
@@ -36,10 +36,11 @@ LD_INLINE bool constrain(const int lanes, const launching_system *self,
     if (!set->count)
         return true;
     for (int i = 0; i < set->count; i++)
-        r[i] = -(free_acceleration(lanes, &self->tube, &now->tube, &set->shapes, &set->e[i], to->a,
+        r[i] = -(free_acceleration(lanes, &self->tube, &now->tube,
+                                   &set->section[set->e[i].section].shapes, &set->e[i], to->a,
                                    to->alpha, to->rigid, &now->on_tube) +
                  set->e[i].beta);
-    constraint_products_load(&now->tube, set, &D);
+    constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
     if (!constraints_solve(&D, r, set))
         return false;
     for (int i = 0; i < set->count; i++)
@@ -47,6 +48,18 @@ LD_INLINE bool constrain(const int lanes, const launching_system *self,
     if (set->sliding)
         constraint_apply(&set->tangent, set->friction, to);
     return true;
+}
+
+// The tube's accelerations with the constraint forces.
+LD_INLINE void accelerate_tube(const int lanes, const launching_system *self,
+                               const launching_instant *now, const constraint_set *set,
+                               const constrained *all, v3 *a, v3 *w_dot, double *q_ddot)
+{
+    tube_backward(&now->tube, all->rigid, a, w_dot);
+    tube_modal_accelerations(lanes, &self->tube, &now->tube, &set->section[0].shapes, &now->on_tube,
+                             all->force[0], all->mu[0], *a, *w_dot, q_ddot);
+    for (int i = 1; i < set->section_count; i++)
+        react_on_modes(&self->tube, &set->section[i].shapes, all->force[i], all->mu[i], q_ddot);
 }
 
 LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *self,
@@ -77,19 +90,17 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     launching_touch(lanes, self, &now);
     breech_add(lanes, &self->adaptors.law, &self->tube, &now);
 
-    constraint_set constraints;
+    launching_constraints constraints;
     constrained all;
     accelerate_freely(lanes, self, &now, &all);
-    constraints_begin(lanes, &self->tube, &now, &constraints);
-    launching_constrain(self, &now, &constraints);
-    if (!constrain(lanes, self, &now, &constraints, &all))
+    launching_constrain(lanes, self, &now, &constraints);
+    if (!constrain(lanes, self, &now, &constraints.set, &all))
         return LAUNCHING_JAMMED;
-    constraints_report(&constraints, out);
+    constraints_report(&constraints.set, out);
+    ideal_report(&self->adaptors, &constraints.set, out);
     out->a_O1 = all.a;
     out->alpha_B = all.alpha;
-    tube_backward(&now.tube, all.rigid, &out->a, &out->w_dot);
-    tube_modal_accelerations(lanes, &self->tube, &now.tube, &constraints.shapes, &now.on_tube,
-                             all.force, all.mu, out->a, out->w_dot, out->q_ddot);
+    accelerate_tube(lanes, self, &now, &constraints.set, &all, &out->a, &out->w_dot, out->q_ddot);
     return LAUNCHING_OK;
 }
 
@@ -126,40 +137,55 @@ launching_outcome launching_evaluate(const launching_system *self, const launchi
     return evaluate_any(self, input, phase, state, out);
 }
 
+// An impulse along the constraints that takes their drift out of the speeds: V -= r D^-1 drift,
+// eta += e D^-1 drift.
+static void remove_drift(int lanes, const launching_system *self, const launching_instant *now,
+                         const constraint_set *set, double *state)
+{
+    const launching_layout *at = &self->layout;
+    constraint_products D;
+    constrained impulse = {.a = v3_zero()};
+    double x[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL];
+    v3 v, w;
+    constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
+    ldl_factor(set->count, LD_MAX_CONSTRAINTS, D.D[0]);
+    for (int i = 0; i < set->count; i++)
+        x[i] = -set->e[i].drift;
+    ldl_solve(set->count, LD_MAX_CONSTRAINTS, D.D[0], x);
+    for (int i = 0; i < set->count; i++)
+        constraint_apply(&set->e[i], x[i], &impulse);
+    accelerate_tube(lanes, self, now, set, &impulse, &v, &w, q_dot);
+    v3_store(state + at->V, v3_add(now->rocket.v_O1, impulse.a));
+    v3_store(state + at->V + 3, v3_add(now->rocket.w_B, impulse.alpha));
+    v3_store(state + at->v, v3_add(now->tube.v, v));
+    v3_store(state + at->w, v3_add(now->tube.w, w));
+    for (int i = 0; i < at->nq; i++)
+        state[at->q_dot + i] += q_dot[i];
+}
+
 void launching_project(const launching_system *self, const launching_input *input,
                        const launching_phase *phase, double *state)
 {
-    if (!self->slot.present || !phase->rocket)
+    if (!phase->rocket)
         return;
     const launching_layout *at = &self->layout;
     int lanes = self->tube.flexible.nbp / 4;
     launching_output unused;
     launching_instant now;
-    constraint_set set;
+    launching_constraints constraints;
     now.input = input;
     now.phase = phase;
     now.out = &unused;
     memset(&now.on_tube, 0, sizeof now.on_tube);
     tube_load(lanes, &self->tube, at, state, &now.tube);
     tube_factor(&self->tube, &now.tube);
+    if (self->adaptors.law.held)
+        ideal_place(&self->adaptors, &self->tube, at, phase, &now.tube, state);
     rocket_load(&self->tube, at, state, &now.tube, &now.rocket, &unused);
     rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
-    constraints_begin(lanes, &self->tube, &now, &set);
-    slot_constrain(&self->slot, &now, &set);
-    // V -= r_n eps/Dn, eta += e_n eps/Dn: an impulse along the constraint
-    const constraint_direction *e = &set.e[0];
-    double x = e->drift / direction_product(&now.tube, &set.shapes, e, e);
-    v3 a, w_dot;
-    double q_dot[LD_MAX_MODAL];
-    tube_backward(&now.tube, e->rigid, &a, &w_dot);
-    tube_modal_accelerations(lanes, &self->tube, &now.tube, &set.shapes, &now.on_tube,
-                             v3_neg(e->force), v3_neg(e->mu), a, w_dot, q_dot);
-    v3_store(state + at->V, v3_axpy(now.rocket.v_O1, -x, e->r_a));
-    v3_store(state + at->V + 3, v3_axpy(now.rocket.w_B, -x, e->r_alpha));
-    v3_store(state + at->v, v3_axpy(now.tube.v, x, a));
-    v3_store(state + at->w, v3_axpy(now.tube.w, x, w_dot));
-    for (int i = 0; i < at->nq; i++)
-        state[at->q_dot + i] += x * q_dot[i];
+    launching_constrain(lanes, self, &now, &constraints);
+    if (constraints.set.count)
+        remove_drift(lanes, self, &now, &constraints.set, state);
 }
 
 void launching_rocket_pose(const launching_system *self, const double *state, launching_pose *pose,

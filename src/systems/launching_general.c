@@ -19,7 +19,7 @@ typedef struct uncoupled {
     double h[SPEEDS];             // tube alone, with supports and contacts
     tube_section_state rear, tip; // of the tube
     launching_instant now;
-    constraint_set c;
+    launching_constraints c;
     double B[MAX_CONSTRAINTS + 1][SPEEDS]; // generalised forces of the directions; last: tangent
 } uncoupled;
 
@@ -55,11 +55,11 @@ static void modal_energies(const launching_system *self, const double *state, la
 }
 
 // B = L(s)^T (f, m) of a direction's wrench on the section.
-static void direction_force(const uncoupled *u, const tube_section_state *at_rocket,
+static void direction_force(const uncoupled *u, const tube_section_state *section,
                             const constraint_direction *e, double *B)
 {
     // the wrench on the rocket about O1, moved to the section's axis point
-    v3 arm = v3_sub(u->now.rocket.p1, at_rocket->position);
+    v3 arm = v3_sub(u->now.rocket.p1, section->position);
     v3 m = v3_add(e->G_m, v3_cross(arm, e->G_f));
     double wrench[6];
     v3_store(wrench, e->G_f);
@@ -67,8 +67,22 @@ static void direction_force(const uncoupled *u, const tube_section_state *at_roc
     for (int j = 0; j < u->n; j++) {
         B[j] = 0;
         for (int i = 0; i < 6; i++)
-            B[j] += at_rocket->L[i * u->n + j] * wrench[i];
+            B[j] += section->L[i * u->n + j] * wrench[i];
     }
+}
+
+static void load_direction_forces(const launching_system *self, const double *q,
+                                  const double *q_dot, uncoupled *u)
+{
+    const constraint_set *set = &u->c.set;
+    tube_section_state section[LD_MAX_CONSTRAINT_SECTIONS];
+    for (int i = 0; i < set->section_count; i++)
+        tube_section(&self->tube.flexible, set->section[i].at->x, u->now.tube.w, q, q_dot,
+                     &section[i]);
+    for (int i = 0; i < set->count; i++)
+        direction_force(u, &section[set->e[i].section], &set->e[i], u->B[i]);
+    if (set->sliding)
+        direction_force(u, &section[set->tangent.section], &set->tangent, u->B[MAX_CONSTRAINTS]);
 }
 
 static void load_uncoupled(const launching_system *self, const launching_input *input,
@@ -94,7 +108,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     supports_add(lanes, &self->supports, &self->tube, now);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, now);
-    u->c.count = 0;
+    u->c.set.count = 0;
     if (phase->rocket) {
         rocket_load(&self->tube, at, state, &now->tube, &now->rocket, out);
         rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
@@ -104,15 +118,9 @@ static void load_uncoupled(const launching_system *self, const launching_input *
             load_rocket(input->load, now);
         launching_touch(lanes, self, now);
         breech_add(lanes, &self->adaptors.law, &self->tube, now);
-        tube_section_state at_rocket;
         tube_factor(&self->tube, &now->tube);
-        constraints_begin(lanes, &self->tube, now, &u->c);
-        launching_constrain(self, now, &u->c);
-        tube_section(tube, now->rocket.s, now->tube.w, q, q_dot, &at_rocket);
-        for (int i = 0; i < u->c.count; i++)
-            direction_force(u, &at_rocket, &u->c.e[i], u->B[i]);
-        if (u->c.sliding)
-            direction_force(u, &at_rocket, &u->c.tangent, u->B[MAX_CONSTRAINTS]);
+        launching_constrain(lanes, self, now, &u->c);
+        load_direction_forces(self, q, q_dot, u);
     }
     flatten(self, &now->on_tube, u->h);
 }
@@ -159,7 +167,7 @@ static void add_tail(const launching_system *self, const uncoupled *u, double *M
 static launching_outcome solve_reduced(const launching_system *self, const launching_phase *phase,
                                        uncoupled *u, launching_output *out)
 {
-    int n = u->n, count = u->c.count;
+    int n = u->n, count = u->c.set.count;
     double M2[SPEEDS * SPEEDS], e_0[SPEEDS], e[MAX_CONSTRAINTS + 1][SPEEDS];
     memcpy(M2, u->M, sizeof(double) * (size_t)(n * n));
     memcpy(e_0, u->h, sizeof(double) * (size_t)n);
@@ -171,29 +179,30 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
         v3 r_a, r_alpha;
         double r[MAX_CONSTRAINTS];
         rocket_solve(&u->now.inertia, u->now.f, u->now.m, &r_a, &r_alpha);
-        for (int i = 0; i < count + u->c.sliding; i++) {
+        for (int i = 0; i < count + u->c.set.sliding; i++) {
             int row = i < count ? i : MAX_CONSTRAINTS;
             memcpy(e[row], u->B[row], sizeof(double) * (size_t)n);
             cholesky_solve(n, M2, e[row]);
         }
         constraint_products D;
         for (int i = 0; i < count; i++) {
-            const constraint_direction *p = &u->c.e[i];
+            const constraint_direction *p = &u->c.set.e[i];
             r[i] =
                 -(v3_dot(p->G_f, r_a) + v3_dot(p->G_m, r_alpha) - dot(n, u->B[i], e_0) + p->beta);
             for (int j = 0; j < count; j++)
-                D.D[i][j] = v3_dot(p->G_f, u->c.e[j].r_a) + v3_dot(p->G_m, u->c.e[j].r_alpha) +
-                            dot(n, u->B[i], e[j]);
-            if (u->c.sliding)
-                D.Dt[i] = v3_dot(p->G_f, u->c.tangent.r_a) + v3_dot(p->G_m, u->c.tangent.r_alpha) +
+                D.D[i][j] = v3_dot(p->G_f, u->c.set.e[j].r_a) +
+                            v3_dot(p->G_m, u->c.set.e[j].r_alpha) + dot(n, u->B[i], e[j]);
+            if (u->c.set.sliding)
+                D.Dt[i] = v3_dot(p->G_f, u->c.set.tangent.r_a) +
+                          v3_dot(p->G_m, u->c.set.tangent.r_alpha) +
                           dot(n, u->B[i], e[MAX_CONSTRAINTS]);
         }
-        if (count && !constraints_solve(&D, r, &u->c))
+        if (count && !constraints_solve(&D, r, &u->c.set))
             return LAUNCHING_JAMMED;
-        for (int i = 0; i < count + u->c.sliding; i++) {
+        for (int i = 0; i < count + u->c.set.sliding; i++) {
             int row = i < count ? i : MAX_CONSTRAINTS;
-            const constraint_direction *p = i < count ? &u->c.e[i] : &u->c.tangent;
-            double x = i < count ? u->c.x[i] : u->c.friction;
+            const constraint_direction *p = i < count ? &u->c.set.e[i] : &u->c.set.tangent;
+            double x = i < count ? u->c.set.x[i] : u->c.set.friction;
             r_a = v3_axpy(r_a, x, p->r_a);
             r_alpha = v3_axpy(r_alpha, x, p->r_alpha);
             for (int j = 0; j < n; j++)
@@ -201,7 +210,8 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
         }
         out->a_O1 = r_a;
         out->alpha_B = r_alpha;
-        constraints_report(&u->c, out);
+        constraints_report(&u->c.set, out);
+        ideal_report(&self->adaptors, &u->c.set, out);
     }
     store_tube(n, e_0, out);
     return LAUNCHING_OK;
@@ -406,12 +416,33 @@ static void fill_rocket_rows(int size, int count, const uncoupled *u, const rela
     }
 }
 
+// What a constraint on another section than the rocket's has of the tube's accelerations:
+// (G^T X - B^T) eta_dot, which is 0 at the rocket's.
+static void add_other_section(int size, int count, int i, const uncoupled *u, const double G[6],
+                              const relative_kinematics *k, const tube_solution *solution,
+                              double *A, double *b)
+{
+    int n = u->n;
+    double row[SPEEDS];
+    for (int j = 0; j < n; j++) {
+        row[j] = -u->B[i][j];
+        for (int l = 0; l < 6; l++)
+            row[j] += G[l] * k->X[l * n + j];
+    }
+    b[18 + i] -= dot(n, row, solution->constant);
+    for (int j = 0; j < 6; j++)
+        A[(18 + i) * size + j] = dot(n, row, solution->end[j]);
+    for (int j = 0; j < count; j++)
+        A[(18 + i) * size + 18 + j] = dot(n, row, solution->direction[j]);
+}
+
 // G^T Y y_dot = -(beta + G^T b) of each constraint: c_y^T y_dot = -c_y_dot^T y.
 static void fill_constraint_rows(int size, int count, const uncoupled *u,
-                                 const relative_kinematics *k, double *A, double *b)
+                                 const relative_kinematics *k, const tube_solution *solution,
+                                 double *A, double *b)
 {
     for (int i = 0; i < count; i++) {
-        const constraint_direction *e = &u->c.e[i];
+        const constraint_direction *e = &u->c.set.e[i];
         double G[6];
         v3_store(G, e->G_f);
         v3_store(G + 3, e->G_m);
@@ -419,6 +450,8 @@ static void fill_constraint_rows(int size, int count, const uncoupled *u,
         for (int j = 0; j < 6; j++)
             for (int l = 0; l < 6; l++)
                 A[(18 + i) * size + 12 + j] += G[l] * k->Y[l][j];
+        if (e->section > 0)
+            add_other_section(size, count, i, u, G, k, solution, A, b);
     }
 }
 
@@ -427,19 +460,19 @@ static void fill_constraint_rows(int size, int count, const uncoupled *u,
 static bool solve_overall(const launching_system *self, const double *state, uncoupled *u, int sign,
                           launching_output *out)
 {
-    int count = u->c.count, size = 18 + count, n = u->n;
+    int count = u->c.set.count, size = 18 + count, n = u->n;
     double A[MAX_UNKNOWNS * MAX_UNKNOWNS] = {0}, x[MAX_UNKNOWNS] = {0};
     double B[MAX_CONSTRAINTS][SPEEDS], G[MAX_CONSTRAINTS][6];
-    double rub = sign * (u->c.sliding ? u->c.rub : 0);
+    double rub = sign * (u->c.set.sliding ? u->c.set.rub : 0);
     for (int i = 0; i < count; i++) {
         memcpy(B[i], u->B[i], sizeof(double) * (size_t)n);
-        v3_store(G[i], u->c.e[i].G_f);
-        v3_store(G[i] + 3, u->c.e[i].G_m);
+        v3_store(G[i], u->c.set.e[i].G_f);
+        v3_store(G[i] + 3, u->c.set.e[i].G_m);
     }
     if (rub != 0) { // friction rides on N: G = G_n - rub G_tau, B alike
-        const constraint_direction *tangent = &u->c.tangent;
-        v3_store(G[0], v3_axpy(u->c.e[0].G_f, -rub, tangent->G_f));
-        v3_store(G[0] + 3, v3_axpy(u->c.e[0].G_m, -rub, tangent->G_m));
+        const constraint_direction *tangent = &u->c.set.tangent;
+        v3_store(G[0], v3_axpy(u->c.set.e[0].G_f, -rub, tangent->G_f));
+        v3_store(G[0] + 3, v3_axpy(u->c.set.e[0].G_m, -rub, tangent->G_m));
         for (int j = 0; j < n; j++)
             B[0][j] -= rub * u->B[MAX_CONSTRAINTS][j];
     }
@@ -453,7 +486,7 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     load_relative(self, state, u, &k);
     fill_tube_rows(size, count, &transfer, A, x);
     fill_rocket_rows(size, count, u, &k, &solution, G, A, x);
-    fill_constraint_rows(size, count, u, &k, A, x);
+    fill_constraint_rows(size, count, u, &k, &solution, A, x);
     if (lu_factor(size, A, pivot))
         return false;
     lu_solve(size, A, pivot, x);
@@ -472,10 +505,11 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     out->a_O1 = v3_from(V);
     out->alpha_B = v3_from(V + 3);
     memcpy(out->y_dot, x + 12, sizeof out->y_dot);
-    memcpy(u->c.x, x + 18, sizeof(double) * (size_t)count);
-    u->c.friction = -rub * x[18];
+    memcpy(u->c.set.x, x + 18, sizeof(double) * (size_t)count);
+    u->c.set.friction = -rub * x[18];
     out->condition = transfer.condition;
-    constraints_report(&u->c, out);
+    constraints_report(&u->c.set, out);
+    ideal_report(&self->adaptors, &u->c.set, out);
     return true;
 }
 
@@ -483,7 +517,7 @@ static launching_outcome evaluate_overall(const launching_system *self,
                                           const launching_phase *phase, const double *state,
                                           uncoupled *u, launching_output *out)
 {
-    if (!u->c.sliding) {
+    if (!u->c.set.sliding) {
         if (solve_overall(self, state, u, 0, out))
             return LAUNCHING_OK;
     } else {
@@ -511,7 +545,7 @@ launching_outcome launching_evaluate_general(const launching_system *self,
     if (formulation == LD_FORMULATION_OVERALL && phase->rocket) {
         // where both signs of N are consistent the knob jams too, which one solve does not show
         launching_output reduced;
-        if (u.c.sliding &&
+        if (u.c.set.sliding &&
             launching_evaluate(self, input, phase, state, &reduced) == LAUNCHING_JAMMED)
             return LAUNCHING_JAMMED;
         return evaluate_overall(self, phase, state, &u, out);

@@ -296,6 +296,36 @@ async function checkShip(browser) {
   await leave(page);
 }
 
+// A rail: its shoes are drawn off it by `gap` times what they are off it, in words of their own.
+async function checkRail(browser) {
+  console.log("a rail with a T-slot");
+  const sets = ["tubes.guide={line: 160 0 mm, t_slot: {at: -90 0 mm, lips: 60 mm, gap: 0.5 mm, side_gap: 0.3 mm}}", "tubes.slot=none",
+    "tubes.layout={rows: 1, columns: 1}", "firing.1.tube=1"];
+  const run = runOf("fixed.yaml", ...sets.flatMap((set) => ["--set", set])), page = await open(browser, run.file, { width: 700 });
+  const t = run.column.get("t"), row = rowNear(t, 0.09), at = (name) => run.column.get(name)[row];
+  const shown = await page.evaluate((now) => {
+    const replay = window.launchdyn.current, { stage } = replay, { motion } = stage;
+    replay.setScale(1);
+    replay.show(now, true);
+    const body = stage.bodies[0];
+    return motion.adaptors.map((l, i) => {
+      const { centre: [x, y, z] } = body.adaptor(i), d = motion.moved(stage.state, motion.section(stage.state, x), -0.09, 0);
+      return [y - 0.16 + 0.09 - d[1], z - d[2]].concat(stage.gap);
+    });
+  }, t[row]);
+  const roll = at("rocket.gamma");
+  const errors = ["rear", "middle", "front"].map((name, i) =>
+    Math.hypot(shown[i][0] / shown[i][2] - at(`contact.${name}.y`), shown[i][1] / shown[i][2] - at(`contact.${name}.z`) - 0.09 * roll));
+  check("shoes are drawn where the results say", Math.max(...errors) < 1e-6, JSON.stringify(errors));
+  const words = await page.$eval("main", (main) => main.textContent);
+  check("it is a rail with shoes, not a tube with adaptors", /Rocket on|Contact between shoes and rail/.test(words) &&
+    !/between adaptors|rear adaptor leaves/.test(words));
+  const seen = await look(page, "replay.look('rocket');");
+  check("rail and rocket are seen", seen.tube > 500 && seen.rocket > 500, `${seen.tube} and ${seen.rocket}`);
+  await picture(page, "rail.png");
+  await leave(page);
+}
+
 // Keeps the numbers along the upright axis of each plot and the names in it as they are drawn; code
 // of the page.
 function keepLabels() {
@@ -370,6 +400,7 @@ await inBrowser(async (browser) => {
   await checkLaunch(browser);
   await checkReplay(browser);
   await checkShip(browser);
+  await checkRail(browser);
   await checkLooks(browser);
   await checkHostile(browser);
 });

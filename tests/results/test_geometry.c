@@ -10,6 +10,7 @@
 #include "support/scratch.h"
 
 enum { MOST_MODES = 64 };
+static const double PI = 3.14159265358979323846;
 
 static void run_example(const char *name, const char *const *sets, size_t count, history_data *read)
 {
@@ -167,6 +168,39 @@ static void test_ship(void **state)
     history_free(&read);
 }
 
+// Of a guide of surfaces: what its T-slot stands for, and the rectangle like its section.
+static void test_guide(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "tubes.guide={line: 160 0 mm, t_slot: {at: -90 0 mm, lips: 60 mm, gap: 0.5 mm, "
+        "side_gap: 0.3 mm}}",
+        "tubes.slot=none", "run.end=tip"};
+    static const double surface[6][2] = {{-0.09, 0.03},  {-0.09, 0.03}, {-0.09, -0.03},
+                                         {-0.09, -0.03}, {-0.09, 0},    {-0.09, 0}};
+    static const double normal[6] = {0, PI, 0, PI, PI / 2, -PI / 2};
+    history_data read;
+    run_example("fixed.yaml", sets, 3, &read);
+    const history_array *at = array(&read, "guide.surface");
+    double most = 0;
+    assert_int_equal(at->rows, 6);
+    for (size_t k = 0; k < 6; k++) {
+        most = fmax(most, fabs(at->value[2 * k] - surface[k][0]));
+        most = fmax(most, fabs(at->value[2 * k + 1] - surface[k][1]));
+        most = fmax(most, fabs(array(&read, "guide.normal")->value[k] - normal[k]));
+        most = fmax(most, fabs(array(&read, "guide.gap")->value[k] - (k < 4 ? 5e-4 : 3e-4)));
+        most = fmax(most, array(&read, "guide.round")->value[k]);
+    }
+    CHECK_BELOW("surfaces of a T-slot", most, 1e-15);
+    CHECK_WITHIN("guide's form", array(&read, "guide.form")->value[0], 2, 2);
+    CHECK_WITHIN("guide line [m]", array(&read, "guide.line")->value[0], 0.16, 0.16);
+    // of a ring I/A = (r^2 + R^2)/4, of a rectangle h^2/3
+    const double *outline = array(&read, "guide.outline")->value, size = hypot(0.0825, 0.085);
+    CHECK_BELOW("outline [m]", fabs(outline[0] - size * sqrt(0.75)), 1e-12);
+    CHECK_BELOW("outline [m]", fabs(outline[1] - outline[0]), 1e-12);
+    history_free(&read);
+}
+
 // The launching tube's rear end is where chassis, hinges and layout put it; wheels hang where their
 // travel says.
 static void test_vehicle(void **state)
@@ -224,7 +258,7 @@ static void test_without(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(test_fixed), TEST(test_ship), TEST(test_vehicle),
-                                       TEST(test_without)};
+    const struct CMUnitTest tests[] = {TEST(test_fixed), TEST(test_ship), TEST(test_guide),
+                                       TEST(test_vehicle), TEST(test_without)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,7 +30,7 @@ static void check_words(const char *example, const char *const *sets, size_t cou
 }
 
 #define GUIDE                                                                                      \
-    "# guide: 18 tubes, each a bore, 3 m long\n"                                                   \
+    "# guides: 18 bores, each 3 m long\n"                                                          \
     "#   from 0 m: bore radius 82.5 mm, wall 2.5 mm, EI 969.1 kN.m2, GJ 745.4 kN.m2, 10.33 kg/m\n" \
     "# slot: a helix of 4 deg at the radius 82.5 mm, friction 0.1\n"
 #define SUPPORTS "# supports: springs at 0.4 m, springs at 1.8 m\n"
@@ -43,7 +43,7 @@ static void test_bore(void **state)
 {
     (void)state;
     check_words("examples/fixed.yaml", NULL, 0,
-                "# base: fixed; tube 19.8 deg up\n" GUIDE SUPPORTS ROCKET DRIVE);
+                "# base: fixed; launcher 19.8 deg up\n" GUIDE SUPPORTS ROCKET DRIVE);
     const char *sets[] = {"tubes.layout.rows=1",
                           "tubes.layout.columns=1",
                           "firing.1.tube=1",
@@ -52,7 +52,7 @@ static void test_bore(void **state)
                           "rocket.lock=none",
                           "rocket.contact.law=bilateral"};
     check_words("examples/fixed.yaml", sets, sizeof sets / sizeof *sets,
-                "# base: fixed; tube 5 deg down\n"
+                "# base: fixed; launcher 5 deg down\n"
                 "# guide: a bore, 3 m long\n"
                 "#   from 0 m: bore radius 82.5 mm, wall 2.5 mm, EI 969.1 kN.m2, GJ 745.4 kN.m2, "
                 "10.33 kg/m\n" SUPPORTS
@@ -61,15 +61,48 @@ static void test_bore(void **state)
                 "# drive: a motor of at most 15 kN, for 2.55 s; no lock\n");
 }
 
+// The same rocket on a rail, whatever guides it.
+static void check_guide(const char *guide, const char *words)
+{
+    char expected[2048];
+    const char *sets[] = {guide, "tubes.layout={rows: 1, columns: 1}", "firing.1.tube=1",
+                          "tubes.slot=none", "rocket.adaptors.2.clearance=0 mm"};
+    snprintf(expected, sizeof expected,
+             "# base: fixed; launcher 19.8 deg up\n%s"
+             "#   from 0 m: wall 2.5 mm, EI 969.1 kN.m2, GJ 745.4 kN.m2, 10.33 kg/m\n" SUPPORTS
+             "# rocket: 60 kg, from 0.1 m, on shoes rear (0 m, gaps 0.3 mm wider), middle "
+             "(1.2 m), front (1.9 m, gaps 0.4 mm wider)\n" DRIVE,
+             words);
+    check_words("examples/fixed.yaml", sets, sizeof sets / sizeof *sets, expected);
+}
+
+static void test_surfaces(void **state)
+{
+    (void)state;
+    check_guide("tubes.guide={line: 160 0 mm, t_slot: {at: -90 0 mm, lips: 60 mm, gap: 0.5 mm, "
+                "side_gap: 0.3 mm}}",
+                "# guide: a rail, 3 m long, its line 160 mm above the elastic axis\n"
+                "#   T-slot 90 mm below the line, lips 60 mm apart, gap 0.5 mm, at the sides "
+                "0.3 mm\n");
+    check_guide("tubes.guide={tower: {rails: 3, first: 30 deg, gap: 0.8 mm}}",
+                "# guide: a tower of 3 rails, 3 m long\n"
+                "#   the first rail at 30 deg, gap 0.8 mm\n");
+    check_guide("tubes.guide={surfaces: [{name: floor, at: -80 0 mm, normal: 180 deg, gap: 0 mm}, "
+                "{name: cheek, at: 0 -40 mm, normal: -90 deg, gap: 1 mm, shape: round}]}",
+                "# guide: a rail, 3 m long\n"
+                "#   surface floor: flat, 80 mm below the line, towards 180 deg, gap 0 mm\n"
+                "#   surface cheek: round, 40 mm left of the line, towards -90 deg, gap 1 mm\n");
+}
+
 static void test_bases(void **state)
 {
     (void)state;
     check_words(
         "examples/ship.yaml", NULL, 0,
-        "# base: a ship, moved as prescribed; tube 40 deg up, 60 deg to the left\n" GUIDE SUPPORTS
-            ROCKET DRIVE);
+        "# base: prescribed, a ship; launcher 40 deg up, 60 deg to the left\n" GUIDE SUPPORTS ROCKET
+            DRIVE);
     check_words("examples/reference.yaml", NULL, 0,
-                "# base: a vehicle on 6 wheels\n" GUIDE SUPPORTS ROCKET DRIVE);
+                "# base: vehicle on 6 wheels\n" GUIDE SUPPORTS ROCKET DRIVE);
 }
 
 static void test_flight_alone(void **state)
@@ -80,7 +113,8 @@ static void test_flight_alone(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bore), cmocka_unit_test(test_bases),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bore), cmocka_unit_test(test_surfaces),
+                                       cmocka_unit_test(test_bases),
                                        cmocka_unit_test(test_flight_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

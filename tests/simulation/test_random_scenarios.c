@@ -53,6 +53,8 @@ static const char *const kinds[] = {
     "rocket.contact.law=lankarani-nikravesh",
     "rocket.contact={law: kelvin-voigt, exponent: 1, damping: 1e4 N.s/m}",
     "rocket.contact={law: bilateral, exponent: 1, friction: 0, damping: 1e3 N.s/m}",
+    "rocket={contact: {law: ideal, exponent: 1, friction: 0}, adaptors: [{name: rear, at: 0 m}, "
+    "{name: front, at: 1.9 m}]}",
     "tubes.slot=none",
     "tubes.slot.angle=[[0 m, 2 deg], [1.5 m, 6 deg], [3 m, 3 deg]]",
     "tubes.modes={bending: 3, torsion: 1, axial: 2, span: clamped}",

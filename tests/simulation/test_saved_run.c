@@ -1,5 +1,5 @@
 // A run that is saved and loaded goes on with the bits of one that was not interrupted: rows and
-// summary, at 1020 instants, among them 1 ns before and after each event; in another process too.
+// summary, at 1181 instants, among them 1 ns before and after each event; in another process too.
 // What is not its state is refused.
 // ctest: slow
 #include <fcntl.h>
@@ -46,6 +46,12 @@ static const struct saved_case {
      {"rocket.contact={stiffness: 5e7 N/m, law: lankarani-nikravesh, restitution: 0.6}",
       "rocket.lock=none", "run.lead_in=50 ms", "run.output_step.tube=0.5 ms", MEASURES},
      0.01},
+    {"ideal",
+     "marching/15-kmh.yaml",
+     {"run={lead_in: 20 ms, coupling: {step: 0.5 ms}, output_step: {tube: 0.5 ms}}",
+      "rocket.contact={law: ideal, friction: 0}",
+      "rocket.adaptors=[{name: rear, at: 0 m}, {name: front, at: 1.9 m}]"},
+     0},
     {"sequence",
      "marching/30-kmh.yaml",
      {"firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.45 s}]", "run.lead_in=20 ms",

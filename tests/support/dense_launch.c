@@ -24,12 +24,57 @@ static const ld_section *section_at(const ld_tubes *tubes, double x)
     return &tubes->section[i];
 }
 
+static void add_to_shoes(dense_launch *dense, double y, double z, double normal, double gap,
+                         bool round)
+{
+    const ld_rocket *rocket = &dense->model->rocket;
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        double extra = rocket->adaptor[i].clearance;
+        dense->surface[dense->surface_count++] =
+            (dense_surface){i, y, z, normal, gap + (isnan(extra) ? 0 : extra), round};
+    }
+}
+
+// Surfaces of every shoe, as a list, a T-slot's lips from above, below and both sides, or rails
+// around.
+static void fill_surfaces(dense_launch *dense)
+{
+    const ld_guide *guide = &dense->model->tubes.guide;
+    const ld_t_slot *slot = &guide->t_slot;
+    const ld_tower *tower = &guide->tower;
+    const double turn = 6.283185307179586476925;
+    if (guide->present)
+        memcpy(dense->line, guide->line, sizeof dense->line);
+    if (guide->present && guide->form == LD_GUIDE_SURFACES)
+        for (int k = 0; k < guide->surface_count; k++) {
+            const ld_surface *s = &guide->surface[k];
+            add_to_shoes(dense, s->at[0], s->at[1], s->normal, s->gap,
+                         s->shape == LD_SURFACE_ROUND);
+        }
+    else if (guide->present && guide->form == LD_GUIDE_T_SLOT) {
+        for (int side = -1; side <= 1; side += 2) {
+            double z = slot->at[1] + 0.5 * side * slot->lips;
+            add_to_shoes(dense, slot->at[0], z, 0, slot->gap, false);
+            add_to_shoes(dense, slot->at[0], z, 0.5 * turn, slot->gap, false);
+            add_to_shoes(dense, slot->at[0], slot->at[1], 0.25 * side * turn, slot->side_gap,
+                         false);
+        }
+    } else if (guide->present) {
+        for (int k = 0; k < tower->rails; k++) {
+            double angle = tower->first + turn * k / tower->rails;
+            add_to_shoes(dense, tower->radius * cos(angle), tower->radius * sin(angle), angle,
+                         tower->gap, true);
+        }
+    }
+}
+
 bool dense_launch_holds_roll(const dense_launch *dense)
 {
+    ld_hold hold = dense->model->rocket.lock.holds_roll;
     bool smooth = dense->model->tubes.slot.kind == LD_SLOT_NONE;
     for (int k = 0; k < dense->surface_count; k++)
         smooth = smooth && dense->surface[k].round;
-    return smooth;
+    return hold == LD_HOLD_BY_GUIDE ? smooth : hold == LD_HOLD_YES;
 }
 
 // K += int EI b'' b''^T dx of a stretch: b'' is linear along it.
@@ -66,6 +111,7 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
 {
     const ld_tubes *tubes = &model->tubes;
     *dense = (dense_launch){.model = model, .tube = tube};
+    fill_surfaces(dense);
     dense->mode_count = 2 * tube->nb + tube->nt + tube->na;
     int capacity = GAUSS * (tube->element_count + tubes->section_count) + tubes->point_mass_count;
     dense->point = malloc((size_t)capacity * sizeof *dense->point);
@@ -368,7 +414,8 @@ static jet foot_of(const jet_scene *moving, const jet_scene *still, const jet3 *
 
 // ---------------------------------------------------------------- equations
 
-enum { LOCK, SLOT, ROLL, ROWS };
+// those of adaptors held on the axis: two each, from HELD on
+enum { LOCK, SLOT, ROLL, HELD, ROWS = HELD + 4 };
 
 typedef struct equations {
     int n;
@@ -696,6 +743,15 @@ static double normal_force(const ld_contact *contact, double p, double p_dot, do
     return contact->stiffness * d_0 * pow(p / d_0, contact->exponent) * fmax(0, 1 + chi * p_dot);
 }
 
+// Holds what x is at no acceleration, by a force along its gradient.
+static void hold(equations *eq, int row, const jet *x)
+{
+    eq->active[row] = true;
+    memcpy(eq->C[row], x->d, (size_t)eq->n * sizeof *x->d);
+    memcpy(eq->G[row], x->d, (size_t)eq->n * sizeof *x->d);
+    eq->rhs[row] = -x->te;
+}
+
 static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene *still,
                         const dense_conditions *on, int index, double guess,
                         dense_launch_output *output)
@@ -718,7 +774,10 @@ static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene 
             axis[i][j] = section.A.c[i][j].v;
     jet_frame material = section_in_I(moving, jet_constant(s.v));
     bool inside = !on->passed[index];
-    if (inside && law->law == LD_CONTACT_BILATERAL) {
+    if (inside && law->law == LD_CONTACT_IDEAL) {
+        hold(eq, HELD + 2 * index, &offset.c[1]);
+        hold(eq, HELD + 2 * index + 1, &offset.c[2]);
+    } else if (inside && law->law == LD_CONTACT_BILATERAL) {
         double f_y = -law->stiffness * y - law->damping * offset.c[1].e;
         double f_z = -law->stiffness * z - law->damping * offset.c[2].e;
         normal = hypot(f_y, f_z);
@@ -1135,6 +1194,8 @@ static void write_output(const dense_launch *dense, const dense_state *state, co
     output->lock_force = -multiplier[LOCK];
     output->slot_force = multiplier[SLOT];
     output->lock_moment = multiplier[ROLL];
+    for (int i = 0; eq->active[HELD] && i < 2; i++)
+        output->contact[i].normal = hypot(multiplier[HELD + 2 * i], multiplier[HELD + 2 * i + 1]);
     output->kinetic = eq->kinetic;
     output->potential = eq->potential;
     memcpy(output->momentum, eq->momentum, sizeof eq->momentum);

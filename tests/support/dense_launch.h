@@ -50,7 +50,7 @@ typedef struct dense_launch {
 void dense_launch_create(dense_launch *dense, const ld_model *model, const flexible_tube *tube);
 void dense_launch_free(dense_launch *dense);
 
-// Whether the lock holds roll: in smooth bores and on round surfaces alone.
+// Whether the lock holds roll: as the model says, or in smooth bores and on round surfaces alone.
 bool dense_launch_holds_roll(const dense_launch *dense);
 
 // The base that carries the tube: the frame that the undeformed tube's rear end has on it.

@@ -457,8 +457,14 @@ static bool find_balance(const balance_problem *balance, double *u)
             if (residual_of(balance, trial, there, NULL) && norm_of(there, n) < before)
                 break;
         }
-        if (part <= 1e-3) // no better: converged to rounding, or stuck
-            return before < 1e-5;
+        if (part <= 1e-3) { // no better: converged to rounding, or stuck
+            if (before < 1e-5 || balance->soft == 0)
+                return before < 1e-5;
+            for (int i = 0; i < n; i++) // at a surface's kink: across it
+                trial[i] = u[i] + step[i];
+            if (!residual_of(balance, trial, there, NULL))
+                return false;
+        }
         memcpy(u, trial, sizeof trial);
         memcpy(residual, there, sizeof residual);
     }

@@ -86,6 +86,14 @@ static int rhs(double t, const double *state, double *state_dot, void *user)
     return 0;
 }
 
+static int project(double t, double *state, void *user)
+{
+    (void)t;
+    launching_run *run = user;
+    launching_project(run->system, &run->input, &run->phase, state);
+    return 0;
+}
+
 void launching_run_follow(launching_run *run, double tolerance, double time)
 {
     const launching_layout *at = &run->system->layout;
@@ -103,6 +111,7 @@ void launching_run_follow(launching_run *run, double tolerance, double time)
                                     .rtol = tolerance,
                                     .atol = atol,
                                     .rhs = run->rhs ? run->rhs : rhs,
+                                    .project = launching_holds_places(run->system) ? project : NULL,
                                     .self = run};
     assert_int_equal(integrator_create(&settings, &stepper, &error), LD_OK);
     assert_int_equal(integrator_start(stepper, 0, run->state, &error), LD_OK);

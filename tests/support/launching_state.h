@@ -20,25 +20,6 @@ static inline void copy_matrix(double to[3][3], m3 from)
     memcpy(to, from.a, sizeof from.a);
 }
 
-// Moves s_dot (and with a smooth bore w_SBx) to zero for a locked state: the lock holds them.
-static inline void hold_locked(const launching_system *system, double *state)
-{
-    launching_pose pose;
-    launching_output out;
-    launching_section section;
-    const launching_layout *at = &system->layout;
-    launching_rocket_pose(system, state, &pose, &out);
-    launching_section_at(system, state, state[at->x], &section);
-    v3 axis = m3_column(section.A, 0);
-    v3 v_material = v3_add(section.v, v3_cross(section.w, v3_sub(pose.p1, section.P)));
-    double slip = v3_dot(axis, v3_sub(pose.v_O1, v_material));
-    v3_store(state + at->V, v3_axpy(pose.v_O1, -slip, axis));
-    if (!system->slot.present) {
-        double roll = v3_dot(axis, v3_sub(pose.w_B, section.w));
-        v3_store(state + at->V + 3, v3_axpy(pose.w_B, -roll, axis));
-    }
-}
-
 // A state with large motion of the frame, centimetre deflections, the rocket somewhere in the tube
 // with deep contacts, and speeds of every kind.
 static inline void draw_state(const launching_system *system, uint64_t *seed, bool locked,
@@ -63,6 +44,11 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     y[at->x] = 0.3 + 0.25 * (1 + draw(seed));
     for (int i = 1; i < 6; i++)
         y[at->x + i] = draw(seed) * (i < 3 ? 1e-3 : i < 5 ? 2e-3 : 3);
+    if (system->surfaces.count) { // near the guide line, hardly rolled
+        y[at->x + 1] += system->surfaces.line_y;
+        y[at->x + 2] += system->surfaces.line_z;
+        y[at->x + 5] *= 0.01;
+    }
     v3 v = v3_from(y + at->v), w = v3_from(y + at->w);
     launching_pose pose;
     launching_output out;
@@ -87,15 +73,7 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
         c->phase.touch_speed[i] = 0.1 + 0.05 * draw(seed);
     c->phase.breech_speed = c->phase.touch_speed[0];
-    if (locked)
-        hold_locked(system, y);
-    if (system->slot.present)
-        launching_project(system, &c->input, &c->phase, y);
-    if (locked && system->slot.present)
-        for (int k = 0; k < 30; k++) { // the two constraints in turn
-            hold_locked(system, y);
-            launching_project(system, &c->input, &c->phase, y);
-        }
+    launching_project(system, &c->input, &c->phase, y);
 }
 
 // Fills the dense check's input from the same numbers.

@@ -124,7 +124,7 @@ static void draw_tubes(uint64_t *seed, ld_tubes *tubes)
 
 static void draw_contact(uint64_t *seed, ld_contact *contact)
 {
-    contact->law = (ld_contact_law)choice(seed, 4);
+    contact->law = (ld_contact_law)choice(seed, 5);
     scale(seed, &contact->stiffness);
     bool linear = contact->law == LD_CONTACT_BILATERAL || contact->law == LD_CONTACT_KELVIN_VOIGT;
     contact->exponent = linear ? 1 : between(seed, 1, 1.5);
@@ -132,7 +132,8 @@ static void draw_contact(uint64_t *seed, ld_contact *contact)
     scale(seed, &contact->reference_speed);
     if (linear)
         contact->damping = between(seed, 0, 2e4);
-    contact->friction = contact->law == LD_CONTACT_BILATERAL ? 0 : between(seed, 0, 0.5);
+    bool held = contact_has(contact->law, LD_CONTACT_TWO_SIDED);
+    contact->friction = held ? 0 : between(seed, 0, 0.5);
     scale(seed, &contact->friction_speed);
 }
 
@@ -153,7 +154,8 @@ static void draw_rocket(uint64_t *seed, double length, ld_rocket *rocket)
         rocket->motor.at[1 + i] = 1e-3 * draw(seed);
         rocket->products[i] = 1e-3 * rocket->full.inertia[1] * draw(seed);
     }
-    rocket->adaptor_count = 2 + choice(seed, 3);
+    bool ideal = rocket->contact.law == LD_CONTACT_IDEAL; // two at most
+    rocket->adaptor_count = ideal ? 2 : 2 + choice(seed, 3);
     rocket->adaptor[3] = rocket->adaptor[2];
     snprintf(rocket->adaptor[3].name, LD_MAX_NAME, "fourth");
     for (int i = 0; i < rocket->adaptor_count; i++) {

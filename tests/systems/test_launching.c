@@ -74,8 +74,7 @@ static void put_on_breech(const launching_system *system, int k, launching_case 
     launching_rocket_pose(system, y, &pose, &out);
     v3 back = v3_scale(-out.y[0] - 0.1, m3_column(pose.A_RS, 0));
     v3_store(y + system->layout.V, v3_add(pose.v_O1, back));
-    if (system->slot.present)
-        launching_project(system, &c->input, &c->phase, y);
+    launching_project(system, &c->input, &c->phase, y);
 }
 
 // A wind across the rocket, stronger than its own lateral speed anywhere.
@@ -240,6 +239,29 @@ static void options_equal_dense(void **state)
     reference_model_free(&model);
 }
 
+// Both adaptors, or the rear one alone, held on the axis exactly.
+static void ideal_adaptors_equal_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    model.rocket.adaptor_count = 2;
+    model.rocket.adaptor[1] = model.rocket.adaptor[2];
+    model.rocket.contact.law = LD_CONTACT_IDEAL;
+    check_agreement(&model, launching_evaluate, 200, "ideal");
+    check_agreement(&model, general, 200, "ideal from the general matrix");
+    check_agreement(&model, overall, 200, "ideal, overall");
+    model.tubes.modes.axial = 2;
+    check_agreement(&model, launching_evaluate, 200, "ideal, axial modes");
+    check_agreement(&model, overall, 200, "ideal, axial modes, overall");
+    model.tubes.modes.axial = 0;
+    model.tubes.slot.kind = LD_SLOT_NONE;
+    check_agreement(&model, launching_evaluate, 200, "ideal, no slot");
+    model.tubes.slot.kind = LD_SLOT_HELIX;
+    reference_model_free(&model);
+}
+
 static void air_on_the_emerged_part_equals_dense(void **state)
 {
     (void)state;
@@ -293,6 +315,7 @@ int main(void)
         cmocka_unit_test(reduced_equals_dense),
         cmocka_unit_test(overall_equals_dense),
         cmocka_unit_test(options_equal_dense),
+        cmocka_unit_test(ideal_adaptors_equal_dense),
         cmocka_unit_test(air_on_the_emerged_part_equals_dense),
         cmocka_unit_test(wide_instructions_give_the_same_bits),
     };

@@ -1,0 +1,379 @@
+// Shoes on the surfaces of a rail against dense multipliers from positions alone, whose contact is
+// its own (support/dense_launch.h), on random states of random rails: surfaces of every direction,
+// flat and round, T-slots, towers, beside an offset guide line.
+//   LD_RAIL_STATES   how many of each program (60)
+#include <stdlib.h>
+
+#include "support/check.h"
+#include "support/launching_state.h"
+#include "support/random_model.h"
+#include "support/reference_model.h"
+
+// ---- random rails ----
+
+static void draw_surfaces(uint64_t *seed, ld_guide *guide)
+{
+    guide->form = LD_GUIDE_SURFACES;
+    guide->surface_count = 3 + choice(seed, 6);
+    for (int k = 0; k < guide->surface_count; k++)
+        guide->surface[k] = (ld_surface){
+            .at = {between(seed, -0.1, 0.1), between(seed, -0.1, 0.1)},
+            .normal = between(seed, -3, 3),
+            .gap = between(seed, 0, 1e-3),
+            .shape = chance(seed, 0.5) ? LD_SURFACE_FLAT : LD_SURFACE_ROUND,
+        };
+}
+
+static void draw_guide(uint64_t *seed, int form, ld_guide *guide)
+{
+    guide->present = true;
+    for (int i = 0; i < 2; i++)
+        guide->line[i] = between(seed, -0.1, 0.1);
+    guide->form = (ld_guide_form)form;
+    if (form == LD_GUIDE_SURFACES)
+        draw_surfaces(seed, guide);
+    else if (form == LD_GUIDE_T_SLOT)
+        guide->t_slot = (ld_t_slot){.at = {between(seed, -0.1, 0.1), between(seed, -0.05, 0.05)},
+                                    .lips = between(seed, 0.02, 0.1),
+                                    .gap = between(seed, 0, 1e-3),
+                                    .side_gap = between(seed, 0, 1e-3)};
+    else
+        guide->tower = (ld_tower){.rails = 2 + choice(seed, 6),
+                                  .first = between(seed, -3, 3),
+                                  .gap = between(seed, 0, 1e-3),
+                                  .radius = between(seed, 0.05, 0.2)};
+}
+
+static void draw_contact(uint64_t *seed, ld_contact *contact)
+{
+    static const ld_contact_law law[] = {LD_CONTACT_HUNT_CROSSLEY, LD_CONTACT_LANKARANI_NIKRAVESH,
+                                         LD_CONTACT_KELVIN_VOIGT};
+    contact->law = law[choice(seed, 3)];
+    contact->exponent = chance(seed, 0.5) ? 1 : between(seed, 1, 2);
+    contact->damping = between(seed, 0, 2e4);
+    contact->friction = chance(seed, 0.2) ? 0 : between(seed, 0, 0.5);
+}
+
+static void draw_rail(uint64_t *seed, int form, ld_model *model)
+{
+    reference_model(model);
+    ld_tubes *tubes = &model->tubes;
+    ld_rocket *rocket = &model->rocket;
+    tubes->slot.kind = LD_SLOT_NONE;
+    tubes->modes.bending = 2 + choice(seed, 4);
+    tubes->modes.elements = 12;
+    for (int k = 0; k < 2; k++) // not isotropic
+        scale_all(seed, 3, tubes->support[k].stiffness);
+    draw_guide(seed, form, &tubes->guide);
+    draw_contact(seed, &rocket->contact);
+    rocket->adaptor_count = 2 + choice(seed, 2);
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        rocket->adaptor[i].clearance = chance(seed, 0.5) ? NAN : between(seed, 0, 1e-3);
+    rocket->lock.holds_roll = (ld_hold)choice(seed, 3);
+    rocket->lock.x = between(seed, -0.5, 0.5);
+    rocket->lock.radius = between(seed, 0, 0.2);
+    rocket->lock.angle = between(seed, -3, 3);
+}
+
+// ---- agreement ----
+
+typedef struct agreement {
+    double tube, rocket, lock, shoe, base; // largest differences, relative
+    int pressed, rubbing;
+} agreement;
+
+static double apart3(const double *a, v3 b, double scale)
+{
+    return v3_norm(v3_sub(v3_from(a), b)) / scale;
+}
+
+static double size3(const double *a)
+{
+    return v3_norm(v3_from(a));
+}
+
+// Of one shoe: force across the rail and moment about the guide line, in the axes of its section.
+static double shoe_difference(const launching_system *system, const launching_case *c, int i,
+                              const launching_output *out, const dense_launch_output *dense)
+{
+    const launching_layout *at = &system->layout;
+    launching_section section;
+    launching_pose pose;
+    launching_output unused;
+    launching_section_at(system, c->state, dense->contact[i].s, &section);
+    launching_rocket_pose(system, c->state, &pose, &unused);
+    m3 A = m3_mul(q_matrix(q_from(c->state + at->quaternion)), section.A);
+    v3 F = m3_apply_transposed(A, v3_from(dense->contact[i].force));
+    v3 M = m3_apply_transposed(A, v3_from(dense->contact[i].moment));
+    v3 C = v3_add(pose.p1, v3_scale(system->adaptors.at[i], m3_column(pose.A_RB, 0)));
+    v3 arm = m3_apply_transposed(section.A, v3_sub(C, section.P));
+    double y = arm.y - system->surfaces.line_y, z = arm.z - system->surfaces.line_z;
+    double worst = fabs(out->shoe[i].force_y - F.y) + fabs(out->shoe[i].force_z - F.z);
+    worst = fmax(worst, fabs(out->shoe[i].moment_x - (M.x + y * F.z - z * F.y)));
+    worst = fmax(worst, fabs(out->adaptor[i].normal - dense->contact[i].normal));
+    worst = fmax(worst, fabs(out->adaptor[i].penetration - dense->contact[i].penetration) * 5e7);
+    return worst;
+}
+
+static void compare(const launching_system *system, const launching_case *c,
+                    const launching_output *out, const dense_launch_output *dense, agreement *worst)
+{
+    double modal = 0, modal_error = 0, force = 1e3 + fabs(dense->lock_force);
+    for (int i = 0; i < system->layout.nq; i++) {
+        modal = fmax(modal, fabs(dense->q_ddot[i]));
+        modal_error = fmax(modal_error, fabs(dense->q_ddot[i] - out->q_ddot[i]));
+    }
+    for (int i = 0; i < system->adaptors.count; i++)
+        force += dense->contact[i].normal;
+    for (int i = 0; i < system->adaptors.count; i++)
+        if (!c->phase.passed[i])
+            worst->shoe = fmax(worst->shoe, shoe_difference(system, c, i, out, dense) / force);
+    worst->tube = fmax(worst->tube, apart3(dense->a, out->a, size3(dense->a)));
+    worst->tube = fmax(worst->tube, apart3(dense->w_dot, out->w_dot, size3(dense->w_dot)));
+    worst->tube = fmax(worst->tube, modal_error / modal);
+    double a = size3(dense->a_O1) + size3(dense->a);
+    double alpha = size3(dense->alpha_B) + size3(dense->w_dot);
+    worst->rocket = fmax(worst->rocket, apart3(dense->a_O1, out->a_O1, a));
+    worst->rocket = fmax(worst->rocket, apart3(dense->alpha_B, out->alpha_B, alpha));
+    worst->lock = fmax(worst->lock, fabs(dense->lock_force - out->lock_force) / force);
+    worst->base =
+        fmax(worst->base, apart3(dense->base_force, out->base_force, size3(dense->base_force)));
+    worst->base =
+        fmax(worst->base, apart3(dense->base_moment, out->base_moment, size3(dense->base_moment)));
+}
+
+// ---- states ----
+
+typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
+                                       const launching_phase *, const double *, launching_output *);
+
+static launching_outcome general(const launching_system *system, const launching_input *input,
+                                 const launching_phase *phase, const double *state,
+                                 launching_output *out)
+{
+    return launching_evaluate_general(system, LD_FORMULATION_REDUCED, input, phase, state, out);
+}
+
+static launching_outcome overall(const launching_system *system, const launching_input *input,
+                                 const launching_phase *phase, const double *state,
+                                 launching_output *out)
+{
+    return launching_evaluate_general(system, LD_FORMULATION_OVERALL, input, phase, state, out);
+}
+
+// Speeds at first touch: of listed surfaces one each, of a shorthand's one a shoe.
+static void draw_touch_speeds(uint64_t *seed, const ld_model *model, launching_case *c)
+{
+    int shoes = model->rocket.adaptor_count;
+    bool listed = model->tubes.guide.form == LD_GUIDE_SURFACES;
+    for (int i = 0; i < shoes; i++) {
+        double speed = between(seed, 0.05, 0.2);
+        for (int k = 0; k < LD_MAX_SURFACES; k++) {
+            speed = listed ? between(seed, 0.05, 0.2) : speed;
+            c->phase.surface_speed[i][k] = speed;
+            if (k * shoes + i < DENSE_MAX_SURFACES)
+                c->dense.conditions.surface_touch_speed[k * shoes + i] = speed;
+        }
+    }
+}
+
+static void compare_states(const ld_model *model, const evaluator evaluate[3], uint64_t *seed,
+                           int count, agreement worst[3])
+{
+    launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
+    dense_launch *dense = malloc(sizeof *dense);
+    ld_error error;
+    assert_int_equal(launching_build(system, model, NULL, &error), LD_OK);
+    dense_launch_create(dense, model, &system->tube.flexible);
+    for (int n = 0; n < count; n++) {
+        launching_case c;
+        launching_output out;
+        dense_launch_output reference;
+        draw_state(system, seed, n % 3 == 0, &c);
+        for (int i = system->adaptors.count - 1; i > 0 && chance(seed, 0.3); i--)
+            c.phase.passed[i] = true;
+        c.phase.frictionless = chance(seed, 0.1);
+        copy_to_dense(system, &c);
+        draw_touch_speeds(seed, model, &c);
+        assert_true(dense_launch_evaluate(dense, &c.dense, &reference));
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(evaluate[i](system, &c.input, &c.phase, c.state, &out), LAUNCHING_OK);
+            compare(system, &c, &out, &reference, &worst[i]);
+            for (int k = 0; k < dense->surface_count; k++)
+                worst[i].pressed += reference.surface[k].normal > 0;
+        }
+    }
+    dense_launch_free(dense);
+    free(dense);
+    launching_free(system);
+    free(system);
+}
+
+static void shoes_equal_dense(void **state)
+{
+    (void)state;
+    static const char *const form[] = {"listed surfaces", "T-slots", "towers"};
+    static const char *const program[] = {"reduced", "from the general matrix", "overall"};
+    static const evaluator evaluate[] = {launching_evaluate, general, overall};
+    const char *asked = getenv("LD_RAIL_STATES");
+    int states = asked ? atoi(asked) : 60, each = 5;
+    uint64_t seed = 15;
+    for (int f = 0; f < 3; f++) {
+        agreement worst[3] = {0};
+        for (int n = 0; n < states; n += each) {
+            ld_model model;
+            draw_rail(&seed, f, &model);
+            compare_states(&model, evaluate, &seed, each, worst);
+            reference_model_free(&model);
+        }
+        for (int i = 0; i < 3; i++) {
+            printf("  %s, %s, %d states, %.1f surfaces pressed in each:\n", form[f], program[i],
+                   states, (double)worst[i].pressed / states);
+            CHECK_BELOW("tube accelerations", worst[i].tube, 1e-11);
+            CHECK_BELOW("rocket accelerations", worst[i].rocket, 1e-11);
+            CHECK_BELOW("lock force", worst[i].lock, 6e-11);
+            CHECK_BELOW("forces and moments of shoes", worst[i].shoe, 6e-11);
+            CHECK_BELOW("force and moment on the base", worst[i].base, 1e-12);
+        }
+    }
+}
+
+// ---- closed forms ----
+
+// A straight rail at rest in its base, the rocket in it as `x` says (after s), every speed zero.
+static void place(const launching_system *system, const double x[5], launching_case *c)
+{
+    const launching_layout *at = &system->layout;
+    memset(c, 0, sizeof *c);
+    c->state[at->quaternion] = 1;
+    c->state[at->x] = 0.4;
+    memcpy(c->state + at->x + 1, x, 5 * sizeof *x);
+    c->input.base.A = m3_identity();
+    c->input.base.q = q_from_matrix(c->input.base.A);
+    c->input.mass.m = 60;
+    c->input.mass.c = v3_make(1.1, 0, 0);
+    c->input.mass.J = m3_diagonal(0.22, 24, 24);
+    c->phase.rocket = true;
+}
+
+static launching_system *system_of(const ld_model *model)
+{
+    launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
+    ld_error error;
+    assert_int_equal(launching_build(system, model, NULL, &error), LD_OK);
+    return system;
+}
+
+// Rolled by gamma, each lip of a T-slot presses on one side with k (sin(gamma) lips/2 - gap): the
+// shoes carry the roll by these couples and by nothing else.
+static void lips_carry_roll(void **state)
+{
+    (void)state;
+    ld_model model;
+    launching_case c;
+    launching_output out;
+    reference_model(&model);
+    model.gravity = 0;
+    model.tubes.slot.kind = LD_SLOT_NONE;
+    model.tubes.guide = (ld_guide){.present = true,
+                                   .form = LD_GUIDE_T_SLOT,
+                                   .line = {0.07, 0.02},
+                                   .t_slot = {.lips = 0.06, .gap = 0.5e-3, .side_gap = 0.3e-3}};
+    for (int i = 0; i < 3; i++)
+        model.rocket.adaptor[i].clearance = NAN;
+    launching_system *system = system_of(&model);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double gamma = sign * 0.025, k = model.rocket.contact.stiffness, half = 0.03;
+        double couple = 2 * k * (sin(0.025) * half - 0.5e-3) * half * cos(gamma), sum = 0;
+        place(system, (double[5]){0.07, 0.02, 0, 0, gamma}, &c);
+        assert_int_equal(launching_evaluate(system, &c.input, &c.phase, c.state, &out),
+                         LAUNCHING_OK);
+        for (int i = 0; i < 3; i++) {
+            sum -= sign * couple;
+            CHECK_BELOW("force on the shoe, of its normal forces",
+                        hypot(out.shoe[i].force_y, out.shoe[i].force_z) / out.adaptor[i].normal,
+                        1e-13);
+            CHECK_BELOW("moment of the lips, relative", out.shoe[i].moment_x / (-sign * couple) - 1,
+                        1e-12);
+        }
+        CHECK_BELOW("roll acceleration, relative", out.alpha_B.x / (sum / 0.22) - 1, 1e-12);
+    }
+    launching_free(system);
+    free(system);
+    reference_model_free(&model);
+}
+
+// The same state in two guides; the largest difference of forces and accelerations, relative.
+static double guides_differ(launching_system *const system[2], const launching_case *c)
+{
+    launching_output out[2];
+    double worst = 0;
+    for (int g = 0; g < 2; g++)
+        assert_int_equal(launching_evaluate(system[g], &c->input, &c->phase, c->state, &out[g]),
+                         LAUNCHING_OK);
+    v3 a[2], alpha[2], w_dot[2];
+    for (int g = 0; g < 2; g++) {
+        a[g] = out[g].a_O1;
+        alpha[g] = out[g].alpha_B;
+        w_dot[g] = out[g].w_dot;
+    }
+    worst = fmax(worst, v3_norm(v3_sub(a[0], a[1])) / v3_norm(a[0]));
+    double turning = v3_norm(alpha[0]) + v3_norm(w_dot[0]);
+    worst = fmax(worst, v3_norm(v3_sub(alpha[0], alpha[1])) / turning);
+    worst = fmax(worst, v3_norm(v3_sub(w_dot[0], w_dot[1])) / v3_norm(w_dot[0]));
+    for (int i = 0; i < 3; i++)
+        worst = fmax(worst, fabs(out[0].adaptor[i].normal / out[1].adaptor[i].normal - 1));
+    return worst;
+}
+
+// Pressed towards one of four rails, on a straight guide, a tower is the bore of the same gap: with
+// friction, where the rails are as far out as the wall.
+static void four_rails_are_a_bore(void **state)
+{
+    (void)state;
+    ld_model model;
+    uint64_t seed = 3;
+    double worst = 0;
+    for (int n = 0; n < 40; n++) {
+        launching_system *system[2];
+        launching_case c;
+        double angle = between(&seed, -3, 3), e[2] = {cos(angle), sin(angle)};
+        double gap = between(&seed, 0, 1e-3);
+        for (int tower = 0; tower < 2; tower++) {
+            reference_model(&model);
+            model.tubes.slot.kind = LD_SLOT_NONE;
+            for (int i = 0; i < 3; i++)
+                model.rocket.adaptor[i].clearance = tower ? NAN : gap;
+            model.tubes.guide = (ld_guide){
+                .present = tower, .form = LD_GUIDE_TOWER, .tower = {4, angle, gap, 0.0825}};
+            system[tower] = system_of(&model);
+            reference_model_free(&model);
+        }
+        // leant towards the rail, exactly
+        double out = between(&seed, 1.5e-3, 2e-3), lean = between(&seed, -2e-4, 2e-4);
+        double psi = atan2(sin(lean) * e[0], cos(lean)), theta = -asin(sin(lean) * e[1]);
+        place(system[0], (double[5]){out * e[0], out * e[1], psi, theta, between(&seed, -3, 3)},
+              &c);
+        // small speeds along the rail's direction, large ones along the guide
+        const launching_layout *at = &system[0]->layout;
+        v3_store(c.state + at->v, v3_make(5, 0, 0));
+        v3_store(c.state + at->V, v3_make(20, 0.1 * e[0], 0.1 * e[1]));
+        assert_int_equal(at->V, system[1]->layout.V);
+        worst = fmax(worst, guides_differ(system, &c));
+        for (int g = 0; g < 2; g++) {
+            launching_free(system[g]);
+            free(system[g]);
+        }
+    }
+    CHECK_BELOW("four rails against the bore, relative", worst, 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shoes_equal_dense),
+        cmocka_unit_test(lips_carry_roll),
+        cmocka_unit_test(four_rails_are_a_bore),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
