@@ -7,6 +7,7 @@
 #include "elements/aerodynamics.h"
 #include "elements/base_frame.h"
 #include "elements/flexible_tube.h"
+#include "elements/guide_forces.h"
 #include "elements/motor.h"
 #include "elements/work.h"
 
@@ -52,6 +53,7 @@ typedef struct launching_input {
     rocket_mass mass;
     moving_air air;             // about the rocket; read where its emerged part feels it
     const launching_load *load; // where it is linearised; NULL: none
+    guide_forces *record;       // of what acts on the tube; NULL: none is kept
 } launching_input;
 
 typedef struct adaptor_report {

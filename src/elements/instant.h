@@ -119,6 +119,7 @@ typedef struct tube_force {
     LANE_ARRAY(z, LD_NB);
     double t[LD_NT];
     double a[LD_NA];
+    guide_forces *record; // of each force by its place; NULL: none is kept
 } tube_force;
 
 // Everything of the tube that does not depend on forces.

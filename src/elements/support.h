@@ -78,9 +78,13 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
         out->base_moment = v3_sub(out->base_moment, v3_add(m_T, v3_cross(place, f_T)));
         // on the tube, in R
         v3 f = m3_apply_transposed(A_TR, f_T), m = m3_apply_transposed(A_TR, m_T);
-        v3 mu = m3_apply_transposed(Jl, m);
+        v3 mu = m3_apply_transposed(Jl, m), m_R = v3_add(m, v3_cross(P, f));
         h->f = v3_add(h->f, f);
-        h->m = v3_add(h->m, v3_add(m, v3_cross(P, f)));
+        h->m = v3_add(h->m, m_R);
+        if (__builtin_expect(h->record != NULL, 0)) {
+            guide_forces_add(h->record, support->x, f, m_R);
+            h->record->support[k] = (guide_wrench){f_T, m_T};
+        }
         const v4d *b = v4d_lanes_of(guide->rows[2 * k]), *b1 = v4d_lanes_of(guide->rows[2 * k + 1]);
         v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
         for (int i = 0; i < lanes; i++) {

@@ -20,6 +20,7 @@ enum {
     LD_MAX_SECTIONS = 32,
     LD_MAX_POINT_MASSES = 16,
     LD_MAX_SUPPORTS = 8,
+    LD_MAX_STATIONS = 16,
     LD_MAX_ADAPTORS = 8,
     LD_MAX_SURFACES = 12,
     LD_MAX_SINES = 16,
@@ -386,6 +387,11 @@ typedef struct ld_support {
     double rotational_damping[3];   ///< [N m s/rad]
 } ld_support;
 
+/// Where it is asked for what the tube carries.
+typedef struct ld_station {
+    double at; ///< [m] station
+} ld_station;
+
 typedef enum ld_slot_kind { LD_SLOT_NONE, LD_SLOT_HELIX } ld_slot_kind;
 
 typedef struct ld_slot {
@@ -463,6 +469,8 @@ typedef struct ld_tubes {
     ld_tail tail;
     int support_count;
     ld_support support[LD_MAX_SUPPORTS];
+    int station_count;
+    ld_station station[LD_MAX_STATIONS];
     ld_slot slot;
     ld_guide guide;
 } ld_tubes;

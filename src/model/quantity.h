@@ -24,6 +24,8 @@ typedef enum quantity_each {
     EACH_HINGE, // azimuth, elevation
     EACH_WHEEL,
     EACH_MEASURE, // that the scenario asks for
+    EACH_STATION, // of the tube, at which loads are asked for
+    EACH_SUPPORT, // of the tube, where loads are asked for
     EACH_COUNT
 } quantity_each;
 

@@ -12,6 +12,20 @@ static void station_rule(const rule_set *rules, const char *path, int index, dou
         broken(rules, path, index, "%g m lies beyond the tube's tip at %g m", at, length);
 }
 
+// Stations at which loads are asked for, each once.
+static void load_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    for (int i = 0; i < tubes->station_count; i++) {
+        double at = tubes->station[i].at;
+        station_rule(rules, "tubes.loads.#.at", i + 1, at);
+        for (int k = 0; k < i; k++)
+            if (tubes->station[k].at == at)
+                broken(rules, "tubes.loads.#.at", i + 1, "%g m is that of entry %d already", at,
+                       k + 1);
+    }
+}
+
 static void material_rules(const rule_set *rules, const ld_section *section, int index)
 {
     const ld_material *material = &rules->model->tubes.material;
@@ -478,6 +492,7 @@ static void launch_rules(const rule_set *rules)
     derived_rules(rules);
     for (int i = 0; i < model->tubes.point_mass_count; i++)
         station_rule(rules, "tubes.point_masses.#.at", i + 1, model->tubes.point_mass[i].at);
+    load_rules(rules);
     modes_rules(rules);
     tail_rules(rules);
     support_rules(rules);

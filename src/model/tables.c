@@ -682,6 +682,10 @@ static const field_row support_fields[] = {
     {0}};
 static const field_block support_block = {.fields = support_fields};
 
+static const field_row station_fields[] = {
+    {"at", NUMBER(ld_station, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"}, {0}};
+static const field_block station_block = {.fields = station_fields};
+
 static const field_row slot_columns[] = {
     {"station", .unit = "m", FROM_TO(-100, 100)},
     {"angle", .unit = "rad", INSIDE(-80 * PI / 180, 80 * PI / 180)},
@@ -775,6 +779,10 @@ static const field_row tubes_fields[] = {
      .doc = "rigid body welded to the rear end"},
     {"supports", LIST(ld_tubes, support, support_count, support_block, 0, LD_MAX_SUPPORTS),
      .required = true, .doc = "spring-dampers between tube and base"},
+    {"loads", LIST(ld_tubes, station, station_count, station_block, 0, LD_MAX_STATIONS),
+     .silent = true, .initial_doc = "none",
+     .doc = "stations at which forces, moments and stress that the tube carries are told, and with "
+            "them what each support puts on it"},
     {"slot", BLOCK(ld_tubes, slot, slot_block), .required = true,
      SWITCH(ld_tubes, slot.kind, slot_words),
      .doc = "slot that the rocket's knob follows; `none`: smooth bore"},

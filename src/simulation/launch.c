@@ -117,6 +117,7 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
         launch_record_ignition(run, t, y); // the row of this instant wants it
     ld_status status = launch_write_rows(run);
     launch_watch_forces(run, t, y);
+    launch_watch_loads(run, t, y);
     launch_watch_hinges(run, t, y);
     launch_measure_step(run, outcome != INTEGRATOR_STEPPED);
     if (!status && outcome != INTEGRATOR_STEPPED)

@@ -118,6 +118,10 @@ double linear_step(const linear_system *system, int unknown);
 // [base]. Other than 0: there are none.
 int linear_rates(const launch_state *self, const linear_system *system, const double *y, double *r);
 
+// Evaluates, and finds what the tube carries where that is asked for.
+launching_outcome simulation_loads(const launch_state *self, launcher_input *input, const double *y,
+                                   launcher_output *out, launching_loads *loads);
+
 // A row of the history.
 void history_row(const launch_state *self, double t, const double *y, double energy_start,
                  double *row);

@@ -31,6 +31,7 @@ static void surround(const launch_state *self, double t, const double *y, launch
     input->air = (moving_air){0};
     const base_disturbance *disturbed = self->launcher.base.disturbed;
     input->load = disturbed ? &disturbed->input.launching : NULL;
+    input->record = NULL;
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);
 }
@@ -49,6 +50,22 @@ void simulation_input(const launch_state *self, double t, const double *y, launc
     input->rest = self->rest;
     input->held = false;
     input->formulation = self->model->run.formulation;
+}
+
+launching_outcome simulation_loads(const launch_state *self, launcher_input *input, const double *y,
+                                   launcher_output *out, launching_loads *loads)
+{
+    const launcher_system *launcher = &self->launcher;
+    const ld_tubes *tubes = &launcher->launching.tubes;
+    guide_forces record;
+    if (tubes->station_count == 0)
+        return launcher_evaluate(launcher, input, &self->phase, y, out);
+    guide_forces_begin(&record, tubes->station_count, tubes->station);
+    input->launching.record = &record;
+    launching_outcome outcome = launcher_evaluate(launcher, input, &self->phase, y, out);
+    launching_find_loads(&launcher->launching, &input->launching, y, &out->launching, loads);
+    input->launching.record = NULL;
+    return outcome;
 }
 
 // NaN or infinity anywhere makes the sum of 0 y not zero.

@@ -98,6 +98,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     now->phase = phase;
     now->out = out;
     memset(&now->on_tube, 0, sizeof now->on_tube);
+    now->on_tube.record = input->record;
     memset(out->power, 0, sizeof out->power);
     u->n = 6 + at->nq;
     tube_load(lanes, &self->tube, at, state, &now->tube);
@@ -539,16 +540,22 @@ launching_outcome launching_evaluate_general(const launching_system *self,
                                              launching_output *out)
 {
     uncoupled u;
+    launching_outcome outcome;
     load_uncoupled(self, input, phase, state, &u, out);
     out->fell_back = false;
     out->condition = 0;
     if (formulation == LD_FORMULATION_OVERALL && phase->rocket) {
         // where both signs of N are consistent the knob jams too, which one solve does not show
         launching_output reduced;
+        launching_input apart = *input;
+        apart.record = NULL;
         if (u.c.set.sliding &&
-            launching_evaluate(self, input, phase, state, &reduced) == LAUNCHING_JAMMED)
+            launching_evaluate(self, &apart, phase, state, &reduced) == LAUNCHING_JAMMED)
             return LAUNCHING_JAMMED;
-        return evaluate_overall(self, phase, state, &u, out);
+        outcome = evaluate_overall(self, phase, state, &u, out);
+    } else {
+        outcome = solve_reduced(self, phase, &u, out);
     }
-    return solve_reduced(self, phase, &u, out);
+    constraints_record(&u.now, &u.c.set);
+    return outcome;
 }
