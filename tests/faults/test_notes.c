@@ -141,7 +141,7 @@ static void test_own_scenarios_are_silent(void **state)
     static const char *const patterns[] = {"examples/*.yaml",
                                            "examples/marching/*.yaml",
                                            "examples/stabilisers/*.yaml",
-                                           "examples/stabilisers/*.yaml",
+                                           "examples/rail/*.yaml",
                                            "tests/data/nesc/*.yaml",
                                            "tests/faults/base.yaml",
                                            "tests/faults/vehicle.yaml"};
