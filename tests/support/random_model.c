@@ -83,6 +83,20 @@ static void draw_slot(uint64_t *seed, ld_slot *slot)
     }
 }
 
+// A bending stiffness of each plane; by draws of its own, so that the others stay as they are.
+static void draw_planes(uint64_t seed, ld_tubes *tubes)
+{
+    if (!chance(&seed, 0.3))
+        return;
+    for (int i = 0; i < tubes->section_count; i++) {
+        ld_section *s = &tubes->section[i];
+        s->form = LD_SECTION_PLANES;
+        s->bending_stiffness_y = s->bending_stiffness_z = s->bending_stiffness;
+        scale(&seed, &s->bending_stiffness_y);
+        s->bending_stiffness = NAN;
+    }
+}
+
 static void draw_tubes(uint64_t *seed, ld_tubes *tubes)
 {
     ld_section *section = tubes->section;
@@ -120,6 +134,7 @@ static void draw_tubes(uint64_t *seed, ld_tubes *tubes)
         scale_all(seed, 3, support->rotational_damping);
     }
     draw_slot(seed, &tubes->slot);
+    draw_planes(*seed ^ 0x5bd1e995, tubes);
 }
 
 static void draw_contact(uint64_t *seed, ld_contact *contact)
