@@ -28,6 +28,8 @@ static int set_up(void **state)
     (void)state;
     flight_system flight = {.earth = {.flat = true}};
     reference_vehicle(&model, 5);
+    model.tubes.station_count = 1;
+    model.tubes.station[0].at = 1;
     if (ld_simulation_create(&model, &simulation, NULL) ||
         flight_columns(&flight, &of_flight, NULL))
         return -1;

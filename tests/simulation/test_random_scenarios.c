@@ -61,6 +61,7 @@ static const char *const kinds[] = {
     "tubes.modes={bending: 8, span: free-free, elements: 20}",
     "tubes.point_masses=[{at: 1 m, mass: 2 kg}, {at: 2.9 m, mass: 1 kg}]",
     "tubes.tail=",
+    "tubes.loads=[{at: 0 m}, {at: 1.2 m}, {at: 2.9 m}]",
     "rocket.lock=none",
     "rocket.empty=",
     "rocket.aerodynamics=none",
