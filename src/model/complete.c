@@ -31,7 +31,7 @@ static void complete_section(ld_section *section, const ld_material *material)
 {
     double E = material->youngs_modulus, nu = material->poisson_ratio;
     double G = isnan(nu) ? material->shear_modulus : E / (2 * (1 + nu));
-    if (section->form == LD_SECTION_STIFFNESS)
+    if (section->form == LD_SECTION_STIFFNESS || section->form == LD_SECTION_PLANES)
         return;
     if (section->form == LD_SECTION_ANNULUS) {
         double r = section->bore_radius, R = section->outer_radius;

@@ -871,6 +871,20 @@ static inline bool model_has_vehicle(const ld_model *model)
 {
     return model->base.kind == LD_BASE_VEHICLE;
 }
+/// Bending stiffness of a section about y, which deflections along z meet.
+static inline double section_stiffness_y(const ld_section *section)
+{
+    return section->form == LD_SECTION_PLANES ? section->bending_stiffness_y
+                                              : section->bending_stiffness;
+}
+
+/// Bending stiffness of a section about z, which deflections along y meet.
+static inline double section_stiffness_z(const ld_section *section)
+{
+    return section->form == LD_SECTION_PLANES ? section->bending_stiffness_z
+                                              : section->bending_stiffness;
+}
+
 /// Whether the rocket's shoes slide on surfaces, not in a bore.
 static inline bool model_has_surfaces(const ld_model *model)
 {

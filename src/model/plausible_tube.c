@@ -41,6 +41,14 @@ FIND(radius_of_stiffness)
     return plausible_compare(sqrt(2 * s->bending_stiffness / s->axial_stiffness), s->bore_radius);
 }
 
+// Radius of gyration about z, beside the tube's length.
+FIND(radius_of_plane)
+{
+    const ld_section *s = section_of(at);
+    double stiffness = s->form == LD_SECTION_PLANES ? s->bending_stiffness_z : NAN;
+    return plausible_compare(sqrt(stiffness / s->axial_stiffness), at->model->tubes.length);
+}
+
 FIND(radius_of_inertia)
 {
     const ld_section *s = section_of(at);
@@ -72,7 +80,8 @@ FIND(highest_mode)
     const ld_tubes *tubes = &at->model->tubes;
     const ld_section *s = tubes->section;
     double k = (tubes->modes.bending - 0.5) * PI / tubes->length;
-    double frequency = k * k * sqrt(s->bending_stiffness / s->mass_per_length) / (2 * PI);
+    double stiffness = fmax(section_stiffness_y(s), section_stiffness_z(s));
+    double frequency = k * k * sqrt(stiffness / s->mass_per_length) / (2 * PI);
     return plausible_compare(tubes->modes.bending > 0 ? frequency : NAN,
                              1 / at->model->run.max_step);
 }
@@ -191,6 +200,12 @@ const plausible_rule plausible_of_tube[] = {
     {"tubes.sections.#.bending_stiffness", "the wall's mean radius by its stiffnesses", .unit = "m",
      BORE, .low = 0.5, .high = 3, .find = radius_of_stiffness,
      .why = "a wall lies around its bore"},
+    {"tubes.sections.#.bending_stiffness_y", .unit = "N.m2",
+     .other = "tubes.sections.#.bending_stiffness_z", .low = 0.002, .high = 500,
+     .why = "what is so much stiffer in one plane is a sheet"},
+    {"tubes.sections.#.bending_stiffness_z", "the radius of gyration by its stiffnesses",
+     .unit = "m", .other = "tubes.length", .low = 2e-4, .high = 0.2, .find = radius_of_plane,
+     .why = "a guide is a beam"},
     {"tubes.sections.#.torsion_stiffness", .unit = "N.m2",
      .other = "tubes.sections.#.bending_stiffness", .low = 1e-5, .high = 2.5,
      .why = "that of a ring is a little less than its bending stiffness"},

@@ -66,11 +66,13 @@ static void section_rules(const rule_set *rules)
                    section->bore_radius);
     }
     // the material is needed once, so say so once
-    for (int i = 0; i < tubes->section_count; i++)
-        if ((int)tubes->section[i].form > LD_SECTION_STIFFNESS) {
+    for (int i = 0; i < tubes->section_count; i++) {
+        ld_section_form form = tubes->section[i].form;
+        if (form == LD_SECTION_ANNULUS || form == LD_SECTION_AREA) {
             material_rules(rules, &tubes->section[i], i + 1);
             break;
         }
+    }
 }
 
 // Values that follow from those given: too large or too small ones must not slip through.
@@ -79,10 +81,11 @@ static void derived_rules(const rule_set *rules)
     const ld_tubes *tubes = &rules->model->tubes;
     for (int i = 0; i < tubes->section_count; i++) {
         const ld_section *s = &tubes->section[i];
-        const double value[] = {s->mass_per_length, s->axial_stiffness, s->bending_stiffness,
-                                s->torsion_stiffness, s->polar_inertia};
+        const double value[] = {s->mass_per_length,     s->axial_stiffness,
+                                section_stiffness_y(s), section_stiffness_z(s),
+                                s->torsion_stiffness,   s->polar_inertia};
         bool has_wall = s->form != LD_SECTION_ANNULUS || s->outer_radius > s->bore_radius;
-        for (int k = 0; k < 5 && has_wall; k++)
+        for (int k = 0; k < 6 && has_wall; k++)
             if (value[k] < 1e-100 || value[k] > 1e100) {
                 broken(rules, "tubes.sections.#", i + 1,
                        "its stiffnesses or masses come out as %g, beyond all reason", value[k]);

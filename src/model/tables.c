@@ -583,11 +583,14 @@ static const field_row layout_fields[] = {
     {0}};
 static const field_block layout_block = {.fields = layout_fields};
 
-static const field_word section_forms[] = {{"a section given by radii", LD_SECTION_ANNULUS},
-                                           {"a section given by its area", LD_SECTION_AREA},
-                                           {"a section given by stiffnesses", LD_SECTION_STIFFNESS},
-                                           {NULL, 0}};
+static const field_word section_forms[] = {
+    {"a section given by radii", LD_SECTION_ANNULUS},
+    {"a section given by its area", LD_SECTION_AREA},
+    {"a section given by stiffnesses", LD_SECTION_STIFFNESS},
+    {"a section given by stiffnesses of each plane", LD_SECTION_PLANES},
+    {NULL, 0}};
 #define STIFFNESS FORM(LD_SECTION_STIFFNESS)
+#define PLANES FORM(LD_SECTION_PLANES)
 #define ANNULUS FORM(LD_SECTION_ANNULUS)
 #define AREA FORM(LD_SECTION_AREA)
 static const field_row section_fields[] = {
@@ -598,9 +601,10 @@ static const field_row section_fields[] = {
     {"outer_radius", NUMBER(ld_section, outer_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
      .forms = ANNULUS, .doc = "outer radius"},
     {"bore_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10),
-     NO_DEFAULT("needed by a bore"), .forms = AREA | STIFFNESS, .doc = "radius of the bore"},
+     NO_DEFAULT("needed by a bore"), .forms = AREA | STIFFNESS | PLANES,
+     .doc = "radius of the bore"},
     {"mass_per_length", NUMBER(ld_section, mass_per_length, "kg/m"), POSITIVE, REQUIRED,
-     .forms = AREA | STIFFNESS, .doc = "mass per length"},
+     .forms = AREA | STIFFNESS | PLANES, .doc = "mass per length"},
     {"area", NUMBER(ld_section, area, "m2"), POSITIVE, REQUIRED, .forms = AREA,
      .doc = "area A of the wall"},
     {"second_moment", NUMBER(ld_section, second_moment, "m4"), POSITIVE, REQUIRED, .forms = AREA,
@@ -608,13 +612,17 @@ static const field_row section_fields[] = {
     {"torsion_constant", NUMBER(ld_section, torsion_constant, "m4"), POSITIVE, REQUIRED,
      .forms = AREA, .doc = "Saint-Venant torsion constant"},
     {"axial_stiffness", NUMBER(ld_section, axial_stiffness, "N"), POSITIVE, REQUIRED,
-     .forms = STIFFNESS, .doc = "E A"},
+     .forms = STIFFNESS | PLANES, .doc = "E A"},
     {"bending_stiffness", NUMBER(ld_section, bending_stiffness, "N.m2"), POSITIVE, REQUIRED,
      .forms = STIFFNESS, .doc = "E I, the same in both planes"},
+    {"bending_stiffness_y", NUMBER(ld_section, bending_stiffness_y, "N.m2"), POSITIVE, REQUIRED,
+     .forms = PLANES, .doc = "E I about y, which deflections along z meet"},
+    {"bending_stiffness_z", NUMBER(ld_section, bending_stiffness_z, "N.m2"), POSITIVE, REQUIRED,
+     .forms = PLANES, .doc = "E I about z, which deflections along y meet"},
     {"torsion_stiffness", NUMBER(ld_section, torsion_stiffness, "N.m2"), POSITIVE, REQUIRED,
-     .forms = STIFFNESS, .doc = "G times the torsion constant"},
+     .forms = STIFFNESS | PLANES, .doc = "G times the torsion constant"},
     {"polar_inertia", NUMBER(ld_section, polar_inertia, "kg.m"), POSITIVE, REQUIRED,
-     .forms = AREA | STIFFNESS, .doc = "polar moment of inertia per length"},
+     .forms = AREA | STIFFNESS | PLANES, .doc = "polar moment of inertia per length"},
     {0}};
 static const field_block section_block = {.fields = section_fields,
                                           .form = section_forms,

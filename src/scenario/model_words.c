@@ -87,7 +87,11 @@ static void tell_section(FILE *stream, const ld_section *s, bool bore)
         fprintf(stream, " bore radius %s,", MILLIMETRES(s->bore_radius));
     if (s->form == LD_SECTION_ANNULUS)
         fprintf(stream, " wall %s,", MILLIMETRES(s->outer_radius - s->bore_radius));
-    fprintf(stream, " EI %s", STIFFNESS(s->bending_stiffness));
+    if (s->form == LD_SECTION_PLANES)
+        fprintf(stream, " EI %s about y, %s about z", STIFFNESS(s->bending_stiffness_y),
+                STIFFNESS(s->bending_stiffness_z));
+    else
+        fprintf(stream, " EI %s", STIFFNESS(s->bending_stiffness));
     fprintf(stream, ", GJ %s, %.4g kg/m\n", STIFFNESS(s->torsion_stiffness), s->mass_per_length);
 }
 

@@ -42,15 +42,7 @@ static void flatten(const launching_system *self, const tube_force *force, doubl
 static void modal_energies(const launching_system *self, const double *state, launching_output *out)
 {
     const flexible_tube *tube = &self->tube.flexible;
-    const double *q_dot = state + self->layout.q_dot;
-    double dissipated = 0;
-    for (int j = 0; j < self->layout.nq; j++) {
-        double damping = j < 2 * tube->nb              ? tube->dmp_b[j % tube->nb]
-                         : j < 2 * tube->nb + tube->nt ? tube->dmp_t[j - 2 * tube->nb]
-                                                       : tube->dmp_a[j - 2 * tube->nb - tube->nt];
-        dissipated += damping * q_dot[j] * q_dot[j];
-    }
-    out->power[POWER_MODAL_DAMPING] = -dissipated;
+    out->power[POWER_MODAL_DAMPING] = tube_damping_power(tube, state + self->layout.q_dot);
     out->elastic = tube_elastic_energy(tube, state + self->layout.q);
 }
 

@@ -439,11 +439,16 @@ static void tube_powers(const instant *at, double power[LAUNCHER_MOST_WORKS])
     v3 v = m3_apply_transposed(A, under.v), w = m3_apply_transposed(A, under.w);
     power[POWER_BASE] =
         -v3_dot(v3_from(at->out.base_force), v) - v3_dot(v3_from(at->out.base_moment), w);
-    for (int i = 0; i < 2 * tube->nb + tube->nt; i++) {
-        double damping =
-            i < 2 * tube->nb ? tube->dmp_b[i % tube->nb] : tube->dmp_t[i - 2 * tube->nb];
-        power[POWER_MODAL_DAMPING] -= damping * at->input.q_dot[i] * at->input.q_dot[i];
-    }
+    const double *q_dot = at->input.q_dot;
+    for (int i = 0; i < 2 * tube->nb; i++)
+        for (int j = 0; j < tube->nb; j++) {
+            int plane = i / tube->nb, k = i % tube->nb;
+            power[POWER_MODAL_DAMPING] -=
+                q_dot[i] * at->run->dense.D[plane][k][j] * q_dot[plane * tube->nb + j];
+        }
+    for (int i = 0; i < tube->nt; i++)
+        power[POWER_MODAL_DAMPING] -=
+            tube->dmp_t[i] * q_dot[2 * tube->nb + i] * q_dot[2 * tube->nb + i];
     for (int i = 0; i < at->run->model->tubes.support_count; i++) {
         const ld_support *support = &at->run->model->tubes.support[i];
         moving held = section(at, support->at);

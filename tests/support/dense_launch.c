@@ -77,6 +77,14 @@ bool dense_launch_holds_roll(const dense_launch *dense)
     return hold == LD_HOLD_BY_GUIDE ? smooth : hold == LD_HOLD_YES;
 }
 
+// [N m2] of deflections along y (plane 0) or z.
+static double bending_of(const ld_section *section, int plane)
+{
+    if (section->form != LD_SECTION_PLANES)
+        return section->bending_stiffness;
+    return plane ? section->bending_stiffness_y : section->bending_stiffness_z;
+}
+
 // K += int EI b'' b''^T dx of a stretch: b'' is linear along it.
 static void add_bending(double K[LD_NB][LD_NB], const tube_element *element, int nb, double from,
                         double to, double EI)
@@ -132,7 +140,7 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
             }
             for (int plane = 0; plane < 2; plane++)
                 add_bending(dense->K[plane], &tube->element[i], tube->nb, from, to,
-                            section->bending_stiffness);
+                            bending_of(section, plane));
             from = to;
         }
     }
