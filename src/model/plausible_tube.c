@@ -120,6 +120,29 @@ FIND(support_time)
                              at->model->run.max_step);
 }
 
+// What the recuperators carry beside the weight that pulls the tube out of battery.
+FIND(preload)
+{
+    const ld_model *model = at->model;
+    const ld_tubes *tubes = &model->tubes;
+    double mass = plausible_tube_mass(tubes) + model->rocket.full.mass, preload = 0;
+    double weight = plausible_weight_along(model) / model->rocket.full.mass * mass;
+    for (int i = 0; i < tubes->support_count; i++)
+        preload += tubes->support[i].recoil.present ? tubes->support[i].recoil.preload : 0;
+    return plausible_compare(preload, weight > 0 ? weight : NAN);
+}
+
+// Pressure of the gas when the rocket leaves.
+FIND(expanded)
+{
+    const ld_model *model = at->model;
+    const ld_pressure *gas = &model->tubes.pressure;
+    double bore = plausible_bore(model), way = model->tubes.length - model->rocket.start_at;
+    double volume = gas->volume + PI * bore * bore * way;
+    return plausible_compare(gas->ambient,
+                             gas->scale * gas->pressure * pow(gas->volume / volume, gas->exponent));
+}
+
 FIND(pitch)
 {
     const ld_layout *layout = &at->model->tubes.layout;
@@ -242,6 +265,18 @@ const plausible_rule plausible_of_tube[] = {
      .unit = "s", .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_time,
      .of = "tubes.material.density",
      .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.supports.#.recoil.preload", "the preload of all slides", .unit = "N",
+     .other = "the weight of tube and rocket towards the rear", .low = 1, NO_HIGH, .find = preload,
+     .of = "tubes.material.density", .why = "the tube rests out of battery"},
+    {"tubes.supports.#.recoil.stroke", .unit = "m", .other = "tubes.length", NO_LOW, .high = 1,
+     .why = "a slide is shorter than its tube"},
+    {"tubes.pressure.exponent", .unit = "", .low = 1, .high = 1.7,
+     .why = "gases have 1 where they are kept warm, and at most 1.67"},
+    {"tubes.pressure.ambient", .unit = "Pa", .other = "the pressure of the gas at the exit", NO_LOW,
+     .high = 1, .find = expanded, .of = "tubes.pressure.exponent",
+     .why = "it holds the rocket back before it leaves"},
+    {"tubes.pressure.scale", .unit = "", .low = 0.1, .high = 10,
+     .why = "it is a correction of the pressure"},
     {"tubes.layout.pitch", .unit = "m", .other = "the bore's diameter", NO_LOW, .high = 20,
      .find = pitch, .why = "tubes of one launcher lie side by side"},
     {"tubes.layout.first", "the distance of tube 1 from the platform's origin", .unit = "m",

@@ -677,6 +677,25 @@ static const field_row tail_fields[] = {
     {0}};
 static const field_block tail_block = {.fields = tail_fields};
 
+static const field_row recoil_fields[] = {
+    {"preload", NUMBER(ld_recoil, preload, "N"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "force towards battery from which on the tube gives way"},
+    {"stiffness", NUMBER(ld_recoil, stiffness, "N/m"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "by which that force grows with the way back"},
+    {"damping", NUMBER(ld_recoil, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "force over speed"},
+    {"quadratic_damping", NUMBER(ld_recoil, quadratic_damping, "N.s2/m2"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "force over the square of the speed"},
+    {"friction", NUMBER(ld_recoil, friction, "N"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "Coulomb friction"},
+    {"friction_speed", NUMBER(ld_recoil, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
+     .doc = "speed at which that is at 71 %"},
+    {"stroke", NUMBER(ld_recoil, stroke, "m"), ABOVE_TO(0, 100), NO_DEFAULT("no stop behind"),
+     .doc = "way back at which a stop like that in battery begins"},
+    {0}};
+static const field_block recoil_block = {.fields = recoil_fields};
+static const field_word recoil_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
 static const field_row support_fields[] = {
     {"at", NUMBER(ld_support, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
     {"stiffness", VECTOR(ld_support, stiffness, "N/m", 3), NOT_NEGATIVE, REQUIRED,
@@ -687,6 +706,10 @@ static const field_row support_fields[] = {
      DEFAULT(0), .doc = "about x, y, z"},
     {"rotational_damping", VECTOR(ld_support, rotational_damping, "N.m.s/rad", 3), NOT_NEGATIVE,
      DEFAULT(0), .doc = "about x, y, z"},
+    {"recoil", BLOCK(ld_support, recoil, recoil_block), .initial_doc = "none",
+     SWITCH(ld_support, recoil.present, recoil_words), .other_is_bool = true,
+     .doc = "slide along x on which the tube recoils; the support's stiffness and damping along x "
+            "are then those of its stops, the first in battery"},
     {0}};
 static const field_block support_block = {.fields = support_fields};
 
@@ -710,6 +733,49 @@ static const field_row slot_fields[] = {
     {0}};
 static const field_block slot_block = {.fields = slot_fields};
 static const field_word slot_words[] = {{"none", LD_SLOT_NONE}, {"", LD_SLOT_HELIX}, {NULL, 0}};
+
+static const field_word pressure_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word pressure_forms[] = {
+    {"a pressure over time", LD_PRESSURE_OVER_TIME},
+    {"a pressure over travel", LD_PRESSURE_OVER_TRAVEL},
+    {"the pressure of a gas that expands", LD_PRESSURE_OF_GAS},
+    {NULL, 0}};
+static const field_row over_time_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)},
+    {"pressure", .unit = "Pa", FROM_TO(0, 1e10)},
+};
+static const field_row over_travel_columns[] = {
+    {"travel", .unit = "m", FROM_TO(0, 100)},
+    {"pressure", .unit = "Pa", FROM_TO(0, 1e10)},
+};
+static const table_format over_time_table = {TABLE_CSV, 2, over_time_columns, NULL};
+static const table_format over_travel_table = {TABLE_CSV, 2, over_travel_columns, NULL};
+#define OVER_TIME FORM(LD_PRESSURE_OVER_TIME)
+#define OVER_TRAVEL FORM(LD_PRESSURE_OVER_TRAVEL)
+#define OF_GAS .forms = FORM(LD_PRESSURE_OF_GAS)
+static const field_row pressure_fields[] = {
+    {"over_time", TABLE(ld_pressure, over_time, over_time_table), .required = true,
+     .forms = OVER_TIME,
+     .doc = "from the ignition on, linear between rows, none after the last; a time given twice is "
+            "a jump"},
+    {"over_travel", TABLE(ld_pressure, over_travel, over_travel_table), .required = true,
+     .forms = OVER_TRAVEL,
+     .doc = "over the way from rocket.start_at, pchip between rows, which go on to the tip"},
+    {"scale", NUMBER(ld_pressure, scale, ""), FROM_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the pressure, before `ambient` is taken off"},
+    {"pressure", NUMBER(ld_pressure, pressure, "Pa"), ABOVE_TO(0, 1e10), REQUIRED, OF_GAS,
+     .doc = "p_0 of cold gas at the start, absolute"},
+    {"volume", NUMBER(ld_pressure, volume, "m3"), ABOVE_TO(0, 1e6), REQUIRED, OF_GAS,
+     .doc = "V_0 that it fills there, the bore behind the rocket included"},
+    {"exponent", NUMBER(ld_pressure, exponent, ""), FROM_TO(0, 10), REQUIRED, OF_GAS,
+     .doc = "kappa of p (V_0 + A s')^kappa = p_0 V_0^kappa; 1.4: air that keeps its heat"},
+    {"ambient", NUMBER(ld_pressure, ambient, "Pa"), FROM_TO(0, 1e10), DEFAULT(0),
+     .doc = "pressure before the rocket, which is taken off"},
+    {0}};
+static const field_block pressure_block = {.fields = pressure_fields,
+                                           .form = pressure_forms,
+                                           .form_offset = offsetof(ld_pressure, form),
+                                           .form_from_keys = true};
 
 static const field_word shape_words[] = {
     {"flat", LD_SURFACE_FLAT}, {"round", LD_SURFACE_ROUND}, {NULL, 0}};
@@ -794,6 +860,10 @@ static const field_row tubes_fields[] = {
     {"slot", BLOCK(ld_tubes, slot, slot_block), .required = true,
      SWITCH(ld_tubes, slot.kind, slot_words),
      .doc = "slot that the rocket's knob follows; `none`: smooth bore"},
+    {"pressure", BLOCK(ld_tubes, pressure, pressure_block), .initial_doc = "none",
+     SWITCH(ld_tubes, pressure.present, pressure_words), .other_is_bool = true,
+     .doc = "on the rocket's rear, from the ignition until it leaves, beside or in place of a "
+            "motor"},
     {"guide", BLOCK(ld_tubes, guide, guide_block), .initial_doc = "bore",
      SWITCH(ld_tubes, guide.present, guide_words), .other_is_bool = true,
      .doc = "what guides the rocket: the bore, or surfaces on which its adaptors slide as shoes"},
@@ -1026,12 +1096,11 @@ static const field_row rocket_fields[] = {
      .doc = "holds the rocket until the release force; `none`: it rests on the breech"},
     {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
      NOT_IN_FLIGHT("none in a flight alone"), SWITCH(ld_model, rocket.motor.absent, motor_words),
-     .other_is_bool = true, .doc = "thrust; `none`: only in a flight alone"},
+     .other_is_bool = true, .doc = "thrust; `none`: a flight alone, or a launch by tubes.pressure"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
      .other_is_bool = true,
      .doc = "air forces in free flight and, by its key emerged, on what has come out of the tube"},
-    {"pressure", LATER, .doc = "pressure-driven launch in place of a motor"},
     {0}};
 static const field_block rocket_block = {
     .fields = rocket_fields, .form = kind_words, .form_offset = offsetof(ld_model, base.kind)};

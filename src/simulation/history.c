@@ -172,6 +172,15 @@ static const quantity crossflow[] = {
     {"crossflow.y", "N", "force of the air on it, along y of R", AT(out.launching.crossflow.y)},
     {"crossflow.z", "N", "force of the air on it, along z of R", AT(out.launching.crossflow.z)},
 };
+static const quantity pressures[] = {
+    {"pressure.net", "Pa", "pressure behind the rocket less that before it", AT(out.launching.pressure)},
+    {"pressure.force", "N", "its force on the rocket along the tube", AT(out.launching.pressure_force)},
+};
+static const quantity slides[] = {
+    {"recoil.%s.travel", "m", "recoil slide %s: way back from battery", EACH(out.launching.slide, travel)},
+    {"recoil.%s.rate", "m/s", "recoil slide %s: rate of that", EACH(out.launching.slide, rate)},
+    {"recoil.%s.force", "N", "recoil slide %s: force on the tube, forwards", EACH(out.launching.slide, force)},
+};
 // Of the part beyond the station on the part behind it, in the axes of the section there.
 static const quantity stations[] = {
     {"station.%s.axial", "N", "station %s: axial force carried, tension positive", CARRIED(wrench.f.x)},
@@ -202,6 +211,8 @@ static const quantity energies[] = {
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
+static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
+static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
@@ -221,6 +232,8 @@ static const quantity_group groups[] = {
     {.title = "each shoe on a guide of surfaces", .each = EACH_SHOE, ROCKET, QUANTITY_ROWS(shoes)},
     {.title = "slot, lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
     {.title = "air on the emerged part of the rocket", .each = EACH_CROSSFLOW, ROCKET, QUANTITY_ROWS(crossflow)},
+    {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
+    {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
     {.title = "what the tube carries at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
     {.title = "what a support puts on the tube", .each = EACH_SUPPORT, QUANTITY_ROWS(reactions)},
 };
@@ -228,6 +241,8 @@ static const quantity_group balances[] = {
     {.title = "energy", QUANTITY_ROWS(energies)},
     {.title = "works since the start", QUANTITY_ROWS(works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, QUANTITY_ROWS(crossflow_works)},
+    {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, QUANTITY_ROWS(pressure_works)},
+    {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, QUANTITY_ROWS(recoil_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
     {.title = "work of jets", .each = EACH_JET, QUANTITY_ROWS(jet_works)},
     {.title = "balance", QUANTITY_ROWS(balance)},

@@ -92,8 +92,22 @@ void launch_watch_forces(ld_run *run, double t, const double *y)
             rocket->max_contact_force[i] =
                 fmax(rocket->max_contact_force[i], out->adaptor[i].force);
     rocket->max_slot_force = fmax(rocket->max_slot_force, fabs(out->N));
+    if (model_has_pressure(self->model))
+        rocket->max_pressure = fmax(rocket->max_pressure, out->pressure);
     if (self->phase.locked)
         run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
+}
+
+void launch_watch_recoil(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    int slides = model_slide_count(self->model);
+    double *most = run->summary.rocket[self->current].max_recoil;
+    if (slides == 0)
+        return;
+    const launcher_output *at = simulation_output(self, t, y);
+    for (int i = 0; i < slides && at; i++)
+        most[i] = fmax(most[i], at->launching.slide[i].travel);
 }
 
 static void watch_station(const guide_load *load, double since, ld_station_summary *peak)

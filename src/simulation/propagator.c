@@ -27,6 +27,8 @@ static void surround(const launch_state *self, double t, const double *y, launch
 {
     double tau = t - self->t_ignition;
     input->thrust = motor_thrust(self->motor, self->piece, tau);
+    input->since = tau;
+    input->pressure_piece = self->pressure_piece;
     motor_mass(self->motor, self->piece, tau, &input->mass);
     input->air = (moving_air){0};
     const base_disturbance *disturbed = self->launcher.base.disturbed;
@@ -87,6 +89,7 @@ static void find_conditions(const launch_state *self, double t, run_conditions *
     conditions->t = t;
     conditions->t_ignition = self->t_ignition;
     conditions->piece = self->piece;
+    conditions->pressure_piece = self->pressure_piece;
     conditions->jets = jets_pieces(&self->jets);
     conditions->rocket = self->current;
     conditions->tube = self->launcher.base.tube;

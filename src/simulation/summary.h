@@ -120,6 +120,8 @@ typedef struct ld_rocket_summary {
     ld_aim aim;         ///< the same against where that stood at the ignition
     double max_contact_force[LD_MAX_ADAPTORS];   ///< [N] norm of normal force and friction
     double max_slot_force;                       ///< [N] |N|
+    double max_pressure;                         ///< [Pa] net
+    double max_recoil[LD_MAX_SUPPORTS];          ///< [m] of the slides, in their order
     ld_station_summary station[LD_MAX_STATIONS]; ///< in the model's order
     ld_support_summary support[LD_MAX_SUPPORTS]; ///< in the model's order
     ld_hinge_summary hinge[2];                   ///< azimuth, elevation

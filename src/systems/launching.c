@@ -35,18 +35,28 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
     slot_build(&tubes->slot, rocket, &self->slot);
     lock_build(&rocket->lock, self->slot.present || self->surfaces.flat, &self->lock);
     crossflow_build(&rocket->aerodynamics, &self->crossflow);
-    self->work_count = model_has_crossflow(self->model) ? POWER_COUNT : POWER_ALWAYS;
+    self->pressure.start = rocket->start_at;
 }
 
-// Modes and coefficients follow from all keys of `tubes` but those of slot and guide, of where the
-// tubes are and of what is asked for.
+// Works up to the last kind that the model has.
+static int works_of(const ld_model *model)
+{
+    return model_slide_count(model)     ? POWER_RECOIL + 1
+           : model_has_pressure(model)  ? POWER_PRESSURE + 1
+           : model_has_crossflow(model) ? POWER_CROSSFLOW + 1
+                                        : POWER_ALWAYS;
+}
+
+// Modes and coefficients follow from all keys of `tubes` but those of slot, guide and pressure, of
+// where the tubes are and of what is asked for.
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
         bool apart =
             key->offset == offsetof(ld_tubes, layout) || key->offset == offsetof(ld_tubes, empty) ||
-            key->offset == offsetof(ld_tubes, slot) || key->offset == offsetof(ld_tubes, guide) ||
-            key->offset == offsetof(ld_tubes, station);
+            key->offset == offsetof(ld_tubes, slot) ||
+            key->offset == offsetof(ld_tubes, pressure) ||
+            key->offset == offsetof(ld_tubes, guide) || key->offset == offsetof(ld_tubes, station);
         if (!apart && !field_same(key, a, b))
             return false;
     }
@@ -131,9 +141,14 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
     tube_build_rows(model->tubes.support_count, &self->tube);
     supports_build(&model->tubes, &self->tube, &self->supports);
     tail_fold(&model->tubes.tail, &self->tube);
-    status = build_cuts(self, error);
-    if (status)
+    self->work_count = works_of(model);
+    status = pressure_build(&model->tubes, &self->pressure, error);
+    if (!status)
+        status = build_cuts(self, error);
+    if (status) {
+        launching_free(self);
         return status;
+    }
     launching_set_rocket(self, salvo_rocket(model, 0));
 #if defined(__x86_64__)
     // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
@@ -147,6 +162,7 @@ void launching_free(launching_system *self)
     flexible_tube_free(&self->tube.flexible);
     free(self->tube.packed);
     self->tube.packed = NULL;
+    pressure_free(&self->pressure);
     free(self->cut);
     self->cut = NULL;
 }

@@ -11,6 +11,7 @@
 #include "elements/ideal.h"
 #include "elements/load.h"
 #include "elements/lock.h"
+#include "elements/pressure.h"
 #include "elements/shoe.h"
 #include "elements/slot.h"
 #include "elements/support.h"
@@ -28,6 +29,7 @@ typedef struct launching_system {
     slot_system slot;
     lock_system lock;
     crossflow_body crossflow;
+    pressure_system pressure;
     guide_cut *cut; // [tubes.station_count] at the stations where loads are asked for, owned
     int work_count; // of the powers: the first so many
     bool wide_instructions; // AVX2 is there

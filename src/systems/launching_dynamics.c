@@ -86,6 +86,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
     rocket_forces(&self->rocket->motor, &now);
     crossflow_add(&self->crossflow, &self->tube, &now);
+    pressure_add(&self->pressure, &now);
     if (input->load)
         load_rocket(input->load, &now);
     launching_touch(lanes, self, &now);

@@ -107,6 +107,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
         rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
         rocket_forces(&self->rocket->motor, now);
         crossflow_add(&self->crossflow, &self->tube, now);
+        pressure_add(&self->pressure, now);
         if (input->load)
             load_rocket(input->load, now);
         launching_touch(lanes, self, now);

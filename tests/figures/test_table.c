@@ -30,6 +30,13 @@ static int set_up(void **state)
     reference_vehicle(&model, 5);
     model.tubes.station_count = 1;
     model.tubes.station[0].at = 1;
+    model.tubes.pressure = (ld_pressure){.present = true,
+                                         .form = LD_PRESSURE_OF_GAS,
+                                         .pressure = 2e5,
+                                         .volume = 1,
+                                         .exponent = 1.4,
+                                         .scale = 1};
+    reference_recoil(&model);
     if (ld_simulation_create(&model, &simulation, NULL) ||
         flight_columns(&flight, &of_flight, NULL))
         return -1;

@@ -194,6 +194,36 @@ static void lock_at_the_wall(ld_model *model)
     lock->angle = 100 * degree;
 }
 
+// Four rails about a rocket that stands on the breech, with touches that latch.
+static void tower_from_the_breech(ld_model *model)
+{
+    lankarani(model);
+    unlocked(model);
+    model->tubes.slot.kind = LD_SLOT_NONE;
+    model->tubes.guide =
+        (ld_guide){.present = true,
+                   .form = LD_GUIDE_TOWER,
+                   .line = {0.02, 0.03},
+                   .tower = {.rails = 4, .first = 30 * degree, .gap = 0.2e-3, .radius = 0.09}};
+}
+
+// A keel below, a bar beside it and one above, not symmetric, undeformed. (The tolerance: the
+// start rings.)
+static void three_surfaces(ld_model *model)
+{
+    model->run.tolerance = 1e-9;
+    two_adaptors(model);
+    undeformed(model);
+    model->tubes.slot.kind = LD_SLOT_NONE;
+    model->tubes.guide = (ld_guide){.present = true, .line = {0.05, 0.08}, .surface_count = 5};
+    ld_surface *surface = model->tubes.guide.surface;
+    surface[0] = (ld_surface){"", {-0.08, 0.03}, 170 * degree, 0.2e-3, LD_SURFACE_FLAT};
+    surface[1] = (ld_surface){"", {-0.08, -0.03}, -150 * degree, 0.2e-3, LD_SURFACE_FLAT};
+    surface[2] = (ld_surface){"", {0.08, 0.02}, 10 * degree, 0.3e-3, LD_SURFACE_FLAT};
+    surface[3] = (ld_surface){"", {0, 0.08}, 80 * degree, 0.3e-3, LD_SURFACE_ROUND};
+    surface[4] = (ld_surface){"", {0, -0.08}, -80 * degree, 0.3e-3, LD_SURFACE_ROUND};
+}
+
 static double largest(int count, const double *a, const double *b)
 {
     double worst = 0;
@@ -315,6 +345,8 @@ int main(void)
         {"unlocked", unlocked, 50e-6, usual},
         {"lock at the wall", lock_at_the_wall, 50e-6, usual},
         {"at sea, from a breech at 0 m", from_the_breech, 50e-6, usual},
+        {"tower, from the breech", tower_from_the_breech, 50e-6, usual},
+        {"three surfaces and two bars", three_surfaces, 50e-6, usual},
     };
     enum { COUNT = sizeof scenarios / sizeof scenarios[0] };
     struct CMUnitTest tests[COUNT + 1] = {cmocka_unit_test(overall_form_gives_the_same_launch)};
