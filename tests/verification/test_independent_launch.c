@@ -183,6 +183,18 @@ static void from_the_breech(ld_model *model)
     model->run.lead_in = 0.02;
 }
 
+// A pressure with a jump that opens the lock at once, and rifling.
+static void by_pressure(ld_model *model)
+{
+    slot_table(model);
+    reference_by_pressure(model);
+    reference_recoil(model);
+    model->tubes.support[0].recoil.stroke = NAN;
+    model->tubes.pressure.form = LD_PRESSURE_OVER_TIME;
+    model->tubes.pressure.over_time =
+        reference_table(5, 2, (double[]){0, 4e5, 0.01, 9e5, 0.01, 1e6, 0.1, 8e5, 1, 3e5});
+}
+
 // At the default tolerance the couple's ringing moves the release by 1.2e-8 s.
 static void lock_at_the_wall(ld_model *model)
 {
@@ -323,6 +335,7 @@ int main(void)
 {
     static const bounds usual = {3e-9, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
     static const bounds ringing = {3e-9, 2e-5, 4e-7, 1e-4, 1e-6, 8e-3, 2e-2};
+    static const bounds sliding = {3e-8, 2e-5, 4e-7, 1e-4, 1e-6, 8e-3, 2e-2};
     static const bounds uneven = {9e-8, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
     scenario scenarios[] = {
         {"reference", reference, 100e-6, usual},
@@ -345,6 +358,7 @@ int main(void)
         {"unlocked", unlocked, 50e-6, usual},
         {"lock at the wall", lock_at_the_wall, 50e-6, usual},
         {"at sea, from a breech at 0 m", from_the_breech, 50e-6, usual},
+        {"by a pressure over time, on a recoil slide", by_pressure, 50e-6, sliding},
         {"tower, from the breech", tower_from_the_breech, 50e-6, usual},
         {"three surfaces and two bars", three_surfaces, 50e-6, usual},
     };
