@@ -61,6 +61,7 @@ static const char *const kinds[] = {
     "tubes.modes={bending: 8, span: free-free, elements: 20}",
     "tubes.point_masses=[{at: 1 m, mass: 2 kg}, {at: 2.9 m, mass: 1 kg}]",
     "tubes.tail=",
+    "tubes.loads=[{at: 0 m}, {at: 1.2 m}, {at: 2.9 m}]",
     "tubes.pressure={pressure: 2 MPa, volume: 0.03 m3, exponent: 1.4, ambient: 0.1 MPa}",
     "tubes.pressure={over_time: [[0 s, 0 MPa], [10 ms, 1 MPa], [0.1 s, 0.5 MPa]]}",
     "tubes={pressure: {over_travel: [[0 m, 2 MPa], [1 m, 1 MPa], [3 m, 0.3 MPa]]}, slot: none}",
