@@ -576,30 +576,31 @@ static double newton_fine(problem *the, const double *from, double accepted, dou
     return reached;
 }
 
-// Soft springs hold a rocket on surfaces to its centred place and are let go in steps, until where
-// it has play the surfaces touched carry it, or nothing does; smaller steps where a touch is in the
-// way. False where no step is small enough.
-static bool let_go(const problem *the, double accepted, double *y)
+// Soft springs hold a rocket on surfaces to its centred place, at first by `held` [1/s2], and are
+// let go in steps, until where it has play the surfaces touched carry it, or nothing does; smaller
+// steps where a touch is in the way, or one leads far away to another rest. Returns 0, or where no
+// step is small enough the residual.
+static double let_go(const problem *the, double held, double accepted, double *y)
 {
     const double softest = 1e-3, widest = 0.1;
-    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], held = 1e7, factor = 0.3;
+    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], factor = 0.3, reached = INFINITY;
     problem soft = *the;
     soft.count = launching_freedoms(the->self);
+    bool away = false;
     while (held > softest && factor < 0.99) {
         soft.spring = factor * held;
-        double reached = newton_fine(&soft, y, accepted, trial);
-        if (reached > accepted) {
+        reached = newton_fine(&soft, y, accepted, trial);
+        off_the_line(&soft, trial, off);
+        away = hypot(hypot(off[0], off[1]), hypot(off[2], hypot(off[3], off[4]))) > widest;
+        if (reached > accepted || away) {
             factor = sqrt(factor);
             continue;
         }
-        off_the_line(&soft, trial, off);
-        if (hypot(hypot(off[0], off[1]), hypot(off[2], hypot(off[3], off[4]))) > widest)
-            return true; // nothing carries it that way
         memcpy(y, trial, sizeof trial);
         held = soft.spring;
         factor = fmax(0.1, factor * factor);
     }
-    return held <= softest;
+    return held <= softest || (away && reached <= accepted) ? 0 : reached;
 }
 
 // The largest acceleration that the spring must hold where no surface does, and along or about
@@ -615,22 +616,30 @@ static double uncarried(const problem *the, const double *y, int *worst)
     return the->spring * fabs(off[*worst]);
 }
 
-// Equilibrium of a rocket on surfaces, let go from its centred place or, where it stands so upright
-// that its weight topples it, from one where the front leans to a side (up or down, right or left)
-// and the rear to the other.
-static double rest_leaning(problem *the, const double *start, double up, double right,
-                           carried_directions *carried, double accepted, double *y)
+// How a rocket on surfaces is let go.
+typedef struct release {
+    double held;      // [1/s2] by springs
+    double up, right; // where its front leans to, and its rear from
+} release;
+
+// Equilibrium of a rocket on surfaces, let go from its centred place or, where its weight along the
+// guide topples it, from one where it leans to a side.
+static double rest_released(problem *the, const double *start, const release *from,
+                            carried_directions *carried, double accepted, double *y)
 {
     const launching_system *launching = &the->self->launcher.launching;
     const double wide = 5e-3, length = launching->adaptors.at[launching->adaptors.count - 1];
-    const double lean[SHOE_FREEDOMS] = {-wide * up, -wide * right, 2 * wide * up / length,
-                                        -2 * wide * right / length};
+    const double lean[SHOE_FREEDOMS] = {-wide * from->up, -wide * from->right,
+                                        2 * wide * from->up / length,
+                                        -2 * wide * from->right / length};
     double found[LD_MAX_STATES];
     problem soft = *the;
+    soft.carried = NULL;
     memcpy(soft.lean, lean, sizeof lean);
     guess_straight(the, start, found);
-    if (!let_go(&soft, accepted, found))
-        return INFINITY;
+    double stuck = let_go(&soft, from->held, accepted, found);
+    if (stuck > 0)
+        return stuck;
     find_carried(the, found, carried);
     the->carried = carried;
     the->spring = 1e4;
@@ -639,24 +648,27 @@ static double rest_leaning(problem *the, const double *start, double up, double 
 }
 
 // What the surfaces that the rocket touches do not carry stays centred, held by a spring that must
-// find nothing to pull.
+// find nothing to pull. Hard springs, which do not pull back at the rail, may have no rest.
 static double find_on_surfaces(problem *the, const double *start, carried_directions *carried,
                                double accepted, double *y)
 {
-    static const double side[][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    double trial[LD_MAX_STATES], best = rest_leaning(the, start, 0, 0, carried, accepted, y);
-    v3 pull = pull_at(the->self, the->t, start);
-    bool upright = hypot(pull.y, pull.z) < 1e-2 * fabs(pull.x);
+    static const release from[] = {{1e7, 0, 0}, {1e7, 1, 0},  {1e7, -1, 0},
+                                   {1e7, 0, 1}, {1e7, 0, -1}, {1e5, 0, 0}};
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
+    double trial[LD_MAX_STATES], best = INFINITY;
+    carried_directions tried = {0};
+    bool rests = false;
     int unused;
-    for (int i = 1; i < 5 && upright; i++) {
-        if (best <= accepted && uncarried(the, y, &unused) <= accepted)
-            return best;
-        double reached = rest_leaning(the, start, side[i][0], side[i][1], carried, accepted, trial);
-        if (reached <= accepted) {
-            memcpy(y, trial, (size_t)the->self->launcher.state_count * sizeof(double));
+    for (size_t i = 0; i < sizeof from / sizeof *from && !rests; i++) {
+        double reached = rest_released(the, start, &from[i], &tried, accepted, trial);
+        rests = reached <= accepted && uncarried(the, trial, &unused) <= accepted;
+        if (rests || (reached < best && !(best <= accepted))) {
             best = reached;
+            *carried = tried;
+            memcpy(y, trial, size);
         }
     }
+    the->carried = best <= accepted ? carried : NULL;
     return best;
 }
 
