@@ -176,6 +176,47 @@ static void test_clearances(void **state)
     CHECK_NEAR("the rocket pitches [urad]", 1e6 * (pitch[2] - pitch[0]), 100 / 1.9, 0.05);
 }
 
+static double first_value(const char *text, const char *column)
+{
+    drawn_run drawn;
+    begin(&drawn, text);
+    double value = recorded_value(&drawn.run, 0, recorded_column(&drawn.run, column));
+    end(&drawn);
+    return value;
+}
+
+// At rest on a rail, level and clamped at its end, which sags by what its stiffness lets it.
+static void test_rail(void **state)
+{
+    (void)state;
+#define ON_RAIL                                                                                    \
+    "include: rail/pad.yaml\nbase: {elevation: 0 deg}\nenvironment: {wind: none}\n"                \
+    "tubes: {supports: [{at: 0 m, clamped: all}], modes: {span: clamped}}\n"                       \
+    "run: {lead_in: 0 s, end: 1 us}\n" SCATTER
+    const char *nominal = ON_RAIL "tubes.guide.t_slot.gap: {discrete: [0.4 mm]}\n";
+    const char *gap = ON_RAIL "tubes.guide.t_slot.gap: {discrete: [0.5 mm]}\n";
+    const char *line = ON_RAIL "tubes.guide.line.y: {discrete: [0.17 m]}\n";
+    const char *soft = ON_RAIL "tubes.sections.1.bending_stiffness_z: {discrete: [8e5 N.m2]}\n";
+    double y = first_value(nominal, "rocket.y"), sag = first_value(nominal, "tip.y");
+    CHECK_NEAR("gap 100 um wider: it lies lower [um]", 1e6 * (first_value(gap, "rocket.y") - y),
+               -100, 0.05);
+    CHECK_NEAR("line 10 mm higher: it lies higher [mm]", 1e3 * (first_value(line, "rocket.y") - y),
+               10, 1e-3);
+    CHECK_NEAR("softer by 8/9: the tip sags by more", first_value(soft, "tip.y") / sag, 9.0 / 8,
+               1e-3);
+}
+
+// A gas scaled by 1.1 pushes by 0.1 MPa on the bore's area more.
+static void test_pressure(void **state)
+{
+    (void)state;
+#define BY_GAS "include: line-thrower.yaml\nrun: {end: 1 us}\n" SCATTER "tubes.pressure.scale: "
+    double plain = first_value(BY_GAS "{discrete: [1]}\n", "pressure.force");
+    double scaled = first_value(BY_GAS "{discrete: [1.1]}\n", "pressure.force");
+    double bore = 3.14159265358979323846 * 0.04 * 0.04;
+    CHECK_NEAR("force more [N]", scaled - plain, 0.1e6 * bore, 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -183,6 +224,8 @@ int main(void)
         cmocka_unit_test(test_dynamic_imbalance),
         cmocka_unit_test(test_gust),
         cmocka_unit_test(test_clearances),
+        cmocka_unit_test(test_rail),
+        cmocka_unit_test(test_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
