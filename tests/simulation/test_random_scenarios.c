@@ -69,6 +69,25 @@ static const char *const kinds[] = {
     "tubes.supports=[{at: 0.4 m, stiffness: 2e7 2e7 2e7 N/m, damping: 1e4 1e4 1e4 N.s/m, "
     "rotational_stiffness: 2e5 2e5 2e5 N.m/rad, recoil: {preload: 2 kN, stiffness: 20 kN/m, "
     "damping: 500 N.s/m, friction: 100 N, stroke: 0.3 m}}, {at: 1.8 m, stiffness: 0 2e7 2e7 N/m}]",
+    "tubes.supports=[{at: 0.3 m, clamped: [x, y, z, roll]}, {at: 1.5 m, stiffness: 0 2e7 2e7 N/m}]",
+    "tubes.supports=[{at: 0.2 m, clamped: all}]",
+    "tubes.sections=[{from: 0 m, bore_radius: 80 mm, mass_per_length: 20 kg/m, axial_stiffness: "
+    "3e8 N, bending_stiffness_y: 5e5 N.m2, bending_stiffness_z: 2e6 N.m2, torsion_stiffness: 3e5 "
+    "N.m2, polar_inertia: 0.1 kg.m}]",
+    "tubes={slot: none, guide: {line: 150 10 mm, t_slot: {at: -80 0 mm, lips: 40 mm, gap: 0.4 mm, "
+    "side_gap: 0.3 mm}}}",
+    "tubes={slot: none, guide: {t_slot: {at: 0 0 mm, lips: 60 mm, gap: 0 mm, side_gap: 0 mm}}}",
+    "tubes={slot: none, guide: {tower: {rails: 4, first: 45 deg, gap: 0.5 mm, radius: 80 mm}}}",
+    "tubes={slot: none, guide: {line: -20 100 mm, tower: {rails: 3, gap: 0.2 mm, radius: 80 mm}}}",
+    "tubes={slot: none, guide: {line: 0 200 mm, surfaces: [{name: left-floor, at: -40 -40 mm, "
+    "normal: 180 deg, gap: 0.2 mm}, {name: right-floor, at: -40 40 mm, normal: 180 deg, gap: 0.2 "
+    "mm}, {name: ceiling, at: 40 0 mm, normal: 0 deg, gap: 0.2 mm, shape: round}, {name: left, at: "
+    "0 -80 mm, normal: -90 deg, gap: 0.3 mm}, {name: right, at: 0 80 mm, normal: 90 deg, gap: 0.3 "
+    "mm, shape: round}]}}",
+    "rocket.adaptors=[{name: rear, at: 0 m, clearance: 0.1 mm}, {name: middle, at: 0.7 m}, {name: "
+    "front, at: 1.5 m, clearance: 0.2 mm}]",
+    "rocket.lock.holds_roll=yes",
+    "rocket.lock.holds_roll=no",
     "rocket.motor=none",
     "rocket.lock=none",
     "rocket.empty=",
@@ -125,7 +144,7 @@ static const char *const kinds[] = {
 
 // What keeps the work small; the first that do not go with a scenario are left out.
 static const char *const small[] = {
-    "run.lead_in=0.05 s",     "run.stuck_time=0.3 s", "run.output_step=5 ms",
+    "run.lead_in=0.05 s",     "run.stuck_time=0.5 s", "run.output_step=5 ms",
     "run.flight_limit=100 s", "run.max_step=0.2 ms",
 };
 
@@ -191,8 +210,10 @@ static void change_key(uint64_t *seed, const language *all, ld_model *model)
 
 static ld_model *draw_scenario(uint64_t *seed, const language *all)
 {
-    static const char *const files[] = {"fixed",  "prescribed", "reference", "aircraft", "ship",
-                                        "flight", "sequence",   "smooth",    "firm"};
+    static const char *const files[] = {"fixed",      "prescribed",   "reference",  "aircraft",
+                                        "ship",       "flight",       "sequence",   "smooth",
+                                        "firm",       "rail/pad",     "rail/deck",  "rail/tower",
+                                        "rail/truck", "line-thrower", "test-barrel"};
     char name[256];
     ld_messages messages;
     ld_model *model;
