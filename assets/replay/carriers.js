@@ -14,7 +14,9 @@ class Carrier {
   constructor(motion, scene) {
     this.group = new Group();
     this.motion = motion;
-    this.feet = motion.supports.map((x) => this.foot(x, motion.envelope.low[0]));
+    const { length, slides, outer } = motion, low = motion.envelope.low[0] - (slides.length > 0 ? outer + 0.02 * length : 0);
+    this.feet = motion.supports.map((x) => this.foot(x, low));
+    if (slides.length > 0) this.cradle(low);
     this.eye = { distance: motion.length / 4.6, direction: [4.4, 2.8, 9.9], aim: [0, -0.1, 0] };
     scene.add(this.group);
   }
@@ -23,6 +25,14 @@ class Carrier {
     const { low, high } = this.motion.envelope;
     return apply(this.motion.mount, [x, y, 0.5 * (low[1] + high[1])]);
   }
+  // What a tube that recoils slides on: a beam below it that stays with the base.
+  cradle(low) {
+    const { motion } = this, { length, outer, supports } = motion, slide = new Group();
+    slide.add(box([Math.min(...supports) - 0.08 * length, low, -outer], [Math.max(...supports) + 0.08 * length, low + 0.02 * length, outer],
+      paint.vehicle, edge));
+    place(slide, [0, 0, 0], motion.mount);
+    this.group.add(slide);
+  }
   // Corners of the launcher in the base's axes.
   corners() {
     const { envelope: { low, high }, length, mount } = this.motion, ends = [0, length];
@@ -30,7 +40,7 @@ class Carrier {
   }
   // Posts from the feet down to a level; below a steep launcher a mast with an arm to each foot.
   stand(level) {
-    const { length, mount, outer } = this.motion, radius = Math.max(0.05, 0.018 * length);
+    const { length, mount, outer } = this.motion, radius = 0.018 * length;
     const post = (from, to, r) => this.group.add(cylinder(from, to, r, paint.platform, edge));
     if (mount[3] < 0.8) {
       for (const [x, y, z] of this.feet) post([x, level, z], [x, y, z], radius);
@@ -55,10 +65,11 @@ class Plate extends Carrier {
   constructor(motion, scene) {
     super(motion, scene);
     const level = this.level(), xs = this.feet.map(([x]) => x), zs = this.feet.map(([, , z]) => z);
-    this.group.add(box([Math.min(...xs) - 0.7, level - 0.12, Math.min(...zs) - 0.7],
-      [Math.max(...xs) + 0.7, level, Math.max(...zs) + 0.7], paint.vehicle, edge));
+    const margin = 0.23 * motion.length, thick = 0.04 * motion.length;
+    this.group.add(box([Math.min(...xs) - margin, level - thick, Math.min(...zs) - margin],
+      [Math.max(...xs) + margin, level, Math.max(...zs) + margin], paint.vehicle, edge));
     this.stand(level);
-    const foot = motion.value("base.y")[0] + level - 0.12;
+    const foot = motion.value("base.y")[0] + level - thick;
     this.ground = foot > 0.3 ? 0 : foot - 0.01;
   }
 }

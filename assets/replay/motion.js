@@ -47,6 +47,8 @@ export class Motion {
     const named = (head, tail) => [...table.column.keys()].filter((name) => name.startsWith(head) &&
       name.endsWith(tail)).map((name) => name.slice(head.length, name.length - tail.length));
     this.adaptorNames = named("contact.", ".force");
+    this.slides = named("recoil.", ".travel");
+    this.closed = table.column.has("pressure.force");
     this.wheelNames = named("wheel.", ".travel");
     this.modes = this.shapes.b[0].length;
   }

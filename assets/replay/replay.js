@@ -215,6 +215,8 @@ class Replay {
     if (flying) words.push(`height ${readable(Math.round(1e3 * flying.center[1]) / 1e3 + 0, 4)} m`);
     if (part.name !== "flight")
       words.push(...["y", "z"].map((axis) => `tip ${axis} ${readable(Math.round(1e9 * state.read(`tip.${axis}`)) / 1e6 + 0, 3)} mm`));
+    for (const name of part.name === "flight" ? [] : this.motion.slides)
+      words.push(`recoil ${readable(1e3 * state.read(`recoil.${name}.travel`), 3)} mm`);
     if (this.stage.view === "path") words.push(`squares of ${readable(this.stage.map.cell / 1000, 3)} km`);
     else if (this.motion.t.at(-1) < this.time) words.push("launcher as it was when its history ended");
     this.reading.textContent = words.join(" · ");

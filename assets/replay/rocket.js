@@ -10,16 +10,17 @@ export class Rocket {
     const { adaptors, guide } = motion, { body } = guide, front = Math.max(...adaptors);
     this.motion = motion;
     this.bodyRadius = body;
-    this.length = front + 0.1 + 5 * body;
-    this.profile = profile(body, front + 0.1, this.length);
+    this.length = front + 7.2 * body;
+    this.profile = profile(body, front + 2.2 * body, this.length);
     this.skin = material(0xffffff, { vertexColors: true });
     this.body = new Sleeve(this.profile.length, RING, this.skin);
     this.body.geometry.setAttribute("color", stripes(this.profile.length));
     this.rings = adaptors.map(() => new Sleeve(7, RING, material(COLOURS.adaptor)));
     this.shoes = adaptors.map(() => new Beams(guide.pads(0, 0).length, 2, angular(COLOURS.adaptor), edge));
-    this.half = Math.max(0.03, 0.008 * motion.length); // half the length of an adaptor
+    this.half = Math.min(0.01 * motion.length, 0.15 * front); // half the length of an adaptor
     this.flame = new Mesh(new ConeGeometry(1, 1, 20, 1, true), material(COLOURS.flame,
       { transparent: true, opacity: 0.75, depthWrite: false, emissive: 0xff7a00 }));
+    this.powered = motion.largest("thrust") > 0;
     this.fins = new Group();
     for (let i = 0; i < 4; i++) this.fins.add(fin(body, (Math.PI * i) / 2));
     this.group = new Group();
@@ -55,7 +56,8 @@ export class Rocket {
       this.drawShoes(still, () => motion.guide.pads(0, 0));
     }
     this.fins.position.set(-motion.center, 0, 0);
-    this.fins.visible = this.straight = true;
+    this.straight = true;
+    this.fins.visible = this.powered;
     this.burn([-motion.center + this.profile[0].l, 0, 0], [-1, 0, 0], burning);
   }
   drawAlong(at, roll, radius, burning) {
@@ -97,8 +99,8 @@ export class Rocket {
 
 // Radius over the length: nozzle, body, ogive.
 function profile(body, shoulder, length) {
-  const out = [{ l: -0.09, r: 0.66 * body }, { l: -0.03, r: 0.5 * body }, { l: -0.03, r: body }];
-  for (let i = 0; i <= 12; i++) out.push({ l: -0.03 + ((shoulder + 0.03) * i) / 12, r: body });
+  const rear = -0.65 * body, out = [{ l: -1.95 * body, r: 0.66 * body }, { l: rear, r: 0.5 * body }, { l: rear, r: body }];
+  for (let i = 0; i <= 12; i++) out.push({ l: rear + ((shoulder - rear) * i) / 12, r: body });
   for (let i = 1; i <= 10; i++) {
     const x = i / 10, r = body * Math.max(0.002, 1 - x * x);
     out.push({ l: shoulder + (length - shoulder) * x, r, slope: (-2 * x * body) / (length - shoulder) });
@@ -150,6 +152,7 @@ export class Forces {
       if (!arrow.visible) return;
       const inward = [0, y / e, z / e], { centre } = rocket.adaptor(i);
       const tip = subtract(centre, scaled(this.reach(centre, inward), inward)), length = 0.09 + 0.75 * (force / this.most);
+      arrow.scale.setScalar(this.motion.length / 3);
       point(arrow, tip, inward);
       arrow.head.position.set(0, -0.045, 0);
       arrow.shaft.position.set(0, -0.09 - (length - 0.09) / 2, 0);

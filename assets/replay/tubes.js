@@ -102,7 +102,22 @@ export class Tube {
       { transparent: true, opacity: 0.07, depthWrite: false }));
     this.whole.mesh.renderOrder = 2;
     this.group.add(this.shell.mesh, this.lining.mesh, this.whole.mesh, ...this.collars.map(({ loop }) => loop));
+    this.fittings = this.fit();
+    for (const { body } of this.fittings) this.group.add(body);
     group.add(this.group);
+  }
+  // What closes the rear end of a tube with gas in it, and the shoes of one that slides back.
+  fit() {
+    const { guide: { outer }, length, supports, slides, closed } = this.motion, fittings = [];
+    const half = 0.02 * length, add = (ring, part) => {
+      const body = new Group();
+      body.add(part);
+      fittings.push({ ring, body });
+    };
+    if (closed) add(0, cylinder([-0.03 * length, 0, 0], [0, 0, 0], 1.15 * outer, paint.platform, edge));
+    for (const x of slides.length > 0 ? supports : [])
+      add(this.motion.nearest(x), box([-half, -2 * outer, -0.6 * outer], [half, -0.9 * outer, 0.6 * outer], paint.platform, edge));
+    return fittings;
   }
   // `scale`: of the deflection; `opening`: angle from y towards z, in T, that the eye looks at.
   show(state, anchor, scale, opening) {
@@ -113,6 +128,7 @@ export class Tube {
     this.shell.draw(curve(outer), from, to);
     this.lining.draw(curve(radius), from, to);
     this.whole.draw(curve(outer));
+    for (const { ring, body } of this.fittings) body.position.set(...this.motion.drawnGuide(state, ring, 0, 0, scale));
     for (const { ring, loop } of this.collars) {
       const position = loop.geometry.attributes.position, all = this.whole.position;
       for (let i = 0; i < RING; i++) {

@@ -26,8 +26,9 @@ static ld_status check(const ld_mstmm_beam *given, const char *name, ld_error *e
             name, LD_NB, LD_NT, LD_NA);
     for (int i = 0; i < given->section_count; i++) {
         const ld_section *s = &given->section[i];
-        if (!(s->mass_per_length > 0) || !(s->bending_stiffness > 0) ||
-            !(s->torsion_stiffness > 0) || !(s->axial_stiffness > 0) || !(s->polar_inertia > 0))
+        if (!(s->mass_per_length > 0) || !(section_stiffness_y(s) > 0) ||
+            !(section_stiffness_z(s) > 0) || !(s->torsion_stiffness > 0) ||
+            !(s->axial_stiffness > 0) || !(s->polar_inertia > 0))
             return ld_fail(error, LD_ERR_INPUT,
                            "element '%s': section %d of the beam needs mass, stiffnesses and polar "
                            "inertia above 0",

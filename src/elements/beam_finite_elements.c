@@ -157,7 +157,7 @@ static double stiffness_of(line_kind kind, const ld_section *section)
 {
     switch (kind) {
     case LINE_BENDING:
-        return section->bending_stiffness;
+        return 0.5 * (section_stiffness_y(section) + section_stiffness_z(section));
     case LINE_TORSION:
         return section->torsion_stiffness;
     default:

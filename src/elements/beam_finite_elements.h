@@ -19,6 +19,7 @@ typedef struct tube_mesh {
     int *section; // [elements] index of the section an element lies in, owned
 } tube_mesh;
 
+// Bending has the mean of both planes' stiffnesses, which are equal in most tubes.
 typedef enum line_kind { LINE_BENDING, LINE_TORSION, LINE_STRETCH } line_kind;
 
 // One family of deformation. Nodal vectors have `width` numbers a node, first the value and then,

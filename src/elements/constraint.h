@@ -311,6 +311,21 @@ LD_INLINE bool constraints_solve(constraint_products *D, const double r[], const
     return true;
 }
 
+// Records what the constraints put on the sections of the tube: the opposite of what acts on the
+// rocket.
+LD_INLINE void constraints_record(const launching_instant *now, const constraint_set *set)
+{
+    if (!now->on_tube.record || !set->count)
+        return;
+    for (int i = 0; i < set->count + set->sliding; i++) {
+        const constraint_direction *e = i < set->count ? &set->e[i] : &set->tangent;
+        double x = i < set->count ? set->x[i] : set->friction;
+        v3 m = v3_add(e->G_m, v3_cross(now->rocket.p1, e->G_f));
+        guide_forces_add(now->on_tube.record, set->section[e->section].at->x, v3_scale(-x, e->G_f),
+                         v3_scale(-x, m));
+    }
+}
+
 // Forces, drift and powers of what the set holds.
 LD_INLINE void constraints_report(const constraint_set *set, launching_output *out)
 {

@@ -7,6 +7,7 @@
 #include "elements/aerodynamics.h"
 #include "elements/base_frame.h"
 #include "elements/flexible_tube.h"
+#include "elements/guide_forces.h"
 #include "elements/motor.h"
 #include "elements/work.h"
 
@@ -48,10 +49,13 @@ typedef struct launching_load {
 // What comes from outside at one instant.
 typedef struct launching_input {
     base_frame base;
-    double thrust; // [N]
+    double thrust;      // [N]
+    double since;       // [s] the ignition, for the pressure
+    int pressure_piece; // of its table over time, from 1; else 1; 0: not lit
     rocket_mass mass;
     moving_air air;             // about the rocket; read where its emerged part feels it
     const launching_load *load; // where it is linearised; NULL: none
+    guide_forces *record;       // of what acts on the tube; NULL: none is kept
 } launching_input;
 
 typedef struct adaptor_report {
@@ -85,24 +89,38 @@ typedef struct shoe_report {
 #define CROSSFLOW_WORKS(X)                                                                         \
     X(POWER_CROSSFLOW, "crossflow", "work of the air on the emerged part of the rocket")
 
+// That of the pressure behind the rocket, and of slides on which the tube recoils, likewise.
+#define PRESSURE_WORKS(X) X(POWER_PRESSURE, "pressure", "work of the pressure on rocket and tube")
+#define RECOIL_WORKS(X)                                                                            \
+    X(POWER_RECOIL, "recoil", "work of damping and friction of the recoil slides")
+
 enum launching_power {
-    LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) POWER_COUNT,
+    LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) PRESSURE_WORKS(WORK_PLACE)
+        RECOIL_WORKS(WORK_PLACE) POWER_COUNT,
     POWER_ALWAYS = POWER_CROSSFLOW, // those that are always there come first
 };
+
+// A slide on which the tube recoils.
+typedef struct slide_report {
+    double travel, rate; // [m], [m/s] way back from battery
+    double force;        // [N] on the tube, along x of the base's tube axes
+} slide_report;
 
 typedef struct launching_output {
     v3 a, w_dot;                 // inertial acceleration of R's origin, derivative of w, in R
     double q_ddot[LD_MAX_MODAL]; // [nq]
     v3 a_O1, alpha_B;            // of the rocket against I, in R
     double x_dot[X_COUNT];
-    double y[6];          // the theory's relative speeds: s_dot, y_S_dot, z_S_dot, w_SB (in S)
-    double N;             // [N] slot force
-    double slot_friction; // [N] along tau on the rocket
-    double lock_force;    // [N] carried, along +x (minus the force on the rocket)
-    double breech_force;  // [N] on the rocket along +x
-    double emerged;       // [m] length of the rocket that is out of the tube, in the air
-    v3 crossflow;         // [N] force of the air on it, in R
-    double drift;         // [m/s] n . v_rel, zero but for the step error
+    double y[6];           // the theory's relative speeds: s_dot, y_S_dot, z_S_dot, w_SB (in S)
+    double N;              // [N] slot force
+    double slot_friction;  // [N] along tau on the rocket
+    double lock_force;     // [N] carried, along +x (minus the force on the rocket)
+    double breech_force;   // [N] on the rocket along +x
+    double pressure;       // [Pa] net, where there is one
+    double pressure_force; // [N] on the rocket along +x
+    double emerged;        // [m] length of the rocket that is out of the tube, in the air
+    v3 crossflow;          // [N] force of the air on it, in R
+    double drift;          // [m/s] n . v_rel, zero but for the step error
     double power[POWER_COUNT];
     double elastic;             // [J] of supports and modes
     v3 base_force, base_moment; // [N], [N m] on the base, moment about T's origin, in T
@@ -110,7 +128,8 @@ typedef struct launching_output {
     double condition;           // overall form alone: of L_I Q L_O^T of the tube
     bool fell_back;             // overall form alone
     adaptor_report adaptor[LD_MAX_ADAPTORS];
-    shoe_report shoe[LD_MAX_ADAPTORS]; // on surfaces alone
+    slide_report slide[LD_MAX_SUPPORTS]; // of the supports that are slides, in their order
+    shoe_report shoe[LD_MAX_ADAPTORS];   // on surfaces alone
 } launching_output;
 
 #endif

@@ -23,6 +23,7 @@ typedef struct line_shapes {
     double om2[LD_NB];
     double supported[LD_NB]; // [rad/s]
     double *nodal;           // [count][n] nodal vectors, owned
+    double *part;            // [count][n] amplitudes of the elements, of unit elastic energy, owned
 } line_shapes;
 
 // Tail and springs as one line feels them. Both planes share their shapes: bending takes the mean
@@ -195,18 +196,22 @@ static ld_status diagonalise(const tube_line *line, const double *part, line_sha
         return ld_fail(error, LD_ERR_NUMERIC, "the tube's modes are not independent");
     for (int k = 0; k < m; k++) {
         const double *mix = &mixes[(m - 1 - k) * m];
-        double *nodal = &shapes->nodal[k * n], omega = 1 / sqrt(value[m - 1 - k]);
+        double *nodal = &shapes->nodal[k * n], *own = &shapes->part[k * n];
+        double omega = 1 / sqrt(value[m - 1 - k]);
         for (int i = 0; i < n; i++) {
             double c = 0;
             for (int l = 0; l < m; l++)
                 c += mix[l] * part[l * n + i];
+            own[i] = c;
             for (int d = 0; d < n; d++)
                 nodal[d] += omega * c * line->shape[i * n + d];
         }
         shapes->om2[k] = omega * omega;
         if (nodal[n - w] < 0)
-            for (int d = 0; d < n; d++)
+            for (int d = 0; d < n; d++) {
                 nodal[d] = -nodal[d];
+                own[d] = -own[d];
+            }
     }
     return LD_OK;
 }
@@ -263,9 +268,11 @@ static ld_status build_line(tube_line *line, line_shapes *shapes, line_kind kind
         return ld_fail(error, LD_ERR_INPUT, "%d %s modes need a mesh of more than %d elements",
                        shapes->count, names[kind], mesh->elements);
     shapes->nodal = calloc(m * n, sizeof(double));
+    shapes->part = calloc(m * n, sizeof(double));
     double *work = calloc((m + (size_t)line->width + 1) * N + m * n, sizeof(double));
-    status = shapes->nodal && work ? choose_shapes(line, model, shapes, work, error)
-                                   : ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    status = shapes->nodal && shapes->part && work
+                 ? choose_shapes(line, model, shapes, work, error)
+                 : ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
     free(work);
     return status;
 }
@@ -301,6 +308,97 @@ static void fill_family(const tube_line *line, const line_shapes *shapes, double
         if (second)
             second[k] = dot(line->n, line->moment[1], nodal);
     }
+}
+
+// What a plane's bending stiffness is of the mean of both, by section. Returns whether it is the
+// same in all.
+static bool plane_shares(const ld_tubes *model, int plane, double share[LD_MAX_SECTIONS])
+{
+    bool same = true;
+    for (int i = 0; i < model->section_count; i++) {
+        double along_y = section_stiffness_z(&model->section[i]);
+        double along_z = section_stiffness_y(&model->section[i]);
+        share[i] = (plane == PLANE_Y ? along_y : along_z) / (0.5 * (along_y + along_z));
+        same = same && fabs(share[i] - share[0]) <= 1e-13 * share[0];
+    }
+    return same;
+}
+
+// K [m][m] of a plane in the shapes, whose elastic energy its sections have their shares of.
+static void plane_stiffness(const line_shapes *shapes, const tube_mesh *mesh, const double *share,
+                            double *K)
+{
+    int m = shapes->count, n = 2 * mesh->elements;
+    for (int k = 0; k < m; k++)
+        for (int l = 0; l < m; l++) {
+            double sum = 0;
+            for (int i = 0; i < n; i++)
+                sum +=
+                    share[mesh->section[i / 2]] * shapes->part[k * n + i] * shapes->part[l * n + i];
+            K[k * m + l] = sqrt(shapes->om2[k]) * sqrt(shapes->om2[l]) * sum;
+        }
+}
+
+// Puts a symmetric matrix [m][m] where a plane has its diagonal and what is off it.
+static void store_plane(int m, const double *matrix, double *diagonal, double off[LD_NB][LD_NB])
+{
+    for (int k = 0; k < m; k++)
+        for (int l = 0; l < m; l++)
+            if (k == l)
+                diagonal[k] = matrix[k * m + l];
+            else
+                off[k][l] = matrix[k * m + l];
+}
+
+// K of a plane whose sections' shares differ, and D = 2 zeta K^(1/2): the one damping ratio for its
+// own clamped modes in the space of the shapes.
+static ld_status fill_mixed_plane(flexible_tube *tube, int plane, const line_shapes *shapes,
+                                  const tube_mesh *mesh, const double *share, double zeta,
+                                  ld_error *error)
+{
+    int m = shapes->count;
+    double K[LD_NB * LD_NB], D[LD_NB * LD_NB] = {0}, value[LD_NB], mode[LD_NB * LD_NB];
+    plane_stiffness(shapes, mesh, share, K);
+    store_plane(m, K, tube->om2_b[plane], tube->mixing->K[plane]);
+    int info = symmetric_eigen(m, K, NULL, m, value, mode);
+    if (info == EIGEN_NO_MEMORY)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", m);
+    if (info || !(value[0] > 0))
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "the tube's modes in one of its planes cannot be found: are its bending "
+                       "stiffnesses out of all proportion?");
+    for (int i = 0; i < m; i++)
+        for (int k = 0; k < m; k++)
+            for (int l = 0; l < m; l++)
+                D[k * m + l] += 2 * zeta * sqrt(value[i]) * mode[i * m + k] * mode[i * m + l];
+    store_plane(m, D, tube->dmp_b[plane], tube->mixing->D[plane]);
+    return LD_OK;
+}
+
+// Stiffness and damping of bending in both planes.
+static ld_status fill_planes(flexible_tube *tube, const line_shapes *shapes, const tube_mesh *mesh,
+                             const ld_tubes *model, ld_error *error)
+{
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+        double share[LD_MAX_SECTIONS] = {0}, zeta = model->modes.damping;
+        if (plane_shares(model, plane, share)) {
+            for (int k = 0; k < tube->nb; k++) {
+                tube->om2_b[plane][k] = share[0] * shapes->om2[k];
+                tube->dmp_b[plane][k] = 2 * zeta * sqrt(tube->om2_b[plane][k]);
+            }
+            continue;
+        }
+        if (!tube->mixing)
+            tube->mixing = aligned_alloc(64, sizeof *tube->mixing);
+        if (!tube->mixing)
+            return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+        if (plane == PLANE_Y)
+            memset(tube->mixing, 0, sizeof *tube->mixing);
+        ld_status status = fill_mixed_plane(tube, plane, shapes, mesh, share, zeta, error);
+        if (status)
+            return status;
+    }
+    return LD_OK;
 }
 
 // AB = int a b^T dm: Gauss with three points, exact for the product of linear and cubic.
@@ -379,14 +477,15 @@ static ld_status allocate_elements(flexible_tube *tube, const tube_mesh *mesh, l
 }
 
 // Everything that is known once the shapes are: formulation.md, section 5, arrays.
-static void fill_tube(flexible_tube *tube, const tube_line line[3], const line_shapes shapes[3],
-                      const tube_mesh *mesh, const ld_tubes *model)
+static ld_status fill_tube(flexible_tube *tube, const tube_line line[3],
+                           const line_shapes shapes[3], const tube_mesh *mesh,
+                           const ld_tubes *model, ld_error *error)
 {
     for (int kind = 0; kind < 3; kind++)
         fill_elements(tube, &line[kind], &shapes[kind]);
     double zeta = model->modes.damping;
-    fill_family(&line[LINE_BENDING], &shapes[LINE_BENDING], zeta, tube->om2_b, tube->dmp_b,
-                tube->supported_bending, tube->ct, tube->c);
+    fill_family(&line[LINE_BENDING], &shapes[LINE_BENDING], zeta, tube->om2_b[PLANE_Y],
+                tube->dmp_b[PLANE_Y], tube->supported_bending, tube->ct, tube->c);
     fill_family(&line[LINE_TORSION], &shapes[LINE_TORSION], zeta, tube->om2_t, tube->dmp_t,
                 tube->supported_torsion, tube->cp, NULL);
     fill_family(&line[LINE_STRETCH], &shapes[LINE_STRETCH], zeta, tube->om2_a, tube->dmp_a,
@@ -404,6 +503,7 @@ static void fill_tube(flexible_tube *tube, const tube_line line[3], const line_s
             model->section[mesh->section[e]].polar_inertia * (mesh->node[e + 1] - mesh->node[e]);
     for (int k = 0; k < model->support_count; k++)
         tube->support_element[k] = flexible_tube_find(tube, model->support[k].at);
+    return fill_planes(tube, &shapes[LINE_BENDING], mesh, model, error);
 }
 
 static int padded(int count)
@@ -435,10 +535,11 @@ ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_err
     if (!status)
         status = allocate_elements(tube, &mesh, error);
     if (!status)
-        fill_tube(tube, line, shapes, &mesh, model);
+        status = fill_tube(tube, line, shapes, &mesh, model, error);
     for (int kind = 0; kind < 3; kind++) {
         tube_line_free(&line[kind]);
         free(shapes[kind].nodal);
+        free(shapes[kind].part);
     }
     tube_mesh_free(&mesh);
     return status;
@@ -447,6 +548,7 @@ ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_err
 void flexible_tube_free(flexible_tube *tube)
 {
     free(tube->element);
+    free(tube->mixing);
     *tube = (flexible_tube){0};
 }
 

@@ -2,12 +2,14 @@
 // formulation.md, section 5, computed once from the finite-element model of the tube.
 //
 // Modal coordinates q = (q_y [nb], q_z [nb], q_t [nt], q_a [na]); the two planes share their
-// shapes.
+// shapes, and may differ in stiffness and damping.
 //   u_y = b . q_y,  u_z = b . q_z,  u_x = a . q_a;  phi_x = tau . q_t,  phi_y = -b' . q_z,  phi_z =
 //   b' . q_y
 // Tangent form: b(0) = b'(0) = 0, tau(0) = 0, a(0) = 0; int b b^T dm = E, int rho I_p tau tau^T dx
-// = E, int a a^T dm = E; stiffness diag(omega^2), damping diag(2 zeta omega). Lanes: counts padded
-// to multiples of 4 with zeros (nbp, ntp, nap), so that loops have fixed length.
+// = E, int a a^T dm = E; stiffness K = diag(omega^2), damping D = diag(2 zeta omega). Bending: of
+// each plane its own, full matrices D = 2 zeta K^(1/2) where the planes' stiffnesses are not in one
+// proportion all along. Lanes: counts padded to multiples of 4 with zeros (nbp, ntp, nap), so that
+// loops have fixed length.
 #ifndef LD_ELEMENTS_FLEXIBLE_TUBE_H
 #define LD_ELEMENTS_FLEXIBLE_TUBE_H
 
@@ -25,6 +27,14 @@ typedef struct tube_element {
     double a[2][LD_NA];              // stretch
 } tube_element;
 
+enum { PLANE_Y, PLANE_Z }; // of deflections along y, along z
+
+// What K and D of bending have off their diagonals, by plane; zeros on them and as padding.
+typedef struct tube_mixing {
+    _Alignas(64) double K[2][LD_NB][LD_NB]; // [1/s2]
+    double D[2][LD_NB][LD_NB];              // [1/s]
+} tube_mixing;
+
 typedef struct flexible_tube {
     int nb, nt, na;     // modes: bending per plane, torsion, axial
     int nbp, ntp, nap;  // the same, padded
@@ -32,18 +42,21 @@ typedef struct flexible_tube {
     double bore_radius; // [m] at the rear end
     // int dm, int x dm, int x^2 dm, int rho I_p dx (point masses included in the first three)
     double m, s0, j0, j;
-    double ct[LD_NB], c[LD_NB];        // int b dm, int x b dm
-    double at[LD_NA], ax[LD_NA];       // int a dm, int x a dm
-    double AB[LD_NA][LD_NB];           // int a b^T dm
-    double cp[LD_NT];                  // int rho I_p tau dx
-    double om2_b[LD_NB], dmp_b[LD_NB]; // omega^2 [1/s2], 2 zeta omega [1/s]
+    double ct[LD_NB], c[LD_NB];  // int b dm, int x b dm
+    double at[LD_NA], ax[LD_NA]; // int a dm, int x a dm
+    double AB[LD_NA][LD_NB];     // int a b^T dm
+    double cp[LD_NT];            // int rho I_p tau dx
+    // diagonals of K [1/s2] and D [1/s]; bending: by plane
+    double om2_b[2][LD_NB], dmp_b[2][LD_NB];
     double om2_t[LD_NT], dmp_t[LD_NT];
     double om2_a[LD_NA], dmp_a[LD_NA];
     double ctct, ctc, cc, cpcp; // ct.ct, ct.c, c.c, cp.cp
     int element_count;
     tube_element *element; // 64-byte aligned, owned
+    tube_mixing *mixing;   // owned; NULL: K and D of bending are diagonal
     // natural frequencies [rad/s] of the whole FE model of tube and tail on its support springs
-    // (base held), per family, ascending: for listing; as many as there are modes
+    // (base held), per family, ascending: for listing; as many as there are modes; bending with the
+    // means of both planes
     double supported_bending[LD_NB];
     double supported_torsion[LD_NT];
     double supported_axial[LD_NA];

@@ -39,8 +39,10 @@ typedef struct tube_system {
     int row_lanes; // lanes of four rows
     _Alignas(32) double rows_by_mode[LD_NB][LD_FIXED_ROWS];
     _Alignas(32) double rows[LD_FIXED_ROWS][LD_NB];
-    LANE_ARRAY(om2, LD_NB); // bending
-    LANE_ARRAY(dmp, LD_NB);
+    LANE_ARRAY(om2_y, LD_NB); // bending: diagonals of stiffness and damping
+    LANE_ARRAY(om2_z, LD_NB);
+    LANE_ARRAY(dmp_y, LD_NB);
+    LANE_ARRAY(dmp_z, LD_NB);
 } tube_system;
 
 // Modal coordinates and speeds, in lanes (padded with zeros) and torsion apart.
@@ -119,6 +121,7 @@ typedef struct tube_force {
     LANE_ARRAY(z, LD_NB);
     double t[LD_NT];
     double a[LD_NA];
+    guide_forces *record; // of each force by its place; NULL: none is kept
 } tube_force;
 
 // Everything of the tube that does not depend on forces.

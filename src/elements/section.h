@@ -142,6 +142,8 @@ LD_INLINE void apply_generalised(const int lanes, const tube_system *self, const
     const packed_element *element = &self->packed[s->index];
     h->f = v3_add(h->f, f);
     h->m = v3_add(h->m, m);
+    if (__builtin_expect(h->record != NULL, 0))
+        guide_forces_add(h->record, s->x, f, m);
     double xi = s->xi, x2 = xi * xi, x3 = x2 * xi;
     // weights of the powers of xi: b and b' against force and moment
     double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};

@@ -2,25 +2,67 @@
 //
 // d = A_T^T (P - r_T) - (x_k, 0, 0), phi the rotation vector of A_TP, both in T; on the tube at P
 //   f = -K_t d - C_t d_dot,   m = -J_l(phi)^-T K_r phi - C_r w_rel
-// so that the springs derive from d' K_t d/2 + phi' K_r phi/2; on the base the opposite at P.
+// so that the springs derive from d' K_t d/2 + phi' K_r phi/2; on the base the opposite at P. A
+// slide takes the place of K_t and C_t along x.
 #ifndef LD_ELEMENTS_SUPPORT_H
 #define LD_ELEMENTS_SUPPORT_H
 
 #include "elements/tube.h"
 #include "math/rotation_vector.h"
 
+// A slide on which the tube recoils, with the stiffness [N/m] and damping [N s/m] of its stops.
+typedef struct recoil_slide {
+    ld_recoil given;
+    double K, C;
+} recoil_slide;
+
 typedef struct tube_support {
-    double x;          // [m] station
-    v3 K, C, Kr, Cr;   // springs and dampers, base axes
-    bool isotropic;    // Kr the same about all three axes
-    double tau[LD_NT]; // torsion shapes there
-    double a[LD_NA];   // axial shapes there
+    double x;           // [m] station
+    v3 K, C, Kr, Cr;    // springs and dampers, base axes
+    recoil_slide slide; // in place of those along x
+    bool isotropic;     // Kr the same about all three axes
+    double tau[LD_NT];  // torsion shapes there
+    double a[LD_NA];    // axial shapes there
 } tube_support;
 
 typedef struct support_set {
     int count;
     tube_support support[LD_MAX_SUPPORTS];
 } support_set;
+
+// A slide's force on the tube along x, what it stores, and the powers of its stops' dampers and of
+// its own damping and friction.
+typedef struct slide_force {
+    double force;         // [N]
+    double stored;        // [J]
+    double stops, losses; // [W]
+} slide_force;
+
+// A one-sided stop at penetration p: it never pulls.
+LD_INLINE double stop_force(const recoil_slide *slide, double p, double p_dot)
+{
+    return p > 0 ? fmax(0, slide->K * p + slide->C * p_dot) : 0;
+}
+
+// At displacement d (recoil: d < 0) and speed v: the recuperator F_0 - k min(d, 0), the stops at
+// d = 0 and d = -stroke, damping and friction.
+LD_INLINE slide_force slide_load(const recoil_slide *slide, double d, double v, bool frictionless)
+{
+    const ld_recoil *given = &slide->given;
+    double back = fmin(d, 0), front = fmax(d, 0), rear = fmax(-d - given->stroke, 0);
+    double battery = stop_force(slide, front, v), end = stop_force(slide, rear, -v);
+    double friction = frictionless ? 0 : given->friction;
+    double drag = given->damping * v + given->quadratic_damping * fabs(v) * v +
+                  friction * v / sqrt(v * v + given->friction_speed * given->friction_speed);
+    return (slide_force){
+        .force = given->preload - given->stiffness * back - battery + end - drag,
+        .stored =
+            0.5 * (given->stiffness * back * back + slide->K * (front * front + rear * rear)) -
+            given->preload * d,
+        .stops = (end - slide->K * rear - battery + slide->K * front) * v,
+        .losses = -drag * v,
+    };
+}
 
 // Support springs and dampers (model.md, section 4).
 LD_INLINE void supports_add(const int lanes, const support_set *self, const tube_system *guide,
@@ -39,6 +81,7 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
     double norm = 1 / sqrt(q_TR.w * q_TR.w + q_TR.x * q_TR.x + q_TR.y * q_TR.y + q_TR.z * q_TR.z);
     q_TR = (quat){norm * q_TR.w, norm * q_TR.x, norm * q_TR.y, norm * q_TR.z};
     double damping = 0, stored = 0, work = 0;
+    int slides = 0;
     out->base_force = out->base_moment = v3_zero();
     for (int k = 0; k < self->count; k++) {
         const tube_support *support = &self->support[k];
@@ -73,14 +116,26 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
         if (!support->isotropic)
             moment = rv_left_jacobian_inverse_transposed(phi, moment);
         v3 f_T = v3_neg(v3_add(spring, damper)), m_T = v3_neg(v3_add(moment, twister));
+        if (support->slide.given.present) {
+            slide_force slide = slide_load(&support->slide, d.x, d_dot.x, now->phase->frictionless);
+            f_T.x = slide.force;
+            damping += slide.stops;
+            stored += 2 * slide.stored;
+            out->power[POWER_RECOIL] += slide.losses;
+            out->slide[slides++] = (slide_report){-d.x, -d_dot.x, slide.force};
+        }
         work += v3_dot(f_T, v_base) + v3_dot(m_T, base_w);
         out->base_force = v3_sub(out->base_force, f_T);
         out->base_moment = v3_sub(out->base_moment, v3_add(m_T, v3_cross(place, f_T)));
         // on the tube, in R
         v3 f = m3_apply_transposed(A_TR, f_T), m = m3_apply_transposed(A_TR, m_T);
-        v3 mu = m3_apply_transposed(Jl, m);
+        v3 mu = m3_apply_transposed(Jl, m), m_R = v3_add(m, v3_cross(P, f));
         h->f = v3_add(h->f, f);
-        h->m = v3_add(h->m, v3_add(m, v3_cross(P, f)));
+        h->m = v3_add(h->m, m_R);
+        if (__builtin_expect(h->record != NULL, 0)) {
+            guide_forces_add(h->record, support->x, f, m_R);
+            h->record->support[k] = (guide_wrench){f_T, m_T};
+        }
         const v4d *b = v4d_lanes_of(guide->rows[2 * k]), *b1 = v4d_lanes_of(guide->rows[2 * k + 1]);
         v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
         for (int i = 0; i < lanes; i++) {
@@ -110,6 +165,9 @@ LD_INLINE void support_build(const ld_support *from, int k, tube_system *guide, 
     to->Kr = v3_from(from->rotational_stiffness);
     to->Cr = v3_from(from->rotational_damping);
     to->isotropic = to->Kr.x == to->Kr.y && to->Kr.y == to->Kr.z;
+    to->slide = (recoil_slide){from->recoil, to->K.x, to->C.x};
+    if (from->recoil.present)
+        to->K.x = to->C.x = 0;
     for (int j = 0; j < tube->nb; j++) {
         double b0 = element->b[0][j], b1 = element->b[1][j], b2 = element->b[2][j],
                b3 = element->b[3][j];

@@ -49,8 +49,10 @@ LD_INLINE void tube_build_rows(int support_count, tube_system *self)
     for (int j = 0; j < tube->nb; j++) {
         tube_set_row(self, self->ct, j, tube->ct[j]);
         tube_set_row(self, self->c, j, tube->c[j]);
-        self->om2[j] = tube->om2_b[j];
-        self->dmp[j] = tube->dmp_b[j];
+        self->om2_y[j] = tube->om2_b[PLANE_Y][j];
+        self->om2_z[j] = tube->om2_b[PLANE_Z][j];
+        self->dmp_y[j] = tube->dmp_b[PLANE_Y][j];
+        self->dmp_z[j] = tube->dmp_b[PLANE_Z][j];
     }
 }
 
@@ -106,6 +108,36 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
     tube->qy_qz = v4d_dot(lanes, q->y, q->z);
 }
 
+// A symmetric matrix, row by row in lanes, times q [nb]; returns their product with `by`.
+LD_INLINE v4d tube_mixed(const int lanes, int nb, const double matrix[LD_NB][LD_NB],
+                         const double *q, const double *by, double *h)
+{
+    v4d sum[LD_NB / 4], product = v4d_all(0);
+    for (int k = 0; k < lanes; k++)
+        sum[k] = v4d_all(0);
+    for (int j = 0; j < nb; j++)
+        for (int k = 0; k < lanes; k++)
+            sum[k] += v4d_lanes_of(matrix[j])[k] * v4d_all(q[j]);
+    for (int k = 0; k < lanes; k++) {
+        v4d_lanes(h)[k] -= sum[k];
+        product += sum[k] * v4d_lanes_of(by)[k];
+    }
+    return product;
+}
+
+// What stiffness and damping of bending have off their diagonals: its forces, and its shares in
+// power and energy.
+static inline void tube_mix(const int lanes, const flexible_tube *data, const modal_state *q,
+                            tube_force *h, v4d *damped, v4d *elastic)
+{
+    const tube_mixing *mixing = data->mixing;
+    int nb = data->nb;
+    *elastic += tube_mixed(lanes, nb, mixing->K[PLANE_Y], q->y, q->y, h->y);
+    *elastic += tube_mixed(lanes, nb, mixing->K[PLANE_Z], q->z, q->z, h->z);
+    *damped += tube_mixed(lanes, nb, mixing->D[PLANE_Y], q->y_dot, q->y_dot, h->y);
+    *damped += tube_mixed(lanes, nb, mixing->D[PLANE_Z], q->z_dot, q->z_dot, h->z);
+}
+
 // Gyroscopic forces, gravity, stiffness and damping of tube and tail: h of formulation.md section 1
 // with the arrays of section 5 (no axial modes here).
 LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state *tube,
@@ -150,14 +182,15 @@ LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state 
     double cy = -w.x * w.y, cz = -w.x * w.z, two_wx = 2 * w.x;
     double dissipated = 0, stored = 0;
     const v4d *row_ct = v4d_lanes_of(self->rows[ct]), *row_c = v4d_lanes_of(self->rows[c]);
-    const v4d *om2 = v4d_lanes_of(self->om2), *dmp = v4d_lanes_of(self->dmp);
+    const v4d *om2_y = v4d_lanes_of(self->om2_y), *om2_z = v4d_lanes_of(self->om2_z);
+    const v4d *dmp_y = v4d_lanes_of(self->dmp_y), *dmp_z = v4d_lanes_of(self->dmp_z);
     const v4d *qy = v4d_lanes_of(q->y), *qz = v4d_lanes_of(q->z);
     const v4d *qy_dot = v4d_lanes_of(q->y_dot), *qz_dot = v4d_lanes_of(q->z_dot);
     v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
     v4d damped = v4d_all(0), elastic = v4d_all(0);
     for (int k = 0; k < lanes; k++) {
-        v4d ky = om2[k] * qy[k], kz = om2[k] * qz[k];
-        v4d dy = dmp[k] * qy_dot[k], dz = dmp[k] * qz_dot[k];
+        v4d ky = om2_y[k] * qy[k], kz = om2_z[k] * qz[k];
+        v4d dy = dmp_y[k] * qy_dot[k], dz = dmp_z[k] * qz_dot[k];
         hy[k] = v4d_all(yy) * qy[k] + v4d_all(yz) * qz[k] + v4d_all(cy) * row_c[k] +
                 v4d_all(two_wx) * qz_dot[k] + v4d_all(g.y) * row_ct[k] - ky - dy;
         hz[k] = v4d_all(zz) * qz[k] + v4d_all(yz) * qy[k] + v4d_all(cz) * row_c[k] -
@@ -165,6 +198,8 @@ LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state 
         damped += dy * qy_dot[k] + dz * qz_dot[k];
         elastic += ky * qy[k] + kz * qz[k];
     }
+    if (data->mixing)
+        tube_mix(lanes, data, q, h, &damped, &elastic);
     for (int j = 0; j < data->nt; j++) {
         double kt = data->om2_t[j] * q->t[j], dt = data->dmp_t[j] * q->t_dot[j];
         h->t[j] = -kt - dt;

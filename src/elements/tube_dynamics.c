@@ -130,6 +130,19 @@ static void assemble_modal(double *h, int count, int axis, v3 w, v3 g, const dou
     }
 }
 
+// Stiffness and damping of one plane.
+static void add_bending(const flexible_tube *tube, int plane, const double *q, const double *q_dot,
+                        double *h)
+{
+    const tube_mixing *mixing = tube->mixing;
+    for (int i = 0; i < tube->nb; i++) {
+        h[i] -= tube->om2_b[plane][i] * q[i] + tube->dmp_b[plane][i] * q_dot[i];
+        if (mixing)
+            h[i] -=
+                dot(tube->nb, mixing->K[plane][i], q) + dot(tube->nb, mixing->D[plane][i], q_dot);
+    }
+}
+
 static void assemble_forces(const flexible_tube *tube, const integrals *value, v3 w,
                             const double *q, const double *q_dot, v3 g, double *h)
 {
@@ -167,10 +180,8 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value, v
     assemble_modal(h + 6 + k.a, k.na, 0, w, g, tube->at, stretch, stretch_u);
 
     // stiffness and damping
-    for (int i = 0; i < k.nb; i++) {
-        h[6 + k.y + i] -= tube->om2_b[i] * q[k.y + i] + tube->dmp_b[i] * q_dot[k.y + i];
-        h[6 + k.z + i] -= tube->om2_b[i] * q[k.z + i] + tube->dmp_b[i] * q_dot[k.z + i];
-    }
+    add_bending(tube, PLANE_Y, q + k.y, q_dot + k.y, h + 6 + k.y);
+    add_bending(tube, PLANE_Z, q + k.z, q_dot + k.z, h + 6 + k.z);
     for (int i = 0; i < k.nt; i++)
         h[6 + k.t + i] -= tube->om2_t[i] * q[k.t + i] + tube->dmp_t[i] * q_dot[k.t + i];
     for (int i = 0; i < k.na; i++)
@@ -205,14 +216,36 @@ double tube_kinetic_energy(const flexible_tube *tube, v3 v, v3 w, const double *
 double tube_elastic_energy(const flexible_tube *tube, const double *q)
 {
     parts k = parts_of(tube);
+    const double *om2_y = tube->om2_b[PLANE_Y], *om2_z = tube->om2_b[PLANE_Z];
     double sum = 0;
     for (int i = 0; i < k.nb; i++)
-        sum += tube->om2_b[i] * (q[k.y + i] * q[k.y + i] + q[k.z + i] * q[k.z + i]);
+        sum += om2_y[i] * q[k.y + i] * q[k.y + i] + om2_z[i] * q[k.z + i] * q[k.z + i];
     for (int i = 0; i < k.nt; i++)
         sum += tube->om2_t[i] * q[k.t + i] * q[k.t + i];
     for (int i = 0; i < k.na; i++)
         sum += tube->om2_a[i] * q[k.a + i] * q[k.a + i];
+    for (int i = 0; tube->mixing && i < k.nb; i++)
+        sum += q[k.y + i] * dot(k.nb, tube->mixing->K[PLANE_Y][i], q + k.y) +
+               q[k.z + i] * dot(k.nb, tube->mixing->K[PLANE_Z][i], q + k.z);
     return 0.5 * sum;
+}
+
+double tube_damping_power(const flexible_tube *tube, const double *q_dot)
+{
+    parts k = parts_of(tube);
+    double sum = 0;
+    for (int i = 0; i < k.nb; i++)
+        sum += tube->dmp_b[PLANE_Y][i] * q_dot[k.y + i] * q_dot[k.y + i];
+    for (int i = 0; i < k.nb; i++)
+        sum += tube->dmp_b[PLANE_Z][i] * q_dot[k.z + i] * q_dot[k.z + i];
+    for (int i = 0; i < k.nt; i++)
+        sum += tube->dmp_t[i] * q_dot[k.t + i] * q_dot[k.t + i];
+    for (int i = 0; i < k.na; i++)
+        sum += tube->dmp_a[i] * q_dot[k.a + i] * q_dot[k.a + i];
+    for (int i = 0; tube->mixing && i < k.nb; i++)
+        sum += q_dot[k.y + i] * dot(k.nb, tube->mixing->D[PLANE_Y][i], q_dot + k.y) +
+               q_dot[k.z + i] * dot(k.nb, tube->mixing->D[PLANE_Z][i], q_dot + k.z);
+    return -sum;
 }
 
 v3 tube_first_moment(const flexible_tube *tube, const double *q)

@@ -23,6 +23,9 @@ double tube_kinetic_energy(const flexible_tube *tube, v3 v, v3 w, const double *
                            const double *q_dot);
 double tube_elastic_energy(const flexible_tube *tube, const double *q);
 
+// Power -q_dot^T D q_dot of the modes' damping [W].
+double tube_damping_power(const flexible_tube *tube, const double *q_dot);
+
 // First moment S = int p dm in R [kg m].
 v3 tube_first_moment(const flexible_tube *tube, const double *q);
 

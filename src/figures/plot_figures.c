@@ -20,6 +20,7 @@
 #define N {"N", 1}
 #define KN {"kN", 1e-3}
 #define KN_M {"kN m", 1e-3}
+#define MPA {"MPa", 1e-6}
 #define J {"J", 1}
 #define KJ {"kJ", 1e-3}
 #define KG {"kg", 1}
@@ -119,9 +120,17 @@ static const plot_figure figures[] = {
     LAUNCH("slot", "Slot and lock",
            HALF("Slot", KN, {"slot.force", "force N"}, {"slot.friction", "friction"}),
            HALF("Lock", KN, {"lock.force", "force carried"})),
+    LAUNCH("pressure", "Pressure behind the rocket",
+           HALF("Pressure less that before the rocket", MPA, {"pressure.net", ""}),
+           HALF("Force on the rocket", KN, {"pressure.force", ""})),
+    LAUNCH("recoil", "Recoil of the tube on its slides",
+           HALF("Way back", MM, {"recoil.*.travel", ""}),
+           HALF("Speed", M_S, {"recoil.*.rate", ""}),
+           WIDE("Force on the tube, forwards", KN, {"recoil.*.force", ""})),
     LAUNCH("energy", "Energy",
            HALF("Drive", KJ,
-                {"work.thrust", "work of the thrust"}, {"energy.kinetic", "kinetic energy"}),
+                {"work.thrust", "work of the thrust"}, {"work.pressure", "work of the pressure"},
+                {"energy.kinetic", "kinetic energy"}),
            HALF("Balance", J, {"energy.residual", "what it misses"}),
            WIDE("Tube and supports", J,
                 {"energy.elastic", "elastic energy"}, {"work.support_damping", "support damping"},
@@ -129,7 +138,7 @@ static const plot_figure figures[] = {
            WIDE("Other work", J,
                 {"work.gravity_rocket", "gravity"}, {"work.contact_friction", "contact friction"},
                 {"work.slot_friction", "slot friction"}, {"work.mass_change", "burnt mass"},
-                {"work.base", "base"})),
+                {"work.base", "base"}, {"work.recoil", "recoil slides"})),
     VEHICLE("wheels", "Road and wheels",
            WIDE("Road under the wheels", MM, {"wheel.*.road", ""}),
            WIDE("Suspension travel from unloaded", MM, {"wheel.*.travel", ""}),

@@ -256,8 +256,8 @@ static void check_complete(model_checker *checker, const ld_model *model)
     bool launch = model_has_launcher(model);
     for (int i = 0; launch && i < model->tubes.section_count; i++) {
         const ld_section *s = &model->tubes.section[i];
-        double sum = s->mass_per_length + s->axial_stiffness + s->bending_stiffness +
-                     s->torsion_stiffness + s->polar_inertia;
+        double sum = s->mass_per_length + s->axial_stiffness + section_stiffness_y(s) +
+                     section_stiffness_z(s) + s->torsion_stiffness + s->polar_inertia;
         snprintf(path, sizeof path, "tubes.sections.%d", i + 1);
         if (isnan(sum))
             refuse(checker, path,

@@ -31,7 +31,7 @@ static void complete_section(ld_section *section, const ld_material *material)
 {
     double E = material->youngs_modulus, nu = material->poisson_ratio;
     double G = isnan(nu) ? material->shear_modulus : E / (2 * (1 + nu));
-    if (section->form == LD_SECTION_STIFFNESS)
+    if (section->form == LD_SECTION_STIFFNESS || section->form == LD_SECTION_PLANES)
         return;
     if (section->form == LD_SECTION_ANNULUS) {
         double r = section->bore_radius, R = section->outer_radius;
@@ -98,15 +98,26 @@ static double longest_step(double tolerance)
     return 2e-4 * pow(fmax(1, tolerance / 1e-5), 0.2);
 }
 
+// Time of the last row of a table over time; 0 without one.
+static double last_time(const ld_table *table)
+{
+    return table->rows > 0 ? table->data[(table->rows - 1) * table->columns] : 0;
+}
+
+// When a rocket that has not left is given up: what is driven by no clock has ten seconds.
+static double time_to_leave(const ld_model *model)
+{
+    const ld_motor *motor = &model->rocket.motor;
+    double end = fmax(last_time(&motor->thrust) * motor->time_scale,
+                      last_time(&model->tubes.pressure.over_time));
+    return end > 0 ? end + 1 : 10;
+}
+
 static void complete_run(ld_model *model)
 {
     ld_run_settings *run = &model->run;
-    const ld_motor *motor = &model->rocket.motor;
-    const ld_table *thrust = &motor->thrust;
-    if (thrust->rows > 0)
-        complete_number(&run->stuck_time,
-                        thrust->data[(thrust->rows - 1) * thrust->columns] * motor->time_scale + 1,
-                        &model->completed.stuck_time);
+    if (model->rocket.motor.thrust.rows > 0 || model_has_pressure(model))
+        complete_number(&run->stuck_time, time_to_leave(model), &model->completed.stuck_time);
     complete_number(&run->max_step, longest_step(run->tolerance), &model->completed.max_step);
 }
 

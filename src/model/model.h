@@ -20,6 +20,7 @@ enum {
     LD_MAX_SECTIONS = 32,
     LD_MAX_POINT_MASSES = 16,
     LD_MAX_SUPPORTS = 8,
+    LD_MAX_STATIONS = 16,
     LD_MAX_ADAPTORS = 8,
     LD_MAX_SURFACES = 12,
     LD_MAX_SINES = 16,
@@ -377,6 +378,18 @@ typedef struct ld_tail {
     double inertia[3]; ///< [kg m2] about its own mass centre, tube axes
 } ld_tail;
 
+/// A slide on which the tube recoils along its x against a support: model.md, section 4.
+typedef struct ld_recoil {
+    bool present;
+    double preload;           ///< [N] towards battery
+    double stiffness;         ///< [N/m] of the recuperator
+    double damping;           ///< [N s/m]
+    double quadratic_damping; ///< [N s2/m2]
+    double friction;          ///< [N]
+    double friction_speed;    ///< [m/s] at which the friction is at 71 %
+    double stroke;            ///< [m] from one stop to the other; NaN: no stop behind
+} ld_recoil;
+
 /// Spring-damper between the tube's section at `at` and the base: model.md, section 4.
 typedef struct ld_support {
     double at;                      ///< [m] station
@@ -384,7 +397,13 @@ typedef struct ld_support {
     double damping[3];              ///< [N s/m]
     double rotational_stiffness[3]; ///< [N m/rad]
     double rotational_damping[3];   ///< [N m s/rad]
+    ld_recoil recoil;               ///< along x, between stops of that stiffness and damping
 } ld_support;
+
+/// Where it is asked for what the tube carries.
+typedef struct ld_station {
+    double at; ///< [m] station
+} ld_station;
 
 typedef enum ld_slot_kind { LD_SLOT_NONE, LD_SLOT_HELIX } ld_slot_kind;
 
@@ -394,6 +413,26 @@ typedef struct ld_slot {
     double radius;   ///< [m] R_k, of the knob's circle
     double friction; ///< [-] mu_s
 } ld_slot;
+
+typedef enum ld_pressure_form {
+    LD_PRESSURE_OVER_TIME,
+    LD_PRESSURE_OVER_TRAVEL,
+    LD_PRESSURE_OF_GAS,
+} ld_pressure_form;
+
+/// Pressure on the rocket's rear while it is in its tube: model.md, section 5.
+typedef struct ld_pressure {
+    bool present;
+    ld_pressure_form form;
+    ld_table over_time;   ///< t [s] since the ignition, p [Pa]; linear between, 0 after the last; a
+                          ///< time given twice is a jump
+    ld_table over_travel; ///< s - start_at [m], p [Pa]; pchip, up to the tip
+    double scale;         ///< [-] factor on the pressure
+    double pressure;      ///< [Pa] p_0 of cold gas, absolute
+    double volume;        ///< [m3] V_0 at the start
+    double exponent;      ///< [-] kappa
+    double ambient;       ///< [Pa] p_a, before the rocket
+} ld_pressure;
 
 typedef enum ld_surface_shape {
     LD_SURFACE_FLAT,  ///< the shoe's point beside the surface's counts: roll opens and closes gaps
@@ -463,7 +502,10 @@ typedef struct ld_tubes {
     ld_tail tail;
     int support_count;
     ld_support support[LD_MAX_SUPPORTS];
+    int station_count;
+    ld_station station[LD_MAX_STATIONS];
     ld_slot slot;
+    ld_pressure pressure;
     ld_guide guide;
 } ld_tubes;
 
@@ -533,7 +575,7 @@ typedef struct ld_lock {
 } ld_lock;
 
 typedef struct ld_motor {
-    bool absent;            ///< no motor (flight alone)
+    bool absent;            ///< no motor (flight alone, or a launch by pressure)
     ld_table thrust;        ///< t [s], T [N]; linear between, 0 after the last; a double time jumps
     double at[3];           ///< [m] x_T, e_y, e_z in B
     double misalignment[2]; ///< [-] eps_y, eps_z
@@ -863,6 +905,20 @@ static inline bool model_has_vehicle(const ld_model *model)
 {
     return model->base.kind == LD_BASE_VEHICLE;
 }
+/// Bending stiffness of a section about y, which deflections along z meet.
+static inline double section_stiffness_y(const ld_section *section)
+{
+    return section->form == LD_SECTION_PLANES ? section->bending_stiffness_y
+                                              : section->bending_stiffness;
+}
+
+/// Bending stiffness of a section about z, which deflections along y meet.
+static inline double section_stiffness_z(const ld_section *section)
+{
+    return section->form == LD_SECTION_PLANES ? section->bending_stiffness_z
+                                              : section->bending_stiffness;
+}
+
 /// Whether the rocket's shoes slide on surfaces, not in a bore.
 static inline bool model_has_surfaces(const ld_model *model)
 {
@@ -882,6 +938,21 @@ static inline bool model_has_jet(const ld_model *model)
     return model_has_vehicle(model) && model->platform.jet.rows > 0;
 }
 
+/// Whether a pressure drives the rocket out of its tube.
+static inline bool model_has_pressure(const ld_model *model)
+{
+    return model_has_launcher(model) && model->tubes.pressure.present;
+}
+
+/// How many supports are slides on which the tube recoils.
+static inline int model_slide_count(const ld_model *model)
+{
+    int count = 0;
+    for (int i = 0; i < model->tubes.support_count; i++)
+        count += model->tubes.support[i].recoil.present;
+    return model_has_launcher(model) ? count : 0;
+}
+
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
 /// a default become NaN.
 void model_init(ld_model *model);
@@ -889,10 +960,10 @@ void model_init(ld_model *model);
 /// Computes what follows from the rest: the stiffnesses and masses of sections that are given by
 /// radii or areas; the firings of an order of tubes; where they are NaN, the values of the empty
 /// rocket (as the full ones), rocket.propellant = full.mass - empty.mass, run.stuck_time = end of
-/// the thrust table + 1 s and run.max_step = 0.2 ms (tolerance/1e-5)^(1/5), at least 0.2 ms; of a
-/// flight alone, what its rocket lacks: a motor (absent), the mass centre (0), and the end at the
-/// tip (landing); the ground's height where it is NaN (0, on a round Earth the site's altitude).
-/// The scenario reader has done it already.
+/// the tables of thrust and pressure + 1 s, without any 10 s, and run.max_step = 0.2 ms
+/// (tolerance/1e-5)^(1/5), at least 0.2 ms; of a flight alone, what its rocket lacks: a motor
+/// (absent), the mass centre (0), and the end at the tip (landing); the ground's height where it is
+/// NaN (0, on a round Earth the site's altitude). The scenario reader has done it already.
 void model_complete(ld_model *model);
 
 /// Makes NaN again what model_complete() has filled in, so that it follows from other numbers when

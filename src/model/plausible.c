@@ -52,6 +52,27 @@ double plausible_burn_time(const ld_motor *motor)
     return thrust->rows > 0 ? thrust->data[2 * (thrust->rows - 1)] * motor->time_scale : 0;
 }
 
+double plausible_peak_pressure(const ld_model *model)
+{
+    const ld_pressure *given = &model->tubes.pressure;
+    const ld_table *table =
+        given->form == LD_PRESSURE_OVER_TIME ? &given->over_time : &given->over_travel;
+    const double pi = 3.14159265358979323846;
+    double bore = plausible_bore(model), peak = 0;
+    if (!model_has_pressure(model))
+        return 0;
+    for (size_t i = 0; i < table->rows; i++)
+        peak = fmax(peak, table->data[2 * i + 1]);
+    if (given->form == LD_PRESSURE_OF_GAS)
+        peak = given->pressure;
+    return fmax(0, given->scale * peak - given->ambient) * pi * bore * bore;
+}
+
+double plausible_peak_drive(const ld_model *model)
+{
+    return plausible_peak_thrust(&model->rocket.motor) + plausible_peak_pressure(model);
+}
+
 // The number with that path; NaN where the scenario has none.
 static double number_at(const ld_model *model, const char *path)
 {
@@ -72,7 +93,7 @@ double plausible_weight_along(const ld_model *model)
 double plausible_time_in_tube(const ld_model *model)
 {
     double weight = plausible_weight_along(model);
-    double force = plausible_peak_thrust(&model->rocket.motor) - (isnan(weight) ? 0 : weight);
+    double force = plausible_peak_drive(model) - (isnan(weight) ? 0 : weight);
     double way = model->tubes.length - model->rocket.start_at;
     return force > 0 ? sqrt(2 * way * model->rocket.full.mass / force) : NAN;
 }

@@ -80,10 +80,13 @@ double plausible_tube_mass(const ld_tubes *tubes);
 double plausible_peak_thrust(const ld_motor *motor);
 double plausible_impulse(const ld_motor *motor);
 double plausible_burn_time(const ld_motor *motor);
+// Greatest force of the pressure behind the rocket, and with the greatest thrust [N]; 0 without.
+double plausible_peak_pressure(const ld_model *model);
+double plausible_peak_drive(const ld_model *model);
 // Weight of the full rocket along the tube, backwards [N], where the tube is lowest; NaN where its
 // elevation is not known.
 double plausible_weight_along(const ld_model *model);
-// Time [s] that the rocket at least needs to leave the tube by its greatest thrust; NaN: it cannot.
+// Time [s] that the rocket at least needs to leave the tube by its greatest drive; NaN: it cannot.
 double plausible_time_in_tube(const ld_model *model);
 // x of the foremost adaptor [m]; NaN in a flight alone.
 double plausible_front(const ld_model *model);

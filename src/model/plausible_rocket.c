@@ -87,7 +87,15 @@ FIND(contact_frequency)
 FIND(release_force)
 {
     const ld_rocket *rocket = &at->model->rocket;
-    return plausible_compare(rocket->lock.release_force, plausible_peak_thrust(&rocket->motor));
+    return plausible_compare(model_has_pressure(at->model) ? NAN : rocket->lock.release_force,
+                             plausible_peak_thrust(&rocket->motor));
+}
+
+FIND(release_by_pressure)
+{
+    const ld_model *model = at->model;
+    return plausible_compare(model_has_pressure(model) ? model->rocket.lock.release_force : NAN,
+                             plausible_peak_drive(model));
 }
 
 // In a tube that points down the lock carries the weight.
@@ -123,8 +131,7 @@ FIND(thrust_by_weight)
 {
     const ld_model *model = at->model;
     double weight = model_has_launcher(model) ? plausible_weight_along(model) : NAN;
-    return plausible_compare(plausible_peak_thrust(&model->rocket.motor),
-                             weight > 0 ? weight : NAN);
+    return plausible_compare(plausible_peak_drive(model), weight > 0 ? weight : NAN);
 }
 
 FIND(acceleration)
@@ -272,6 +279,8 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "it is there to make friction smooth about rest"},
     {"rocket.lock.release_force", .unit = "N", .other = "the greatest thrust", NO_LOW, .high = 1,
      .find = release_force, .why = "the lock never lets go"},
+    {"rocket.lock.release_force", .unit = "N", .other = "the greatest force of pressure and thrust",
+     NO_LOW, .high = 1, .find = release_by_pressure, .why = "the lock never lets go"},
     {"rocket.lock.release_force", .unit = "N", .other = "the weight towards the tip", .low = 1,
      NO_HIGH, .find = release_by_weight, .why = "the lock lets go before the ignition"},
     {"rocket.lock.at.x", .unit = "m", FRONT, .low = -1, .high = 1.5, .find = lock_along,

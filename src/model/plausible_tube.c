@@ -41,6 +41,14 @@ FIND(radius_of_stiffness)
     return plausible_compare(sqrt(2 * s->bending_stiffness / s->axial_stiffness), s->bore_radius);
 }
 
+// Radius of gyration about z, beside the tube's length.
+FIND(radius_of_plane)
+{
+    const ld_section *s = section_of(at);
+    double stiffness = s->form == LD_SECTION_PLANES ? s->bending_stiffness_z : NAN;
+    return plausible_compare(sqrt(stiffness / s->axial_stiffness), at->model->tubes.length);
+}
+
 FIND(radius_of_inertia)
 {
     const ld_section *s = section_of(at);
@@ -72,7 +80,8 @@ FIND(highest_mode)
     const ld_tubes *tubes = &at->model->tubes;
     const ld_section *s = tubes->section;
     double k = (tubes->modes.bending - 0.5) * PI / tubes->length;
-    double frequency = k * k * sqrt(s->bending_stiffness / s->mass_per_length) / (2 * PI);
+    double stiffness = fmax(section_stiffness_y(s), section_stiffness_z(s));
+    double frequency = k * k * sqrt(stiffness / s->mass_per_length) / (2 * PI);
     return plausible_compare(tubes->modes.bending > 0 ? frequency : NAN,
                              1 / at->model->run.max_step);
 }
@@ -109,6 +118,29 @@ FIND(support_time)
         damping += tubes->support[i].damping[1];
     return plausible_compare(damping > 0 ? plausible_tube_mass(tubes) / damping : NAN,
                              at->model->run.max_step);
+}
+
+// What the recuperators carry beside the weight that pulls the tube out of battery.
+FIND(preload)
+{
+    const ld_model *model = at->model;
+    const ld_tubes *tubes = &model->tubes;
+    double mass = plausible_tube_mass(tubes) + model->rocket.full.mass, preload = 0;
+    double weight = plausible_weight_along(model) / model->rocket.full.mass * mass;
+    for (int i = 0; i < tubes->support_count; i++)
+        preload += tubes->support[i].recoil.present ? tubes->support[i].recoil.preload : 0;
+    return plausible_compare(preload, weight > 0 ? weight : NAN);
+}
+
+// Pressure of the gas when the rocket leaves.
+FIND(expanded)
+{
+    const ld_model *model = at->model;
+    const ld_pressure *gas = &model->tubes.pressure;
+    double bore = plausible_bore(model), way = model->tubes.length - model->rocket.start_at;
+    double volume = gas->volume + PI * bore * bore * way;
+    return plausible_compare(gas->ambient,
+                             gas->scale * gas->pressure * pow(gas->volume / volume, gas->exponent));
 }
 
 FIND(pitch)
@@ -191,6 +223,12 @@ const plausible_rule plausible_of_tube[] = {
     {"tubes.sections.#.bending_stiffness", "the wall's mean radius by its stiffnesses", .unit = "m",
      BORE, .low = 0.5, .high = 3, .find = radius_of_stiffness,
      .why = "a wall lies around its bore"},
+    {"tubes.sections.#.bending_stiffness_y", .unit = "N.m2",
+     .other = "tubes.sections.#.bending_stiffness_z", .low = 0.002, .high = 500,
+     .why = "what is so much stiffer in one plane is a sheet"},
+    {"tubes.sections.#.bending_stiffness_z", "the radius of gyration by its stiffnesses",
+     .unit = "m", .other = "tubes.length", .low = 2e-4, .high = 0.2, .find = radius_of_plane,
+     .why = "a guide is a beam"},
     {"tubes.sections.#.torsion_stiffness", .unit = "N.m2",
      .other = "tubes.sections.#.bending_stiffness", .low = 1e-5, .high = 2.5,
      .why = "that of a ring is a little less than its bending stiffness"},
@@ -227,6 +265,18 @@ const plausible_rule plausible_of_tube[] = {
      .unit = "s", .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_time,
      .of = "tubes.material.density",
      .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.supports.#.recoil.preload", "the preload of all slides", .unit = "N",
+     .other = "the weight of tube and rocket towards the rear", .low = 1, NO_HIGH, .find = preload,
+     .of = "tubes.material.density", .why = "the tube rests out of battery"},
+    {"tubes.supports.#.recoil.stroke", .unit = "m", .other = "tubes.length", NO_LOW, .high = 1,
+     .why = "a slide is shorter than its tube"},
+    {"tubes.pressure.exponent", .unit = "", .low = 1, .high = 1.7,
+     .why = "gases have 1 where they are kept warm, and at most 1.67"},
+    {"tubes.pressure.ambient", .unit = "Pa", .other = "the pressure of the gas at the exit", NO_LOW,
+     .high = 1, .find = expanded, .of = "tubes.pressure.exponent",
+     .why = "it holds the rocket back before it leaves"},
+    {"tubes.pressure.scale", .unit = "", .low = 0.1, .high = 10,
+     .why = "it is a correction of the pressure"},
     {"tubes.layout.pitch", .unit = "m", .other = "the bore's diameter", NO_LOW, .high = 20,
      .find = pitch, .why = "tubes of one launcher lie side by side"},
     {"tubes.layout.first", "the distance of tube 1 from the platform's origin", .unit = "m",

@@ -10,13 +10,15 @@
 #include <stdint.h>
 
 // What there is one of each: a run; a vehicle, where the base is one; air on the emerged part of
-// the rocket and jets on the platform, where they are asked for; a round or WGS 84 Earth; then
-// several.
+// the rocket, jets on the platform, a pressure behind the rocket, what all recoil slides do, where
+// they are asked for; a round or WGS 84 Earth; then several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
     EACH_CROSSFLOW,
     EACH_JET,
+    EACH_PRESSURE,
+    EACH_SLIDE_WORK,
     EACH_EARTH,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,
@@ -24,6 +26,9 @@ typedef enum quantity_each {
     EACH_HINGE, // azimuth, elevation
     EACH_WHEEL,
     EACH_MEASURE, // that the scenario asks for
+    EACH_SLIDE,   // support on which the tube recoils, by its number among them
+    EACH_STATION, // of the tube, at which loads are asked for
+    EACH_SUPPORT, // of the tube, where loads are asked for
     EACH_COUNT
 } quantity_each;
 

@@ -12,6 +12,20 @@ static void station_rule(const rule_set *rules, const char *path, int index, dou
         broken(rules, path, index, "%g m lies beyond the tube's tip at %g m", at, length);
 }
 
+// Stations at which loads are asked for, each once.
+static void load_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    for (int i = 0; i < tubes->station_count; i++) {
+        double at = tubes->station[i].at;
+        station_rule(rules, "tubes.loads.#.at", i + 1, at);
+        for (int k = 0; k < i; k++)
+            if (tubes->station[k].at == at)
+                broken(rules, "tubes.loads.#.at", i + 1, "%g m is that of entry %d already", at,
+                       k + 1);
+    }
+}
+
 static void material_rules(const rule_set *rules, const ld_section *section, int index)
 {
     const ld_material *material = &rules->model->tubes.material;
@@ -52,11 +66,13 @@ static void section_rules(const rule_set *rules)
                    section->bore_radius);
     }
     // the material is needed once, so say so once
-    for (int i = 0; i < tubes->section_count; i++)
-        if ((int)tubes->section[i].form > LD_SECTION_STIFFNESS) {
+    for (int i = 0; i < tubes->section_count; i++) {
+        ld_section_form form = tubes->section[i].form;
+        if (form == LD_SECTION_ANNULUS || form == LD_SECTION_AREA) {
             material_rules(rules, &tubes->section[i], i + 1);
             break;
         }
+    }
 }
 
 // Values that follow from those given: too large or too small ones must not slip through.
@@ -65,10 +81,11 @@ static void derived_rules(const rule_set *rules)
     const ld_tubes *tubes = &rules->model->tubes;
     for (int i = 0; i < tubes->section_count; i++) {
         const ld_section *s = &tubes->section[i];
-        const double value[] = {s->mass_per_length, s->axial_stiffness, s->bending_stiffness,
-                                s->torsion_stiffness, s->polar_inertia};
+        const double value[] = {s->mass_per_length,     s->axial_stiffness,
+                                section_stiffness_y(s), section_stiffness_z(s),
+                                s->torsion_stiffness,   s->polar_inertia};
         bool has_wall = s->form != LD_SECTION_ANNULUS || s->outer_radius > s->bore_radius;
-        for (int k = 0; k < 5 && has_wall; k++)
+        for (int k = 0; k < 6 && has_wall; k++)
             if (value[k] < 1e-100 || value[k] > 1e100) {
                 broken(rules, "tubes.sections.#", i + 1,
                        "its stiffnesses or masses come out as %g, beyond all reason", value[k]);
@@ -180,6 +197,29 @@ static bool plane_held(const ld_tubes *tubes, int along, int about)
         r += s->rotational_stiffness[about];
     }
     return !(k0 * (k2 + r) - k1 * k1 <= 1e-12 * k0 * (k2 + r));
+}
+
+// The tube recoils on slides, or it is held along x: not both.
+static void recoil_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    int holds = 0;
+    for (int i = 0; i < tubes->support_count; i++)
+        if (!tubes->support[i].recoil.present && tubes->support[i].stiffness[0] > 0)
+            holds = i + 1;
+    for (int i = 0; i < tubes->support_count; i++) {
+        const ld_support *support = &tubes->support[i];
+        if (!support->recoil.present)
+            continue;
+        if (support->stiffness[0] == 0)
+            broken(rules, "tubes.supports.#.stiffness", i + 1,
+                   "0 N/m along x, where the stops of its recoil need it");
+        if (holds)
+            broken(rules, "tubes.supports.#.recoil", i + 1,
+                   "support %d holds the tube along x; give that no stiffness there, or a recoil "
+                   "too",
+                   holds);
+    }
 }
 
 static void support_rules(const rule_set *rules)
@@ -381,6 +421,57 @@ static void thrust_rules(const rule_set *rules)
                impulse);
 }
 
+static void over_time_rules(const rule_set *rules)
+{
+    const ld_table *table = &rules->model->tubes.pressure.over_time;
+    rising_rule(rules, "tubes.pressure.over_time.#", table, "s", true);
+    if (table->rows > 0 && table->data[0] > 0)
+        broken(rules, "tubes.pressure.over_time.1", 0, "the first time must be 0 s, not %g s",
+               table->data[0]);
+    if (table->rows == 1)
+        broken(rules, "tubes.pressure.over_time", 0, "needs at least two rows");
+}
+
+static void over_travel_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    const ld_table *table = &model->tubes.pressure.over_travel;
+    double way = model->tubes.length - model->rocket.start_at;
+    rising_rule(rules, "tubes.pressure.over_travel.#", table, "m", false);
+    if (table->rows == 0)
+        return;
+    double last = table->data[2 * (table->rows - 1)];
+    if (table->data[0] > 0)
+        broken(rules, "tubes.pressure.over_travel.1", 0, "the first travel must be 0 m, not %g m",
+               table->data[0]);
+    if (last < way)
+        broken(rules, "tubes.pressure.over_travel", 0,
+               "ends at %g m; the rocket goes %g m to the tip", last, way);
+}
+
+static void pressure_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    const ld_pressure *pressure = &model->tubes.pressure;
+    if (model->rocket.motor.absent && !pressure->present)
+        broken(rules, "rocket.motor", 0, "a launch needs one, or tubes.pressure");
+    if (model->rocket.motor.absent && model_has_jet(model))
+        broken(rules, "platform.jet", 0, "goes with a motor, whose jet it is");
+    if (!pressure->present)
+        return;
+    if (model_has_surfaces(model))
+        broken(rules, "tubes.pressure", 0,
+               "goes with a bore; a guide of surfaces is open behind the rocket");
+    if (pressure->form == LD_PRESSURE_OVER_TIME)
+        over_time_rules(rules);
+    if (pressure->form == LD_PRESSURE_OVER_TRAVEL)
+        over_travel_rules(rules);
+    double gas = pressure->scale * pressure->pressure;
+    if (pressure->form == LD_PRESSURE_OF_GAS && gas <= pressure->ambient)
+        broken(rules, "tubes.pressure.pressure", 0,
+               "comes to %g Pa, no more than the ambient pressure, %g Pa", gas, pressure->ambient);
+}
+
 static void coupling_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
@@ -478,15 +569,16 @@ static void launch_rules(const rule_set *rules)
     derived_rules(rules);
     for (int i = 0; i < model->tubes.point_mass_count; i++)
         station_rule(rules, "tubes.point_masses.#.at", i + 1, model->tubes.point_mass[i].at);
+    load_rules(rules);
     modes_rules(rules);
     tail_rules(rules);
     support_rules(rules);
+    recoil_rules(rules);
     slot_rules(rules);
     adaptor_rules(rules);
     guide_rules(rules);
     contact_rules(rules);
-    if (model->rocket.motor.absent)
-        broken(rules, "rocket.motor", 0, "a launch needs one");
+    pressure_rules(rules);
 }
 
 static void scatter_rules(const rule_set *rules)

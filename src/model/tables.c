@@ -583,11 +583,14 @@ static const field_row layout_fields[] = {
     {0}};
 static const field_block layout_block = {.fields = layout_fields};
 
-static const field_word section_forms[] = {{"a section given by radii", LD_SECTION_ANNULUS},
-                                           {"a section given by its area", LD_SECTION_AREA},
-                                           {"a section given by stiffnesses", LD_SECTION_STIFFNESS},
-                                           {NULL, 0}};
+static const field_word section_forms[] = {
+    {"a section given by radii", LD_SECTION_ANNULUS},
+    {"a section given by its area", LD_SECTION_AREA},
+    {"a section given by stiffnesses", LD_SECTION_STIFFNESS},
+    {"a section given by stiffnesses of each plane", LD_SECTION_PLANES},
+    {NULL, 0}};
 #define STIFFNESS FORM(LD_SECTION_STIFFNESS)
+#define PLANES FORM(LD_SECTION_PLANES)
 #define ANNULUS FORM(LD_SECTION_ANNULUS)
 #define AREA FORM(LD_SECTION_AREA)
 static const field_row section_fields[] = {
@@ -598,9 +601,10 @@ static const field_row section_fields[] = {
     {"outer_radius", NUMBER(ld_section, outer_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
      .forms = ANNULUS, .doc = "outer radius"},
     {"bore_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10),
-     NO_DEFAULT("needed by a bore"), .forms = AREA | STIFFNESS, .doc = "radius of the bore"},
+     NO_DEFAULT("needed by a bore"), .forms = AREA | STIFFNESS | PLANES,
+     .doc = "radius of the bore"},
     {"mass_per_length", NUMBER(ld_section, mass_per_length, "kg/m"), POSITIVE, REQUIRED,
-     .forms = AREA | STIFFNESS, .doc = "mass per length"},
+     .forms = AREA | STIFFNESS | PLANES, .doc = "mass per length"},
     {"area", NUMBER(ld_section, area, "m2"), POSITIVE, REQUIRED, .forms = AREA,
      .doc = "area A of the wall"},
     {"second_moment", NUMBER(ld_section, second_moment, "m4"), POSITIVE, REQUIRED, .forms = AREA,
@@ -608,13 +612,17 @@ static const field_row section_fields[] = {
     {"torsion_constant", NUMBER(ld_section, torsion_constant, "m4"), POSITIVE, REQUIRED,
      .forms = AREA, .doc = "Saint-Venant torsion constant"},
     {"axial_stiffness", NUMBER(ld_section, axial_stiffness, "N"), POSITIVE, REQUIRED,
-     .forms = STIFFNESS, .doc = "E A"},
+     .forms = STIFFNESS | PLANES, .doc = "E A"},
     {"bending_stiffness", NUMBER(ld_section, bending_stiffness, "N.m2"), POSITIVE, REQUIRED,
      .forms = STIFFNESS, .doc = "E I, the same in both planes"},
+    {"bending_stiffness_y", NUMBER(ld_section, bending_stiffness_y, "N.m2"), POSITIVE, REQUIRED,
+     .forms = PLANES, .doc = "E I about y, which deflections along z meet"},
+    {"bending_stiffness_z", NUMBER(ld_section, bending_stiffness_z, "N.m2"), POSITIVE, REQUIRED,
+     .forms = PLANES, .doc = "E I about z, which deflections along y meet"},
     {"torsion_stiffness", NUMBER(ld_section, torsion_stiffness, "N.m2"), POSITIVE, REQUIRED,
-     .forms = STIFFNESS, .doc = "G times the torsion constant"},
+     .forms = STIFFNESS | PLANES, .doc = "G times the torsion constant"},
     {"polar_inertia", NUMBER(ld_section, polar_inertia, "kg.m"), POSITIVE, REQUIRED,
-     .forms = AREA | STIFFNESS, .doc = "polar moment of inertia per length"},
+     .forms = AREA | STIFFNESS | PLANES, .doc = "polar moment of inertia per length"},
     {0}};
 static const field_block section_block = {.fields = section_fields,
                                           .form = section_forms,
@@ -669,6 +677,25 @@ static const field_row tail_fields[] = {
     {0}};
 static const field_block tail_block = {.fields = tail_fields};
 
+static const field_row recoil_fields[] = {
+    {"preload", NUMBER(ld_recoil, preload, "N"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "force towards battery from which on the tube gives way"},
+    {"stiffness", NUMBER(ld_recoil, stiffness, "N/m"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "by which that force grows with the way back"},
+    {"damping", NUMBER(ld_recoil, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "force over speed"},
+    {"quadratic_damping", NUMBER(ld_recoil, quadratic_damping, "N.s2/m2"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "force over the square of the speed"},
+    {"friction", NUMBER(ld_recoil, friction, "N"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "Coulomb friction"},
+    {"friction_speed", NUMBER(ld_recoil, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
+     .doc = "speed at which that is at 71 %"},
+    {"stroke", NUMBER(ld_recoil, stroke, "m"), ABOVE_TO(0, 100), NO_DEFAULT("no stop behind"),
+     .doc = "way back at which a stop like that in battery begins"},
+    {0}};
+static const field_block recoil_block = {.fields = recoil_fields};
+static const field_word recoil_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
 static const field_row support_fields[] = {
     {"at", NUMBER(ld_support, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
     {"stiffness", VECTOR(ld_support, stiffness, "N/m", 3), NOT_NEGATIVE, REQUIRED,
@@ -679,8 +706,16 @@ static const field_row support_fields[] = {
      DEFAULT(0), .doc = "about x, y, z"},
     {"rotational_damping", VECTOR(ld_support, rotational_damping, "N.m.s/rad", 3), NOT_NEGATIVE,
      DEFAULT(0), .doc = "about x, y, z"},
+    {"recoil", BLOCK(ld_support, recoil, recoil_block), .initial_doc = "none",
+     SWITCH(ld_support, recoil.present, recoil_words), .other_is_bool = true,
+     .doc = "slide along x on which the tube recoils; the support's stiffness and damping along x "
+            "are then those of its stops, the first in battery"},
     {0}};
 static const field_block support_block = {.fields = support_fields};
+
+static const field_row station_fields[] = {
+    {"at", NUMBER(ld_station, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"}, {0}};
+static const field_block station_block = {.fields = station_fields};
 
 static const field_row slot_columns[] = {
     {"station", .unit = "m", FROM_TO(-100, 100)},
@@ -698,6 +733,49 @@ static const field_row slot_fields[] = {
     {0}};
 static const field_block slot_block = {.fields = slot_fields};
 static const field_word slot_words[] = {{"none", LD_SLOT_NONE}, {"", LD_SLOT_HELIX}, {NULL, 0}};
+
+static const field_word pressure_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word pressure_forms[] = {
+    {"a pressure over time", LD_PRESSURE_OVER_TIME},
+    {"a pressure over travel", LD_PRESSURE_OVER_TRAVEL},
+    {"the pressure of a gas that expands", LD_PRESSURE_OF_GAS},
+    {NULL, 0}};
+static const field_row over_time_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)},
+    {"pressure", .unit = "Pa", FROM_TO(0, 1e10)},
+};
+static const field_row over_travel_columns[] = {
+    {"travel", .unit = "m", FROM_TO(0, 100)},
+    {"pressure", .unit = "Pa", FROM_TO(0, 1e10)},
+};
+static const table_format over_time_table = {TABLE_CSV, 2, over_time_columns, NULL};
+static const table_format over_travel_table = {TABLE_CSV, 2, over_travel_columns, NULL};
+#define OVER_TIME FORM(LD_PRESSURE_OVER_TIME)
+#define OVER_TRAVEL FORM(LD_PRESSURE_OVER_TRAVEL)
+#define OF_GAS .forms = FORM(LD_PRESSURE_OF_GAS)
+static const field_row pressure_fields[] = {
+    {"over_time", TABLE(ld_pressure, over_time, over_time_table), .required = true,
+     .forms = OVER_TIME,
+     .doc = "from the ignition on, linear between rows, none after the last; a time given twice is "
+            "a jump"},
+    {"over_travel", TABLE(ld_pressure, over_travel, over_travel_table), .required = true,
+     .forms = OVER_TRAVEL,
+     .doc = "over the way from rocket.start_at, pchip between rows, which go on to the tip"},
+    {"scale", NUMBER(ld_pressure, scale, ""), FROM_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the pressure, before `ambient` is taken off"},
+    {"pressure", NUMBER(ld_pressure, pressure, "Pa"), ABOVE_TO(0, 1e10), REQUIRED, OF_GAS,
+     .doc = "p_0 of cold gas at the start, absolute"},
+    {"volume", NUMBER(ld_pressure, volume, "m3"), ABOVE_TO(0, 1e6), REQUIRED, OF_GAS,
+     .doc = "V_0 that it fills there, the bore behind the rocket included"},
+    {"exponent", NUMBER(ld_pressure, exponent, ""), FROM_TO(0, 10), REQUIRED, OF_GAS,
+     .doc = "kappa of p (V_0 + A s')^kappa = p_0 V_0^kappa; 1.4: air that keeps its heat"},
+    {"ambient", NUMBER(ld_pressure, ambient, "Pa"), FROM_TO(0, 1e10), DEFAULT(0),
+     .doc = "pressure before the rocket, which is taken off"},
+    {0}};
+static const field_block pressure_block = {.fields = pressure_fields,
+                                           .form = pressure_forms,
+                                           .form_offset = offsetof(ld_pressure, form),
+                                           .form_from_keys = true};
 
 static const field_word shape_words[] = {
     {"flat", LD_SURFACE_FLAT}, {"round", LD_SURFACE_ROUND}, {NULL, 0}};
@@ -775,9 +853,17 @@ static const field_row tubes_fields[] = {
      .doc = "rigid body welded to the rear end"},
     {"supports", LIST(ld_tubes, support, support_count, support_block, 0, LD_MAX_SUPPORTS),
      .required = true, .doc = "spring-dampers between tube and base"},
+    {"loads", LIST(ld_tubes, station, station_count, station_block, 0, LD_MAX_STATIONS),
+     .silent = true, .initial_doc = "none",
+     .doc = "stations at which forces, moments and stress that the tube carries are told, and with "
+            "them what each support puts on it"},
     {"slot", BLOCK(ld_tubes, slot, slot_block), .required = true,
      SWITCH(ld_tubes, slot.kind, slot_words),
      .doc = "slot that the rocket's knob follows; `none`: smooth bore"},
+    {"pressure", BLOCK(ld_tubes, pressure, pressure_block), .initial_doc = "none",
+     SWITCH(ld_tubes, pressure.present, pressure_words), .other_is_bool = true,
+     .doc = "on the rocket's rear, from the ignition until it leaves, beside or in place of a "
+            "motor"},
     {"guide", BLOCK(ld_tubes, guide, guide_block), .initial_doc = "bore",
      SWITCH(ld_tubes, guide.present, guide_words), .other_is_bool = true,
      .doc = "what guides the rocket: the bore, or surfaces on which its adaptors slide as shoes"},
@@ -1010,12 +1096,11 @@ static const field_row rocket_fields[] = {
      .doc = "holds the rocket until the release force; `none`: it rests on the breech"},
     {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
      NOT_IN_FLIGHT("none in a flight alone"), SWITCH(ld_model, rocket.motor.absent, motor_words),
-     .other_is_bool = true, .doc = "thrust; `none`: only in a flight alone"},
+     .other_is_bool = true, .doc = "thrust; `none`: a flight alone, or a launch by tubes.pressure"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
      .other_is_bool = true,
      .doc = "air forces in free flight and, by its key emerged, on what has come out of the tube"},
-    {"pressure", LATER, .doc = "pressure-driven launch in place of a motor"},
     {0}};
 static const field_block rocket_block = {
     .fields = rocket_fields, .form = kind_words, .form_offset = offsetof(ld_model, base.kind)};

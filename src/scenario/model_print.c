@@ -133,15 +133,27 @@ static bool is_given(const field_row *f, const void *base, int form)
     return field_has_form(f, form) && has_value(f, base);
 }
 
+// The word that stands for a block that is not there; "": it is.
+static const char *word_in_place(const field_row *f, const void *base)
+{
+    return f->words ? field_word_of(f->words, field_switch(base, f))->name : "";
+}
+
+// An entry of a list on one line, without the blocks that it does not have.
 static void print_entry(FILE *stream, const field_block *block, const void *base)
 {
     const char *between = "";
     int form = field_form(block, base);
     for (const field_row *f = block->fields; f->name; f++) {
-        if (!is_given(f, base, form))
+        bool inner = f->kind == FIELD_BLOCK;
+        if (!is_given(f, base, form) || (inner && word_in_place(f, base)[0]))
             continue;
-        fprintf(stream, "%s%s: ", between, f->name);
-        print_scalar(stream, f, base);
+        fprintf(stream, inner ? "%s%s: {" : "%s%s: ", between, f->name);
+        if (inner)
+            print_entry(stream, f->block, field_at_const(base, f));
+        else
+            print_scalar(stream, f, base);
+        fputs(inner ? "}" : "", stream);
         between = ", ";
     }
 }
@@ -328,7 +340,7 @@ static void print_field(FILE *stream, const field_row *f, const void *base, int 
 {
     fprintf(stream, "%*s%s:", depth * 2, "", f->name);
     if (f->kind == FIELD_BLOCK) {
-        const char *word = f->words ? field_word_of(f->words, field_switch(base, f))->name : "";
+        const char *word = word_in_place(f, base);
         fprintf(stream, "%s%s\n", word[0] ? " " : "", word);
         if (!word[0])
             print_block(stream, f->block, field_at_const(base, f), depth + 1);
@@ -412,8 +424,7 @@ ld_status scenario_until_text(const ld_model *model, const ld_until *until, char
 // The word that stands in place of a block, or NULL.
 static const char *word_of_block(const field_value *value)
 {
-    const field_row *f = value->row;
-    const char *word = f->words ? field_word_of(f->words, field_switch(value->base, f))->name : "";
+    const char *word = word_in_place(value->row, value->base);
     return word[0] ? word : NULL;
 }
 

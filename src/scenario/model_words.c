@@ -87,7 +87,14 @@ static void tell_section(FILE *stream, const ld_section *s, bool bore)
         fprintf(stream, " bore radius %s,", MILLIMETRES(s->bore_radius));
     if (s->form == LD_SECTION_ANNULUS)
         fprintf(stream, " wall %s,", MILLIMETRES(s->outer_radius - s->bore_radius));
-    fprintf(stream, " EI %s", STIFFNESS(s->bending_stiffness));
+    if (s->form == LD_SECTION_PLANES)
+        fprintf(stream, " EI %s about y, %s about z", STIFFNESS(s->bending_stiffness_y),
+                STIFFNESS(s->bending_stiffness_z));
+    else if (section_stiffness_y(s) == section_stiffness_z(s))
+        fprintf(stream, " EI %s", STIFFNESS(section_stiffness_y(s)));
+    else
+        fprintf(stream, " EI %s about y, %s about z", STIFFNESS(section_stiffness_y(s)),
+                STIFFNESS(section_stiffness_z(s)));
     fprintf(stream, ", GJ %s, %.4g kg/m\n", STIFFNESS(s->torsion_stiffness), s->mass_per_length);
 }
 
@@ -203,7 +210,9 @@ static void tell_rocket(FILE *stream, const ld_model *model)
         fputc(')', stream);
     }
     if (contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
-        fprintf(stream, ", held on the axis");
+        fprintf(stream, contact_has(rocket->contact.law, LD_CONTACT_HELD)
+                            ? ", held on the axis"
+                            : ", held to the axis by springs");
     fputc('\n', stream);
 }
 

@@ -286,15 +286,19 @@ static void note_points(scenario_reader *reader, const text_source *source, int 
 {
     whole_scenario whole;
     ld_messages *errors = reader->messages;
-    ld_model axes;
-    model_init(&axes);
-    bool good = open_whole(reader, source, &whole, &axes);
+    ld_model *axes = malloc(sizeof *axes);
+    if (!axes) {
+        reader->no_memory = true;
+        return;
+    }
+    model_init(axes);
+    bool good = open_whole(reader, source, &whole, axes);
     for (int point = from; point <= to && good && !reader->no_memory; point++) {
         memory_pool before = pool_mark(reader);
         size_t count = notes->count;
         ld_model model;
         model_init(&model);
-        tree_node *root = tree_of_point(reader, &whole, &axes, point);
+        tree_node *root = tree_of_point(reader, &whole, axes, point);
         if (root && !reader->no_memory)
             scenario_fill(reader, root, &model);
         good = root && errors->count == 0 && !reader->no_memory;
@@ -306,7 +310,7 @@ static void note_points(scenario_reader *reader, const text_source *source, int 
         model_clear(&model);
         pool_return(reader, before);
     }
-    model_clear(&axes);
+    ld_model_free(axes);
 }
 
 // What is to be read: point `from` into the model or, without one, notes on it up to point `to`.

@@ -203,6 +203,7 @@ static int residual(const problem *the, const double *y, double *r)
         base->kind->dynamics->rest_of(y + launcher->base_at, &input.rest);
     input.launching.base.v = input.launching.base.w = v3_zero();
     input.launching.thrust = 0;
+    input.launching.pressure_piece = 0;
     if (the->dead) {
         dead_load(the, &input, &out.launching);
         if (launcher_evaluate_base(launcher, &input, the->phase, y, &out))
@@ -387,6 +388,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
     simulation_input(self, the->t, y, &input);
     input.launching.base.v = input.launching.base.w = v3_zero();
     input.launching.thrust = 0;
+    input.launching.pressure_piece = 0;
     input.formulation = LD_FORMULATION_REDUCED;
     launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
     tip_state tip = tip_state_of(self, &input.launching.base, y);

@@ -102,7 +102,8 @@ static void add_tube(geometry *all, const ld_tubes *tubes)
 // mass and the ratio of its bending stiffnesses; NaN where there is no such.
 static void section_outline(const ld_section *section, double outline[2])
 {
-    double y = section->bending_stiffness, z = section->bending_stiffness;
+    // what deflections along y and z meet
+    double y = section_stiffness_z(section), z = section_stiffness_y(section);
     double radius2 = section->polar_inertia / section->mass_per_length;
     outline[0] = sqrt(3 * radius2 * y / (y + z));
     outline[1] = sqrt(3 * radius2 * z / (y + z));

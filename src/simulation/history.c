@@ -36,6 +36,7 @@ typedef struct launch_instant {
     struct {
         double force_y, force_z, moment;
     } shoe[LD_MAX_ADAPTORS];
+    launching_loads loads;
     base_instant of_base;
     ld_energy energy;
 } launch_instant;
@@ -45,6 +46,8 @@ typedef struct launch_instant {
 #define AT(member) .at = QUANTITY_AT(launch_instant, member)
 #define EACH(array, member) .at = QUANTITY_OF_EACH(launch_instant, array, member)
 #define ITEM(array) .at = QUANTITY_EACH_OF(launch_instant, array)
+#define CARRIED(member) EACH(loads.station, member)
+#define REACTION(member) EACH(loads.support, member)
 
 // clang-format off
 static const quantity frames[] = {
@@ -169,6 +172,35 @@ static const quantity crossflow[] = {
     {"crossflow.y", "N", "force of the air on it, along y of R", AT(out.launching.crossflow.y)},
     {"crossflow.z", "N", "force of the air on it, along z of R", AT(out.launching.crossflow.z)},
 };
+static const quantity pressures[] = {
+    {"pressure.net", "Pa", "pressure behind the rocket less that before it", AT(out.launching.pressure)},
+    {"pressure.force", "N", "its force on the rocket along the tube", AT(out.launching.pressure_force)},
+};
+static const quantity slides[] = {
+    {"recoil.%s.travel", "m", "recoil slide %s: way back from battery", EACH(out.launching.slide, travel)},
+    {"recoil.%s.rate", "m/s", "recoil slide %s: rate of that", EACH(out.launching.slide, rate)},
+    {"recoil.%s.force", "N", "recoil slide %s: force on the tube, forwards", EACH(out.launching.slide, force)},
+};
+// Of the part beyond the station on the part behind it, in the axes of the section there.
+static const quantity stations[] = {
+    {"station.%s.axial", "N", "station %s: axial force carried, tension positive", CARRIED(wrench.f.x)},
+    {"station.%s.shear_y", "N", "station %s: shear force carried, along y of the section", CARRIED(wrench.f.y)},
+    {"station.%s.shear_z", "N", "station %s: shear force carried, along z of the section", CARRIED(wrench.f.z)},
+    {"station.%s.torque", "N.m", "station %s: torque carried", CARRIED(wrench.m.x)},
+    {"station.%s.bending_y", "N.m", "station %s: bending moment about y (-E I u_z'')", CARRIED(wrench.m.y)},
+    {"station.%s.bending_z", "N.m", "station %s: bending moment about z (E I u_y'')", CARRIED(wrench.m.z)},
+    {"station.%s.bending", "N.m", "station %s: magnitude of the bending moment", CARRIED(bending)},
+    {"station.%s.stress", "Pa", "station %s: largest bending stress, where the outer fibre is known", CARRIED(stress)},
+};
+// On the tube, in the axes of the undeformed tube on its base.
+static const quantity reactions[] = {
+    {"support.%s.force_x", "N", "support %s: force on the tube, along the undeformed tube", REACTION(f.x)},
+    {"support.%s.force_y", "N", "support %s: force on the tube, along y", REACTION(f.y)},
+    {"support.%s.force_z", "N", "support %s: force on the tube, along z", REACTION(f.z)},
+    {"support.%s.moment_x", "N.m", "support %s: moment on the tube at its station, about x", REACTION(m.x)},
+    {"support.%s.moment_y", "N.m", "support %s: moment on the tube at its station, about y", REACTION(m.y)},
+    {"support.%s.moment_z", "N.m", "support %s: moment on the tube at its station, about z", REACTION(m.z)},
+};
 static const quantity energies[] = {
     {"energy.kinetic", "J", "kinetic energy of tube, tail and rocket, and of the vehicle", AT(energy.kinetic)},
     {"energy.potential", "J", "potential energy of tube and tail in gravity", AT(energy.potential)},
@@ -179,6 +211,8 @@ static const quantity energies[] = {
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
+static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
+static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
@@ -198,11 +232,17 @@ static const quantity_group groups[] = {
     {.title = "each shoe on a guide of surfaces", .each = EACH_SHOE, ROCKET, QUANTITY_ROWS(shoes)},
     {.title = "slot, lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
     {.title = "air on the emerged part of the rocket", .each = EACH_CROSSFLOW, ROCKET, QUANTITY_ROWS(crossflow)},
+    {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
+    {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
+    {.title = "what the tube carries at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
+    {.title = "what a support puts on the tube", .each = EACH_SUPPORT, QUANTITY_ROWS(reactions)},
 };
 static const quantity_group balances[] = {
     {.title = "energy", QUANTITY_ROWS(energies)},
     {.title = "works since the start", QUANTITY_ROWS(works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, QUANTITY_ROWS(crossflow_works)},
+    {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, QUANTITY_ROWS(pressure_works)},
+    {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, QUANTITY_ROWS(recoil_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
     {.title = "work of jets", .each = EACH_JET, QUANTITY_ROWS(jet_works)},
     {.title = "balance", QUANTITY_ROWS(balance)},
@@ -286,7 +326,7 @@ static void find(const launch_state *self, double t, const double *y, double ene
     now->rocket = self->phase.rocket;
     now->out = (launcher_output){0};
     simulation_input(self, t, y, &now->input);
-    launcher_evaluate(&self->launcher, &now->input, &self->phase, y, &now->out);
+    simulation_loads(self, &now->input, y, &now->out, &now->loads);
     base_angles(&self->launcher.base, t, &now->input.launching.base, now->base);
     find_tube(self, y, now);
     if (now->rocket)

@@ -112,11 +112,13 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
     launch_state *self = &run->launch;
     double t = propagator_time(run->propagator);
     const double *y = propagator_state(run->propagator);
-    bool igniting = outcome == INTEGRATOR_STOPPED && t == self->t_ignition && self->piece < 0;
+    bool igniting = outcome == INTEGRATOR_STOPPED && t == self->t_ignition && !launch_is_lit(self);
     if (igniting)
         launch_record_ignition(run, t, y); // the row of this instant wants it
     ld_status status = launch_write_rows(run);
     launch_watch_forces(run, t, y);
+    launch_watch_recoil(run, t, y);
+    launch_watch_loads(run, t, y);
     launch_watch_hinges(run, t, y);
     launch_measure_step(run, outcome != INTEGRATOR_STEPPED);
     if (!status && outcome != INTEGRATOR_STEPPED)

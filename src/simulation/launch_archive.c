@@ -29,6 +29,12 @@ static void archive_launch(archive *bytes, launch_state *self)
     }
     archive_double(bytes, &self->t_ignition);
     archive_int(bytes, &self->piece, -1, (int)self->motor->corner_count - 1);
+    if (model_has_pressure(self->model)) {
+        int most = self->model->tubes.pressure.form == LD_PRESSURE_OVER_TIME
+                       ? (int)self->model->tubes.pressure.over_time.rows
+                       : 1;
+        archive_int(bytes, &self->pressure_piece, 0, most);
+    }
     archive_phase(bytes, &self->phase);
     archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_bool(bytes, &self->on_breech);

@@ -175,11 +175,25 @@ double launch_next_stop(const ld_run *run, double t)
     int next = self->piece + 1;
     if (next < (int)self->motor->corner_count)
         stop = fmin(stop, self->t_ignition + self->motor->t[next]);
-    return stop;
+    if (model_has_pressure(self->model))
+        stop = fmin(stop, self->t_ignition + pressure_next_corner(&self->model->tubes.pressure,
+                                                                  self->pressure_piece));
+    return isinf(stop) ? t + 1 : stop;
 }
 
-// At a stop: ignition lights the motor, a corner begins the next piece of the thrust curve, or of
-// what drives the base.
+// The piece of the pressure that t has reached.
+static int pressure_piece_at(const launch_state *self, double t)
+{
+    const ld_pressure *pressure = &self->model->tubes.pressure;
+    int piece = self->pressure_piece;
+    while (model_has_pressure(self->model) && t >= self->t_ignition &&
+           t >= self->t_ignition + pressure_next_corner(pressure, piece))
+        piece++;
+    return piece;
+}
+
+// At a stop: ignition lights the motor or lets the pressure on, a corner begins the next piece of
+// the curve of either, or of what drives the base.
 bool launch_pass_stop(ld_run *run, double t)
 {
     launch_state *self = &run->launch;
@@ -188,7 +202,10 @@ bool launch_pass_stop(ld_run *run, double t)
     while (t >= self->t_ignition && self->piece + 1 < (int)self->motor->corner_count &&
            t >= self->t_ignition + self->motor->t[self->piece + 1])
         self->piece++;
-    bool burning = self->piece != before, driven = base->kind->next_corner != NULL;
+    int pressed = self->pressure_piece;
+    self->pressure_piece = pressure_piece_at(self, t);
+    bool burning = self->piece != before || self->pressure_piece != pressed;
+    bool driven = base->kind->next_corner != NULL;
     bool base_corner = driven && base->kind->next_corner(base, nextafter(t, -INFINITY)) == t;
     if (base_corner || (burning && t > self->t_ignition))
         launch_tell(run, LD_EVENT_CORNER, t, -1);

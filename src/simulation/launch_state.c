@@ -33,5 +33,6 @@ void launch_state_select(launch_state *self, int i)
     self->t_ignition = self->model->firing[i].at;
     self->phase = simulation_start_phase(self);
     self->piece = -1;
+    self->pressure_piece = 0;
     self->jammed = false;
 }

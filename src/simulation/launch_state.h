@@ -10,7 +10,8 @@
 typedef struct run_conditions {
     double t, t_ignition;    // [s]
     int piece, rocket, tube; // of the thrust curve; selected
-    int jets;                // how many pieces theirs have begun
+    int pressure_piece;
+    int jets; // how many pieces theirs have begun
     const base_disturbance *disturbed;
     launching_phase phase;
     base_rest rest;
@@ -31,6 +32,7 @@ typedef struct launch_state {
     bool on_breech;         // the equilibrium is one without a lock, the breech carries the rocket
     m3 aim;                 // A_IT, the undeformed tube on its base, as it stood at that ignition
     int piece;              // of the thrust curve
+    int pressure_piece;     // of the pressure behind the rocket; 0: not lit
     bool jammed;
     jets jets; // of the rockets that have left, where the platform feels them
     struct {   // the latest evaluation, which at a step's end is that of the step's end
@@ -49,7 +51,13 @@ void launch_state_end(launch_state *self);
 // The rocket of firing i takes the place of the one before; its tube comes by launcher_select.
 void launch_state_select(launch_state *self, int i);
 
-// Thrust and mass at time t, and the base there at state y.
+// Whether the rocket's motor is lit, or its pressure on.
+static inline bool launch_is_lit(const launch_state *self)
+{
+    return self->piece >= 0 || self->pressure_piece > 0;
+}
+
+// Thrust, pressure and mass at time t, and the base there at state y.
 void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input);
 
 // Puts tube and rocket on the base as it stands, straight and at rest.
@@ -117,6 +125,10 @@ double linear_step(const linear_system *system, int unknown);
 // d/dt of the unknowns [count] in the state y, behind them what holds the base's displacements
 // [base]. Other than 0: there are none.
 int linear_rates(const launch_state *self, const linear_system *system, const double *y, double *r);
+
+// Evaluates, and finds what the tube carries where that is asked for.
+launching_outcome simulation_loads(const launch_state *self, launcher_input *input, const double *y,
+                                   launcher_output *out, launching_loads *loads);
 
 // A row of the history.
 void history_row(const launch_state *self, double t, const double *y, double energy_start,

@@ -92,8 +92,55 @@ void launch_watch_forces(ld_run *run, double t, const double *y)
             rocket->max_contact_force[i] =
                 fmax(rocket->max_contact_force[i], out->adaptor[i].force);
     rocket->max_slot_force = fmax(rocket->max_slot_force, fabs(out->N));
+    if (model_has_pressure(self->model))
+        rocket->max_pressure = fmax(rocket->max_pressure, out->pressure);
     if (self->phase.locked)
         run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
+}
+
+void launch_watch_recoil(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    int slides = model_slide_count(self->model);
+    double *most = run->summary.rocket[self->current].max_recoil;
+    if (slides == 0)
+        return;
+    const launcher_output *at = simulation_output(self, t, y);
+    for (int i = 0; i < slides && at; i++)
+        most[i] = fmax(most[i], at->launching.slide[i].travel);
+}
+
+static void watch_station(const guide_load *load, double since, ld_station_summary *peak)
+{
+    if (!(load->bending <= peak->bending)) {
+        peak->bending = load->bending;
+        peak->t_bending = since;
+    }
+    peak->shear = fmax(peak->shear, hypot(load->wrench.f.y, load->wrench.f.z));
+    peak->torque = fmax(peak->torque, fabs(load->wrench.m.x));
+    peak->stress = fmax(peak->stress, load->stress);
+}
+
+void launch_watch_loads(ld_run *run, double t, const double *y)
+{
+    const launch_state *self = &run->launch;
+    const ld_tubes *tubes = &self->model->tubes;
+    launcher_input input;
+    launcher_output out;
+    launching_loads loads;
+    if (tubes->station_count == 0)
+        return;
+    simulation_input(self, t, y, &input);
+    if (simulation_loads(self, &input, y, &out, &loads))
+        return;
+    ld_rocket_summary *rocket = &run->summary.rocket[self->current];
+    for (int i = 0; i < tubes->station_count; i++)
+        watch_station(&loads.station[i], t - self->t_ignition, &rocket->station[i]);
+    for (int i = 0; i < tubes->support_count; i++) {
+        ld_support_summary *peak = &rocket->support[i];
+        peak->force = fmax(peak->force, v3_norm(loads.support[i].f));
+        peak->moment = fmax(peak->moment, v3_norm(loads.support[i].m));
+    }
 }
 
 // One hinge at a time since the ignition; the integrals go on by the trapezoidal rule, one that

@@ -144,6 +144,7 @@ ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error
         (linear_system){.t = -self->model->run.lead_in, .phase = simulation_start_phase(self)};
     system->phase.frictionless = true;
     self->piece = -1;
+    self->pressure_piece = 0;
     count_unknowns(self, false, system);
     ld_status status = simulation_equilibrium(self, system->t, system->y, &unused, error);
     if (!status)

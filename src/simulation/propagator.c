@@ -27,10 +27,13 @@ static void surround(const launch_state *self, double t, const double *y, launch
 {
     double tau = t - self->t_ignition;
     input->thrust = motor_thrust(self->motor, self->piece, tau);
+    input->since = tau;
+    input->pressure_piece = self->pressure_piece;
     motor_mass(self->motor, self->piece, tau, &input->mass);
     input->air = (moving_air){0};
     const base_disturbance *disturbed = self->launcher.base.disturbed;
     input->load = disturbed ? &disturbed->input.launching : NULL;
+    input->record = NULL;
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);
 }
@@ -49,6 +52,22 @@ void simulation_input(const launch_state *self, double t, const double *y, launc
     input->rest = self->rest;
     input->held = false;
     input->formulation = self->model->run.formulation;
+}
+
+launching_outcome simulation_loads(const launch_state *self, launcher_input *input, const double *y,
+                                   launcher_output *out, launching_loads *loads)
+{
+    const launcher_system *launcher = &self->launcher;
+    const ld_tubes *tubes = &launcher->launching.tubes;
+    guide_forces record;
+    if (tubes->station_count == 0)
+        return launcher_evaluate(launcher, input, &self->phase, y, out);
+    guide_forces_begin(&record, tubes->station_count, tubes->station);
+    input->launching.record = &record;
+    launching_outcome outcome = launcher_evaluate(launcher, input, &self->phase, y, out);
+    launching_find_loads(&launcher->launching, &input->launching, y, &out->launching, loads);
+    input->launching.record = NULL;
+    return outcome;
 }
 
 // NaN or infinity anywhere makes the sum of 0 y not zero.
@@ -70,6 +89,7 @@ static void find_conditions(const launch_state *self, double t, run_conditions *
     conditions->t = t;
     conditions->t_ignition = self->t_ignition;
     conditions->piece = self->piece;
+    conditions->pressure_piece = self->pressure_piece;
     conditions->jets = jets_pieces(&self->jets);
     conditions->rocket = self->current;
     conditions->tube = self->launcher.base.tube;

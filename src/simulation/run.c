@@ -181,7 +181,7 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
     const ld_model *model = launch->model;
     if (run->status)
         return told(run, error);
-    if (!has_launch(run) || launch->piece >= 0 || run->t >= launch->t_ignition)
+    if (!has_launch(run) || launch_is_lit(launch) || run->t >= launch->t_ignition)
         return ld_fail(error, LD_ERR_INPUT, "no rocket waits for its ignition at t = %.9g s",
                        run->t);
     if (!(t >= run->t))

@@ -69,6 +69,21 @@ typedef struct ld_hinge_summary {
     double power_mean, power_peak;  ///< [W] magnitude of torque times rate of the hinge
 } ld_hinge_summary;
 
+/// Largest of what the tube carried at a station; NaN where that was not asked for.
+typedef struct ld_station_summary {
+    double bending;   ///< [N m] magnitude of the bending moment
+    double t_bending; ///< [s] when, from ignition
+    double shear;     ///< [N] magnitude of the shear force
+    double torque;    ///< [N m] magnitude
+    double stress;    ///< [Pa] largest bending stress; NaN: the outer fibre is not known
+} ld_station_summary;
+
+/// Largest magnitudes of what a support put on the tube; NaN where loads were not asked for.
+typedef struct ld_support_summary {
+    double force;  ///< [N]
+    double moment; ///< [N m] at its station
+} ld_support_summary;
+
 /// Attitude, rates and forces of one rocket at its key instants. Instants in [s] from its ignition,
 /// NaN where the instant was not reached or does not exist.
 typedef struct ld_rocket_summary {
@@ -103,9 +118,13 @@ typedef struct ld_rocket_summary {
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
     ld_tip_off tip_off; ///< rocket at t_rear against the undeformed tube on the base
     ld_aim aim;         ///< the same against where that stood at the ignition
-    double max_contact_force[LD_MAX_ADAPTORS]; ///< [N] norm of normal force and friction
-    double max_slot_force;                     ///< [N] |N|
-    ld_hinge_summary hinge[2];                 ///< azimuth, elevation
+    double max_contact_force[LD_MAX_ADAPTORS];   ///< [N] norm of normal force and friction
+    double max_slot_force;                       ///< [N] |N|
+    double max_pressure;                         ///< [Pa] net
+    double max_recoil[LD_MAX_SUPPORTS];          ///< [m] of the slides, in their order
+    ld_station_summary station[LD_MAX_STATIONS]; ///< in the model's order
+    ld_support_summary support[LD_MAX_SUPPORTS]; ///< in the model's order
+    ld_hinge_summary hinge[2];                   ///< azimuth, elevation
     double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
                            ///< moved against the platform
     double measure[LD_MAX_MEASURES]; ///< in the model's order; NaN: its instants did not all come

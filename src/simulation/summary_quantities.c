@@ -106,6 +106,25 @@ static const quantity contact_peaks[] = {
 static const quantity slot_peak[] = {
     {"max_slot_force", "N", "largest magnitude of the slot force N", ROCKET(max_slot_force), KEPT, .from_zero = true, LINE("largest slot force", "N", 1, 1)},
 };
+static const quantity pressure_peak[] = {
+    {"max_pressure", "Pa", "largest pressure behind the rocket less that before it", ROCKET(max_pressure), KEPT, .from_zero = true, LINE("largest pressure", "MPa", 1e-6, 4)},
+};
+static const quantity recoils[] = {
+    {"max_recoil.%s", "m", "recoil slide %s: largest way back from battery, until the next tube takes its place", ADAPTOR(max_recoil), KEPT, .from_zero = true, LINE("largest recoil, slide %s", "mm", MILLI, 3)},
+};
+#define CARRIED(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, station, member)
+static const quantity station_peaks[] = {
+    {"station.%s.max_bending", "N.m", "station %s: largest magnitude of the bending moment at the ends of the steps", CARRIED(bending), KEPT, LINE("bending at station %s", "N.m", 1, 2)},
+    {"station.%s.t_max_bending", "s", "station %s: when that was, from ignition", CARRIED(t_bending), KEPT},
+    {"station.%s.max_shear", "N", "station %s: largest magnitude of the shear force", CARRIED(shear), KEPT, LINE("shear at station %s", "N", 1, 2)},
+    {"station.%s.max_torque", "N.m", "station %s: largest magnitude of the torque", CARRIED(torque), KEPT},
+    {"station.%s.max_stress", "Pa", "station %s: largest bending stress, where the outer fibre is known", CARRIED(stress), KEPT},
+};
+#define BORNE(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, support, member)
+static const quantity support_peaks[] = {
+    {"support.%s.max_force", "N", "support %s: largest magnitude of its force on the tube", BORNE(force), KEPT, LINE("force of support %s", "N", 1, 2)},
+    {"support.%s.max_moment", "N.m", "support %s: largest magnitude of its moment", BORNE(moment), KEPT, LINE("moment of support %s", "N.m", 1, 2)},
+};
 static const quantity measures[] = {
     {"measure.%s", NULL, "what the scenario's measure %s takes; unit of the column that it is of", .at = QUANTITY_EACH_OF(ld_rocket_summary, measure), KEPT, .line = {.label = "%s", .factor = 1, .digits = 6}},
 };
@@ -183,6 +202,10 @@ static const quantity_group rocket_groups[] = {
     {.title = "the same against where that stood at the ignition", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(aim)},
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
     {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
+    {.title = "greatest pressure", .each = EACH_PRESSURE, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(pressure_peak)},
+    {.title = "greatest recoil", .each = EACH_SLIDE, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(recoils)},
+    {.title = "largest of what the tube carried at a station", .each = EACH_STATION, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(station_peaks)},
+    {.title = "largest of what a support put on the tube", .each = EACH_SUPPORT, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(support_peaks)},
     {.title = "of each measure of the scenario", .each = EACH_MEASURE, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
     {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(held)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
@@ -234,6 +257,8 @@ static const quantity energies[] = {
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
+static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
+static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
@@ -258,6 +283,8 @@ static const quantity_group run_groups[] = {
     {.title = "energy at the end", .launch = true, QUANTITY_ROWS(energies)},
     {.title = "works since the start", .launch = true, QUANTITY_ROWS(works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, .launch = true, QUANTITY_ROWS(crossflow_works)},
+    {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, .launch = true, QUANTITY_ROWS(pressure_works)},
+    {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, .launch = true, QUANTITY_ROWS(recoil_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
     {.title = "work of jets", .each = EACH_JET, .launch = true, QUANTITY_ROWS(jet_works)},
     {.title = "balance", .launch = true, QUANTITY_ROWS(balance)},
@@ -289,15 +316,16 @@ const quantity_table cost_quantities = TABLE(cost_groups);
 
 void rocket_clear(ld_rocket_summary *rocket, bool launched)
 {
+    static const int most[EACH_COUNT] = {
+        [EACH_ADAPTOR] = LD_MAX_ADAPTORS, [EACH_MEASURE] = LD_MAX_MEASURES,
+        [EACH_STATION] = LD_MAX_STATIONS, [EACH_SUPPORT] = LD_MAX_SUPPORTS,
+        [EACH_SLIDE] = LD_MAX_SUPPORTS,   [EACH_HINGE] = HINGES};
     memset(rocket, 0, sizeof *rocket);
     for (int i = 0; i < rocket_quantities.groups; i++) {
         const quantity_group *group = &rocket_groups[i];
         for (int k = 0; k < group->rows; k++) {
             const quantity *row = &group->row[k];
-            int items = group->each == EACH_ADAPTOR   ? LD_MAX_ADAPTORS
-                        : group->each == EACH_MEASURE ? LD_MAX_MEASURES
-                        : group->each == EACH_HINGE   ? HINGES
-                                                      : 1;
+            int items = most[group->each] ? most[group->each] : 1;
             for (int item = 0; item < items && row->at.type == QUANTITY_NUMBER; item++)
                 quantity_put(&row->at, item, row->from_zero && launched ? 0 : NAN, rocket);
         }

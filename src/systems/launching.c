@@ -35,17 +35,28 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
     slot_build(&tubes->slot, rocket, &self->slot);
     lock_build(&rocket->lock, self->slot.present || self->surfaces.flat, &self->lock);
     crossflow_build(&rocket->aerodynamics, &self->crossflow);
-    self->work_count = model_has_crossflow(self->model) ? POWER_COUNT : POWER_ALWAYS;
+    self->pressure.start = rocket->start_at;
 }
 
-// Modes and coefficients follow from all keys of `tubes` but those of slot, guide and where the
-// tubes are.
+// Works up to the last kind that the model has.
+static int works_of(const ld_model *model)
+{
+    return model_slide_count(model)     ? POWER_RECOIL + 1
+           : model_has_pressure(model)  ? POWER_PRESSURE + 1
+           : model_has_crossflow(model) ? POWER_CROSSFLOW + 1
+                                        : POWER_ALWAYS;
+}
+
+// Modes and coefficients follow from all keys of `tubes` but those of slot, guide and pressure, of
+// where the tubes are and of what is asked for.
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
         bool apart =
             key->offset == offsetof(ld_tubes, layout) || key->offset == offsetof(ld_tubes, empty) ||
-            key->offset == offsetof(ld_tubes, slot) || key->offset == offsetof(ld_tubes, guide);
+            key->offset == offsetof(ld_tubes, slot) ||
+            key->offset == offsetof(ld_tubes, pressure) ||
+            key->offset == offsetof(ld_tubes, guide) || key->offset == offsetof(ld_tubes, station);
         if (!apart && !field_same(key, a, b))
             return false;
     }
@@ -96,6 +107,22 @@ static ld_status build_tube(launching_system *self, ld_error *error)
     return LD_OK;
 }
 
+static ld_status build_cuts(launching_system *self, ld_error *error)
+{
+    int count = self->tubes.station_count;
+    if (count == 0)
+        return LD_OK;
+    self->cut = malloc((size_t)count * sizeof *self->cut);
+    if (!self->cut) {
+        launching_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the loads at %d stations", count);
+    }
+    for (int i = 0; i < count; i++)
+        guide_cut_build(&self->cut[i], &self->tube.flexible, &self->tubes,
+                        self->tubes.station[i].at);
+    return LD_OK;
+}
+
 ld_status launching_build(launching_system *self, const ld_model *model, launching_tube *kept,
                           ld_error *error)
 {
@@ -114,6 +141,14 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
     tube_build_rows(model->tubes.support_count, &self->tube);
     supports_build(&model->tubes, &self->tube, &self->supports);
     tail_fold(&model->tubes.tail, &self->tube);
+    self->work_count = works_of(model);
+    status = pressure_build(&model->tubes, &self->pressure, error);
+    if (!status)
+        status = build_cuts(self, error);
+    if (status) {
+        launching_free(self);
+        return status;
+    }
     launching_set_rocket(self, salvo_rocket(model, 0));
 #if defined(__x86_64__)
     // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
@@ -127,6 +162,9 @@ void launching_free(launching_system *self)
     flexible_tube_free(&self->tube.flexible);
     free(self->tube.packed);
     self->tube.packed = NULL;
+    pressure_free(&self->pressure);
+    free(self->cut);
+    self->cut = NULL;
 }
 
 bool launching_holds_places(const launching_system *self)
@@ -158,6 +196,29 @@ void launching_rates(const launching_system *self, const double *state, const la
     } else {
         memset(state_dot + at->x, 0, (X_COUNT + 6) * sizeof(double));
     }
+}
+
+// ---- loads ----
+
+void launching_find_loads(const launching_system *self, const launching_input *input,
+                          const double *state, const launching_output *out, launching_loads *loads)
+{
+    const launching_layout *at = &self->layout;
+    m3 A_IR = q_matrix(q_from(state + at->quaternion));
+    v3 g = m3_apply_transposed(A_IR, v3_make(0, -self->tube.gravity, 0));
+    guide_motion motion = {.w = v3_from(state + at->w),
+                           .a = v3_sub(out->a, g),
+                           .w_dot = out->w_dot,
+                           .q = state + at->q,
+                           .q_dot = state + at->q_dot,
+                           .q_ddot = out->q_ddot};
+    for (int i = 0; i < input->record->count; i++) {
+        launching_section section;
+        launching_section_at(self, state, self->cut[i].at, &section);
+        loads->station[i] = guide_cut_load(&self->cut[i], &self->tube.flexible, &motion, section.P,
+                                           section.A, &input->record->beyond[i]);
+    }
+    memcpy(loads->support, input->record->support, sizeof loads->support);
 }
 
 // ---- energies ----

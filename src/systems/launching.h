@@ -7,9 +7,11 @@
 #include "elements/adaptor.h"
 #include "elements/breech.h"
 #include "elements/crossflow.h"
+#include "elements/guide_cut.h"
 #include "elements/ideal.h"
 #include "elements/load.h"
 #include "elements/lock.h"
+#include "elements/pressure.h"
 #include "elements/shoe.h"
 #include "elements/slot.h"
 #include "elements/support.h"
@@ -27,7 +29,9 @@ typedef struct launching_system {
     slot_system slot;
     lock_system lock;
     crossflow_body crossflow;
-    int work_count;         // of the powers: the first so many
+    pressure_system pressure;
+    guide_cut *cut; // [tubes.station_count] at the stations where loads are asked for, owned
+    int work_count; // of the powers: the first so many
     bool wide_instructions; // AVX2 is there
 } launching_system;
 
@@ -97,6 +101,17 @@ typedef struct launching_section {
 
 void launching_section_at(const launching_system *self, const double *state, double x,
                           launching_section *section);
+
+// What the tube carries at the stations asked for, and what each support puts on it.
+typedef struct launching_loads {
+    guide_load station[LD_MAX_STATIONS];
+    guide_wrench support[LD_MAX_SUPPORTS]; // at the support's station, in base axes
+} launching_loads;
+
+// From the output of an evaluation and the record that it was given in `input`.
+void launching_find_loads(const launching_system *self, const launching_input *input,
+                          const double *state, const launching_output *output,
+                          launching_loads *loads);
 
 // Rate [m/s] at which adaptor i's offset from the axis grows, the foot's motion included.
 double launching_offset_rate(const launching_system *self, const double *state, int i);

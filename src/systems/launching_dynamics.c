@@ -71,6 +71,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     now.phase = phase;
     now.out = out;
     memset(out->power, 0, sizeof out->power);
+    now.on_tube.record = input->record;
     tube_load(lanes, &self->tube, &self->layout, state, &now.tube);
     tube_forces(lanes, &self->tube, &now.tube, &now.on_tube, out);
     supports_add(lanes, &self->supports, &self->tube, &now);
@@ -85,6 +86,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
     rocket_forces(&self->rocket->motor, &now);
     crossflow_add(&self->crossflow, &self->tube, &now);
+    pressure_add(&self->pressure, &now);
     if (input->load)
         load_rocket(input->load, &now);
     launching_touch(lanes, self, &now);
@@ -98,6 +100,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
         return LAUNCHING_JAMMED;
     constraints_report(&constraints.set, out);
     ideal_report(&self->adaptors, &constraints.set, out);
+    constraints_record(&now, &constraints.set);
     out->a_O1 = all.a;
     out->alpha_B = all.alpha;
     accelerate_tube(lanes, self, &now, &constraints.set, &all, &out->a, &out->w_dot, out->q_ddot);
@@ -145,7 +148,7 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
     const launching_layout *at = &self->layout;
     constraint_products D;
     constrained impulse = {.a = v3_zero()};
-    double x[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL];
+    double x[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
     v3 v, w;
     constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
     ldl_factor(set->count, LD_MAX_CONSTRAINTS, D.D[0]);

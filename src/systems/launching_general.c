@@ -42,15 +42,7 @@ static void flatten(const launching_system *self, const tube_force *force, doubl
 static void modal_energies(const launching_system *self, const double *state, launching_output *out)
 {
     const flexible_tube *tube = &self->tube.flexible;
-    const double *q_dot = state + self->layout.q_dot;
-    double dissipated = 0;
-    for (int j = 0; j < self->layout.nq; j++) {
-        double damping = j < 2 * tube->nb              ? tube->dmp_b[j % tube->nb]
-                         : j < 2 * tube->nb + tube->nt ? tube->dmp_t[j - 2 * tube->nb]
-                                                       : tube->dmp_a[j - 2 * tube->nb - tube->nt];
-        dissipated += damping * q_dot[j] * q_dot[j];
-    }
-    out->power[POWER_MODAL_DAMPING] = -dissipated;
+    out->power[POWER_MODAL_DAMPING] = tube_damping_power(tube, state + self->layout.q_dot);
     out->elastic = tube_elastic_energy(tube, state + self->layout.q);
 }
 
@@ -98,6 +90,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     now->phase = phase;
     now->out = out;
     memset(&now->on_tube, 0, sizeof now->on_tube);
+    now->on_tube.record = input->record;
     memset(out->power, 0, sizeof out->power);
     u->n = 6 + at->nq;
     tube_load(lanes, &self->tube, at, state, &now->tube);
@@ -114,6 +107,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
         rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
         rocket_forces(&self->rocket->motor, now);
         crossflow_add(&self->crossflow, &self->tube, now);
+        pressure_add(&self->pressure, now);
         if (input->load)
             load_rocket(input->load, now);
         launching_touch(lanes, self, now);
@@ -539,16 +533,22 @@ launching_outcome launching_evaluate_general(const launching_system *self,
                                              launching_output *out)
 {
     uncoupled u;
+    launching_outcome outcome;
     load_uncoupled(self, input, phase, state, &u, out);
     out->fell_back = false;
     out->condition = 0;
     if (formulation == LD_FORMULATION_OVERALL && phase->rocket) {
         // where both signs of N are consistent the knob jams too, which one solve does not show
         launching_output reduced;
+        launching_input apart = *input;
+        apart.record = NULL;
         if (u.c.set.sliding &&
-            launching_evaluate(self, input, phase, state, &reduced) == LAUNCHING_JAMMED)
+            launching_evaluate(self, &apart, phase, state, &reduced) == LAUNCHING_JAMMED)
             return LAUNCHING_JAMMED;
-        return evaluate_overall(self, phase, state, &u, out);
+        outcome = evaluate_overall(self, phase, state, &u, out);
+    } else {
+        outcome = solve_reduced(self, phase, &u, out);
     }
-    return solve_reduced(self, phase, &u, out);
+    constraints_record(&u.now, &u.c.set);
+    return outcome;
 }

@@ -58,7 +58,8 @@ static const ld_section *section_of(const ld_tubes *model, double x)
 typedef enum weight {
     OVER_MASS,
     OVER_POLAR_INERTIA,
-    OVER_BENDING,
+    OVER_BENDING, // of deflections along y
+    OVER_BENDING_ALONG_Z,
     OVER_TORSION,
     OVER_AXIAL
 } weight;
@@ -70,11 +71,13 @@ typedef struct integrand {
 
 static double weight_at(const ld_section *s, weight kind)
 {
-    return kind == OVER_MASS            ? s->mass_per_length
-           : kind == OVER_POLAR_INERTIA ? s->polar_inertia
-           : kind == OVER_BENDING       ? s->bending_stiffness
-           : kind == OVER_TORSION       ? s->torsion_stiffness
-                                        : s->axial_stiffness;
+    bool planes = s->form == LD_SECTION_PLANES;
+    return kind == OVER_MASS              ? s->mass_per_length
+           : kind == OVER_POLAR_INERTIA   ? s->polar_inertia
+           : kind == OVER_BENDING         ? (planes ? s->bending_stiffness_z : s->bending_stiffness)
+           : kind == OVER_BENDING_ALONG_Z ? (planes ? s->bending_stiffness_y : s->bending_stiffness)
+           : kind == OVER_TORSION         ? s->torsion_stiffness
+                                          : s->axial_stiffness;
 }
 
 // Midpoint rule, 400 points an interval between section steps, extrapolated from half as many; the
@@ -217,10 +220,10 @@ static void inertia_coefficients(void **state)
                     3e-9);
         CHECK_BELOW("stretch: int a a dm - E",
                     off_diagonal(&tube, &model, tube.na, OVER_MASS, stretch_product, NULL), 3e-9);
-        CHECK_BELOW(
-            "bending: stiffness against omega^2",
-            off_diagonal(&tube, &model, tube.nb, OVER_BENDING, curvature_product, tube.om2_b),
-            5e-5);
+        CHECK_BELOW("bending: stiffness against omega^2",
+                    off_diagonal(&tube, &model, tube.nb, OVER_BENDING, curvature_product,
+                                 tube.om2_b[PLANE_Y]),
+                    5e-5);
         CHECK_BELOW("torsion: stiffness against omega^2",
                     off_diagonal(&tube, &model, tube.nt, OVER_TORSION, twist_product, tube.om2_t),
                     5e-5);
@@ -246,7 +249,7 @@ static void tangent_form(void **state)
             root =
                 grow(root, fabs(tube_bending(&tube, k, 0, 0)) + fabs(tube_bending(&tube, k, 0, 1)));
             tip = fmin(tip, tube_bending(&tube, k, tube.length, 0));
-            order = fmin(order, tube.om2_b[k] - (k ? tube.om2_b[k - 1] : 0));
+            order = fmin(order, tube.om2_b[PLANE_Y][k] - (k ? tube.om2_b[PLANE_Y][k - 1] : 0));
             for (int e = 0; e + 1 < tube.element_count; e++) {
                 const tube_element *left = &tube.element[e], *right = left + 1;
                 double h = left->x1 - left->x0;
@@ -292,7 +295,9 @@ static void layout(void **state)
     for (int e = 0; e < tube.element_count; e++)
         for (int i = 0; i < 4; i++)
             for (int k = 0; k < LD_NB; k++) {
-                padding += k < tube.nb ? 0 : fabs(tube.element[e].b[i][k]) + tube.om2_b[k];
+                padding += k < tube.nb ? 0
+                                       : fabs(tube.element[e].b[i][k]) + tube.om2_b[PLANE_Y][k] +
+                                             tube.om2_b[PLANE_Z][k];
                 padding += k < tube.nt || k >= LD_NT || i > 1 ? 0 : fabs(tube.element[e].tau[i][k]);
                 padding += k < tube.na || k >= LD_NA || i > 1 ? 0 : fabs(tube.element[e].a[i][k]);
             }
@@ -323,7 +328,7 @@ static void layout(void **state)
         assert_true(tube.element[tube.support_element[k]].x0 == model.support[k].at);
     // damping and dot products
     for (int k = 0; k < tube.nb; k++)
-        assert_true(tube.dmp_b[k] == 2 * 0.02 * sqrt(tube.om2_b[k]));
+        assert_true(tube.dmp_b[PLANE_Y][k] == 2 * 0.02 * sqrt(tube.om2_b[PLANE_Y][k]));
     double ctc = 0;
     for (int k = 0; k < tube.nb; k++)
         ctc += tube.ct[k] * tube.c[k];
@@ -387,6 +392,95 @@ static void plane_means(void **state)
     flexible_tube_free(&mean);
 }
 
+// Gives each section the bending stiffness of a plane by factors on what it has.
+static void split_planes(ld_tubes *model, const double *about_y, const double *about_z)
+{
+    for (int i = 0; i < model->section_count; i++) {
+        ld_section *s = &model->section[i];
+        s->form = LD_SECTION_PLANES;
+        s->bending_stiffness_y = about_y[i] * s->bending_stiffness;
+        s->bending_stiffness_z = about_z[i] * s->bending_stiffness;
+        s->bending_stiffness = NAN;
+    }
+}
+
+// One bending stiffness given as two is the same tube to the bit; planes in one proportion all
+// along share their shapes and have diagonal matrices.
+static void planes_in_proportion(void **state)
+{
+    (void)state;
+    ld_tubes model = stepped_tubes(), alike = model, apart = model;
+    flexible_tube tube, same, two;
+    split_planes(&alike, (double[]){1, 1, 1}, (double[]){1, 1, 1});
+    split_planes(&apart, (double[]){0.4, 0.4, 0.4}, (double[]){1.6, 1.6, 1.6});
+    build(&tube, &model);
+    build(&same, &alike);
+    build(&two, &apart);
+    assert_true(!tube.mixing && !same.mixing && !two.mixing);
+    size_t shapes = (size_t)tube.element_count * sizeof *tube.element;
+    assert_memory_equal(tube.element, same.element, shapes);
+    assert_memory_equal(tube.om2_b, same.om2_b, sizeof tube.om2_b);
+    assert_memory_equal(tube.dmp_b, same.dmp_b, sizeof tube.dmp_b);
+    assert_memory_equal(tube.om2_b[PLANE_Y], tube.om2_b[PLANE_Z], sizeof tube.om2_b[0]);
+    double off = 0;
+    for (int k = 0; k < tube.nb; k++) {
+        off = grow(off, two.om2_b[PLANE_Y][k] / (1.6 * tube.om2_b[PLANE_Y][k]) - 1);
+        off = grow(off, two.om2_b[PLANE_Z][k] / (0.4 * tube.om2_b[PLANE_Z][k]) - 1);
+        off = grow(off, two.dmp_b[PLANE_Z][k] / (0.04 * sqrt(two.om2_b[PLANE_Z][k])) - 1);
+        for (int e = 0; e < tube.element_count; e++)
+            off = grow(off, two.element[e].b[0][k] - tube.element[e].b[0][k]);
+    }
+    CHECK_BELOW("planes in proportion: omega^2, damping, shapes", off, 1e-12);
+    flexible_tube_free(&tube);
+    flexible_tube_free(&same);
+    flexible_tube_free(&two);
+}
+
+// Planes out of proportion: K of each against quadrature of the curvatures, D D = 4 zeta^2 K.
+static void planes_out_of_proportion(void **state)
+{
+    (void)state;
+    ld_tubes model = stepped_tubes();
+    model.modes.bending = 4;
+    split_planes(&model, (double[]){0.5, 1.5, 0.2}, (double[]){1.5, 0.5, 3});
+    flexible_tube tube;
+    build(&tube, &model);
+    assert_non_null(tube.mixing);
+    assert_int_equal((uintptr_t)tube.mixing % 64, 0);
+    double stiffness = 0, damping = 0, padding = 0, least = HUGE_VAL;
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+        double K[4][4], D[4][4];
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++) {
+                bool diagonal = i == j;
+                K[i][j] = tube.mixing->K[plane][i][j] + diagonal * tube.om2_b[plane][i];
+                D[i][j] = tube.mixing->D[plane][i][j] + diagonal * tube.dmp_b[plane][i];
+            }
+        for (int i = 0; i < 4; i++) {
+            padding = grow(padding, tube.mixing->K[plane][i][i] + tube.mixing->D[plane][i][i] +
+                                        tube.mixing->K[plane][i][4] + tube.mixing->D[plane][4][i]);
+            for (int j = 0; j < 4; j++) {
+                double size = sqrt(K[i][i] * K[j][j]), square = 0;
+                for (int k = 0; k < 4; k++)
+                    square += D[i][k] * D[k][j];
+                stiffness =
+                    grow(stiffness,
+                         (integrate(&model, plane == PLANE_Y ? OVER_BENDING : OVER_BENDING_ALONG_Z,
+                                    (integrand){&tube, curvature_product, i, j}) -
+                          K[i][j]) /
+                             size);
+                damping = grow(damping, (square / (4 * 0.02 * 0.02) - K[i][j]) / size);
+                least = i == j ? least : fmin(least, fabs(K[i][j]) / size);
+            }
+        }
+    }
+    CHECK_BELOW("stiffness against quadrature", stiffness, 5e-5);
+    CHECK_BELOW("square of the damping", damping, 1e-13);
+    CHECK_BELOW("diagonals and padding of what is off them", padding, 0);
+    CHECK_WITHIN("least coupling of two modes", least, 0.01, 1);
+    flexible_tube_free(&tube);
+}
+
 // Stiff tubes on soft supports and tubes without supports have nearly or quite rigid modes: their
 // tangent shapes must stay independent.
 static void nearly_rigid(void **state)
@@ -408,10 +502,10 @@ static void nearly_rigid(void **state)
         build(&tube, &model);
         CHECK_BELOW("int b b dm - E",
                     off_diagonal(&tube, &model, tube.nb, OVER_MASS, bending_product, NULL), 1e-12);
-        CHECK_BELOW(
-            "stiffness against omega^2",
-            off_diagonal(&tube, &model, tube.nb, OVER_BENDING, curvature_product, tube.om2_b),
-            1e-6);
+        CHECK_BELOW("stiffness against omega^2",
+                    off_diagonal(&tube, &model, tube.nb, OVER_BENDING, curvature_product,
+                                 tube.om2_b[PLANE_Y]),
+                    1e-6);
         CHECK_BELOW("int rho I_p tau tau dx - E",
                     off_diagonal(&tube, &model, tube.nt, OVER_POLAR_INERTIA, torsion_product, NULL),
                     3e-9);
@@ -499,6 +593,8 @@ int main(void)
         cmocka_unit_test(layout),
         cmocka_unit_test(support_in_an_element),
         cmocka_unit_test(plane_means),
+        cmocka_unit_test(planes_in_proportion),
+        cmocka_unit_test(planes_out_of_proportion),
         cmocka_unit_test(nearly_rigid),
         cmocka_unit_test(repeats_its_bits),
         cmocka_unit_test(refusals),

@@ -110,8 +110,10 @@ static flexible_tube make_tube(void)
         }
     }
     for (int i = 0; i < NB; i++) {
-        tube.om2_b[i] = 300 * (i + 1);
-        tube.dmp_b[i] = 2 + i;
+        tube.om2_b[PLANE_Y][i] = 300 * (i + 1);
+        tube.om2_b[PLANE_Z][i] = 200 * (i + 2);
+        tube.dmp_b[PLANE_Y][i] = 2 + i;
+        tube.dmp_b[PLANE_Z][i] = 5 + i;
     }
     for (int i = 0; i < NT; i++) {
         tube.om2_t[i] = 500 * (i + 1);
@@ -202,8 +204,9 @@ static void test_equation_of_motion(void **state)
             h_expected[5] += line_polar * dx * rate * w.y;
         }
         for (int i = 0; i < NB; i++) {
-            h_expected[6 + i] -= tube.om2_b[i] * q[i] + tube.dmp_b[i] * q_dot[i];
-            h_expected[6 + NB + i] -= tube.om2_b[i] * q[NB + i] + tube.dmp_b[i] * q_dot[NB + i];
+            h_expected[6 + i] -= tube.om2_b[PLANE_Y][i] * q[i] + tube.dmp_b[PLANE_Y][i] * q_dot[i];
+            h_expected[6 + NB + i] -=
+                tube.om2_b[PLANE_Z][i] * q[NB + i] + tube.dmp_b[PLANE_Z][i] * q_dot[NB + i];
         }
         for (int i = 0; i < NT; i++) {
             int k = 2 * NB + i, l = k + NT;

@@ -28,6 +28,13 @@ static int set_up(void **state)
     (void)state;
     flight_system flight = {.earth = {.flat = true}};
     reference_vehicle(&model, 5);
+    model.tubes.pressure = (ld_pressure){.present = true,
+                                         .form = LD_PRESSURE_OF_GAS,
+                                         .pressure = 2e5,
+                                         .volume = 1,
+                                         .exponent = 1.4,
+                                         .scale = 1};
+    reference_recoil(&model);
     if (ld_simulation_create(&model, &simulation, NULL) ||
         flight_columns(&flight, &of_flight, NULL))
         return -1;

@@ -201,6 +201,23 @@ static void test_guide(void **state)
     history_free(&read);
 }
 
+// Of a solid bar 40 mm high and 20 mm wide: its own half height and half width.
+static void test_outline(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "tubes.guide={tower: {rails: 4, gap: 0.3 mm}}", "tubes.slot=none", "run.end=tip",
+        "tubes.sections=[{from: 0 m, mass_per_length: 6.28 kg/m, axial_stiffness: 1.68e8 N, "
+        "bending_stiffness_y: 5.6 kN.m2, bending_stiffness_z: 22.4 kN.m2, "
+        "torsion_stiffness: 5.6 kN.m2, polar_inertia: 1.046666666666667e-3 kg.m}]"};
+    history_data read;
+    run_example("fixed.yaml", sets, 4, &read);
+    const double *outline = array(&read, "guide.outline")->value;
+    CHECK_BELOW("half height of a bar [m]", fabs(outline[0] - 0.02), 1e-12);
+    CHECK_BELOW("half width of a bar [m]", fabs(outline[1] - 0.01), 1e-12);
+    history_free(&read);
+}
+
 // The launching tube's rear end is where chassis, hinges and layout put it; wheels hang where their
 // travel says.
 static void test_vehicle(void **state)
@@ -258,7 +275,7 @@ static void test_without(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(test_fixed), TEST(test_ship), TEST(test_guide),
-                                       TEST(test_vehicle), TEST(test_without)};
+    const struct CMUnitTest tests[] = {TEST(test_fixed),   TEST(test_ship),    TEST(test_guide),
+                                       TEST(test_outline), TEST(test_vehicle), TEST(test_without)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,7 +57,7 @@ static void test_bore(void **state)
                 "#   from 0 m: bore radius 82.5 mm, wall 2.5 mm, EI 969.1 kN.m2, GJ 745.4 kN.m2, "
                 "10.33 kg/m\n" SUPPORTS
                 "# rocket: 60 kg, from 0.1 m, on adaptors rear (0 m), middle (1.2 m), front "
-                "(1.9 m), held on the axis\n"
+                "(1.9 m), held to the axis by springs\n"
                 "# drive: a motor of at most 15 kN, for 2.55 s; no lock\n");
 }
 
@@ -94,6 +94,23 @@ static void test_surfaces(void **state)
                 "#   surface cheek: round, 40 mm left of the line, towards -90 deg, gap 1 mm\n");
 }
 
+static void test_planes(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "tubes.layout={rows: 1, columns: 1}", "firing.1.tube=1",
+        "tubes.sections=[{from: 0 m, bore_radius: 82.5 mm, mass_per_length: 10 kg/m, "
+        "axial_stiffness: 3e8 N, bending_stiffness_y: 0.2 MN.m2, bending_stiffness_z: 900 N.m2, "
+        "torsion_stiffness: 80 kN.m2, polar_inertia: 0.03 kg.m}]"};
+    check_words(
+        "examples/fixed.yaml", sets, sizeof sets / sizeof *sets,
+        "# base: fixed; launcher 19.8 deg up\n"
+        "# guide: a bore, 3 m long\n"
+        "#   from 0 m: bore radius 82.5 mm, EI 200 kN.m2 about y, 900 N.m2 about z, GJ "
+        "80 kN.m2, 10 kg/m\n"
+        "# slot: a helix of 4 deg at the radius 82.5 mm, friction 0.1\n" SUPPORTS ROCKET DRIVE);
+}
+
 static void test_bases(void **state)
 {
     (void)state;
@@ -114,7 +131,7 @@ static void test_flight_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_bore), cmocka_unit_test(test_surfaces),
-                                       cmocka_unit_test(test_bases),
+                                       cmocka_unit_test(test_planes), cmocka_unit_test(test_bases),
                                        cmocka_unit_test(test_flight_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

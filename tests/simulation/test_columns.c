@@ -396,6 +396,37 @@ static void say_crossflow(instant *at, double power[LAUNCHER_MOST_WORKS])
     }
 }
 
+// The force of the pressure at O1 along the section there, and against the rear section at its own.
+static void say_pressure(instant *at, double power[LAUNCHER_MOST_WORKS])
+{
+    const ld_model *model = at->run->model;
+    double radius = model->tubes.section[0].bore_radius, force = at->out.gas_force;
+    moving rocket = rocket_frame(at), under = section(at, at->out.s), rear = section(at, 0);
+    expect(&at->run->book, "pressure.force", force);
+    expect(&at->run->book, "pressure.net", force / (acos(-1) * radius * radius));
+    power[POWER_PRESSURE] =
+        force * (v3_dot(m3_column(under.A, 0), rocket.v) - v3_dot(m3_column(rear.A, 0), rear.v));
+}
+
+// The only slide: way back of its section on the base, its force; power of its stop's damper apart
+// from that of its own damping and friction.
+static void say_recoil(instant *at, const ld_support *support, double power[LAUNCHER_MOST_WORKS])
+{
+    const ld_recoil *slide = &support->recoil;
+    moving held = section(at, support->at), under = carrier(at);
+    v3 d = m3_apply_transposed(under.A, v3_sub(held.r, under.r));
+    v3 v = m3_apply_transposed(under.A, v3_sub(held.v, velocity_at(&under, held.r)));
+    double back = support->at - d.x, rubs = v.x / hypot(v.x, slide->friction_speed);
+    double drag =
+        slide->damping * v.x + slide->quadratic_damping * v.x * fabs(v.x) + slide->friction * rubs;
+    double stop = back < 0 ? fmax(support->damping[0] * v.x, support->stiffness[0] * back) : 0;
+    expect(&at->run->book, "recoil.1.travel", back);
+    expect(&at->run->book, "recoil.1.rate", -v.x);
+    expect(&at->run->book, "recoil.1.force", at->out.slide_force);
+    power[POWER_RECOIL] -= drag * v.x;
+    power[POWER_SUPPORT_DAMPING] += (support->damping[0] * v.x - stop) * v.x;
+}
+
 static double kinetic_of(const dense_conditions *on, const moving *rocket)
 {
     m3 J = m3_diagonal(on->inertia[0], on->inertia[1], on->inertia[2]);
@@ -439,11 +470,16 @@ static void tube_powers(const instant *at, double power[LAUNCHER_MOST_WORKS])
     v3 v = m3_apply_transposed(A, under.v), w = m3_apply_transposed(A, under.w);
     power[POWER_BASE] =
         -v3_dot(v3_from(at->out.base_force), v) - v3_dot(v3_from(at->out.base_moment), w);
-    for (int i = 0; i < 2 * tube->nb + tube->nt; i++) {
-        double damping =
-            i < 2 * tube->nb ? tube->dmp_b[i % tube->nb] : tube->dmp_t[i - 2 * tube->nb];
-        power[POWER_MODAL_DAMPING] -= damping * at->input.q_dot[i] * at->input.q_dot[i];
-    }
+    const double *q_dot = at->input.q_dot;
+    for (int i = 0; i < 2 * tube->nb; i++)
+        for (int j = 0; j < tube->nb; j++) {
+            int plane = i / tube->nb, k = i % tube->nb;
+            power[POWER_MODAL_DAMPING] -=
+                q_dot[i] * at->run->dense.D[plane][k][j] * q_dot[plane * tube->nb + j];
+        }
+    for (int i = 0; i < tube->nt; i++)
+        power[POWER_MODAL_DAMPING] -=
+            tube->dmp_t[i] * q_dot[2 * tube->nb + i] * q_dot[2 * tube->nb + i];
     for (int i = 0; i < at->run->model->tubes.support_count; i++) {
         const ld_support *support = &at->run->model->tubes.support[i];
         moving held = section(at, support->at);
@@ -578,6 +614,8 @@ static const char *const work_name[LAUNCHER_MOST_WORKS] = {
     "base",
     "mass_change",
     "crossflow",
+    "pressure",
+    "recoil",
     "stabilisers",
     "hinge_friction",
     "gravity_platform",
@@ -594,6 +632,10 @@ static bool has_work(const ld_model *model, int i)
 {
     if (i == POWER_CROSSFLOW)
         return model_has_crossflow(model);
+    if (i == POWER_PRESSURE)
+        return model_has_pressure(model);
+    if (i == POWER_RECOIL)
+        return model_slide_count(model) > 0;
     if (i == POWER_COUNT + VEHICLE_JET)
         return model_has_jet(model);
     return i < POWER_COUNT || model_has_vehicle(model);
@@ -684,6 +726,8 @@ static void load(instant *at)
     double since = at->t - at->self->t_ignition;
     dense_rocket_at(at->run->model, since, since - 1e-9, on);
     dense_air_at(at->run->model, on);
+    on->pressed = at->self->pressure_piece > 0;
+    on->pressure = dense_pressure_at(&at->run->model->tubes.pressure, since, since - 1e-9);
     on->locked = at->self->phase.locked;
     memcpy(on->passed, at->self->phase.passed, sizeof on->passed);
     memcpy(on->touch_speed, at->self->phase.touch_speed, sizeof on->touch_speed);
@@ -735,6 +779,10 @@ static void look_at_row(observer *run, const launch_state *self, double t, const
     if (model_has_crossflow(run->model))
         say_crossflow(&at, power);
     tube_powers(&at, power);
+    if (model_has_pressure(run->model))
+        say_pressure(&at, power);
+    if (model_slide_count(run->model))
+        say_recoil(&at, &run->model->tubes.support[0], power);
     if (run->model->base.kind == LD_BASE_VEHICLE) {
         at.on = (dense_vehicle_input){.t = t,
                                       .command_at = t,
@@ -951,6 +999,27 @@ static void test_breech(void **state)
     reference_model_free(&model);
 }
 
+// A pressure beside the motor, and a tube that recoils on a slide.
+static void test_pressure(void **state)
+{
+    (void)state;
+    ld_model model;
+    const double over_time[] = {0, 1e5, 0.01, 4e5, 0.05, 3e5, 1, 2e5};
+    reference_model(&model);
+    make_uneven(&model);
+    model.tubes.pressure = (ld_pressure){.present = true,
+                                         .form = LD_PRESSURE_OVER_TIME,
+                                         .over_time = reference_table(4, 2, over_time),
+                                         .scale = 1.1,
+                                         .ambient = 1e5};
+    reference_recoil(&model);
+    model.tubes.support[0].recoil.stroke = 3;
+    model.run.lead_in = 0.02;
+    move_base(&model.base);
+    watch_run(&model, bounds, sizeof bounds / sizeof *bounds);
+    reference_model_free(&model);
+}
+
 // Moment of weights about the elevation hinge, on the platform's z axis [N m].
 static double weight_moment(const dense_vehicle *vehicle, const ld_model *model, double pitch)
 {
@@ -998,9 +1067,8 @@ static void test_undeformed_start(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_prescribed_base),
-        cmocka_unit_test(test_vehicle),
-        cmocka_unit_test(test_breech),
+        cmocka_unit_test(test_prescribed_base),  cmocka_unit_test(test_vehicle),
+        cmocka_unit_test(test_breech),           cmocka_unit_test(test_pressure),
         cmocka_unit_test(test_undeformed_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -77,6 +77,14 @@ bool dense_launch_holds_roll(const dense_launch *dense)
     return hold == LD_HOLD_BY_GUIDE ? smooth : hold == LD_HOLD_YES;
 }
 
+// [N m2] of deflections along y (plane 0) or z.
+static double bending_of(const ld_section *section, int plane)
+{
+    if (section->form != LD_SECTION_PLANES)
+        return section->bending_stiffness;
+    return plane ? section->bending_stiffness_y : section->bending_stiffness_z;
+}
+
 // K += int EI b'' b''^T dx of a stretch: b'' is linear along it.
 static void add_bending(double K[LD_NB][LD_NB], const tube_element *element, int nb, double from,
                         double to, double EI)
@@ -132,7 +140,7 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
             }
             for (int plane = 0; plane < 2; plane++)
                 add_bending(dense->K[plane], &tube->element[i], tube->nb, from, to,
-                            section->bending_stiffness);
+                            bending_of(section, plane));
             from = to;
         }
     }
@@ -429,6 +437,7 @@ typedef struct equations {
     double G[ROWS][DENSE_MAX_COORDINATES]; // forces of unit multipliers
     double drag[DENSE_MAX_COORDINATES];    // slot friction of |N| = 1
     double kinetic, potential, momentum[3], angular_momentum[3];
+    bool frictionless;
 } equations;
 
 static void add_force(double *h, const jet3 *point, const double f[3])
@@ -664,6 +673,39 @@ static void react_on_base(const jet_scene *scene, const dense_base *base, const 
     turn_back(output->base_moment, base->A[0], moment);
 }
 
+// A recoil slide at d (its stretch along the base's x), whose derivatives are the direction of its
+// force: the part with a potential, then what rubs.
+static void add_slide(equations *eq, const ld_support *support, const jet *d, double *force,
+                      dense_launch_output *output)
+{
+    const ld_recoil *slide = &support->recoil;
+    double K = support->stiffness[0], C = support->damping[0], x = d->v, v = d->e;
+    double spring = slide->preload, energy = -slide->preload * x, loss = 0;
+    if (x > 0) {
+        spring -= K * x;
+        energy += 0.5 * K * x * x;
+        loss -= C * v < -K * x ? -K * x : C * v;
+    } else {
+        spring += slide->stiffness * -x;
+        energy += 0.5 * slide->stiffness * x * x;
+    }
+    if (x < -slide->stroke) {
+        double p = -x - slide->stroke;
+        spring += K * p;
+        energy += 0.5 * K * p * p;
+        loss += -C * v < -K * p ? -K * p : -C * v;
+    }
+    loss -= (slide->damping + slide->quadratic_damping * fabs(v)) * v;
+    if (!eq->frictionless)
+        loss -= slide->friction * v / hypot(v, slide->friction_speed);
+    for (int k = 0; k < eq->n; k++) {
+        force[k] += (spring + loss) * d->d[k];
+        eq->other[k] += loss * d->d[k];
+    }
+    eq->potential += energy;
+    output->slide_force += spring + loss;
+}
+
 static void add_supports(equations *eq, const jet_scene *scene, const dense_base *motion,
                          dense_launch_output *output)
 {
@@ -682,9 +724,12 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_base
         skew_of(w, &turn, part_rate, 0);
         for (int a = 0; a < 3; a++) {
             // springs from their potential 1/2 K d^2 + 1/2 K_r phi^2, dampers from their rates
-            double spring = support->stiffness[a] * d.c[a].v;
+            bool slides = a == 0 && support->recoil.present;
+            double spring = slides ? 0 : support->stiffness[a] * d.c[a].v;
             double coil = support->rotational_stiffness[a] * phi.c[a].v;
-            double damper = support->damping[a] * d.c[a].e;
+            double damper = slides ? 0 : support->damping[a] * d.c[a].e;
+            if (slides)
+                add_slide(eq, support, &d.c[0], force, output);
             moment[a] = -support->rotational_damping[a] * w[a];
             for (int k = 0; k < eq->n; k++) {
                 force[k] -= spring * d.c[a].d[k] + coil * phi.c[a].d[k] + damper * d.c[a].d[k];
@@ -946,6 +991,43 @@ static void add_breech(equations *eq, const jet_scene *scene, const dense_condit
     add_pair(eq->h, scene, &stop, place, f);
     add_pair(eq->other, scene, &stop, place, f);
     output->breech_force = force;
+}
+
+// Net pressure [Pa] over the travel, or of gas that expands; a table over travel of two rows.
+static double gas_pressure(const ld_pressure *given, double area, double travel)
+{
+    if (given->form == LD_PRESSURE_OF_GAS)
+        return given->scale * given->pressure *
+                   exp(-given->exponent * log1p(area * travel / given->volume)) -
+               given->ambient;
+    const double *row = given->over_travel.data;
+    double share = travel / row[2];
+    return given->scale * ((1 - share) * row[1] + share * row[3]) - given->ambient;
+}
+
+// On the rocket at O1, along x of the section at its station s; on the tube's rear against its x.
+static void add_gas(equations *eq, const jet_scene *scene, const dense_conditions *on,
+                    const jet_frame *rear, double s, dense_launch_output *output)
+{
+    const ld_model *model = scene->dense->model;
+    const ld_pressure *given = &model->tubes.pressure;
+    if (!given->present || !on->pressed || on->passed[0])
+        return;
+    double area = acos(-1) * pow(model->tubes.section[0].bore_radius, 2);
+    double travel = s - model->rocket.start_at, forwards[3], back[3];
+    double p = given->form == LD_PRESSURE_OVER_TIME
+                   ? on->pressure
+                   : gas_pressure(given, area, travel > 0 ? travel : 0);
+    jet_frame here = section_in_I(scene, jet_constant(s));
+    for (int i = 0; i < 3; i++) {
+        forwards[i] = p * area * here.A.c[i][0].v;
+        back[i] = -p * area * rear->A.c[i][0].v;
+    }
+    add_force(eq->h, &scene->B.r, forwards);
+    add_force(eq->other, &scene->B.r, forwards);
+    add_force(eq->h, &rear->r, back);
+    add_force(eq->other, &rear->r, back);
+    output->gas_force = p * area;
 }
 
 static void add_thrust(equations *eq, const jet_scene *scene, double thrust)
@@ -1225,6 +1307,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     equations eq;
     memset(&eq, 0, sizeof eq);
     eq.n = n;
+    eq.frictionless = conditions->frictionless;
     memcpy(eq.x_dot, state->v, sizeof state->v);
     memcpy(eq.x_dot + 3, state->w, sizeof state->w);
     memcpy(eq.x_dot + 6, state->q_dot, (size_t)dense->mode_count * sizeof *eq.x_dot);
@@ -1250,6 +1333,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
     jet s = foot_of(&moving, &still, &moving.B.r, state->s);
     add_breech(&eq, &moving, conditions, s, output);
+    add_gas(&eq, &moving, conditions, &rear, s.v, output);
     add_crossflow(&eq, &moving, conditions, s.v, output);
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);

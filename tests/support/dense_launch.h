@@ -69,6 +69,8 @@ typedef struct dense_conditions {
     double inertia[3];  // [kg m2] about the mass centre, in B
     double products[3]; // [kg m2] J_xy, J_xz, J_yz of the matrix
     double thrust;      // [N]; point and direction are the model's
+    double pressure;    // [Pa] net, behind the rocket, where the travel does not say it
+    bool pressed;       // the pressure is on
     int slot_piece; // stretch of the slot's table: 0 as s says, 1 before its first point, 2 between
                     // the first and the second, ... (held by an integrator while it passes a point)
     bool locked;    // lock closed (slot friction off; slot `none`: roll held too)
@@ -103,6 +105,8 @@ typedef struct dense_launch_output {
     double lock_force;   // [N] carried along +x (minus the force on the rocket); 0 when open
     double lock_moment;  // [N m] on the rocket along e_x of S (slot none, locked)
     double breech_force; // [N] on the rocket along e_x of S
+    double gas_force;    // [N] of the pressure on the rocket
+    double slide_force;  // [N] of all recoil slides on the tube, along the base's x
     double emerged;      // [m] of the rocket out of the tube, where it feels the air
     double crossflow[3]; // [N] of the air on it, in R
     double slot_drift;   // [m/s] n . v_rel

@@ -130,7 +130,20 @@ static double burnt_at(const ld_motor *motor, double tau)
         total += 0.5 * (row[1] + row[3]) * span;
         burnt += row[1] * part + 0.5 * slope * part * part;
     }
-    return burnt / total;
+    return total > 0 ? burnt / total : 0;
+}
+
+double dense_pressure_at(const ld_pressure *given, double since, double middle)
+{
+    const ld_table *table = &given->over_time;
+    for (size_t i = 0; i + 1 < table->rows; i++) {
+        const double *a = table->data + 2 * i, *b = a + 2;
+        if (middle >= a[0] && middle < b[0]) {
+            double share = (since - a[0]) / (b[0] - a[0]);
+            return given->scale * ((1 - share) * a[1] + share * b[1]) - given->ambient;
+        }
+    }
+    return 0;
 }
 
 void dense_rocket_at(const ld_model *model, double since, double middle, dense_conditions *on)
@@ -169,6 +182,9 @@ static void conditions_at(const launch_run *launch, double t, double middle, con
     base_at(launch, t, x, &on->base);
     dense_rocket_at(launch->model, t - launch->ignition, middle - launch->ignition, on);
     dense_air_at(launch->model, on);
+    on->pressed = middle >= launch->ignition;
+    on->pressure = dense_pressure_at(&launch->model->tubes.pressure, t - launch->ignition,
+                                     middle - launch->ignition);
     on->locked = launch->locked;
     on->breech = launch->model->rocket.start_at;
     on->frictionless = launch->frictionless;
@@ -528,6 +544,7 @@ static void hold_base(const launch_run *launch, double t, const double *x, dense
 {
     conditions_at(launch, t, t, x, on);
     on->thrust = 0;
+    on->pressed = false;
     on->frictionless = true;
     memset(on->base.v, 0, sizeof on->base.v);
     memset(on->base.w, 0, sizeof on->base.w);
@@ -820,6 +837,12 @@ static double next_corner(const launch_run *launch, double t)
         if (corner > t + 1e-12)
             next = fmin(next, corner);
     }
+    const ld_table *pressure = &launch->model->tubes.pressure.over_time;
+    for (size_t i = 0; i < pressure->rows; i++)
+        if (launch->ignition + pressure->data[2 * i] > t + 1e-12)
+            next = fmin(next, launch->ignition + pressure->data[2 * i]);
+    if (launch->ignition > t + 1e-12)
+        next = fmin(next, launch->ignition);
     const ld_stabiliser *stabiliser[HINGES] = {&launch->model->platform.azimuth.stabiliser,
                                                &launch->model->platform.elevation.stabiliser};
     for (int i = 0; i < HINGES && launch->on_vehicle; i++)

@@ -39,6 +39,9 @@ typedef struct dense_summary {
 // Pose and rates of the base at time t [s] of the run's clock.
 void dense_base_at(const ld_model *model, double t, dense_base *base);
 
+// Net pressure [Pa] over time, `since` the ignition, between the two rows that hold `middle`.
+double dense_pressure_at(const ld_pressure *given, double since, double middle);
+
 // Mass, mass centre, inertia and thrust of the rocket `since` seconds after ignition, on the piece
 // of the thrust table that holds `middle`.
 void dense_rocket_at(const ld_model *model, double since, double middle, dense_conditions *on);

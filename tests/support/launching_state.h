@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "support/dense_launch.h"
+#include "support/dense_simulation.h"
 #include "support/draw.h"
 #include "systems/launching.h"
 
@@ -68,6 +68,10 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     c->input.mass.m = 50 + 10 * draw(seed);
     c->input.mass.c = v3_add(v3_make(1.1, 0, 0), draw_v3(seed, 1e-2));
     c->input.mass.J = draw_inertia(seed, c->input.mass.m);
+    const ld_pressure *pressure = &system->model->tubes.pressure;
+    c->input.pressure_piece = 1;
+    if (pressure->form == LD_PRESSURE_OVER_TIME && pressure->over_time.rows > 1)
+        c->input.since = 0.5 * (1 + draw(seed)) * pressure->over_time.data[2];
     c->phase.rocket = true;
     c->phase.locked = locked;
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
@@ -109,6 +113,9 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->products[1] = mass->J.a[0][2];
     conditions->products[2] = mass->J.a[1][2];
     conditions->thrust = c->input.thrust;
+    conditions->pressed = c->input.pressure_piece > 0;
+    conditions->pressure =
+        dense_pressure_at(&system->model->tubes.pressure, c->input.since, c->input.since);
     conditions->locked = c->phase.locked;
     conditions->frictionless = c->phase.frictionless;
     memcpy(conditions->passed, c->phase.passed, sizeof conditions->passed);

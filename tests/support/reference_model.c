@@ -53,7 +53,9 @@ static void fill_tubes(ld_tubes *tubes)
         set3(support->damping, 2e4, 2e4, 2e4);
         set3(support->rotational_stiffness, 2e5, 2e5, 2e5);
         set3(support->rotational_damping, 2e2, 2e2, 2e2);
+        support->recoil = (ld_recoil){.friction_speed = 0.01, .stroke = NAN};
     }
+    tubes->pressure.scale = 1;
     tubes->slot.kind = LD_SLOT_HELIX;
     tubes->slot.angle = reference_table(1, 2, (double[]){0, 4 * degree});
     tubes->slot.radius = 0.0825;
@@ -180,6 +182,35 @@ void reference_vehicle(ld_model *model, double speed)
     model->base.vehicle.road.iso_class = LD_ROAD_SMOOTH;
     fill_wheels(&model->base.vehicle);
     fill_platform(&model->platform);
+}
+
+void reference_by_pressure(ld_model *model)
+{
+    free(model->rocket.motor.thrust.data);
+    model->rocket.motor.thrust = (ld_table){0};
+    model->rocket.motor.absent = true;
+    model->rocket.empty = model->rocket.full;
+    model->rocket.propellant = 0;
+    model->tubes.pressure = (ld_pressure){.present = true,
+                                          .form = LD_PRESSURE_OF_GAS,
+                                          .pressure = 2e6,
+                                          .volume = 0.03,
+                                          .exponent = 1.4,
+                                          .ambient = 1e5,
+                                          .scale = 1};
+}
+
+void reference_recoil(ld_model *model)
+{
+    model->tubes.support[0].recoil = (ld_recoil){.present = true,
+                                                 .preload = 2e3,
+                                                 .stiffness = 2e4,
+                                                 .damping = 500,
+                                                 .quadratic_damping = 100,
+                                                 .friction = 100,
+                                                 .friction_speed = 0.01,
+                                                 .stroke = 0.3};
+    model->tubes.support[1].stiffness[0] = model->tubes.support[1].damping[0] = 0;
 }
 
 void reference_model_free(ld_model *model)

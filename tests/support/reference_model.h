@@ -17,4 +17,9 @@ void reference_model_free(ld_model *model);
 // A table of its own copy of `data`, rows x columns.
 ld_table reference_table(size_t rows, size_t columns, const double *data);
 
+// Puts 2 MPa of air at the start, before air of 0.1 MPa, in place of its motor.
+void reference_by_pressure(ld_model *model);
+// Lets the tube recoil at its first support, the second of which then holds it no more along x.
+void reference_recoil(ld_model *model);
+
 #endif

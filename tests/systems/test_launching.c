@@ -279,6 +279,55 @@ static void air_on_the_emerged_part_equals_dense(void **state)
     reference_model_free(&model);
 }
 
+// Displacements of the supports are some millimetres either way: out of battery and in it, half of
+// those out of it at the end of the stroke.
+static void let_recoil(ld_model *model)
+{
+    for (int i = 0; i < 2; i++)
+        model->tubes.support[i].recoil = (ld_recoil){.present = true,
+                                                     .preload = 2e3 * (1 + i),
+                                                     .stiffness = 4e4,
+                                                     .damping = 900,
+                                                     .quadratic_damping = 300,
+                                                     .friction = 250,
+                                                     .friction_speed = 0.5,
+                                                     .stroke = i ? NAN : 5e-4};
+}
+
+static void pressure_and_recoil_equal_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    let_recoil(&model);
+    check_agreement(&model, launching_evaluate, 60, "recoil, reduced");
+    ld_pressure *pressure = &model.tubes.pressure;
+    *pressure = (ld_pressure){.present = true,
+                              .form = LD_PRESSURE_OF_GAS,
+                              .pressure = 2e6,
+                              .volume = 0.03,
+                              .exponent = 1.4,
+                              .ambient = 1e5,
+                              .scale = 1.2};
+    check_agreement(&model, launching_evaluate, 60, "gas and recoil, reduced");
+    check_agreement(&model, general, 60, "gas and recoil, reduced from the general matrix");
+    check_agreement(&model, overall, 60, "gas and recoil, overall");
+    pressure->form = LD_PRESSURE_OVER_TRAVEL;
+    pressure->scale = 1.1;
+    pressure->over_travel = reference_table(2, 2, (double[]){0, 3e6, 2.9, 1e6});
+    model.tubes.slot.kind = LD_SLOT_NONE;
+    model.tubes.modes.axial = 2;
+    check_agreement(&model, launching_evaluate, 60, "pressure over travel, axial modes, no slot");
+    pressure->form = LD_PRESSURE_OVER_TIME;
+    pressure->over_time = reference_table(3, 2, (double[]){0, 1e6, 0.01, 4e6, 0.02, 0});
+    check_agreement(&model, launching_evaluate, 60, "pressure over time");
+    free(pressure->over_travel.data);
+    free(pressure->over_time.data);
+    pressure->over_travel = pressure->over_time = (ld_table){0};
+    reference_model_free(&model);
+}
+
 // The wider instructions give the same bits.
 static void wide_instructions_give_the_same_bits(void **state)
 {
@@ -317,6 +366,7 @@ int main(void)
         cmocka_unit_test(options_equal_dense),
         cmocka_unit_test(ideal_adaptors_equal_dense),
         cmocka_unit_test(air_on_the_emerged_part_equals_dense),
+        cmocka_unit_test(pressure_and_recoil_equal_dense),
         cmocka_unit_test(wide_instructions_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

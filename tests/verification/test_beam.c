@@ -63,7 +63,7 @@ static double clamped_omega(int elements, int mode)
     flexible_tube tube;
     ld_tubes model = unit_tube(elements, 6, LD_SPAN_CLAMPED);
     build(&tube, &model);
-    double omega = sqrt(tube.om2_b[mode]);
+    double omega = sqrt(tube.om2_b[PLANE_Y][mode]);
     flexible_tube_free(&tube);
     return omega;
 }
@@ -140,7 +140,7 @@ static void integrals_of_clamped_modes(void **state)
         CHECK_NEAR("int b dx", tube.ct[j], sign * 2 * sigma[j] / l, 1e-10);
         CHECK_NEAR("int x b dx", tube.c[j], sign * 2 / (l * l), 1e-10);
         CHECK_NEAR("b(L)", tube_bending(&tube, j, 1, 0), 2, 1e-7);
-        CHECK_NEAR("omega", sqrt(tube.om2_b[j]), l * l, 1e-6);
+        CHECK_NEAR("omega", sqrt(tube.om2_b[PLANE_Y][j]), l * l, 1e-6);
     }
     flexible_tube_free(&tube);
 }
@@ -371,7 +371,7 @@ static int planar_matrices(const flexible_tube *tube, const ld_tubes *model, dou
         M[i] = M[i * n] = tube->ct[k];
         M[n + i] = M[i * n + 1] = tube->c[k];
         M[i * n + i] = 1;
-        K[i * n + i] = tube->om2_b[k];
+        K[i * n + i] = tube->om2_b[PLANE_Y][k];
     }
     for (int k = 0; k < model->support_count; k++) {
         double x = model->support[k].at, value[2 + LD_NB] = {1, x}, slope[2 + LD_NB] = {0, 1};
@@ -545,7 +545,7 @@ static void crossing_acceleration(const crossing *c, double t, const double *q, 
     double extra =
         c->convective ? 2 * c->v * product(n, f1, q_dot) + c->v * c->v * product(n, f2, q) : 0;
     for (int i = 0; i < n; i++)
-        force[i] = f[i] * (1 - c->kappa * extra) - c->beam->tube.om2_b[i] * q[i];
+        force[i] = f[i] * (1 - c->kappa * extra) - c->beam->tube.om2_b[PLANE_Y][i] * q[i];
     for (int i = 0; i < n; i++) {
         q_ddot[i] = product(n, c->beam->inverse[i], force);
         u[i] = product(n, c->beam->inverse[i], f);
@@ -610,7 +610,7 @@ static crossing_result cross_beam(const crossing *c, double (*history)(double al
 {
     int n = c->beam->n;
     double q[LD_NB] = {0}, q_dot[LD_NB] = {0}, middle[LD_NB], f[LD_NB];
-    double T = 1 / c->v, top = sqrt(c->beam->tube.om2_b[n - 1]), deviation = 0, half = 0;
+    double T = 1 / c->v, top = sqrt(c->beam->tube.om2_b[PLANE_Y][n - 1]), deviation = 0, half = 0;
     int steps = 2 * (int)ceil(fmax(1000, T * top / 1.2));
     double h = T / steps;
     peak midspan = {0}, under = {0};

@@ -46,8 +46,6 @@ static void make_tube(flexible_tube *tube, double length, int nb, int nt, int na
             value = value1;
             slope = slope1;
         }
-        tube->om2_b[m] = 1e5 * (m + 1);
-        tube->dmp_b[m] = 10 * (m + 1);
     }
     for (int m = 0; m < nt; m++) {
         double value = 0;
