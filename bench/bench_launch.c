@@ -1,6 +1,6 @@
-// Cost of a launch: one evaluation of the launching subsystem's accelerations, set-up, a whole
-// launch. Medians of many, process CPU time; the reference launcher on a fixed base at default
-// settings.
+// Cost of a launch: one evaluation of the launching subsystem's accelerations, also with two shoes
+// in a T-slot, set-up, a whole launch. Medians of many, process CPU time; the reference launcher on
+// a fixed base at default settings.
 #include "bench_sample.h"
 #include "scenario/scenario.h"
 #include "simulation/launch_state.h"
@@ -56,6 +56,34 @@ static void bench_form(launch_state *launch, ld_formulation form, const char *wh
     print(what, sample, REPEATS, 1e-9, "ns");
 }
 
+// Smooth bore with its three adaptors, and two shoes in a T-slot whose lips all hold a rolled
+// rocket, in turn; the ratio of the medians.
+static void bench_guides(const ld_model *model)
+{
+    static const char *const what[] = {"evaluation, smooth bore, 3 of 3 in contact",
+                                       "evaluation, T-slot, both shoes on both lips"};
+    for (int slot = 0; slot < 2; slot++) {
+        ld_model guided = *model;
+        ld_simulation *simulation;
+        launch_state launch;
+        guided.tubes.slot.kind = LD_SLOT_NONE;
+        guided.run.start = LD_START_UNDEFORMED;
+        if (slot) {
+            guided.tubes.guide = (ld_guide){
+                .present = true, .form = LD_GUIDE_T_SLOT, .t_slot = {.lips = 0.06, .gap = 1e-6}};
+            guided.rocket.adaptor[1] = guided.rocket.adaptor[2];
+            guided.rocket.adaptor_count = 2;
+            guided.rocket.adaptor[0].clearance = guided.rocket.adaptor[1].clearance = NAN;
+        }
+        if (ld_simulation_create(&guided, &simulation, NULL) ||
+            launch_state_begin(&launch, simulation, NULL))
+            return;
+        bench_evaluation(&launch, 3, what[slot]);
+        launch_state_end(&launch);
+        ld_simulation_free(simulation);
+    }
+}
+
 static void bench_run(const ld_model *model)
 {
     double setup[REPEATS], run[REPEATS];
@@ -95,6 +123,7 @@ int main(void)
     bench_form(&launch, LD_FORMULATION_OVERALL, "evaluation, overall 19 x 19");
     launch_state_end(&launch);
     ld_simulation_free(simulation);
+    bench_guides(&model);
     bench_run(&model);
     model_clear(&model);
     return 0;

@@ -22,7 +22,8 @@ export class Vehicle {
     const xs = mounts.map(([x]) => x), zs = mounts.map(([, , z]) => z), y = Math.max(...mounts.map((m) => m[1]));
     const front = Math.max(...xs), rear = Math.min(...xs), side = Math.max(...zs) + 0.2;
     const deck = a[1] - 0.12, floor = Math.min(y + 0.55 * R, deck - 0.2);
-    const reach = a[0] + motion.elevationHinge[0] + Math.max(...motion.places.map(([x]) => x)) + motion.length;
+    const steep = Math.abs(motion.value("base.pitch")[0]) > 0.8; // the cab may stand before a steep launcher
+    const reach = a[0] + motion.elevationHinge[0] + (steep ? 1 : Math.max(...motion.places.map(([x]) => x)) + motion.length);
     this.chassis = new Group();
     this.chassis.add(box([rear - 1.3 * R, floor, -0.55], [front + 1.3 * R, deck - 0.25, 0.55], paint.vehicle, edge));
     this.chassis.add(box([rear - 1.3 * R, deck - 0.25, -side], [front - 0.2, deck, side], paint.vehicle, edge));
@@ -35,7 +36,8 @@ export class Vehicle {
       this.azimuth.add(box([e[0] - 0.16, 0.1, z - 0.04], [e[0] + 0.16, e[1] + 0.12, z + 0.04], paint.platform, edge));
     this.azimuth.add(box([Math.min(0, e[0]) - 0.2, 0.05, -width], [Math.max(0, e[0]) + 0.3, 0.16, width], paint.platform, edge));
     this.wheels = mounts.map(() => wheel(R));
-    this.eye = { distance: 1, direction: [4.4, 2.8, 9.9] };
+    const high = Math.max(1, (motion.length * Math.sin(motion.value("base.pitch")[0])) / 2.8);
+    this.eye = { distance: high, direction: [4.4, 2.8, 9.9], aim: [0.1, 1.7 * high - 1, 0] };
     group.add(this.chassis, this.azimuth, ...this.wheels);
   }
   width() {

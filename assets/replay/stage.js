@@ -128,7 +128,7 @@ export class Stage {
     if (this.view === "rocket" && flying) return subtract(flying.center, anchor);
     if (this.view === "rocket" && state.rocket) return inTube(state.rocket.s + 0.5 * Math.max(...motion.adaptors));
     if (this.view === "launcher")
-      return motion.vehicle ? [0.1, state.chassis.r[1] + 0.7, 0] : add(inTube(0.5 * motion.length), this.base.eye.aim);
+      return add(motion.vehicle ? [0, state.chassis.r[1], 0] : inTube(0.5 * motion.length), this.base.eye.aim);
     return inTube(0.55 * motion.length);
   }
   // From where, in the view's own place.

@@ -19,6 +19,7 @@
 #define MRAD_S {"mrad/s", 1e3}
 #define N {"N", 1}
 #define KN {"kN", 1e-3}
+#define N_M {"N m", 1}
 #define KN_M {"kN m", 1e-3}
 #define MPA {"MPa", 1e-6}
 #define J {"J", 1}
@@ -120,6 +121,14 @@ static const plot_figure figures[] = {
     LAUNCH("slot", "Slot and lock",
            HALF("Slot", KN, {"slot.force", "force N"}, {"slot.friction", "friction"}),
            HALF("Lock", KN, {"lock.force", "force carried"})),
+    LAUNCH("loads", "Loads along the tube",
+           WIDE("Bending moment carried at the stations", N_M, {"station.*.bending", ""}),
+           HALF("Shear force along y", N, {"station.*.shear_y", ""}),
+           HALF("Shear force along z", N, {"station.*.shear_z", ""}),
+           HALF("Axial force, tension positive", N, {"station.*.axial", ""}),
+           HALF("Torque", N_M, {"station.*.torque", ""}),
+           HALF("Supports on the tube, along y", N, {"support.*.force_y", ""}),
+           HALF("Supports on the tube, along z", N, {"support.*.force_z", ""})),
     LAUNCH("pressure", "Pressure behind the rocket",
            HALF("Pressure less that before the rocket", MPA, {"pressure.net", ""}),
            HALF("Force on the rocket", KN, {"pressure.force", ""})),

@@ -50,6 +50,7 @@ static number_text degrees(double value)
 #define METRES(value) metres(value).text
 #define MILLIMETRES(value) millimetres(value).text
 #define DEGREES(value) degrees(value).text
+#define PASCALS(value) scaled((value), "Pa").text
 #define NEWTONS(value) scaled((value), "N").text
 #define STIFFNESS(value) scaled((value), "N.m2").text
 
@@ -179,8 +180,15 @@ static void tell_slot(FILE *stream, const ld_slot *slot)
 static void tell_supports(FILE *stream, const ld_tubes *tubes)
 {
     fprintf(stream, "# supports:");
-    for (int i = 0; i < tubes->support_count; i++)
-        fprintf(stream, "%s springs at %s", i ? "," : "", METRES(tubes->support[i].at));
+    for (int i = 0; i < tubes->support_count; i++) {
+        const ld_support *support = &tubes->support[i];
+        fprintf(stream, "%s springs at %s", i ? "," : "", METRES(support->at));
+        if (!support->recoil.present)
+            continue;
+        fprintf(stream, " with a recoil slide");
+        if (!isnan(support->recoil.stroke))
+            fprintf(stream, " of %s", MILLIMETRES(support->recoil.stroke));
+    }
     fputc('\n', stream);
 }
 
@@ -216,21 +224,54 @@ static void tell_rocket(FILE *stream, const ld_model *model)
     fputc('\n', stream);
 }
 
+// The largest value of a table's second column.
+static double greatest(const ld_table *table)
+{
+    double most = 0;
+    for (size_t i = 0; i < table->rows; i++)
+        most = fmax(most, table->data[2 * i + 1]);
+    return most;
+}
+
 static void tell_motor(FILE *stream, const ld_motor *motor)
 {
     const ld_table *thrust = &motor->thrust;
-    double most = 0, end = thrust->rows ? thrust->data[2 * (thrust->rows - 1)] : 0;
-    for (size_t i = 0; i < thrust->rows; i++)
-        most = fmax(most, thrust->data[2 * i + 1]);
-    fprintf(stream, "a motor of at most %s, for %.4g s", NEWTONS(most * motor->thrust_scale),
-            end * motor->time_scale);
+    double end = thrust->rows ? thrust->data[2 * (thrust->rows - 1)] : 0;
+    fprintf(stream, "a motor of at most %s, for %.4g s",
+            NEWTONS(greatest(thrust) * motor->thrust_scale), end * motor->time_scale);
+}
+
+static void tell_pressure(FILE *stream, const ld_pressure *pressure)
+{
+    switch (pressure->form) {
+    case LD_PRESSURE_OVER_TIME:
+    case LD_PRESSURE_OVER_TRAVEL:
+        fprintf(stream, "a pressure over %s, of at most %s",
+                pressure->form == LD_PRESSURE_OVER_TIME ? "time" : "travel",
+                PASCALS(pressure->scale * greatest(pressure->form == LD_PRESSURE_OVER_TIME
+                                                       ? &pressure->over_time
+                                                       : &pressure->over_travel)));
+        return;
+    case LD_PRESSURE_OF_GAS:
+        fprintf(stream, "%.4g l of gas at %s against %s", 1e3 * pressure->volume,
+                PASCALS(pressure->pressure), PASCALS(pressure->ambient));
+        return;
+    }
 }
 
 static void tell_drive(FILE *stream, const ld_model *model)
 {
     const ld_lock *lock = &model->rocket.lock;
+    bool gas = model_has_pressure(model), motor = !model->rocket.motor.absent;
     fprintf(stream, "# drive: ");
-    tell_motor(stream, &model->rocket.motor);
+    if (gas)
+        tell_pressure(stream, &model->tubes.pressure);
+    if (motor) {
+        fputs(gas ? " and " : "", stream);
+        tell_motor(stream, &model->rocket.motor);
+    }
+    if (!gas && !motor)
+        fprintf(stream, "none");
     if (lock->present)
         fprintf(stream, "; the lock lets go at %s\n", NEWTONS(lock->release_force));
     else

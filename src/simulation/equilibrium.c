@@ -128,6 +128,7 @@ typedef struct problem {
     bool dead;
     double spring; // [1/s2] holds the rocket's freedoms to the axis, or guide line
     const carried_directions *carried; // less what surfaces carry; NULL: all
+    double lean[SHOE_FREEDOMS];        // to a place beside it
     double h;                          // [m, rad, ...] step of the differences
     double *jacobian;                  // [count + 1][count + 1] of Newton's method, by columns
 } problem;
@@ -152,7 +153,7 @@ static void off_the_line(const problem *the, const double *y, double off[SHOE_FR
     const double *x = y + launching->layout.x + X_Y;
     const double centred[SHOE_FREEDOMS] = {launching->surfaces.line_y, launching->surfaces.line_z};
     for (int i = 0; i < SHOE_FREEDOMS; i++)
-        off[i] = x[i] - centred[i];
+        off[i] = x[i] - (centred[i] + the->lean[i]);
     if (the->carried)
         carried_remove(the->carried, off);
 }
@@ -557,39 +558,98 @@ static void find_carried(const problem *the, const double *y, carried_directions
                  carried);
 }
 
-// Equilibrium of a rocket on surfaces: soft springs hold it to its centred place and are let go in
-// steps, until where it has play the surfaces touched carry it. What they do not carry stays
-// centred, held by a spring that must find nothing to pull.
-static double find_on_surfaces(problem *the, const double *start, carried_directions *carried,
-                               double accepted, double *y)
+// newton_whole() from the guess in `from`, with finer and finer differences: a surface that carries
+// little is pressed in by little.
+static double newton_fine(problem *the, const double *from, double accepted, double *y)
+{
+    double reached = INFINITY;
+    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= accepted); the->h *= 0.1) {
+        memcpy(y, from, (size_t)the->self->launcher.state_count * sizeof(double));
+        reached = newton_whole(the, y);
+    }
+    return reached;
+}
+
+// Soft springs hold a rocket on surfaces to its centred place and are let go in steps, until where
+// it has play the surfaces touched carry it, or nothing does; smaller steps where a touch is in the
+// way. False where no step is small enough.
+static bool let_go(const problem *the, double accepted, double *y)
 {
     const double softest = 1e-3, widest = 0.1;
-    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
-    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], best = INFINITY, held = 1e7, factor = 0.3;
+    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], held = 1e7, factor = 0.3;
     problem soft = *the;
     soft.count = launching_freedoms(the->self);
-    guess_straight(the, start, y);
     while (held > softest && factor < 0.99) {
         soft.spring = factor * held;
-        memcpy(trial, y, size);
-        double reached = newton_whole(&soft, trial);
-        off_the_line(&soft, trial, off);
-        if (!(hypot(hypot(off[0], off[1]), hypot(off[2], hypot(off[3], off[4]))) < widest))
-            break; // nothing carries it that way
+        double reached = newton_fine(&soft, y, accepted, trial);
         if (reached > accepted) {
             factor = sqrt(factor);
             continue;
         }
-        memcpy(y, trial, size);
+        off_the_line(&soft, trial, off);
+        if (hypot(hypot(off[0], off[1]), hypot(off[2], hypot(off[3], off[4]))) > widest)
+            return true; // nothing carries it that way
+        memcpy(y, trial, sizeof trial);
         held = soft.spring;
         factor = fmax(0.1, factor * factor);
     }
-    find_carried(the, y, carried);
+    return held <= softest;
+}
+
+// The largest acceleration that the spring must hold where no surface does, and along or about
+// what.
+static double uncarried(const problem *the, const double *y, int *worst)
+{
+    double off[SHOE_FREEDOMS];
+    off_the_line(the, y, off);
+    *worst = 0;
+    for (int i = 1; i < rocket_freedoms(the->self); i++)
+        if (fabs(off[i]) > fabs(off[*worst]))
+            *worst = i;
+    return the->spring * fabs(off[*worst]);
+}
+
+// Equilibrium of a rocket on surfaces, let go from its centred place or, where it stands so upright
+// that its weight topples it, from one where the front leans to a side (up or down, right or left)
+// and the rear to the other.
+static double rest_leaning(problem *the, const double *start, double up, double right,
+                           carried_directions *carried, double accepted, double *y)
+{
+    const launching_system *launching = &the->self->launcher.launching;
+    const double wide = 5e-3, length = launching->adaptors.at[launching->adaptors.count - 1];
+    const double lean[SHOE_FREEDOMS] = {-wide * up, -wide * right, 2 * wide * up / length,
+                                        -2 * wide * right / length};
+    double found[LD_MAX_STATES];
+    problem soft = *the;
+    memcpy(soft.lean, lean, sizeof lean);
+    guess_straight(the, start, found);
+    if (!let_go(&soft, accepted, found))
+        return INFINITY;
+    find_carried(the, found, carried);
     the->carried = carried;
     the->spring = 1e4;
-    for (; the->h > 1e-13 && !(best <= accepted); the->h *= 0.1) {
-        newton_whole(the, y);
-        best = newton(the, y);
+    double best = newton_fine(the, found, accepted, y);
+    return fmin(best, newton(the, y));
+}
+
+// What the surfaces that the rocket touches do not carry stays centred, held by a spring that must
+// find nothing to pull.
+static double find_on_surfaces(problem *the, const double *start, carried_directions *carried,
+                               double accepted, double *y)
+{
+    static const double side[][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    double trial[LD_MAX_STATES], best = rest_leaning(the, start, 0, 0, carried, accepted, y);
+    v3 pull = pull_at(the->self, the->t, start);
+    bool upright = hypot(pull.y, pull.z) < 1e-2 * fabs(pull.x);
+    int unused;
+    for (int i = 1; i < 5 && upright; i++) {
+        if (best <= accepted && uncarried(the, y, &unused) <= accepted)
+            return best;
+        double reached = rest_leaning(the, start, side[i][0], side[i][1], carried, accepted, trial);
+        if (reached <= accepted) {
+            memcpy(y, trial, (size_t)the->self->launcher.state_count * sizeof(double));
+            best = reached;
+        }
     }
     return best;
 }
@@ -601,13 +661,8 @@ static ld_status check_carried(const problem *the, const double *y, double accep
     static const char *const names[] = {"along y of the guide", "along z of the guide",
                                         "about z of the guide", "about y of the guide",
                                         "about the guide line"};
-    double off[SHOE_FREEDOMS];
-    off_the_line(the, y, off);
-    int worst = 0;
-    for (int i = 1; i < rocket_freedoms(the->self); i++)
-        if (fabs(off[i]) > fabs(off[worst]))
-            worst = i;
-    if (!the->carried || the->spring * fabs(off[worst]) <= accepted)
+    int worst;
+    if (!the->carried || uncarried(the, y, &worst) <= accepted)
         return LD_OK;
     return ld_fail(error, LD_ERR_LAUNCH,
                    "run.start: no static equilibrium: gravity pulls the rocket %s, and no surface "

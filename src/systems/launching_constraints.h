@@ -5,11 +5,18 @@
 
 #include "systems/launching.h"
 
+// Kept out of line: inlined, it makes an evaluation in a bore 7 % slower.
+static __attribute__((noinline)) void launching_slide(const int lanes, const launching_system *self,
+                                                      launching_instant *now)
+{
+    shoes_add(lanes, &self->surfaces, &self->adaptors, &self->tube, now);
+}
+
 LD_INLINE void launching_touch(const int lanes, const launching_system *self,
                                launching_instant *now)
 {
     if (self->surfaces.count)
-        shoes_add(lanes, &self->surfaces, &self->adaptors, &self->tube, now);
+        launching_slide(lanes, self, now);
     else
         adaptors_add(lanes, &self->adaptors, &self->tube, now);
 }

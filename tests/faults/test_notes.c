@@ -138,13 +138,10 @@ static void test_notes_are_exact(void **state)
 static void test_own_scenarios_are_silent(void **state)
 {
     (void)state;
-    static const char *const patterns[] = {"examples/*.yaml",
-                                           "examples/marching/*.yaml",
-                                           "examples/stabilisers/*.yaml",
-                                           "examples/stabilisers/*.yaml",
-                                           "tests/data/nesc/*.yaml",
-                                           "tests/faults/base.yaml",
-                                           "tests/faults/vehicle.yaml"};
+    static const char *const patterns[] = {
+        "examples/*.yaml",          "examples/marching/*.yaml", "examples/stabilisers/*.yaml",
+        "examples/rail/*.yaml",     "tests/data/nesc/*.yaml",   "tests/faults/base.yaml",
+        "tests/faults/vehicle.yaml"};
     glob_t found = {0};
     int noted = 0;
     assert_int_equal(chdir(LD_SOURCE_DIR), 0);

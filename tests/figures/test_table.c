@@ -28,6 +28,8 @@ static int set_up(void **state)
     (void)state;
     flight_system flight = {.earth = {.flat = true}};
     reference_vehicle(&model, 5);
+    model.tubes.station_count = 1;
+    model.tubes.station[0].at = 1;
     model.tubes.pressure = (ld_pressure){.present = true,
                                          .form = LD_PRESSURE_OF_GAS,
                                          .pressure = 2e5,

@@ -168,14 +168,14 @@ static void test_ship(void **state)
     history_free(&read);
 }
 
+static const char guide[] = "tubes.guide={line: 160 0 mm, t_slot: {at: -90 0 mm, lips: 60 mm, "
+                            "gap: 0.5 mm, side_gap: 0.3 mm}}";
+
 // Of a guide of surfaces: what its T-slot stands for, and the rectangle like its section.
 static void test_guide(void **state)
 {
     (void)state;
-    const char *sets[] = {
-        "tubes.guide={line: 160 0 mm, t_slot: {at: -90 0 mm, lips: 60 mm, gap: 0.5 mm, "
-        "side_gap: 0.3 mm}}",
-        "tubes.slot=none", "run.end=tip"};
+    const char *sets[] = {"tubes.slot=none", "run.end=tip", guide};
     static const double surface[6][2] = {{-0.09, 0.03},  {-0.09, 0.03}, {-0.09, -0.03},
                                          {-0.09, -0.03}, {-0.09, 0},    {-0.09, 0}};
     static const double normal[6] = {0, PI, 0, PI, PI / 2, -PI / 2};

@@ -111,6 +111,31 @@ static void test_planes(void **state)
         "# slot: a helix of 4 deg at the radius 82.5 mm, friction 0.1\n" SUPPORTS ROCKET DRIVE);
 }
 
+static void test_pressure(void **state)
+{
+    (void)state;
+    check_words(
+        "examples/line-thrower.yaml", NULL, 0,
+        "# base: fixed; launcher 30 deg up\n"
+        "# guide: a bore, 1.5 m long\n"
+        "#   from 0 m: bore radius 40 mm, wall 4 mm, EI 65.32 kN.m2, GJ 49.11 kN.m2, 2.85 kg/m\n"
+        "# supports: springs at 0.1 m, springs at 0.8 m\n"
+        "# rocket: 4 kg, from 0.1 m, on adaptors rear (0 m, clearance 0.2 mm), front (0.3 m, 0.2 "
+        "mm)\n"
+        "# drive: 12 l of gas at 1 MPa against 100 kPa; no lock\n");
+    check_words(
+        "examples/test-barrel.yaml", NULL, 0,
+        "# base: fixed; launcher 10 deg up\n"
+        "# guide: a bore, 2 m long\n"
+        "#   from 0 m: bore radius 20 mm, wall 18 mm, EI 317.5 kN.m2, GJ 244.2 kN.m2, 25.75 kg/m\n"
+        "#   from 1 m: bore radius 20 mm, wall 12 mm, EI 146.6 kN.m2, GJ 112.7 kN.m2, 15.39 kg/m\n"
+        "# slot: a helix of 0 deg to 6 deg at the radius 20 mm, friction 0.05\n"
+        "# supports: springs at 0.2 m with a recoil slide of 200 mm, springs at 0.8 m\n"
+        "# rocket: 1 kg, from 0.1 m, on adaptors band (0 m, clearance 0.02 mm), front (0.1 m, 0.05 "
+        "mm)\n"
+        "# drive: a pressure over time, of at most 8 MPa; the lock lets go at 500 N\n");
+}
+
 static void test_bases(void **state)
 {
     (void)state;
@@ -130,8 +155,9 @@ static void test_flight_alone(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bore), cmocka_unit_test(test_surfaces),
-                                       cmocka_unit_test(test_planes), cmocka_unit_test(test_bases),
-                                       cmocka_unit_test(test_flight_alone)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bore),   cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_planes), cmocka_unit_test(test_pressure),
+        cmocka_unit_test(test_bases),  cmocka_unit_test(test_flight_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

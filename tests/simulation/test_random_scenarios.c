@@ -61,6 +61,14 @@ static const char *const kinds[] = {
     "tubes.modes={bending: 8, span: free-free, elements: 20}",
     "tubes.point_masses=[{at: 1 m, mass: 2 kg}, {at: 2.9 m, mass: 1 kg}]",
     "tubes.tail=",
+    "tubes.loads=[{at: 0 m}, {at: 1.2 m}, {at: 2.9 m}]",
+    "tubes.pressure={pressure: 2 MPa, volume: 0.03 m3, exponent: 1.4, ambient: 0.1 MPa}",
+    "tubes.pressure={over_time: [[0 s, 0 MPa], [10 ms, 1 MPa], [0.1 s, 0.5 MPa]]}",
+    "tubes={pressure: {over_travel: [[0 m, 2 MPa], [1 m, 1 MPa], [3 m, 0.3 MPa]]}, slot: none}",
+    "tubes.supports=[{at: 0.4 m, stiffness: 2e7 2e7 2e7 N/m, damping: 1e4 1e4 1e4 N.s/m, "
+    "rotational_stiffness: 2e5 2e5 2e5 N.m/rad, recoil: {preload: 2 kN, stiffness: 20 kN/m, "
+    "damping: 500 N.s/m, friction: 100 N, stroke: 0.3 m}}, {at: 1.8 m, stiffness: 0 2e7 2e7 N/m}]",
+    "rocket.motor=none",
     "rocket.lock=none",
     "rocket.empty=",
     "rocket.aerodynamics=none",

@@ -83,6 +83,20 @@ static void draw_slot(uint64_t *seed, ld_slot *slot)
     }
 }
 
+// A bending stiffness of each plane; by draws of its own, so that the others stay as they are.
+static void draw_planes(uint64_t seed, ld_tubes *tubes)
+{
+    if (!chance(&seed, 0.3))
+        return;
+    for (int i = 0; i < tubes->section_count; i++) {
+        ld_section *s = &tubes->section[i];
+        s->form = LD_SECTION_PLANES;
+        s->bending_stiffness_y = s->bending_stiffness_z = s->bending_stiffness;
+        scale(&seed, &s->bending_stiffness_y);
+        s->bending_stiffness = NAN;
+    }
+}
+
 static void draw_tubes(uint64_t *seed, ld_tubes *tubes)
 {
     ld_section *section = tubes->section;
@@ -120,6 +134,7 @@ static void draw_tubes(uint64_t *seed, ld_tubes *tubes)
         scale_all(seed, 3, support->rotational_damping);
     }
     draw_slot(seed, &tubes->slot);
+    draw_planes(*seed ^ 0x5bd1e995, tubes);
 }
 
 static void draw_contact(uint64_t *seed, ld_contact *contact)
@@ -195,6 +210,28 @@ static void draw_rocket_options(uint64_t *seed, ld_rocket *rocket)
     }
 }
 
+// A gas behind the rocket, with the motor or without; supports that are slides.
+static void draw_drive(uint64_t *seed, ld_model *model)
+{
+    ld_pressure *gas = &model->tubes.pressure;
+    if (chance(seed, 0.2)) {
+        *gas = (ld_pressure){.present = true, .form = LD_PRESSURE_OF_GAS, .scale = 1};
+        gas->pressure = between(seed, 3e5, 3e6);
+        gas->volume = between(seed, 0.01, 0.1);
+        gas->exponent = between(seed, 1, 1.6);
+        gas->ambient = chance(seed, 0.5) ? 1e5 : 0;
+    }
+    for (int k = 0; k < model->tubes.support_count && gas->present; k++)
+        model->tubes.support[k].recoil = (ld_recoil){.present = true,
+                                                     .preload = between(seed, 0, 5e3),
+                                                     .stiffness = between(seed, 0, 5e4),
+                                                     .damping = between(seed, 0, 1e3),
+                                                     .quadratic_damping = between(seed, 0, 200),
+                                                     .friction = between(seed, 0, 500),
+                                                     .friction_speed = 0.01,
+                                                     .stroke = between(seed, 0.05, 1)};
+}
+
 // Columns that every launch has, taken in all ways, between instants that every rocket has.
 static void draw_measures(uint64_t *seed, ld_model *model)
 {
@@ -226,6 +263,7 @@ void draw_random_model(uint64_t seed, ld_model *model)
     draw_rocket(&seed, model->tubes.length, &model->rocket);
     draw_rocket_options(&seed, &model->rocket);
     draw_measures(&seed, model);
+    draw_drive(&seed, model);
     ld_run_settings *run = &model->run;
     run->start = chance(&seed, 0.3) ? LD_START_UNDEFORMED : LD_START_EQUILIBRIUM;
     run->formulation = chance(&seed, 0.1) ? LD_FORMULATION_OVERALL : LD_FORMULATION_REDUCED;
@@ -255,7 +293,8 @@ static ld_status begin(void *self, const ld_column *columns, size_t count, ld_er
     *watch = (watcher){.columns = count, .rocket_first = count, .ascending = true};
     for (size_t i = 0; i < count; i++) {
         if (strcmp(columns[i].name, "breech.force") == 0 ||
-            strcmp(columns[i].name, "crossflow.z") == 0)
+            strcmp(columns[i].name, "crossflow.z") == 0 ||
+            strcmp(columns[i].name, "pressure.force") == 0)
             watch->rocket_last = i + 1;
         if (strncmp(columns[i].name, "rocket.", 7) == 0 && watch->rocket_first == count)
             watch->rocket_first = i;

@@ -126,6 +126,25 @@ static void the_whole_tube_leaves_what_moves_the_tail(void **state)
     check_balance(&model, launching_evaluate, 70, "lock off the axis");
     model.tubes.slot.kind = LD_SLOT_NONE;
     check_balance(&model, overall, 70, "no slot, the lock holds the roll, overall");
+    model.rocket.lock = (ld_lock){.release_force = 1e4};
+    model.tubes.guide = (ld_guide){.present = true,
+                                   .form = LD_GUIDE_T_SLOT,
+                                   .line = {-0.08, 0.01},
+                                   .t_slot = {.lips = 0.06, .gap = 0.5e-4, .side_gap = 0.3e-4}};
+    for (int i = 0; i < 3; i++)
+        model.rocket.adaptor[i].clearance = NAN;
+    check_balance(&model, launching_evaluate, 70, "T-slot beside the axis");
+    check_balance(&model, general, 70, "T-slot, from the general matrix");
+    model.tubes.guide =
+        (ld_guide){.present = true,
+                   .form = LD_GUIDE_TOWER,
+                   .tower = {.rails = 4, .first = 0.8, .gap = 3e-5, .radius = 0.08}};
+    check_balance(&model, launching_evaluate, 70, "tower");
+    model.tubes.guide = (ld_guide){0};
+    model.rocket.adaptor_count = 2;
+    model.rocket.contact.law = LD_CONTACT_IDEAL;
+    check_balance(&model, launching_evaluate, 70, "ideal adaptors");
+    check_balance(&model, general, 70, "ideal adaptors, from the general matrix");
     reference_model_free(&model);
 }
 

@@ -156,11 +156,40 @@ static void reduced_equals_dense(void **state)
     reference_model_free(&model);
 }
 
+// A rail of two sections, each with its own bending stiffness of each plane, out of proportion.
+static void split_planes(ld_tubes *tubes)
+{
+    tubes->section_count = 2;
+    tubes->section[1] = tubes->section[0];
+    tubes->section[1].from = 1.3;
+    for (int i = 0; i < 2; i++) {
+        ld_section *s = &tubes->section[i];
+        double EI = s->bending_stiffness;
+        s->form = LD_SECTION_PLANES;
+        s->bending_stiffness_y = (i ? 1.2 : 0.3) * EI;
+        s->bending_stiffness_z = (i ? 0.5 : 1.7) * EI;
+        s->bending_stiffness = NAN;
+    }
+    tubes->modes.damping = 0.02;
+}
+
 static launching_outcome general(const launching_system *system, const launching_input *input,
                                  const launching_phase *phase, const double *state,
                                  launching_output *out)
 {
     return launching_evaluate_general(system, LD_FORMULATION_REDUCED, input, phase, state, out);
+}
+
+static void planes_equal_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 5;
+    split_planes(&model.tubes);
+    check_agreement(&model, launching_evaluate, 200, "reduced, planes out of proportion");
+    check_agreement(&model, general, 100, "general, planes out of proportion");
+    reference_model_free(&model);
 }
 
 static double worst_condition;
@@ -362,6 +391,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reduced_equals_dense),
+        cmocka_unit_test(planes_equal_dense),
         cmocka_unit_test(overall_equals_dense),
         cmocka_unit_test(options_equal_dense),
         cmocka_unit_test(ideal_adaptors_equal_dense),

@@ -64,6 +64,15 @@ static void draw_rail(uint64_t *seed, int form, ld_model *model)
     tubes->modes.elements = 12;
     for (int k = 0; k < 2; k++) // not isotropic
         scale_all(seed, 3, tubes->support[k].stiffness);
+    tubes->section_count = 2; // nor round: the planes' stiffnesses in no one proportion
+    for (int k = 0; k < 2; k++) {
+        ld_section *section = &tubes->section[k];
+        *section = tubes->section[0];
+        section->from = 1.2 * k;
+        section->form = LD_SECTION_PLANES;
+        section->bending_stiffness_y = section->bending_stiffness * between(seed, 0.3, 2);
+        section->bending_stiffness_z = section->bending_stiffness * between(seed, 0.3, 2);
+    }
     draw_guide(seed, form, &tubes->guide);
     draw_contact(seed, &rocket->contact);
     rocket->adaptor_count = 2 + choice(seed, 2);

@@ -103,6 +103,74 @@ static void closed_forms_of_bending(void **state)
     check_order("pinned", pinned_omega, (double[]){pi, 2 * pi, 3 * pi});
 }
 
+// A beam of 3 times the bending stiffness of its other plane has in each the frequencies of a tube
+// of that stiffness: clamped and, by the floating frame's planar equations, free.
+static void closed_forms_of_each_plane(void **state)
+{
+    (void)state;
+    static const double clamped[] = {1.87510406871, 4.69409113297, 7.85475743824};
+    static const double EI[] = {0.75, 0.25}; // of deflections along y, z
+    flexible_tube tube;
+    ld_tubes model = unit_tube(64, 6, LD_SPAN_CLAMPED);
+    model.section[0].form = LD_SECTION_PLANES;
+    model.section[0].bending_stiffness_z = EI[PLANE_Y];
+    model.section[0].bending_stiffness_y = EI[PLANE_Z];
+    build(&tube, &model);
+    double worst = 0;
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+        for (int k = 0; k < 3; k++)
+            worst =
+                fmax(worst,
+                     fabs(sqrt(tube.om2_b[plane][k] / EI[plane]) / (clamped[k] * clamped[k]) - 1));
+    CHECK_BELOW("clamped frequencies of both planes", worst, 2e-7);
+    flexible_tube_free(&tube);
+}
+
+// Frequencies of a stepped clamped beam whose planes are out of proportion, in shapes that the
+// planes share, against tubes of one plane's stiffness alone: they fall to those as modes are
+// added.
+static double mixed_error(int modes, int plane)
+{
+    static const double about_z[] = {1, 0.2}, about_y[] = {0.3, 0.6};
+    ld_tubes model = unit_tube(60, modes, LD_SPAN_CLAMPED), alone;
+    model.section_count = 2;
+    model.section[1] = model.section[0];
+    model.section[1].from = 0.5;
+    alone = model;
+    for (int i = 0; i < 2; i++) {
+        model.section[i].form = LD_SECTION_PLANES;
+        model.section[i].bending_stiffness_y = about_y[i];
+        model.section[i].bending_stiffness_z = about_z[i];
+        alone.section[i].bending_stiffness = plane == PLANE_Y ? about_z[i] : about_y[i];
+    }
+    flexible_tube mixed, own;
+    build(&mixed, &model);
+    build(&own, &alone);
+    assert_non_null(mixed.mixing);
+    double K[LD_NB * LD_NB], value[LD_NB], vectors[LD_NB * LD_NB], worst = 0;
+    for (int i = 0; i < modes; i++)
+        for (int j = 0; j < modes; j++)
+            K[i * modes + j] = i == j ? mixed.om2_b[plane][i] : mixed.mixing->K[plane][i][j];
+    assert_int_equal(symmetric_eigen(modes, K, NULL, modes, value, vectors), 0);
+    for (int k = 0; k < 3; k++)
+        worst = fmax(worst, fabs(sqrt(value[k] / own.om2_b[PLANE_Y][k]) - 1));
+    flexible_tube_free(&mixed);
+    flexible_tube_free(&own);
+    return worst;
+}
+
+static void planes_out_of_proportion(void **state)
+{
+    (void)state;
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+        double error[] = {mixed_error(6, plane), mixed_error(12, plane), mixed_error(24, plane)};
+        printf("  plane %c: worst of 3 clamped frequencies with 6, 12, 24 modes: %.2e %.2e %.2e\n",
+               plane ? 'z' : 'y', error[0], error[1], error[2]);
+        CHECK_BELOW("with 24 modes", error[2], 8e-3);
+        CHECK_WITHIN("fall from 6 to 24", error[0] / error[2], 3, 1e4);
+    }
+}
+
 // Bars held at x = 0, free at the tip: k = (2 j - 1) pi/2, error (k h)^2/24.
 static void closed_forms_of_bars(void **state)
 {
@@ -723,6 +791,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_forms_of_bending),
+        cmocka_unit_test(closed_forms_of_each_plane),
+        cmocka_unit_test(planes_out_of_proportion),
         cmocka_unit_test(closed_forms_of_bars),
         cmocka_unit_test(integrals_of_clamped_modes),
         cmocka_unit_test(stepped_tube_on_supports),

@@ -183,6 +183,18 @@ static void from_the_breech(ld_model *model)
     model->run.lead_in = 0.02;
 }
 
+// A pressure with a jump that opens the lock at once, and rifling.
+static void by_pressure(ld_model *model)
+{
+    slot_table(model);
+    reference_by_pressure(model);
+    reference_recoil(model);
+    model->tubes.support[0].recoil.stroke = NAN;
+    model->tubes.pressure.form = LD_PRESSURE_OVER_TIME;
+    model->tubes.pressure.over_time =
+        reference_table(5, 2, (double[]){0, 4e5, 0.01, 9e5, 0.01, 1e6, 0.1, 8e5, 1, 3e5});
+}
+
 // At the default tolerance the couple's ringing moves the release by 1.2e-8 s.
 static void lock_at_the_wall(ld_model *model)
 {
@@ -192,6 +204,36 @@ static void lock_at_the_wall(ld_model *model)
     lock->x = 0.2;
     lock->radius = 0.0825;
     lock->angle = 100 * degree;
+}
+
+// Four rails about a rocket that stands on the breech, with touches that latch.
+static void tower_from_the_breech(ld_model *model)
+{
+    lankarani(model);
+    unlocked(model);
+    model->tubes.slot.kind = LD_SLOT_NONE;
+    model->tubes.guide =
+        (ld_guide){.present = true,
+                   .form = LD_GUIDE_TOWER,
+                   .line = {0.02, 0.03},
+                   .tower = {.rails = 4, .first = 30 * degree, .gap = 0.2e-3, .radius = 0.09}};
+}
+
+// A keel below, a bar beside it and one above, not symmetric, undeformed. (The tolerance: the
+// start rings.)
+static void three_surfaces(ld_model *model)
+{
+    model->run.tolerance = 1e-9;
+    two_adaptors(model);
+    undeformed(model);
+    model->tubes.slot.kind = LD_SLOT_NONE;
+    model->tubes.guide = (ld_guide){.present = true, .line = {0.05, 0.08}, .surface_count = 5};
+    ld_surface *surface = model->tubes.guide.surface;
+    surface[0] = (ld_surface){"", {-0.08, 0.03}, 170 * degree, 0.2e-3, LD_SURFACE_FLAT};
+    surface[1] = (ld_surface){"", {-0.08, -0.03}, -150 * degree, 0.2e-3, LD_SURFACE_FLAT};
+    surface[2] = (ld_surface){"", {0.08, 0.02}, 10 * degree, 0.3e-3, LD_SURFACE_FLAT};
+    surface[3] = (ld_surface){"", {0, 0.08}, 80 * degree, 0.3e-3, LD_SURFACE_ROUND};
+    surface[4] = (ld_surface){"", {0, -0.08}, -80 * degree, 0.3e-3, LD_SURFACE_ROUND};
 }
 
 static double largest(int count, const double *a, const double *b)
@@ -293,6 +335,7 @@ int main(void)
 {
     static const bounds usual = {3e-9, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
     static const bounds ringing = {3e-9, 2e-5, 4e-7, 1e-4, 1e-6, 8e-3, 2e-2};
+    static const bounds sliding = {3e-8, 2e-5, 4e-7, 1e-4, 1e-6, 8e-3, 2e-2};
     static const bounds uneven = {9e-8, 3e-6, 4e-7, 3e-5, 1e-6, 5e-4, 2e-2};
     scenario scenarios[] = {
         {"reference", reference, 100e-6, usual},
@@ -315,6 +358,9 @@ int main(void)
         {"unlocked", unlocked, 50e-6, usual},
         {"lock at the wall", lock_at_the_wall, 50e-6, usual},
         {"at sea, from a breech at 0 m", from_the_breech, 50e-6, usual},
+        {"by a pressure over time, on a recoil slide", by_pressure, 50e-6, sliding},
+        {"tower, from the breech", tower_from_the_breech, 50e-6, usual},
+        {"three surfaces and two bars", three_surfaces, 50e-6, usual},
     };
     enum { COUNT = sizeof scenarios / sizeof scenarios[0] };
     struct CMUnitTest tests[COUNT + 1] = {cmocka_unit_test(overall_form_gives_the_same_launch)};

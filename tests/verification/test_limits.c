@@ -63,6 +63,47 @@ static void stiff_tube_is_rigid(void **state)
     reference_model_free(&model);
 }
 
+// ---- planes ----
+
+// A launch without gravity along I's x, from a tube of two sections with a bending stiffness of
+// each plane, out of proportion; turned: y and z of stiffnesses and eccentricity in each other's
+// place.
+static ld_rocket_summary launch_in_planes(bool turned)
+{
+    static const double soft[] = {0.3, 1.2}, firm[] = {0.9, 0.4};
+    ld_model model;
+    reference_model(&model);
+    model.gravity = 0;
+    model.base.elevation = 0;
+    model.tubes.slot.kind = LD_SLOT_NONE;
+    model.rocket.contact.friction = 0;
+    model.rocket.eccentricity[turned] = 0.5e-3;
+    model.tubes.section_count = 2;
+    model.tubes.section[1] = model.tubes.section[0];
+    model.tubes.section[1].from = 1.3;
+    for (int i = 0; i < 2; i++) {
+        ld_section *s = &model.tubes.section[i];
+        s->form = LD_SECTION_PLANES;
+        s->bending_stiffness_y = (turned ? firm : soft)[i] * s->bending_stiffness;
+        s->bending_stiffness_z = (turned ? soft : firm)[i] * s->bending_stiffness;
+    }
+    ld_rocket_summary exit = launch(&model);
+    reference_model_free(&model);
+    return exit;
+}
+
+// y turned about x is z, pitch minus yaw.
+static void turned_planes(void **state)
+{
+    (void)state;
+    ld_rocket_summary upright = launch_in_planes(false), turned = launch_in_planes(true);
+    CHECK_WITHIN("pitch rate [rad/s]", fabs(upright.pitch_rate), 1e-3, 1);
+    CHECK_BELOW("pitch against yaw, turned", upright.pitch + turned.yaw, 1e-14);
+    CHECK_BELOW("their rates", upright.pitch_rate + turned.yaw_rate, 1e-12);
+    CHECK_BELOW("tip's place", upright.tip.y - turned.tip.z, 1e-14);
+    CHECK_BELOW("the other plane", fabs(upright.yaw_rate) + fabs(turned.pitch_rate), 1e-12);
+}
+
 // ---- no rocket ----
 
 typedef struct falling_beam {
@@ -319,11 +360,9 @@ static void slot_force_ratio(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stiff_tube_is_rigid),
-        cmocka_unit_test(tube_alone_is_a_beam),
-        cmocka_unit_test(resting_base_is_fixed),
-        cmocka_unit_test(half_binding),
-        cmocka_unit_test(helix_spin),
+        cmocka_unit_test(stiff_tube_is_rigid),  cmocka_unit_test(turned_planes),
+        cmocka_unit_test(tube_alone_is_a_beam), cmocka_unit_test(resting_base_is_fixed),
+        cmocka_unit_test(half_binding),         cmocka_unit_test(helix_spin),
         cmocka_unit_test(slot_force_ratio),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
