@@ -11,7 +11,9 @@ typedef struct base_frame {
     v3 v; // [m/s] its velocity
     m3 A; // A_IT
     quat q;
-    v3 w; // [rad/s] angular velocity
+    v3 w;     // [rad/s] angular velocity
+    v3 a;     // [m/s2] acceleration of the origin
+    v3 alpha; // [rad/s2] angular acceleration; both not known of a vehicle
 } base_frame;
 
 #endif

@@ -12,7 +12,10 @@
 #include "elements/rocket.h"
 #include "math/ldl.h"
 
-enum { LD_MAX_CONSTRAINTS = 8, LD_MAX_CONSTRAINT_SECTIONS = 2 };
+enum {
+    LD_MAX_CONSTRAINTS = 8 + LD_MAX_CLAMPED,
+    LD_MAX_CONSTRAINT_SECTIONS = 2 + LD_MAX_CLAMPED_STATIONS,
+};
 
 // A direction of constraint: unit wrench on the rocket about O1 and on the tube (formulation.md,
 // section 3, G_e and B_e), and what the solve makes of them.
@@ -21,9 +24,11 @@ typedef struct constraint_direction {
     v3 G_f, G_m;     // on the rocket
     v3 r_a, r_alpha; // M3^-1 G
     v3 force, mu;    // at the section: force, and Jl^T moment, that act on the modes
+    v3 moment;       // at the section's axis point
     double rigid[6]; // L^-1 (B_r - C B_q): forward-substituted
     double beta;     // right-hand side besides accelerations
     double drift;    // e . v_rel
+    double error;    // of what clamps hold in place: as far as it is off, like the drift
     int work;        // of its force, which among the powers
 } constraint_direction;
 
@@ -52,12 +57,13 @@ typedef struct shape_products {
 // The constraints in force, in the order in which their elements have put them; friction of one of
 // them acts along a tangent.
 typedef struct constraint_set {
-    int section_count; // the first is the rocket's
+    int section_count; // the first is the rocket's, where it is in the tube
     constraint_section section[LD_MAX_CONSTRAINT_SECTIONS];
     int count;
     constraint_direction e[LD_MAX_CONSTRAINTS];
     double x[LD_MAX_CONSTRAINTS];     // forces found
     int slot_row, lock_row;           // of these, or -1
+    int clamp_row;                    // the first of the clamps, which come last
     int adaptor_row[LD_MAX_ADAPTORS]; // the first of the two of an adaptor held on the axis
     // friction of the slot, -rub |x| along the tangent
     bool sliding;
@@ -117,20 +123,18 @@ LD_INLINE void shape_products_load(const int lanes, const tube_system *guide,
         products->tt += p->tau[j] * q->tau[j];
 }
 
-// Sets up a direction from its wrench at the section: force f at the section's point P + r_T and
-// pure moment m on the rocket, opposite on the tube.
-LD_INLINE void direction_load(const launching_instant *now, const constraint_section *section, v3 f,
-                              v3 m, v3 r_T, v3 rho, constraint_direction *e)
+// Sets up what a direction does to the tube from its wrench at the section: the opposite of force f
+// at the section's point P + r_T and of pure moment m.
+LD_INLINE void direction_load_tube(const launching_instant *now, const constraint_section *section,
+                                   v3 f, v3 m, v3 r_T, constraint_direction *e)
 {
     const tube_state *tube = &now->tube;
     const element_motion *motion = section->motion;
     const section_shapes *shapes = &section->shapes;
     const axis_section *s = section->at;
-    e->G_f = f;
-    e->G_m = v3_add(m, v3_cross(rho, f));
-    rocket_solve(&now->inertia, e->G_f, e->G_m, &e->r_a, &e->r_alpha);
     v3 W = v3_add(s->P, r_T);
     e->force = f;
+    e->moment = v3_add(m, v3_cross(r_T, f));
     e->mu = m3_apply_transposed(s->Jl, v3_add(m, v3_cross(v3_sub(W, s->root), f)));
     // B_r - C B_q, with C B_q from the shapes' own products
     double uz = poly0(motion->z, s->xi), uz1 = poly1(motion->z, s->xi);
@@ -142,6 +146,16 @@ LD_INLINE void direction_load(const launching_instant *now, const constraint_sec
     B_m.y += shapes->c0 * f.z - shapes->c1 * e->mu.y;
     B_m.z -= shapes->c0 * f.y + shapes->c1 * e->mu.z;
     tube_forward(tube, B_f, B_m, e->rigid);
+}
+
+// The same with the wrench itself on the rocket, at O1 + rho.
+LD_INLINE void direction_load(const launching_instant *now, const constraint_section *section, v3 f,
+                              v3 m, v3 r_T, v3 rho, constraint_direction *e)
+{
+    e->G_f = f;
+    e->G_m = v3_add(m, v3_cross(rho, f));
+    rocket_solve(&now->inertia, e->G_f, e->G_m, &e->r_a, &e->r_alpha);
+    direction_load_tube(now, section, f, m, r_T, e);
 }
 
 // G_p^T M3^-1 G_q + B_p^T M2^-1 B_q.
@@ -234,9 +248,20 @@ LD_INLINE int constraint_section_add(const int lanes, const tube_system *guide,
     return set->section_count++;
 }
 
-// Empties the set but for the rocket's section.
-LD_INLINE void constraints_begin(const int lanes, const tube_system *guide,
-                                 const launching_instant *now, constraint_set *set)
+// Empties the set.
+LD_INLINE void constraints_begin(constraint_set *set)
+{
+    set->section_count = set->count = 0;
+    set->slot_row = set->lock_row = -1;
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        set->adaptor_row[i] = -1;
+    set->sliding = false;
+    set->friction = set->v_tau = 0;
+}
+
+// The rocket's section, the first one of the set.
+LD_INLINE void rocket_section_add(const int lanes, const tube_system *guide,
+                                  const launching_instant *now, constraint_set *set)
 {
     const rocket_state *rocket = &now->rocket;
     constraint_section *section = &set->section[0];
@@ -247,14 +272,7 @@ LD_INLINE void constraints_begin(const int lanes, const tube_system *guide,
     section->v_P = rocket->v_P;
     section->w_P = rocket->w_P;
     section->Om = rocket->Om;
-    set->section_count = 0;
     constraint_section_add(lanes, guide, &now->tube, set);
-    set->count = 0;
-    set->slot_row = set->lock_row = -1;
-    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
-        set->adaptor_row[i] = -1;
-    set->sliding = false;
-    set->friction = set->v_tau = 0;
 }
 
 // The next direction, a force along n at the point P + r_T of the section, O1 + rho of the rocket;
@@ -320,9 +338,9 @@ LD_INLINE void constraints_record(const launching_instant *now, const constraint
     for (int i = 0; i < set->count + set->sliding; i++) {
         const constraint_direction *e = i < set->count ? &set->e[i] : &set->tangent;
         double x = i < set->count ? set->x[i] : set->friction;
-        v3 m = v3_add(e->G_m, v3_cross(now->rocket.p1, e->G_f));
-        guide_forces_add(now->on_tube.record, set->section[e->section].at->x, v3_scale(-x, e->G_f),
-                         v3_scale(-x, m));
+        const axis_section *at = set->section[e->section].at;
+        v3 m = v3_add(e->moment, v3_cross(at->P, e->force));
+        guide_forces_add(now->on_tube.record, at->x, v3_scale(-x, e->force), v3_scale(-x, m));
     }
 }
 

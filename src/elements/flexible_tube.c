@@ -15,6 +15,9 @@ typedef struct line_ties {
     double at[LD_MAX_SUPPORTS];    // [m]
     double value[LD_MAX_SUPPORTS]; // stiffness against the shape's value
     double slope[LD_MAX_SUPPORTS]; // and, in bending, against its slope
+    int held;                      // values and slopes that are held rigidly
+    double held_at[LD_MAX_CLAMPED];
+    bool held_slope[LD_MAX_CLAMPED];
 } line_ties;
 
 // The shapes chosen on a line, in tangent form, orthonormal, and the frequencies on the supports.
@@ -25,6 +28,15 @@ typedef struct line_shapes {
     double *nodal;           // [count][n] nodal vectors, owned
     double *part;            // [count][n] amplitudes of the elements, of unit elastic energy, owned
 } line_shapes;
+
+// The line is held where both of its directions are.
+static void hold(line_ties *ties, const ld_support *support, ld_clamp a, ld_clamp b, bool slope)
+{
+    if (!support_clamps(support, a) || !support_clamps(support, b))
+        return;
+    ties->held_at[ties->held] = support->at;
+    ties->held_slope[ties->held++] = slope;
+}
 
 // Tail and springs as one line feels them. Both planes share their shapes: bending takes the mean
 // of their inertia and stiffness, which are equal as a rule.
@@ -40,12 +52,21 @@ static line_ties ties_of(line_kind kind, const ld_tubes *model)
         ties.tail[0][0] = kind == LINE_TORSION ? tail->inertia[0] : m;
     for (int k = 0; k < model->support_count; k++) {
         const ld_support *support = &model->support[k];
-        const double *K = support->stiffness, *Kr = support->rotational_stiffness;
+        double K[LD_CLAMPS];
+        for (int i = 0; i < LD_CLAMPS; i++)
+            K[i] = support_spring(support, (ld_clamp)i);
         ties.at[k] = support->at;
-        ties.value[k] = kind == LINE_BENDING   ? 0.5 * (K[1] + K[2])
-                        : kind == LINE_TORSION ? Kr[0]
-                                               : K[0];
-        ties.slope[k] = kind == LINE_BENDING ? 0.5 * (Kr[1] + Kr[2]) : 0;
+        ties.value[k] = kind == LINE_BENDING   ? 0.5 * (K[LD_CLAMP_Y] + K[LD_CLAMP_Z])
+                        : kind == LINE_TORSION ? K[LD_CLAMP_ROLL]
+                                               : K[LD_CLAMP_X];
+        ties.slope[k] = kind == LINE_BENDING ? 0.5 * (K[LD_CLAMP_YAW] + K[LD_CLAMP_PITCH]) : 0;
+        if (kind == LINE_BENDING) {
+            hold(&ties, support, LD_CLAMP_Y, LD_CLAMP_Z, false);
+            hold(&ties, support, LD_CLAMP_PITCH, LD_CLAMP_YAW, true);
+        } else {
+            ld_clamp only = kind == LINE_TORSION ? LD_CLAMP_ROLL : LD_CLAMP_X;
+            hold(&ties, support, only, only, false);
+        }
     }
     return ties;
 }
@@ -94,6 +115,73 @@ static void assemble_free(const tube_line *line, const line_ties *ties, double *
     }
 }
 
+// Value or slope at x of the line's coordinates, one row.
+static void tie_row(const tube_line *line, double x, bool slope, double *s)
+{
+    int w = line->width;
+    s[0] = slope ? 0 : 1;
+    if (w == 2)
+        s[1] = slope ? 1 : x;
+    for (int k = 0; k < line->n; k++)
+        s[w + k] = slope ? tube_line_slope(line, &line->shape[k * line->n], x)
+                         : tube_line_value(line, &line->shape[k * line->n], x);
+}
+
+// x := x - 2 v (v . x), both [N] from `first` on, v of length 1.
+static void reflect(int first, int N, const double *v, double *x, int stride)
+{
+    double sum = 0;
+    for (int i = first; i < N; i++)
+        sum += v[i] * x[i * stride];
+    for (int i = first; i < N; i++)
+        x[i * stride] -= 2 * sum * v[i];
+}
+
+// Householder vectors [held][N] of reflections that leave what is held to the first coordinates.
+static void find_reflections(const tube_line *line, const line_ties *ties, double *v)
+{
+    int N = line->width + line->n;
+    for (int c = 0; c < ties->held; c++) {
+        double *row = v + c * N, size = 0;
+        tie_row(line, ties->held_at[c], ties->held_slope[c], row);
+        for (int b = 0; b < c; b++)
+            reflect(b, N, v + b * N, row, 1);
+        for (int i = c; i < N; i++)
+            size += row[i] * row[i];
+        row[c] += copysign(sqrt(size), row[c]);
+        size = 0;
+        for (int i = c; i < N; i++)
+            size += row[i] * row[i];
+        for (int i = 0; i < N; i++)
+            row[i] = i < c ? 0 : row[i] / sqrt(size);
+    }
+}
+
+// The part of A [N][N] in coordinates in which the first `held` are held at zero: in place, [m][m].
+static void leave_out_held(int N, int held, const double *v, double *A)
+{
+    for (int c = 0; c < held; c++) {
+        for (int i = 0; i < N; i++)
+            reflect(c, N, v + c * N, A + i * N, 1);
+        for (int i = 0; i < N; i++)
+            reflect(c, N, v + c * N, A + i, N);
+    }
+    for (int i = held; i < N; i++)
+        memmove(A + (i - held) * (N - held), A + i * N + held, (size_t)(N - held) * sizeof *A);
+}
+
+// Back to the coordinates of the line: `count` vectors of N - held become vectors of N, in place.
+static void put_back_held(int N, int held, const double *v, int count, double *vector)
+{
+    for (int k = count - 1; k >= 0; k--) {
+        double *to = vector + k * N;
+        memmove(to + held, vector + k * (N - held), (size_t)(N - held) * sizeof *to);
+        memset(to, 0, (size_t)held * sizeof *to);
+        for (int c = held - 1; c >= 0; c--)
+            reflect(c, N, v + c * N, to, 1);
+    }
+}
+
 // The `wanted` lowest natural frequencies and modes of the free line with its ties: rows of
 // `vector` [wanted][N] from the highest to the lowest, omega^2 in `lambda` [N] in the same order.
 // Solved for 1/(lambda + sigma), which keeps the digits of the low ones and lets rigid motions be.
@@ -102,14 +190,22 @@ static ld_status solve_free(const tube_line *line, const line_ties *ties, int wa
 {
     int N = line->width + line->n;
     size_t NN = (size_t)N * (size_t)N;
-    double *A = calloc(2 * NN + (size_t)N, sizeof *A);
+    int held = ties->held;
+    double *A = calloc(2 * NN + (size_t)((held + 1) * N), sizeof *A);
     if (!A)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
-    double *B = A + NN;
+    double *B = A + NN, *v = B + NN + N;
     assemble_free(line, ties, A, B, B + NN);
     for (size_t i = 0; i < NN; i++)
         B[i] += line->low * A[i];
-    int info = symmetric_eigen(N, A, B, wanted, lambda, vector);
+    find_reflections(line, ties, v);
+    if (held > 0) {
+        leave_out_held(N, held, v, A);
+        leave_out_held(N, held, v, B);
+    }
+    int info = symmetric_eigen(N - held, A, B, wanted, lambda, vector);
+    if (!info)
+        put_back_held(N, held, v, wanted, vector);
     free(A);
     if (info == EIGEN_NO_MEMORY)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
@@ -131,12 +227,12 @@ static double dot(int n, const double *a, const double *b)
 }
 
 // Elastic parts of the modes from the lowest on, made orthonormal in elastic energy: rows of `part`
-// [m][n]. A mode whose part is rounding, or depends on those before, is passed over: of a nearly
-// rigid tube the first ones may be. Returns how many were found.
-static int take_elastic_parts(const tube_line *line, const double *vector, int count, int m,
-                              double *part)
+// [m][n], of which `found` are there. A mode whose part is rounding, or depends on those before, is
+// passed over: of a nearly rigid tube the first ones may be. Returns how many were found.
+static int take_elastic_parts(const tube_line *line, const double *vector, int count, int found,
+                              int m, double *part)
 {
-    int w = line->width, n = line->n, N = w + n, found = 0;
+    int w = line->width, n = line->n, N = w + n;
     for (int k = 0; k < count && found < m; k++) {
         double *e = &part[found * n];
         memcpy(e, &vector[(count - 1 - k) * N + w], (size_t)n * sizeof *e);
@@ -221,7 +317,8 @@ static ld_status diagonalise(const tube_line *line, const double *part, line_sha
 static ld_status choose_shapes(const tube_line *line, const ld_tubes *model, line_shapes *shapes,
                                double *work, ld_error *error)
 {
-    int n = line->n, N = line->width + n, m = shapes->count, count = m + line->width, found = 0;
+    int n = line->n, N = line->width + n, m = shapes->count, count = m + line->width, found = 0,
+        bearing;
     double *vector = work, *lambda = vector + count * N, *part = lambda + N;
     line_ties ties = ties_of(line->kind, model), none = {0};
     ld_status status = solve_free(line, &ties, count, vector, lambda, error);
@@ -231,13 +328,17 @@ static ld_status choose_shapes(const tube_line *line, const ld_tubes *model, lin
         shapes->supported[k] = sqrt(lambda[count - 1 - k]);
     switch (model->modes.span) {
     case LD_SPAN_SUPPORTED:
-        found = take_elastic_parts(line, vector, count, m, part);
-        break;
+        // what is held besides the rigid shapes moves in some of free modes: it bears forces
+        bearing = ties.held > line->width ? ties.held - line->width : 0;
+        found = take_elastic_parts(line, vector, count, 0, m - bearing, part);
+        if (!bearing)
+            break;
+        __attribute__((fallthrough));
     case LD_SPAN_FREE_FREE:
         status = solve_free(line, &none, count, vector, lambda, error);
         if (status)
             return status;
-        found = take_elastic_parts(line, vector, count, m, part);
+        found = take_elastic_parts(line, vector, count, found, m, part);
         break;
     case LD_SPAN_CLAMPED:
         status = take_clamped(line, m, part, error);

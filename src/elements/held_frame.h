@@ -31,6 +31,8 @@ static inline void held_frame_at(const held_frame *self, double tau, base_frame 
     frame->w = v3_add(self->last.w, v3_scale(tau, self->alpha));
     frame->A = m3_mul(rv_exp(turn), self->last.A);
     frame->q = q_from_matrix(frame->A);
+    frame->a = self->a;
+    frame->alpha = self->alpha;
 }
 
 #endif

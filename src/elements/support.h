@@ -21,6 +21,8 @@ typedef struct tube_support {
     v3 K, C, Kr, Cr;    // springs and dampers, base axes
     recoil_slide slide; // in place of those along x
     bool isotropic;     // Kr the same about all three axes
+    int element;        // that holds the station
+    unsigned clamped;   // directions held rigidly, bits of ld_clamp
     double tau[LD_NT];  // torsion shapes there
     double a[LD_NA];    // axial shapes there
 } tube_support;
@@ -28,6 +30,7 @@ typedef struct tube_support {
 typedef struct support_set {
     int count;
     tube_support support[LD_MAX_SUPPORTS];
+    bool clamps; // some direction is held rigidly (clamp.h)
 } support_set;
 
 // A slide's force on the tube along x, what it stores, and the powers of its stops' dampers and of
@@ -152,6 +155,22 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
     out->power[POWER_BASE] = work;
 }
 
+// Springs and dampers along or about x, y, z, `first` being that of x: 0 where held rigidly.
+LD_INLINE v3 springs_of(const ld_support *from, int first)
+{
+    return v3_make(support_spring(from, (ld_clamp)first),
+                   support_spring(from, (ld_clamp)(first + 1)),
+                   support_spring(from, (ld_clamp)(first + 2)));
+}
+
+LD_INLINE v3 dampers_of(const ld_support *from, int first, const double value[3])
+{
+    double left[3];
+    for (int i = 0; i < 3; i++)
+        left[i] = support_clamps(from, (ld_clamp)(first + i)) ? 0 : value[i];
+    return v3_from(left);
+}
+
 // What support k of the model is at its station: springs, dampers, and the shapes there, of which b
 // and b' become rows of the tube.
 LD_INLINE void support_build(const ld_support *from, int k, tube_system *guide, tube_support *to)
@@ -160,10 +179,12 @@ LD_INLINE void support_build(const ld_support *from, int k, tube_system *guide, 
     const tube_element *element = &tube->element[tube->support_element[k]];
     double xi = from->at - element->x0;
     to->x = from->at;
-    to->K = v3_from(from->stiffness);
-    to->C = v3_from(from->damping);
-    to->Kr = v3_from(from->rotational_stiffness);
-    to->Cr = v3_from(from->rotational_damping);
+    to->element = tube->support_element[k];
+    to->clamped = from->clamped;
+    to->K = springs_of(from, LD_CLAMP_X);
+    to->C = dampers_of(from, LD_CLAMP_X, from->damping);
+    to->Kr = springs_of(from, LD_CLAMP_ROLL);
+    to->Cr = dampers_of(from, LD_CLAMP_ROLL, from->rotational_damping);
     to->isotropic = to->Kr.x == to->Kr.y && to->Kr.y == to->Kr.z;
     to->slide = (recoil_slide){from->recoil, to->K.x, to->C.x};
     if (from->recoil.present)
@@ -183,8 +204,11 @@ LD_INLINE void support_build(const ld_support *from, int k, tube_system *guide, 
 LD_INLINE void supports_build(const ld_tubes *model, tube_system *guide, support_set *self)
 {
     self->count = model->support_count;
-    for (int k = 0; k < model->support_count; k++)
+    self->clamps = false;
+    for (int k = 0; k < model->support_count; k++) {
         support_build(&model->support[k], k, guide, &self->support[k]);
+        self->clamps |= model->support[k].clamped != 0;
+    }
 }
 
 #endif

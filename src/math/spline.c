@@ -89,7 +89,8 @@ void spline_free(spline *self)
     *self = (spline){0};
 }
 
-double spline_value(const spline *self, double x, double *slope)
+// The piece that holds x: its coefficients; *from: x - x_i.
+static const double *piece_at(const spline *self, double x, double *from)
 {
     size_t low = 0, high = self->count - 1;
     while (high - low > 1) {
@@ -99,9 +100,22 @@ double spline_value(const spline *self, double x, double *slope)
         else
             high = middle;
     }
-    const double *c = self->coefficient + 4 * low;
-    double t = x - self->x[low];
+    *from = x - self->x[low];
+    return self->coefficient + 4 * low;
+}
+
+double spline_value(const spline *self, double x, double *slope)
+{
+    double t;
+    const double *c = piece_at(self, x, &t);
     if (slope)
         *slope = c[1] + t * (2 * c[2] + t * 3 * c[3]);
     return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+}
+
+double spline_curvature(const spline *self, double x)
+{
+    double t;
+    const double *c = piece_at(self, x, &t);
+    return 2 * c[2] + t * 6 * c[3];
 }

@@ -19,5 +19,7 @@ void spline_free(spline *self);
 
 // Value and slope at x; outside the table the end pieces go on.
 double spline_value(const spline *self, double x, double *slope);
+// Second derivative at x.
+double spline_curvature(const spline *self, double x);
 
 #endif

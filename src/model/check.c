@@ -188,6 +188,14 @@ static void check_field(model_checker *checker, const char *path, const field_ro
     case FIELD_INTEGERS:
         check_integers(checker, path, f, base);
         break;
+    case FIELD_WORDS:
+        for (unsigned left = *(const unsigned *)field_at_const(base, f), bit = 0; left;
+             left >>= 1, bit++)
+            if (left & 1u && !field_word_of(f->words, (int)bit)) {
+                refuse(checker, path, "no value of this choice");
+                break;
+            }
+        break;
     case FIELD_CHOICE:
         check_choice(checker, path, f, base);
         break;

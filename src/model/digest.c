@@ -50,6 +50,7 @@ static uint64_t of_field(uint64_t digest, const field_row *f, const void *base)
     case FIELD_NUMBER:
         return digest_bytes(digest, at, (size_t)f->count * sizeof(double));
     case FIELD_INTEGER:
+    case FIELD_WORDS:
         return digest_bytes(digest, at, sizeof(int));
     case FIELD_INTEGERS:
         digest = of_int(digest, field_switch(base, f));

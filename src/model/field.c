@@ -129,6 +129,8 @@ static void initialise(const field_row *f, void *base)
     } else if (f->kind == FIELD_NUMBER) {
         for (int i = 0; i < f->count; i++)
             ((double *)field_at(base, f))[i] = f->initials ? f->initials[i] : f->initial;
+    } else if (f->kind == FIELD_WORDS) {
+        memset(field_at(base, f), 0, sizeof(unsigned));
     } else if (f->kind == FIELD_INTEGER || f->kind == FIELD_CHOICE) {
         int whole = isnan(f->initial) ? 0 : (int)f->initial;
         memcpy(field_at(base, f), &whole, sizeof whole);
@@ -172,6 +174,7 @@ bool field_same(const field_row *field, const void *a, const void *b)
         return field->offset == FIELD_NOWHERE ||
                same_bytes(field, a, b, (size_t)field->count * sizeof(double));
     case FIELD_INTEGER:
+    case FIELD_WORDS:
         return same_bytes(field, a, b, sizeof(int));
     case FIELD_CHOICE:
         return same_bytes(field, a, b, sizeof(int)) &&
@@ -346,6 +349,10 @@ void field_expectation(const field_row *field, char *text, size_t size)
         return;
     case FIELD_SELECTION:
         snprintf(text, size, "all or a list of names");
+        return;
+    case FIELD_WORDS:
+        text[0] = '\0';
+        append_words(field, false, "all or a list of ", text, size);
         return;
     case FIELD_WORD:
         snprintf(text, size, "a name of letters, digits, - and _ that begins with a letter");

@@ -15,6 +15,7 @@ typedef enum field_kind {
     FIELD_NUMBER,     // `count` doubles with one unit
     FIELD_INTEGER,    // int
     FIELD_INTEGERS,   // array of int, their number at `other`
+    FIELD_WORDS,      // unsigned: a bit, its value, for each of some `words`, or `all`
     FIELD_WORD,       // char[LD_MAX_NAME], a name
     FIELD_QUANTITY,   // char[LD_MAX_QUANTITY], names joined by points
     FIELD_TEXT,       // char *, owned by the model

@@ -20,6 +20,8 @@ enum {
     LD_MAX_SECTIONS = 32,
     LD_MAX_POINT_MASSES = 16,
     LD_MAX_SUPPORTS = 8,
+    LD_MAX_CLAMPED_STATIONS = 4, ///< supports with directions held rigidly
+    LD_MAX_CLAMPED = 12,         ///< such directions in all
     LD_MAX_STATIONS = 16,
     LD_MAX_ADAPTORS = 8,
     LD_MAX_SURFACES = 12,
@@ -398,7 +400,36 @@ typedef struct ld_support {
     double rotational_stiffness[3]; ///< [N m/rad]
     double rotational_damping[3];   ///< [N m s/rad]
     ld_recoil recoil;               ///< along x, between stops of that stiffness and damping
+    unsigned clamped; ///< directions that are held rigidly: bits of ld_clamp; of these no spring
 } ld_support;
+
+/// Directions of a support, along and about the tube's axes.
+typedef enum ld_clamp {
+    LD_CLAMP_X,
+    LD_CLAMP_Y,
+    LD_CLAMP_Z,
+    LD_CLAMP_ROLL,
+    LD_CLAMP_YAW,   ///< about y
+    LD_CLAMP_PITCH, ///< about z
+    LD_CLAMPS
+} ld_clamp;
+
+/// Whether a support holds a direction rigidly.
+static inline bool support_clamps(const ld_support *support, ld_clamp direction)
+{
+    return support->clamped >> direction & 1u;
+}
+
+/// Spring along or about an axis: 0 in directions held rigidly and where none is given.
+static inline double support_spring(const ld_support *support, ld_clamp direction)
+{
+    if (support_clamps(support, direction))
+        return 0;
+    if (direction >= LD_CLAMP_ROLL)
+        return support->rotational_stiffness[direction - LD_CLAMP_ROLL];
+    double along = support->stiffness[direction];
+    return along >= 0 ? along : 0;
+}
 
 /// Where it is asked for what the tube carries.
 typedef struct ld_station {

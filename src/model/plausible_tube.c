@@ -104,7 +104,9 @@ FIND(support_frequency)
     const ld_tubes *tubes = &at->model->tubes;
     double stiffness = 0;
     for (int i = 0; i < tubes->support_count; i++)
-        stiffness += tubes->support[i].stiffness[1];
+        stiffness += support_clamps(&tubes->support[i], LD_CLAMP_Y)
+                         ? NAN
+                         : support_spring(&tubes->support[i], LD_CLAMP_Y);
     double mass = plausible_tube_mass(tubes) + at->model->rocket.full.mass;
     return plausible_alone(stiffness > 0 ? sqrt(stiffness / mass) / (2 * PI) : NAN);
 }

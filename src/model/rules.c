@@ -183,6 +183,14 @@ void inertia_rule(const rule_set *rules, const char *path, const double J[3],
                J[2]);
 }
 
+// Stiffness of a support in a direction; of one that it holds rigidly a large one.
+static double stiffness_of(const ld_support *support, ld_clamp direction)
+{
+    if (support_clamps(support, direction))
+        return 1e20;
+    return support_spring(support, direction);
+}
+
 // Whether a beam on these springs is held against translation and tilt in one plane: the 2 x 2
 // stiffness [sum k, sum k x; sum k x, sum k x^2 + sum r] must be regular.
 static bool plane_held(const ld_tubes *tubes, int along, int about)
@@ -190,13 +198,78 @@ static bool plane_held(const ld_tubes *tubes, int along, int about)
     double k0 = 0, k1 = 0, k2 = 0, r = 0;
     for (int i = 0; i < tubes->support_count; i++) {
         const ld_support *s = &tubes->support[i];
-        double k = s->stiffness[along];
+        double k = stiffness_of(s, (ld_clamp)(LD_CLAMP_X + along));
         k0 += k;
         k1 += k * s->at;
         k2 += k * s->at * s->at;
-        r += s->rotational_stiffness[about];
+        r += stiffness_of(s, (ld_clamp)(LD_CLAMP_ROLL + about));
     }
     return !(k0 * (k2 + r) - k1 * k1 <= 1e-12 * k0 * (k2 + r));
+}
+
+// A support has springs, or directions that it holds rigidly.
+static void clamped_rule(const rule_set *rules, int i)
+{
+    const ld_support *support = &rules->model->tubes.support[i];
+    if (isnan(support->stiffness[0]) && !support->clamped)
+        broken(rules, "tubes.supports.#.stiffness", i + 1,
+               "missing; expected three numbers and one unit of N/m, >= 0 N/m");
+    if (support->clamped && model_has_vehicle(rules->model))
+        broken(
+            rules, "tubes.supports.#.clamped", i + 1,
+            "goes with a base that goes where it is told; of a vehicle's platform the tube knows "
+            "no acceleration: give stiff springs");
+    if (support->clamped && rules->model->tubes.station_count > 0)
+        broken(rules, "tubes.supports.#.clamped", i + 1,
+               "tubes.loads does not tell what clamps put on the tube; give stiff springs");
+    if (support->clamped && rules->model->run.formulation == LD_FORMULATION_OVERALL)
+        broken(rules, "tubes.supports.#.clamped", i + 1,
+               "goes with run.formulation: reduced; the overall form has springs alone");
+    for (int k = 0; k < i && support->clamped; k++)
+        if (support[k - i].clamped && support[k - i].at == support->at)
+            broken(rules, "tubes.supports.#.clamped", i + 1,
+                   "support %d holds the station at %g m already", k + 1, support->at);
+}
+
+// Directions held rigidly must be fewer than what tube and modes can follow.
+static void clamps_rules(const rule_set *rules)
+{
+    static const struct {
+        ld_clamp first, second; // value and slope of a line
+        int rigid;
+        const char *what;
+    } line[] = {
+        {LD_CLAMP_X, LD_CLAMP_X, 1, "x"},
+        {LD_CLAMP_ROLL, LD_CLAMP_ROLL, 1, "roll"},
+        {LD_CLAMP_Y, LD_CLAMP_PITCH, 2, "y and pitch"},
+        {LD_CLAMP_Z, LD_CLAMP_YAW, 2, "z and yaw"},
+    };
+    const ld_tubes *tubes = &rules->model->tubes;
+    const int modes[] = {tubes->modes.axial, tubes->modes.torsion, tubes->modes.bending,
+                         tubes->modes.bending};
+    int stations = 0, all = 0;
+    for (int i = 0; i < tubes->support_count; i++) {
+        stations += tubes->support[i].clamped != 0;
+        for (int k = 0; k < LD_CLAMPS; k++)
+            all += support_clamps(&tubes->support[i], (ld_clamp)k);
+    }
+    if (stations > LD_MAX_CLAMPED_STATIONS || all > LD_MAX_CLAMPED)
+        broken(rules, "tubes.supports", 0,
+               "%d clamped stations hold %d directions; at most %d and %d are allowed", stations,
+               all, LD_MAX_CLAMPED_STATIONS, LD_MAX_CLAMPED);
+    for (int l = 0; l < 4; l++) {
+        int held = 0;
+        for (int i = 0; i < tubes->support_count; i++) {
+            held += support_clamps(&tubes->support[i], line[l].first);
+            if (line[l].second != line[l].first)
+                held += support_clamps(&tubes->support[i], line[l].second);
+        }
+        if (held > line[l].rigid + modes[l])
+            broken(rules, "tubes.supports", 0,
+                   "they clamp %d directions of %s, which a tube of %d modes there cannot follow: "
+                   "at most %d",
+                   held, line[l].what, modes[l], line[l].rigid + modes[l]);
+    }
 }
 
 // The tube recoils on slides, or it is held along x: not both.
@@ -205,13 +278,18 @@ static void recoil_rules(const rule_set *rules)
     const ld_tubes *tubes = &rules->model->tubes;
     int holds = 0;
     for (int i = 0; i < tubes->support_count; i++)
-        if (!tubes->support[i].recoil.present && tubes->support[i].stiffness[0] > 0)
+        if (!tubes->support[i].recoil.present &&
+            (support_spring(&tubes->support[i], LD_CLAMP_X) > 0 ||
+             support_clamps(&tubes->support[i], LD_CLAMP_X)))
             holds = i + 1;
     for (int i = 0; i < tubes->support_count; i++) {
         const ld_support *support = &tubes->support[i];
         if (!support->recoil.present)
             continue;
-        if (support->stiffness[0] == 0)
+        if (support_clamps(support, LD_CLAMP_X))
+            broken(rules, "tubes.supports.#.recoil", i + 1,
+                   "this support clamps x, along which the tube would recoil");
+        else if (support_spring(support, LD_CLAMP_X) == 0)
             broken(rules, "tubes.supports.#.stiffness", i + 1,
                    "0 N/m along x, where the stops of its recoil need it");
         if (holds)
@@ -229,9 +307,11 @@ static void support_rules(const rule_set *rules)
     double along = 0, about = 0;
     for (int i = 0; i < tubes->support_count; i++) {
         station_rule(rules, "tubes.supports.#.at", i + 1, tubes->support[i].at);
-        along += tubes->support[i].stiffness[0];
-        about += tubes->support[i].rotational_stiffness[0];
+        along += stiffness_of(&tubes->support[i], LD_CLAMP_X);
+        about += stiffness_of(&tubes->support[i], LD_CLAMP_ROLL);
+        clamped_rule(rules, i);
     }
+    clamps_rules(rules);
     if (rules->model->run.start != LD_START_EQUILIBRIUM)
         return;
     if (along <= 0)

@@ -677,6 +677,9 @@ static const field_row tail_fields[] = {
     {0}};
 static const field_block tail_block = {.fields = tail_fields};
 
+static const field_word clamp_words[] = {
+    {"x", LD_CLAMP_X},     {"y", LD_CLAMP_Y},         {"z", LD_CLAMP_Z}, {"roll", LD_CLAMP_ROLL},
+    {"yaw", LD_CLAMP_YAW}, {"pitch", LD_CLAMP_PITCH}, {NULL, 0}};
 static const field_row recoil_fields[] = {
     {"preload", NUMBER(ld_recoil, preload, "N"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "force towards battery from which on the tube gives way"},
@@ -698,7 +701,8 @@ static const field_word recoil_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 
 static const field_row support_fields[] = {
     {"at", NUMBER(ld_support, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
-    {"stiffness", VECTOR(ld_support, stiffness, "N/m", 3), NOT_NEGATIVE, REQUIRED,
+    {"stiffness", VECTOR(ld_support, stiffness, "N/m", 3), NOT_NEGATIVE,
+     NO_DEFAULT("needed unless directions are clamped; none then"),
      .doc = "along x, y, z of the tube"},
     {"damping", VECTOR(ld_support, damping, "N.s/m", 3), NOT_NEGATIVE, DEFAULT(0),
      .doc = "along x, y, z"},
@@ -706,6 +710,8 @@ static const field_row support_fields[] = {
      DEFAULT(0), .doc = "about x, y, z"},
     {"rotational_damping", VECTOR(ld_support, rotational_damping, "N.m.s/rad", 3), NOT_NEGATIVE,
      DEFAULT(0), .doc = "about x, y, z"},
+    {"clamped", .kind = FIELD_WORDS, .offset = offsetof(ld_support, clamped), .words = clamp_words,
+     .initial_doc = "none", .doc = "directions held rigidly, without springs"},
     {"recoil", BLOCK(ld_support, recoil, recoil_block), .initial_doc = "none",
      SWITCH(ld_support, recoil.present, recoil_words), .other_is_bool = true,
      .doc = "slide along x on which the tube recoils; the support's stiffness and damping along x "

@@ -79,6 +79,25 @@ static void print_selection(FILE *stream, const field_row *f, const void *base)
     fprintf(stream, marked ? "]" : "[]");
 }
 
+// The words whose bits are set; `all` where all are.
+static void print_words(FILE *stream, const field_row *f, unsigned bits)
+{
+    unsigned all = 0;
+    for (const field_word *w = f->words; w->name; w++)
+        all |= 1u << w->value;
+    if (bits == all) {
+        fprintf(stream, "all");
+        return;
+    }
+    const char *between = "[";
+    for (const field_word *w = f->words; w->name; w++)
+        if (bits >> w->value & 1u) {
+            fprintf(stream, "%s%s", between, w->name);
+            between = ", ";
+        }
+    fprintf(stream, "]");
+}
+
 // A value that fits on one line.
 static void print_scalar(FILE *stream, const field_row *f, const void *base)
 {
@@ -106,6 +125,9 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
     case FIELD_SELECTION:
         print_selection(stream, f, base);
         return;
+    case FIELD_WORDS:
+        print_words(stream, f, *(const unsigned *)field_at_const(base, f));
+        return;
     default: // FIELD_TEXT; the others have no place on a line
         scenario_print_text(stream, *(char *const *)field_at_const(base, f));
         return;
@@ -116,6 +138,8 @@ static bool has_value(const field_row *f, const void *base)
 {
     if (f->kind == FIELD_NUMBER)
         return !isnan(*(const double *)field_at_const(base, f));
+    if (f->kind == FIELD_WORDS)
+        return *(const unsigned *)field_at_const(base, f) != 0;
     if (f->kind == FIELD_TEXT)
         return *(char *const *)field_at_const(base, f) != NULL;
     if (f->kind == FIELD_TABLE)

@@ -182,7 +182,8 @@ static void tell_supports(FILE *stream, const ld_tubes *tubes)
     fprintf(stream, "# supports:");
     for (int i = 0; i < tubes->support_count; i++) {
         const ld_support *support = &tubes->support[i];
-        fprintf(stream, "%s springs at %s", i ? "," : "", METRES(support->at));
+        fprintf(stream, "%s %s at %s", i ? "," : "", support->clamped ? "a clamp" : "springs",
+                METRES(support->at));
         if (!support->recoil.present)
             continue;
         fprintf(stream, " with a recoil slide");

@@ -466,6 +466,33 @@ static void read_selection(scenario_reader *reader, const field_row *f, const tr
     }
 }
 
+// Some of a row's words, or `all`, as bits.
+static void read_words(scenario_reader *reader, const field_row *f, const tree_node *value,
+                       void *base, const char *path)
+{
+    unsigned bits = 0;
+    int number = 0;
+    bool all = value->kind == NODE_SCALAR && strcmp(value->text, "all") == 0;
+    if (!all && value->kind != NODE_LIST) {
+        static const field_word words[] = {{"all", 1}, {NULL, 0}};
+        refuse_word(reader, f, words, value, path);
+        return;
+    }
+    for (const field_word *w = f->words; all && w->name; w++)
+        bits |= 1u << w->value;
+    for (const tree_node *entry = all ? NULL : value->first; entry; entry = entry->next) {
+        char inner_path[PATH];
+        entry_path(inner_path, path, entry, ++number);
+        const field_word *word =
+            entry->kind == NODE_SCALAR ? field_word_find(f->words, entry->text) : NULL;
+        if (word)
+            bits |= 1u << word->value;
+        else
+            refuse_word(reader, f, f->words, entry, inner_path);
+    }
+    memcpy(field_at(base, f), &bits, sizeof bits);
+}
+
 static void read_field(scenario_reader *reader, const field_row *f, const tree_node *value,
                        void *base, const char *path)
 {
@@ -481,6 +508,9 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
         break;
     case FIELD_SELECTION:
         read_selection(reader, f, value, base, path);
+        break;
+    case FIELD_WORDS:
+        read_words(reader, f, value, base, path);
         break;
     case FIELD_CHOICE:
         read_choice(reader, f, value, base, path);

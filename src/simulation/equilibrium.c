@@ -188,6 +188,12 @@ static void launching_residual(const problem *the, const double *y, const launch
         rocket[count] = a.x;
 }
 
+// A base in its pose that does not move.
+static void at_rest(base_frame *base)
+{
+    base->v = base->w = base->a = base->alpha = v3_zero();
+}
+
 // What must vanish in equilibrium.
 static int residual(const problem *the, const double *y, double *r)
 {
@@ -202,7 +208,7 @@ static int residual(const problem *the, const double *y, double *r)
     const base_system *base = &launcher->base;
     if (base->kind->dynamics)
         base->kind->dynamics->rest_of(y + launcher->base_at, &input.rest);
-    input.launching.base.v = input.launching.base.w = v3_zero();
+    at_rest(&input.launching.base);
     input.launching.thrust = 0;
     input.launching.pressure_piece = 0;
     if (the->dead) {
@@ -387,7 +393,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
     launcher_output out;
     double r[MAX_FREEDOMS];
     simulation_input(self, the->t, y, &input);
-    input.launching.base.v = input.launching.base.w = v3_zero();
+    at_rest(&input.launching.base);
     input.launching.thrust = 0;
     input.launching.pressure_piece = 0;
     input.formulation = LD_FORMULATION_REDUCED;

@@ -55,7 +55,9 @@ void plant_add(plant *to, double factor, const plant *what)
 ld_status plant_inputs(const ld_simulation *simulation, quantity_columns *inputs, ld_error *error)
 {
     quantity_things things = quantity_things_of(simulation->model);
-    const quantity_part parts[] = {{simulation->launcher.base.kind->inputs, 0},
+    // through clamps the base acts by its acceleration, too, which is no input
+    bool clamped = simulation->launcher.launching.supports.clamps;
+    const quantity_part parts[] = {{clamped ? NULL : simulation->launcher.base.kind->inputs, 0},
                                    {&launcher_inputs, 0}};
     return quantity_columns_make(inputs, parts, 2, &things, error);
 }

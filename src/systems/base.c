@@ -80,7 +80,20 @@ static const quantity_group motion_groups[] = {
 };
 const quantity_table base_motion_inputs = {motion_groups, 1};
 
-void base_frame_at(const double x[6], const double u[6], const m3 *mount, base_frame *tube)
+// Derivative of w = yaw' e_y + Ry w_1, w_1 = pitch' e_z + Rz roll' e_x.
+static v3 angular_acceleration(const double u[6], const double a[6], const m3 *Ry, const m3 *Rz)
+{
+    v3 rolling = m3_apply(*Rz, v3_make(u[5], 0, 0)), pitching = v3_make(0, 0, u[4]);
+    v3 w_1 = v3_add(pitching, rolling);
+    v3 rate = v3_add(m3_apply(*Rz, v3_make(a[5], 0, 0)), v3_cross(pitching, rolling));
+    rate.z += a[4];
+    v3 alpha = v3_add(m3_apply(*Ry, rate), v3_cross(v3_make(0, u[3], 0), m3_apply(*Ry, w_1)));
+    alpha.y += a[3];
+    return alpha;
+}
+
+void base_frame_at(const double x[6], const double u[6], const double a[6], const m3 *mount,
+                   base_frame *tube)
 {
     // A_base = Ry(yaw) Rz(pitch) Rx(roll); w = yaw' e_y + Ry (pitch' e_z + Rz roll' e_x)
     m3 Ry = m3_rotation_y(x[3]), Rz = m3_rotation_z(x[4]), Rx = m3_rotation_x(x[5]);
@@ -94,6 +107,8 @@ void base_frame_at(const double x[6], const double u[6], const m3 *mount, base_f
     tube->A = m3_mul(A, *mount);
     tube->q = q_from_matrix(tube->A);
     tube->w = w;
+    tube->a = v3_make(a[0], a[1], a[2]);
+    tube->alpha = angular_acceleration(u, a, &Ry, &Rz);
 }
 
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3])

@@ -176,9 +176,10 @@ void base_free_share(base_system *self);
 // First and last time [s] at which the base knows where it is.
 void base_span(const base_system *self, double *first, double *last);
 
-// Frame T of a base with these coordinates, x, y, z [m], yaw, pitch, roll [rad], and their rates u,
-// its tube mounted so: A_base,tube.
-void base_frame_at(const double x[6], const double u[6], const m3 *mount, base_frame *tube);
+// Frame T of a base with these coordinates, x, y, z [m], yaw, pitch, roll [rad], their rates u and
+// accelerations a, its tube mounted so: A_base,tube.
+void base_frame_at(const double x[6], const double u[6], const double a[6], const m3 *mount,
+                   base_frame *tube);
 
 // Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);

@@ -21,11 +21,12 @@ static const ld_sines *sines_of(const ld_base *model, int i)
     return all[i];
 }
 
-// Value and rate of coordinate i: x, y, z, yaw, pitch, roll.
-static double coordinate(const base_motion *self, int i, double t, double *rate)
+// Value, rate and acceleration of coordinate i: x, y, z, yaw, pitch, roll.
+static double coordinate(const base_motion *self, int i, double t, double *rate,
+                         double *acceleration)
 {
     double value = 0;
-    *rate = 0;
+    *rate = *acceleration = 0;
     if (i < 3) {
         value = self->model->velocity[i] * t;
         *rate = self->model->velocity[i];
@@ -36,25 +37,28 @@ static double coordinate(const base_motion *self, int i, double t, double *rate)
         double angle = omega * t + sines->term[k].phase;
         value += sines->term[k].amplitude * sin(angle);
         *rate += sines->term[k].amplitude * omega * cos(angle);
+        *acceleration -= sines->term[k].amplitude * omega * omega * sin(angle);
     }
     if (self->path[i].count) {
         double slope;
         value += spline_value(&self->path[i], t, &slope);
         *rate += slope;
+        *acceleration += spline_curvature(&self->path[i], t);
     }
     return value;
 }
 
 // Where it is at time t; linearised it rests in the attitude of t, in the origin.
-static void coordinates(const base_system *base, double t, double x[6], double u[6])
+static void coordinates(const base_system *base, double t, double x[6], double u[6], double a[6])
 {
     const base_disturbance *disturbed = base->disturbed;
     for (int i = 0; i < 6; i++) {
-        x[i] = coordinate(base->own, i, t, &u[i]);
+        x[i] = coordinate(base->own, i, t, &u[i], &a[i]);
         if (!disturbed)
             continue;
         x[i] = (i < 3 ? 0 : x[i]) + disturbed->input.motion[i];
         u[i] = disturbed->rate.motion[i];
+        a[i] = 0;
     }
 }
 
@@ -63,9 +67,9 @@ static void place(const base_system *base, double t, const double *state, base_f
 {
     (void)state, (void)found;
     const base_motion *self = base->own;
-    double x[6], u[6];
-    coordinates(base, t, x, u);
-    base_frame_at(x, u, &self->mount, frame);
+    double x[6], u[6], a[6];
+    coordinates(base, t, x, u, a);
+    base_frame_at(x, u, a, &self->mount, frame);
 }
 
 static ld_status build_paths(base_motion *self, ld_error *error)
@@ -109,8 +113,8 @@ static void release(base_system *base)
 // Of the base itself, without azimuth and elevation.
 static void angles(const base_system *base, double t, double angles[3])
 {
-    double x[6], u[6];
-    coordinates(base, t, x, u);
+    double x[6], u[6], a[6];
+    coordinates(base, t, x, u, a);
     memcpy(angles, x + 3, 3 * sizeof *angles);
 }
 

@@ -169,7 +169,7 @@ void launching_free(launching_system *self)
 
 bool launching_holds_places(const launching_system *self)
 {
-    return self->adaptors.law.held;
+    return self->adaptors.law.held || self->supports.clamps;
 }
 
 // ---- rates ----

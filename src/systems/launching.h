@@ -6,6 +6,7 @@
 
 #include "elements/adaptor.h"
 #include "elements/breech.h"
+#include "elements/clamp.h"
 #include "elements/crossflow.h"
 #include "elements/guide_cut.h"
 #include "elements/ideal.h"

@@ -25,18 +25,35 @@ LD_INLINE void launching_touch(const int lanes, const launching_system *self,
 typedef struct launching_constraints {
     constraint_set set;
     adaptor_state adaptor[IDEAL_MOST_ADAPTORS];
+    clamped_section clamped[LD_MAX_CLAMPED_STATIONS];
 } launching_constraints;
 
 LD_INLINE void launching_constrain(const int lanes, const launching_system *self,
                                    const launching_instant *now, launching_constraints *all)
 {
     constraint_set *set = &all->set;
-    constraints_begin(lanes, &self->tube, now, set);
-    if (self->slot.present)
-        slot_constrain(&self->slot, now, set);
-    if (now->phase->locked)
-        lock_constrain(&self->lock, now, set);
-    ideal_constrain(lanes, &self->adaptors, &self->tube, now, all->adaptor, set);
+    constraints_begin(set);
+    if (now->phase->rocket) {
+        rocket_section_add(lanes, &self->tube, now, set);
+        if (self->slot.present)
+            slot_constrain(&self->slot, now, set);
+        if (now->phase->locked)
+            lock_constrain(&self->lock, now, set);
+        ideal_constrain(lanes, &self->adaptors, &self->tube, now, all->adaptor, set);
+    }
+    clamp_constrain(lanes, &self->supports, &self->tube, now, all->clamped, set);
+}
+
+// The forces found.
+LD_INLINE void launching_report(const launching_system *self, const launching_instant *now,
+                                const constraint_set *set, launching_output *out)
+{
+    if (now->phase->rocket) {
+        constraints_report(set, out);
+        ideal_report(&self->adaptors, set, out);
+    }
+    if (set->clamp_row < set->count)
+        clamp_report(now, set, out);
 }
 
 #endif

@@ -2,26 +2,15 @@
 // section 5. One pass over the elements, no memory but the stack.
 #include "systems/launching_constraints.h"
 
-LD_INLINE void finish_without_rocket(const int lanes, const launching_system *self,
-                                     const tube_state *tube, const tube_force *h,
-                                     launching_output *out)
-{
-    v3 f, m;
-    double rigid[6];
-    tube_condense(lanes, &self->tube, tube, h, &f, &m);
-    tube_forward(tube, v3_sub(h->f, f), v3_sub(h->m, m), rigid);
-    tube_backward(tube, rigid, &out->a, &out->w_dot);
-    tube_modal_accelerations(lanes, &self->tube, tube, NULL, h, v3_zero(), v3_zero(), out->a,
-                             out->w_dot, out->q_ddot);
-}
-
 // Accelerations without constraint forces: r_O and, forward-substituted, e_0.
 LD_INLINE void accelerate_freely(const int lanes, const launching_system *self,
                                  const launching_instant *now, constrained *to)
 {
     v3 f, m;
     const tube_force *h = &now->on_tube;
-    rocket_solve(&now->inertia, now->f, now->m, &to->a, &to->alpha);
+    to->a = to->alpha = v3_zero();
+    if (now->phase->rocket)
+        rocket_solve(&now->inertia, now->f, now->m, &to->a, &to->alpha);
     tube_condense(lanes, &self->tube, &now->tube, h, &f, &m);
     tube_forward(&now->tube, v3_sub(h->f, f), v3_sub(h->m, m), to->rigid);
     constrained_begin(to);
@@ -55,11 +44,29 @@ LD_INLINE void accelerate_tube(const int lanes, const launching_system *self,
                                const launching_instant *now, const constraint_set *set,
                                const constrained *all, v3 *a, v3 *w_dot, double *q_ddot)
 {
+    bool rocket = now->phase->rocket;
     tube_backward(&now->tube, all->rigid, a, w_dot);
-    tube_modal_accelerations(lanes, &self->tube, &now->tube, &set->section[0].shapes, &now->on_tube,
-                             all->force[0], all->mu[0], *a, *w_dot, q_ddot);
-    for (int i = 1; i < set->section_count; i++)
+    tube_modal_accelerations(lanes, &self->tube, &now->tube,
+                             rocket ? &set->section[0].shapes : NULL, &now->on_tube, all->force[0],
+                             all->mu[0], *a, *w_dot, q_ddot);
+    for (int i = rocket; i < set->section_count; i++)
         react_on_modes(&self->tube, &set->section[i].shapes, all->force[i], all->mu[i], q_ddot);
+}
+
+// The rocket and what acts on it and between it and the tube, besides constraints.
+LD_INLINE void load_and_touch_rocket(const int lanes, const launching_system *self,
+                                     const double *state, launching_instant *now)
+{
+    const launching_input *input = now->input;
+    rocket_load(&self->tube, &self->layout, state, &now->tube, &now->rocket, now->out);
+    rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
+    rocket_forces(&self->rocket->motor, now);
+    crossflow_add(&self->crossflow, &self->tube, now);
+    pressure_add(&self->pressure, now);
+    if (input->load)
+        load_rocket(input->load, now);
+    launching_touch(lanes, self, now);
+    breech_add(lanes, &self->adaptors.law, &self->tube, now);
 }
 
 LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *self,
@@ -78,19 +85,8 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     tube_factor(&self->tube, &now.tube);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, &now);
-    if (!phase->rocket) {
-        finish_without_rocket(lanes, self, &now.tube, &now.on_tube, out);
-        return LAUNCHING_OK;
-    }
-    rocket_load(&self->tube, &self->layout, state, &now.tube, &now.rocket, out);
-    rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
-    rocket_forces(&self->rocket->motor, &now);
-    crossflow_add(&self->crossflow, &self->tube, &now);
-    pressure_add(&self->pressure, &now);
-    if (input->load)
-        load_rocket(input->load, &now);
-    launching_touch(lanes, self, &now);
-    breech_add(lanes, &self->adaptors.law, &self->tube, &now);
+    if (phase->rocket)
+        load_and_touch_rocket(lanes, self, state, &now);
 
     launching_constraints constraints;
     constrained all;
@@ -98,8 +94,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     launching_constrain(lanes, self, &now, &constraints);
     if (!constrain(lanes, self, &now, &constraints.set, &all))
         return LAUNCHING_JAMMED;
-    constraints_report(&constraints.set, out);
-    ideal_report(&self->adaptors, &constraints.set, out);
+    launching_report(self, &now, &constraints.set, out);
     constraints_record(&now, &constraints.set);
     out->a_O1 = all.a;
     out->alpha_B = all.alpha;
@@ -140,26 +135,78 @@ launching_outcome launching_evaluate(const launching_system *self, const launchi
     return evaluate_any(self, input, phase, state, out);
 }
 
-// An impulse along the constraints that takes their drift out of the speeds: V -= r D^-1 drift,
-// eta += e D^-1 drift.
+// An impulse along the constraints that takes what is wrong, e.g. their drift, out of the speeds:
+// D x = -wrong, V += r x, eta -= e x.
+static void find_impulse(int lanes, const launching_system *self, const launching_instant *now,
+                         const constraint_set *set, const double *wrong, constrained *impulse)
+{
+    constraint_products D;
+    double x[LD_MAX_CONSTRAINTS];
+    *impulse = (constrained){.a = v3_zero()};
+    constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
+    ldl_factor(set->count, LD_MAX_CONSTRAINTS, D.D[0]);
+    for (int i = 0; i < set->count; i++)
+        x[i] = -wrong[i];
+    ldl_solve(set->count, LD_MAX_CONSTRAINTS, D.D[0], x);
+    for (int i = 0; i < set->count; i++)
+        constraint_apply(&set->e[i], x[i], impulse);
+}
+
+static void load_to_project(int lanes, const launching_system *self, const double *state,
+                            launching_instant *now)
+{
+    memset(&now->on_tube, 0, sizeof now->on_tube);
+    tube_load(lanes, &self->tube, &self->layout, state, &now->tube);
+    tube_factor(&self->tube, &now->tube);
+}
+
+// Puts the tube where its clamps hold it, by displacements along their forces.
+static void place_on_clamps(int lanes, const launching_system *self, const launching_instant *given,
+                            double *state)
+{
+    const launching_layout *at = &self->layout;
+    const launching_phase tube_alone = {.rocket = false};
+    launching_instant now = *given;
+    now.phase = &tube_alone;
+    for (int pass = 0; pass < 3; pass++) {
+        launching_constraints clamps;
+        constrained shift;
+        double wrong[LD_MAX_CONSTRAINTS], q[LD_MAX_MODAL] = {0}, most = 0; // no axial ones
+        v3 r, turn;
+        load_to_project(lanes, self, state, &now);
+        launching_constrain(lanes, self, &now, &clamps);
+        for (int i = 0; i < clamps.set.count; i++) {
+            wrong[i] = clamps.set.e[i].error;
+            most = fmax(most, fabs(wrong[i]));
+        }
+        if (most < 1e-15)
+            return;
+        find_impulse(lanes, self, &now, &clamps.set, wrong, &shift);
+        accelerate_tube(lanes, self, &now, &clamps.set, &shift, &r, &turn, q);
+        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(turn));
+        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, r)));
+        memcpy(state + at->quaternion, &turned, sizeof turned);
+        for (int i = 0; i < at->nq; i++)
+            state[at->q + i] += q[i];
+    }
+}
+
+// Takes the drift of all constraints out of the speeds.
 static void remove_drift(int lanes, const launching_system *self, const launching_instant *now,
                          const constraint_set *set, double *state)
 {
     const launching_layout *at = &self->layout;
-    constraint_products D;
-    constrained impulse = {.a = v3_zero()};
-    double x[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
+    constrained impulse;
+    double drift[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
     v3 v, w;
-    constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
-    ldl_factor(set->count, LD_MAX_CONSTRAINTS, D.D[0]);
     for (int i = 0; i < set->count; i++)
-        x[i] = -set->e[i].drift;
-    ldl_solve(set->count, LD_MAX_CONSTRAINTS, D.D[0], x);
-    for (int i = 0; i < set->count; i++)
-        constraint_apply(&set->e[i], x[i], &impulse);
+        drift[i] = set->e[i].drift;
+    find_impulse(lanes, self, now, set, drift, &impulse);
     accelerate_tube(lanes, self, now, set, &impulse, &v, &w, q_dot);
-    v3_store(state + at->V, v3_add(now->rocket.v_O1, impulse.a));
-    v3_store(state + at->V + 3, v3_add(now->rocket.w_B, impulse.alpha));
+    if (now->phase->rocket) {
+        v3_store(state + at->V, v3_add(now->rocket.v_O1, impulse.a));
+        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, impulse.alpha));
+    }
     v3_store(state + at->v, v3_add(now->tube.v, v));
     v3_store(state + at->w, v3_add(now->tube.w, w));
     for (int i = 0; i < at->nq; i++)
@@ -169,23 +216,20 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
 void launching_project(const launching_system *self, const launching_input *input,
                        const launching_phase *phase, double *state)
 {
-    if (!phase->rocket)
-        return;
     const launching_layout *at = &self->layout;
     int lanes = self->tube.flexible.nbp / 4;
     launching_output unused;
-    launching_instant now;
     launching_constraints constraints;
-    now.input = input;
-    now.phase = phase;
-    now.out = &unused;
-    memset(&now.on_tube, 0, sizeof now.on_tube);
-    tube_load(lanes, &self->tube, at, state, &now.tube);
-    tube_factor(&self->tube, &now.tube);
-    if (self->adaptors.law.held)
-        ideal_place(&self->adaptors, &self->tube, at, phase, &now.tube, state);
-    rocket_load(&self->tube, at, state, &now.tube, &now.rocket, &unused);
-    rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
+    launching_instant now = {.input = input, .phase = phase, .out = &unused};
+    if (self->supports.clamps)
+        place_on_clamps(lanes, self, &now, state);
+    load_to_project(lanes, self, state, &now);
+    if (phase->rocket) {
+        if (self->adaptors.law.held)
+            ideal_place(&self->adaptors, &self->tube, at, phase, &now.tube, state);
+        rocket_load(&self->tube, at, state, &now.tube, &now.rocket, &unused);
+        rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
+    }
     launching_constrain(lanes, self, &now, &constraints);
     if (constraints.set.count)
         remove_drift(lanes, self, &now, &constraints.set, state);

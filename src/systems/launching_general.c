@@ -50,12 +50,9 @@ static void modal_energies(const launching_system *self, const double *state, la
 static void direction_force(const uncoupled *u, const tube_section_state *section,
                             const constraint_direction *e, double *B)
 {
-    // the wrench on the rocket about O1, moved to the section's axis point
-    v3 arm = v3_sub(u->now.rocket.p1, section->position);
-    v3 m = v3_add(e->G_m, v3_cross(arm, e->G_f));
     double wrench[6];
-    v3_store(wrench, e->G_f);
-    v3_store(wrench + 3, m);
+    v3_store(wrench, e->force);
+    v3_store(wrench + 3, e->moment);
     for (int j = 0; j < u->n; j++) {
         B[j] = 0;
         for (int i = 0; i < 6; i++)
@@ -67,14 +64,16 @@ static void load_direction_forces(const launching_system *self, const double *q,
                                   const double *q_dot, uncoupled *u)
 {
     const constraint_set *set = &u->c.set;
-    tube_section_state section[LD_MAX_CONSTRAINT_SECTIONS];
-    for (int i = 0; i < set->section_count; i++)
-        tube_section(&self->tube.flexible, set->section[i].at->x, u->now.tube.w, q, q_dot,
-                     &section[i]);
-    for (int i = 0; i < set->count; i++)
-        direction_force(u, &section[set->e[i].section], &set->e[i], u->B[i]);
-    if (set->sliding)
-        direction_force(u, &section[set->tangent.section], &set->tangent, u->B[MAX_CONSTRAINTS]);
+    for (int k = 0; k < set->section_count; k++) {
+        tube_section_state section;
+        tube_section(&self->tube.flexible, set->section[k].at->x, u->now.tube.w, q, q_dot,
+                     &section);
+        for (int i = 0; i < set->count; i++)
+            if (set->e[i].section == k)
+                direction_force(u, &section, &set->e[i], u->B[i]);
+        if (set->sliding && set->tangent.section == k)
+            direction_force(u, &section, &set->tangent, u->B[MAX_CONSTRAINTS]);
+    }
 }
 
 static void load_uncoupled(const launching_system *self, const launching_input *input,
@@ -101,7 +100,6 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     supports_add(lanes, &self->supports, &self->tube, now);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, now);
-    u->c.set.count = 0;
     if (phase->rocket) {
         rocket_load(&self->tube, at, state, &now->tube, &now->rocket, out);
         rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
@@ -112,10 +110,10 @@ static void load_uncoupled(const launching_system *self, const launching_input *
             load_rocket(input->load, now);
         launching_touch(lanes, self, now);
         breech_add(lanes, &self->adaptors.law, &self->tube, now);
-        tube_factor(&self->tube, &now->tube);
-        launching_constrain(lanes, self, now, &u->c);
-        load_direction_forces(self, q, q_dot, u);
     }
+    tube_factor(&self->tube, &now->tube);
+    launching_constrain(lanes, self, now, &u->c);
+    load_direction_forces(self, q, q_dot, u);
     flatten(self, &now->on_tube, u->h);
 }
 
@@ -169,10 +167,11 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
     if (cholesky_factor(n, M2))
         return LAUNCHING_NOT_FINITE;
     cholesky_solve(n, M2, e_0);
-    if (phase->rocket) {
-        v3 r_a, r_alpha;
+    if (phase->rocket || count) {
+        v3 r_a = v3_zero(), r_alpha = v3_zero();
         double r[MAX_CONSTRAINTS];
-        rocket_solve(&u->now.inertia, u->now.f, u->now.m, &r_a, &r_alpha);
+        if (phase->rocket)
+            rocket_solve(&u->now.inertia, u->now.f, u->now.m, &r_a, &r_alpha);
         for (int i = 0; i < count + u->c.set.sliding; i++) {
             int row = i < count ? i : MAX_CONSTRAINTS;
             memcpy(e[row], u->B[row], sizeof(double) * (size_t)n);
@@ -204,8 +203,7 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
         }
         out->a_O1 = r_a;
         out->alpha_B = r_alpha;
-        constraints_report(&u->c.set, out);
-        ideal_report(&self->adaptors, &u->c.set, out);
+        launching_report(self, &u->now, &u->c.set, out);
     }
     store_tube(n, e_0, out);
     return LAUNCHING_OK;
@@ -320,8 +318,11 @@ typedef struct tube_solution {
     double direction[MAX_CONSTRAINTS][SPEEDS]; // per constraint force
 } tube_solution;
 
-static bool load_solution(const uncoupled *u, int count, double B[][SPEEDS],
-                          const tube_transfer *transfer, tube_solution *solution)
+// On a frame of its own: the matrix is large.
+__attribute__((noinline)) static bool load_solution(const uncoupled *u, int count,
+                                                    double B[][SPEEDS],
+                                                    const tube_transfer *transfer,
+                                                    tube_solution *solution)
 {
     int n = u->n;
     double G[SPEEDS * SPEEDS];
@@ -502,8 +503,7 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     memcpy(u->c.set.x, x + 18, sizeof(double) * (size_t)count);
     u->c.set.friction = -rub * x[18];
     out->condition = transfer.condition;
-    constraints_report(&u->c.set, out);
-    ideal_report(&self->adaptors, &u->c.set, out);
+    launching_report(self, &u->now, &u->c.set, out);
     return true;
 }
 

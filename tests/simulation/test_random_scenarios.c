@@ -55,6 +55,7 @@ static const char *const kinds[] = {
     "rocket.contact={law: bilateral, exponent: 1, friction: 0, damping: 1e3 N.s/m}",
     "rocket={contact: {law: ideal, exponent: 1, friction: 0}, adaptors: [{name: rear, at: 0 m}, "
     "{name: front, at: 1.9 m}]}",
+    "tubes.supports=[{at: 0.4 m, clamped: all}, {at: 1.8 m, clamped: [y, z]}]",
     "tubes.slot=none",
     "tubes.slot.angle=[[0 m, 2 deg], [1.5 m, 6 deg], [3 m, 3 deg]]",
     "tubes.modes={bending: 3, torsion: 1, axial: 2, span: clamped}",

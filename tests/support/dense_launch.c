@@ -422,8 +422,8 @@ static jet foot_of(const jet_scene *moving, const jet_scene *still, const jet3 *
 
 // ---------------------------------------------------------------- equations
 
-// those of adaptors held on the axis: two each, from HELD on
-enum { LOCK, SLOT, ROLL, HELD, ROWS = HELD + 4 };
+// those of adaptors held on the axis, two each, from HELD on; of clamped supports from CLAMPED on
+enum { LOCK, SLOT, ROLL, HELD, CLAMPED = HELD + 4, ROWS = CLAMPED + LD_MAX_CLAMPED };
 
 typedef struct equations {
     int n;
@@ -436,6 +436,7 @@ typedef struct equations {
     double rhs[ROWS];
     double G[ROWS][DENSE_MAX_COORDINATES]; // forces of unit multipliers
     double drag[DENSE_MAX_COORDINATES];    // slot friction of |N| = 1
+    double support[DENSE_MAX_COORDINATES]; // forces of the supports
     double kinetic, potential, momentum[3], angular_momentum[3];
     bool frictionless;
 } equations;
@@ -630,6 +631,7 @@ static jet_frame base_frame(const dense_base *base)
     for (int i = 0; i < 3; i++) {
         frame.r.c[i] = jet_constant(base->r[i]);
         frame.r.c[i].t = frame.r.c[i].e = base->v[i];
+        frame.r.c[i].te = base->a[i];
         int k = (i + 1) % 3, l = (i + 2) % 3;
         for (int j = 0; j < 3; j++) {
             frame.A.c[i][j] = jet_constant(base->A[i][j]);
@@ -637,6 +639,13 @@ static jet_frame base_frame(const dense_base *base)
                 base->w[k] * base->A[l][j] - base->w[l] * base->A[k][j];
         }
     }
+    // A'' = alpha x A + w x A'
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int k = (i + 1) % 3, l = (i + 2) % 3;
+            frame.A.c[i][j].te = base->alpha[k] * base->A[l][j] - base->alpha[l] * base->A[k][j] +
+                                 base->w[k] * frame.A.c[l][j].t - base->w[l] * frame.A.c[k][j].t;
+        }
     return frame;
 }
 
@@ -706,6 +715,15 @@ static void add_slide(equations *eq, const ld_support *support, const jet *d, do
     output->slide_force += spring + loss;
 }
 
+// Holds what x is at no acceleration, by a force along its gradient.
+static void hold(equations *eq, int row, const jet *x)
+{
+    eq->active[row] = true;
+    memcpy(eq->C[row], x->d, (size_t)eq->n * sizeof *x->d);
+    memcpy(eq->G[row], x->d, (size_t)eq->n * sizeof *x->d);
+    eq->rhs[row] = -x->te;
+}
+
 static void add_supports(equations *eq, const jet_scene *scene, const dense_base *motion,
                          dense_launch_output *output)
 {
@@ -713,6 +731,7 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_base
     double force[DENSE_MAX_COORDINATES] = {0};
     jet_frame base = base_frame(motion);
     jet33 to_base = jet33_transpose(&base.A);
+    int row = CLAMPED;
     for (int i = 0; i < tubes->support_count; i++) {
         const ld_support *support = &tubes->support[i];
         jet_frame section = section_in_I(scene, jet_constant(support->at));
@@ -723,14 +742,19 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_base
         double w[3], moment[3];
         skew_of(w, &turn, part_rate, 0);
         for (int a = 0; a < 3; a++) {
+            if (support->clamped >> a & 1)
+                hold(eq, row++, &d.c[a]);
+            if (support->clamped >> (3 + a) & 1)
+                hold(eq, row++, &phi.c[a]);
             // springs from their potential 1/2 K d^2 + 1/2 K_r phi^2, dampers from their rates
             bool slides = a == 0 && support->recoil.present;
-            double spring = slides ? 0 : support->stiffness[a] * d.c[a].v;
-            double coil = support->rotational_stiffness[a] * phi.c[a].v;
-            double damper = slides ? 0 : support->damping[a] * d.c[a].e;
+            bool held = support->clamped >> a & 1, free = !(support->clamped >> (3 + a) & 1);
+            double spring = slides || held ? 0 : support->stiffness[a] * d.c[a].v;
+            double damper = slides || held ? 0 : support->damping[a] * d.c[a].e;
+            double coil = free ? support->rotational_stiffness[a] * phi.c[a].v : 0;
             if (slides)
                 add_slide(eq, support, &d.c[0], force, output);
-            moment[a] = -support->rotational_damping[a] * w[a];
+            moment[a] = free ? -support->rotational_damping[a] * w[a] : 0;
             for (int k = 0; k < eq->n; k++) {
                 force[k] -= spring * d.c[a].d[k] + coil * phi.c[a].d[k] + damper * d.c[a].d[k];
                 eq->other[k] -= damper * d.c[a].d[k];
@@ -742,7 +766,7 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_base
     }
     for (int k = 0; k < eq->n; k++)
         eq->h[k] += force[k];
-    react_on_base(scene, motion, force, output);
+    memcpy(eq->support, force, sizeof force);
 }
 
 // A force f (in I) on the rocket at a place of I, opposite on the section at station s, same place.
@@ -786,15 +810,6 @@ static double normal_force(const ld_contact *contact, double p, double p_dot, do
         chi = 0.75 * (1 - e * e) / (touch_speed > 0 ? touch_speed : v_0);
     double d_0 = contact->reference_penetration;
     return contact->stiffness * d_0 * pow(p / d_0, contact->exponent) * fmax(0, 1 + chi * p_dot);
-}
-
-// Holds what x is at no acceleration, by a force along its gradient.
-static void hold(equations *eq, int row, const jet *x)
-{
-    eq->active[row] = true;
-    memcpy(eq->C[row], x->d, (size_t)eq->n * sizeof *x->d);
-    memcpy(eq->G[row], x->d, (size_t)eq->n * sizeof *x->d);
-    eq->rhs[row] = -x->te;
 }
 
 static void add_adaptor(equations *eq, const jet_scene *moving, const jet_scene *still,
@@ -1346,6 +1361,10 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     if (!solve_signed(&eq, rubs, x_ddot, multiplier, &sign))
         return false;
     write_output(dense, state, &eq, x_ddot, multiplier, sign, output);
+    for (int c = CLAMPED; c < ROWS; c++)
+        for (int k = 0; k < n; k++)
+            eq.support[k] += multiplier[c] * eq.G[c][k];
+    react_on_base(&moving, &conditions->base, eq.support, output);
     if (rates) {
         memcpy(rates->x_ddot, x_ddot, sizeof rates->x_ddot);
         memcpy(rates->h, eq.h, sizeof rates->h);

@@ -55,10 +55,11 @@ bool dense_launch_holds_roll(const dense_launch *dense);
 
 // The base that carries the tube: the frame that the undeformed tube's rear end has on it.
 typedef struct dense_base {
-    double r[3];    // [m] in I
-    double A[3][3]; // from tube axes to I (base pose, azimuth and elevation together)
-    double v[3];    // [m/s] in I
-    double w[3];    // [rad/s] in I
+    double r[3];           // [m] in I
+    double A[3][3];        // from tube axes to I (base pose, azimuth and elevation together)
+    double v[3];           // [m/s] in I
+    double w[3];           // [rad/s] in I
+    double a[3], alpha[3]; // [m/s2], [rad/s2] in I; where a support is clamped
 } dense_base;
 
 // What acts at one instant, beside the state.

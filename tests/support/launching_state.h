@@ -64,6 +64,10 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     c->input.base.r = v3_add(v3_from(y + at->r), draw_v3(seed, 1e-3));
     c->input.base.v = draw_v3(seed, 3);
     c->input.base.w = draw_v3(seed, 1);
+    if (system->supports.clamps) {
+        c->input.base.a = draw_v3(seed, 20);
+        c->input.base.alpha = draw_v3(seed, 10);
+    }
     c->input.thrust = 7000 * (1 + draw(seed));
     c->input.mass.m = 50 + 10 * draw(seed);
     c->input.mass.c = v3_add(v3_make(1.1, 0, 0), draw_v3(seed, 1e-2));
@@ -104,6 +108,8 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     copy_matrix(conditions->base.A, c->input.base.A);
     v3_store(conditions->base.v, c->input.base.v);
     v3_store(conditions->base.w, c->input.base.w);
+    v3_store(conditions->base.a, c->input.base.a);
+    v3_store(conditions->base.alpha, c->input.base.alpha);
     const rocket_mass *mass = &c->input.mass;
     conditions->mass = mass->m;
     v3_store(conditions->center, mass->c);

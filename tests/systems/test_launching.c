@@ -120,14 +120,16 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
         emerged += reference.emerged > 0;
     }
     printf("  %s, %d states:\n", name, count);
-    CHECK_BELOW("tube accelerations", worst.eta, 1e-11);
-    CHECK_BELOW("rocket accelerations", worst.V, 1e-11);
-    CHECK_BELOW("slot force", worst.slot, 6e-11);
-    CHECK_BELOW("lock force", worst.lock, 6e-11);
-    CHECK_BELOW("contact forces", worst.contact, 6e-11);
-    CHECK_BELOW("breech force", worst.breech, 6e-11);
+    // clamps leave of the tube's accelerations what is small beside those without them
+    double lost = system->supports.clamps ? 10 : 1;
+    CHECK_BELOW("tube accelerations", worst.eta, lost * 1e-11);
+    CHECK_BELOW("rocket accelerations", worst.V, lost * 1e-11);
+    CHECK_BELOW("slot force", worst.slot, lost * 6e-11);
+    CHECK_BELOW("lock force", worst.lock, lost * 6e-11);
+    CHECK_BELOW("contact forces", worst.contact, lost * 6e-11);
+    CHECK_BELOW("breech force", worst.breech, lost * 6e-11);
     CHECK_WITHIN("share of states on the breech", (double)pressed / count, 0.4, 0.5);
-    CHECK_BELOW("force and moment on the base", worst.base, 1e-12);
+    CHECK_BELOW("force and moment on the base", worst.base, lost * 1e-12);
     if (model_has_crossflow(model)) {
         CHECK_BELOW("force of the air", worst.crossflow, 1e-12);
         CHECK_WITHIN("share of states in the air", (double)emerged / count, 0.5, 0.9);
@@ -291,6 +293,31 @@ static void ideal_adaptors_equal_dense(void **state)
     reference_model_free(&model);
 }
 
+// Supports that hold the tube rigidly on a base that moves and accelerates.
+static void clamped_supports_equal_dense(void **state)
+{
+    (void)state;
+    static const unsigned clamped[][2] = {{0x3f, 0}, {0x07, 0x06}, {0x0f, 0x16}, {0x2e, 0x01}};
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    model.tubes.support[1].rotational_stiffness[1] = 5e5; // not isotropic
+    for (int i = 0; i < 4; i++) {
+        char name[64];
+        model.tubes.support[0].clamped = clamped[i][0];
+        model.tubes.support[1].clamped = clamped[i][1];
+        snprintf(name, sizeof name, "clamped %#x and %#x", clamped[i][0], clamped[i][1]);
+        check_agreement(&model, launching_evaluate, 200, name);
+    }
+    check_agreement(&model, general, 200, "the same from the general matrix");
+    model.tubes.modes.axial = 2;
+    check_agreement(&model, launching_evaluate, 100, "the same, axial modes");
+    model.rocket.adaptor_count = 2;
+    model.rocket.contact.law = LD_CONTACT_IDEAL;
+    check_agreement(&model, launching_evaluate, 100, "the same, ideal adaptors");
+    reference_model_free(&model);
+}
+
 static void air_on_the_emerged_part_equals_dense(void **state)
 {
     (void)state;
@@ -395,6 +422,7 @@ int main(void)
         cmocka_unit_test(overall_equals_dense),
         cmocka_unit_test(options_equal_dense),
         cmocka_unit_test(ideal_adaptors_equal_dense),
+        cmocka_unit_test(clamped_supports_equal_dense),
         cmocka_unit_test(air_on_the_emerged_part_equals_dense),
         cmocka_unit_test(pressure_and_recoil_equal_dense),
         cmocka_unit_test(wide_instructions_give_the_same_bits),
