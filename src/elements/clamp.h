@@ -141,13 +141,15 @@ LD_INLINE void clamp_constrain(const int lanes, const support_set *self, const t
         if (!support->clamped)
             continue;
         int number = station_add(lanes, guide, support, now, &own[stations++], set);
+        set->section[number].support = k;
         clamp_load(support, now, &set->section[number], &clamp);
         clamp_translations(support, now, number, &clamp, set);
         clamp_rotations(support, now, number, &clamp, set);
     }
 }
 
-// Adds the forces found to those on the base, and what the base does by them to its work.
+// Adds the forces found to those on the base and, the opposite, to those recorded of the supports,
+// and what the base does by them to its work.
 LD_INLINE void clamp_report(const launching_instant *now, const constraint_set *set,
                             launching_output *out)
 {
@@ -160,6 +162,10 @@ LD_INLINE void clamp_report(const launching_instant *now, const constraint_set *
         const constraint_direction *e = &set->e[i];
         v3 force = v3_scale(set->x[i], m3_apply(A_TR, e->force));
         v3 moment = v3_scale(set->x[i], m3_apply(A_TR, e->moment));
+        if (now->on_tube.record) {
+            guide_wrench *on = &now->on_tube.record->support[set->section[e->section].support];
+            *on = (guide_wrench){v3_sub(on->f, force), v3_sub(on->m, moment)};
+        }
         v3 place = v3_add(r, m3_apply(A_TR, set->section[e->section].at->P));
         moment = v3_add(moment, v3_cross(place, force));
         out->base_force = v3_add(out->base_force, force);

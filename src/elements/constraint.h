@@ -42,6 +42,7 @@ typedef struct constraint_section {
     const element_motion *motion;
     const axis_section *at;
     const section_rates *rates;
+    int support;  // that clamps it, of the tube's, where one does
     double s_dot; // of its station
     v3 v_P, w_P;  // section's material velocity and rate, inertial, in R
     v3 Om;        // rate of the frame that goes along with the station, against R

@@ -219,9 +219,6 @@ static void clamped_rule(const rule_set *rules, int i)
             rules, "tubes.supports.#.clamped", i + 1,
             "goes with a base that goes where it is told; of a vehicle's platform the tube knows "
             "no acceleration: give stiff springs");
-    if (support->clamped && rules->model->tubes.station_count > 0)
-        broken(rules, "tubes.supports.#.clamped", i + 1,
-               "tubes.loads does not tell what clamps put on the tube; give stiff springs");
     if (support->clamped && rules->model->run.formulation == LD_FORMULATION_OVERALL)
         broken(rules, "tubes.supports.#.clamped", i + 1,
                "goes with run.formulation: reduced; the overall form has springs alone");

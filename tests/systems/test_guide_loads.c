@@ -148,6 +148,34 @@ static void the_whole_tube_leaves_what_moves_the_tail(void **state)
     reference_model_free(&model);
 }
 
+static void clamps_recoil_and_pressure_leave_what_moves_the_tail(void **state)
+{
+    (void)state;
+    static const unsigned clamped[][2] = {{0x3f, 0}, {0x0f, 0x16}, {0x2e, 0x01}};
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    ask_for(&model, 1, (double[]){0});
+    reference_by_pressure(&model);
+    check_balance(&model, launching_evaluate, 70, "pressure");
+    reference_recoil(&model);
+    check_balance(&model, launching_evaluate, 70, "pressure and recoil");
+    check_balance(&model, general, 70, "pressure and recoil, from the general matrix");
+    check_balance(&model, overall, 70, "pressure and recoil, overall");
+    model.tubes.support[0].recoil.present = false;
+    for (int i = 0; i < 3; i++) {
+        char name[64];
+        model.tubes.support[0].clamped = clamped[i][0];
+        model.tubes.support[1].clamped = clamped[i][1];
+        snprintf(name, sizeof name, "clamped %#x and %#x", clamped[i][0], clamped[i][1]);
+        check_balance(&model, launching_evaluate, 70, name);
+    }
+    check_balance(&model, general, 70, "the same, from the general matrix");
+    model.tubes.modes.axial = 2;
+    check_balance(&model, launching_evaluate, 70, "the same, axial modes");
+    reference_model_free(&model);
+}
+
 // ---- the inertia of a part, from the accelerations of its sections ----
 
 typedef struct part {
@@ -266,21 +294,23 @@ static void a_part_has_the_inertia_of_its_sections(void **state)
 
 // ---- jumps ----
 
-// The jump of the force carried between two places beside x, in R.
-static v3 jump_at(const launching_system *system, const instant *now, double x)
+// The jump of what is carried between two places beside x, in R.
+static guide_wrench jump_at(const launching_system *system, const instant *now, double x)
 {
-    v3 side[2];
+    guide_wrench side[2];
     for (int i = 0; i < 2; i++) {
+        const guide_wrench *carried = &now->loads.station[i].wrench;
         launching_section section;
         launching_section_at(system, now->at.state, now->record.at[i], &section);
-        side[i] = m3_apply(section.A, now->loads.station[i].wrench.f);
+        side[i].f = m3_apply(section.A, carried->f);
+        side[i].m = m3_apply(section.A, carried->m);
     }
     assert_true(now->record.at[0] < x && x < now->record.at[1]);
-    return v3_sub(side[0], side[1]);
+    return (guide_wrench){v3_sub(side[0].f, side[1].f), v3_sub(side[0].m, side[1].m)};
 }
 
 // Asks for both sides of x and evaluates again.
-static v3 jump_of(launching_system *system, instant *now, double x)
+static guide_wrench jump_of(launching_system *system, instant *now, double x)
 {
     launching_case *c = &now->at;
     ld_station beside[2] = {{x - 1e-10}, {x + 1e-10}};
@@ -293,13 +323,22 @@ static v3 jump_of(launching_system *system, instant *now, double x)
     return jump_at(system, now, x);
 }
 
-static void the_force_jumps_by_what_acts(void **state)
+// Largest error of a jump at a support by its reaction, of the larger of force [N] and moment
+// [N m].
+static double support_error(launching_system *system, instant *now, int i)
 {
-    (void)state;
-    ld_model model;
-    reference_model(&model);
-    ask_for(&model, 2, (double[]){0.1, 0.2});
-    launching_system *system = launching_system_of(&model);
+    m3 A_TR = m3_mul(m3_transpose(now->at.input.base.A),
+                     q_matrix(q_from(now->at.state + system->layout.quaternion)));
+    guide_wrench jump = jump_of(system, now, system->supports.support[i].x);
+    const guide_wrench *reaction = &now->loads.support[i];
+    double f = v3_norm(v3_sub(m3_apply(A_TR, jump.f), reaction->f));
+    double m = v3_norm(v3_sub(m3_apply(A_TR, jump.m), reaction->m));
+    return fmax(f, m) / fmax(v3_norm(jump.f), v3_norm(jump.m));
+}
+
+static void check_jumps(const ld_model *model, const char *supports)
+{
+    launching_system *system = launching_system_of(model);
     uint64_t seed = 9;
     double worst_contact = 0, worst_support = 0;
     for (int k = 0; k < 60; k++) {
@@ -309,20 +348,31 @@ static void the_force_jumps_by_what_acts(void **state)
             const adaptor_report adaptor = now.out.adaptor[i];
             if (now.at.phase.passed[i] || adaptor.s > 2.99 || adaptor.force < 1e3)
                 continue;
-            v3 jump = jump_of(system, &now, adaptor.s);
-            worst_contact = fmax(worst_contact, fabs(v3_norm(jump) / adaptor.force - 1));
+            guide_wrench jump = jump_of(system, &now, adaptor.s);
+            worst_contact = fmax(worst_contact, fabs(v3_norm(jump.f) / adaptor.force - 1));
         }
-        m3 A_TR = m3_mul(m3_transpose(now.at.input.base.A),
-                         q_matrix(q_from(now.at.state + system->layout.quaternion)));
-        for (int i = 0; i < system->supports.count; i++) {
-            v3 jump = jump_of(system, &now, system->supports.support[i].x);
-            v3 miss = v3_sub(m3_apply(A_TR, jump), now.loads.support[i].f);
-            worst_support = fmax(worst_support, v3_norm(miss) / v3_norm(jump));
-        }
+        for (int i = 0; i < system->supports.count; i++)
+            worst_support = fmax(worst_support, support_error(system, &now, i));
     }
     CHECK_BELOW("at an adaptor, of its force", worst_contact, 1e-6);
-    CHECK_BELOW("at a support, of its reaction", worst_support, 1e-6);
+    CHECK_BELOW(supports, worst_support, 1e-6);
     launching_system_drop(system);
+}
+
+static void the_force_jumps_by_what_acts(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    ask_for(&model, 2, (double[]){0.1, 0.2});
+    check_jumps(&model, "at a support, of its reaction");
+    reference_recoil(&model);
+    check_jumps(&model, "at a slide, of its reaction");
+    model.tubes.support[0].recoil.present = false;
+    model.tubes.modes.bending = 4;
+    model.tubes.support[0].clamped = 0x0f;
+    model.tubes.support[1].clamped = 0x16;
+    check_jumps(&model, "at a clamp, of its reaction");
     reference_model_free(&model);
 }
 
@@ -352,6 +402,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_whole_tube_leaves_what_moves_the_tail),
+        cmocka_unit_test(clamps_recoil_and_pressure_leave_what_moves_the_tail),
         cmocka_unit_test(a_part_has_the_inertia_of_its_sections),
         cmocka_unit_test(the_force_jumps_by_what_acts),
         cmocka_unit_test(a_record_changes_nothing),
