@@ -15,6 +15,10 @@ static const double LEAST_RATE = 1e-2;
 // differences' error.
 static const double EQUAL = 1e-6;
 
+// How far a straight tube on slides lies against their front stops [m], where its modes are found:
+// beyond the differences' steps, so that no stop lifts.
+static const double IN_BATTERY = 1e-6;
+
 static const base_frame ORIGIN = {.A = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .q = {1, 0, 0, 0}};
 
 // Where in the state the base's speed of a displacement stands, and what has a rate alone.
@@ -504,11 +508,19 @@ static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes,
     }
 }
 
+static bool on_slides(const ld_model *model)
+{
+    bool any = false;
+    for (int k = 0; k < model->tubes.support_count; k++)
+        any |= model->tubes.support[k].recoil.present;
+    return any;
+}
+
 ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
                                 int *count, ld_error *error)
 {
     launch_state state, *self = &state;
-    linear_system system = {0}; // without a rocket
+    linear_system system = {.phase.frictionless = true}; // without a rocket
     *count = 0;
     if (!model_has_launcher(simulation->model))
         return LD_OK; // a flight alone has no tube
@@ -519,6 +531,8 @@ ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes,
     launching_system weightless = self->launcher.launching;
     weightless.tube.gravity = 0;
     simulation_straight(self, &ORIGIN, system.y);
+    if (on_slides(simulation->model))
+        system.y[weightless.layout.r] += IN_BATTERY;
     count_unknowns(self, true, &system);
     status = linearise(self, &weightless, &system, error);
     if (!status)

@@ -21,10 +21,14 @@ static void draw_round_tube(uint64_t *seed, ld_model *model)
     ld_tubes *tubes = &model->tubes;
     bool same_dampers = chance(seed, 0.5);
     tubes->tail.inertia[2] = tubes->tail.inertia[1];
+    for (int i = 0; i < tubes->section_count; i++)
+        if (tubes->section[i].form == LD_SECTION_PLANES)
+            tubes->section[i].bending_stiffness_y = tubes->section[i].bending_stiffness_z;
     for (int k = 0; k < tubes->support_count; k++) {
         ld_support *support = &tubes->support[k];
         support->stiffness[2] = support->stiffness[1];
         support->rotational_stiffness[2] = support->rotational_stiffness[1];
+        support->recoil.present = false; // whose friction and stop are not linear
         if (same_dampers) {
             support->damping[2] = support->damping[1];
             support->rotational_damping[2] = support->rotational_damping[1];
@@ -123,11 +127,14 @@ static void the_pose_of_the_base_does_not_count(void **state)
 static void lighten(ld_tubes *tubes, double light)
 {
     tubes->modes.damping *= light;
-    for (int k = 0; k < tubes->support_count; k++)
+    for (int k = 0; k < tubes->support_count; k++) {
+        tubes->support[k].recoil.damping *= light;
+        tubes->support[k].recoil.quadratic_damping *= light; // differences see it: c2 h
         for (int i = 0; i < 3; i++) {
             tubes->support[k].damping[i] *= light;
             tubes->support[k].rotational_damping[i] *= light;
         }
+    }
 }
 
 static int modes_of_matrix(double *J, int n, ld_mode *modes)

@@ -21,6 +21,10 @@ static const char text[] = "include: fixed.yaml\n"
                            "    - {from: 2 m, bore_radius: 82.5 mm, mass_per_length: 11 kg/m,\n"
                            "       axial_stiffness: 2.7e8 N, bending_stiffness: 9.6e5 N.m2,\n"
                            "       torsion_stiffness: 7.4e5 N.m2, polar_inertia: 0.08 kg.m}\n"
+                           "    - {from: 2.5 m, bore_radius: 82.5 mm, mass_per_length: 11 kg/m,\n"
+                           "       axial_stiffness: 2.7e8 N, bending_stiffness_y: 9e5 N.m2,\n"
+                           "       bending_stiffness_z: 9.6e5 N.m2,\n"
+                           "       torsion_stiffness: 7.4e5 N.m2, polar_inertia: 0.08 kg.m}\n"
                            "  point_masses: [{at: 2.5 m, mass: 2 kg}]\n"
                            "  modes: {bending: 2, torsion: 1, axial: 1, elements: 12}\n"
                            "firing: [{tube: 2, at: 0 s}]\n"
@@ -83,6 +87,13 @@ static void change_number(changes *self, const char *path)
     check_change(self, &model, path);
 }
 
+// Whether a block that may be a word, as `none`, is one.
+static bool is_word(const field_row *f, const void *base)
+{
+    const field_word *word = f->words ? field_word_of(f->words, field_switch(base, f)) : NULL;
+    return word && word->name[0];
+}
+
 // Every number that a block has in its form, and those of the blocks in it.
 static void change_all(changes *self, const field_block *block, const void *base, const char *above)
 {
@@ -92,7 +103,7 @@ static void change_all(changes *self, const field_block *block, const void *base
         int length = snprintf(path, sizeof path, "%s.%s", above, f->name);
         if (!field_has_form(f, field_form(block, base)))
             continue;
-        if (f->kind == FIELD_BLOCK)
+        if (f->kind == FIELD_BLOCK && !is_word(f, base))
             change_all(self, f->block, field_at_const(base, f), path);
         for (int i = 0; f->kind == FIELD_LIST && i < field_switch(base, f); i++) {
             snprintf(path + length, sizeof path - (size_t)length, ".%d", i + 1);
@@ -143,7 +154,7 @@ static void test_every_key_of_the_tubes(void **state)
     change_the_rest(&all);
     // not seen: where the tubes are, a bore without contact, friction before the rocket moves
     printf("    %d changes of the tubes\n", all.count);
-    CHECK_WITHIN("of which the launch shows", all.matter, all.count - 10, all.count);
+    CHECK_WITHIN("of which the launch shows", all.matter, all.count - 11, all.count);
     ld_simulation_free(all.renewed);
     model_clear(&nominal);
 }

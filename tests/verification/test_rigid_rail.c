@@ -99,7 +99,7 @@ static const char *const figure_name[FIGURES] = {
 
 static void launch(const ld_model *model, double figure[FIGURES])
 {
-    ld_simulation *simulation;
+    ld_simulation *simulation = NULL;
     static ld_summary summary;
     ld_error error;
     if (model_check(model, &error) || ld_simulation_create(model, &simulation, &error) ||
