@@ -61,19 +61,22 @@ static void add_stretch(guide_cut *self, const flexible_tube *tube, const ld_sec
     }
 }
 
-static void find_fibre(guide_cut *self, const ld_tubes *model)
+static void find_fibre(guide_cut *self, const ld_tubes *model, const ld_station *station)
 {
     const ld_section *section = section_at(model, self->at);
-    double E = model->material.youngs_modulus;
-    self->round = section->form == LD_SECTION_ANNULUS;
-    self->fibre_y = self->fibre_z =
-        self->round ? E * section->outer_radius / section->bending_stiffness : NAN;
+    double E = model->material.youngs_modulus, R = section->outer_radius;
+    self->round = section->form == LD_SECTION_ANNULUS && isnan(station->outer_fibre[0]);
+    double y = self->round ? R : station->outer_fibre[0];
+    double z = self->round ? R : station->outer_fibre[1];
+    self->fibre_y = E * z / section_stiffness_y(section);
+    self->fibre_z = E * y / section_stiffness_z(section);
 }
 
-void guide_cut_build(guide_cut *self, const flexible_tube *tube, const ld_tubes *model, double at)
+void guide_cut_build(guide_cut *self, const flexible_tube *tube, const ld_tubes *model,
+                     const ld_station *station)
 {
     memset(self, 0, sizeof *self);
-    self->at = at;
+    double at = self->at = station->at;
     for (int e = flexible_tube_find(tube, at); e < tube->element_count; e++) {
         const tube_element *element = &tube->element[e];
         double middle = 0.5 * (element->x0 + element->x1);
@@ -85,7 +88,7 @@ void guide_cut_build(guide_cut *self, const flexible_tube *tube, const ld_tubes 
             add_mass(self, tube, &tube->element[flexible_tube_find(tube, x)], x,
                      model->point_mass[i].mass);
     }
-    find_fibre(self, model);
+    find_fibre(self, model, station);
 }
 
 // ---- at an instant ----

@@ -24,9 +24,10 @@ typedef struct guide_cut {
     bool round;              // one outer radius all around
 } guide_cut;
 
-// Of the station `at` of the tube built of `model`. What acts, and what has mass, at the station
+// Of a station of the tube built of `model`. What acts, and what has mass, at the station
 // itself counts as beyond; its section is that behind it.
-void guide_cut_build(guide_cut *self, const flexible_tube *tube, const ld_tubes *model, double at);
+void guide_cut_build(guide_cut *self, const flexible_tube *tube, const ld_tubes *model,
+                     const ld_station *station);
 
 // How the tube moves at an instant: speeds and accelerations of R and of the modes.
 typedef struct guide_motion {

@@ -433,7 +433,8 @@ static inline double support_spring(const ld_support *support, ld_clamp directio
 
 /// Where it is asked for what the tube carries.
 typedef struct ld_station {
-    double at; ///< [m] station
+    double at;             ///< [m] station
+    double outer_fibre[2]; ///< [m] along y, z from the elastic axis; NaN: that of a ring, or none
 } ld_station;
 
 typedef enum ld_slot_kind { LD_SLOT_NONE, LD_SLOT_HELIX } ld_slot_kind;

@@ -19,6 +19,9 @@ static void load_rules(const rule_set *rules)
     for (int i = 0; i < tubes->station_count; i++) {
         double at = tubes->station[i].at;
         station_rule(rules, "tubes.loads.#.at", i + 1, at);
+        if (!isnan(tubes->station[i].outer_fibre[0]) && isnan(tubes->material.youngs_modulus))
+            broken(rules, "tubes.loads.#.outer_fibre", i + 1,
+                   "goes with tubes.material.youngs_modulus, by which strain becomes stress");
         for (int k = 0; k < i; k++)
             if (tubes->station[k].at == at)
                 broken(rules, "tubes.loads.#.at", i + 1, "%g m is that of entry %d already", at,

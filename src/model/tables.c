@@ -720,7 +720,11 @@ static const field_row support_fields[] = {
 static const field_block support_block = {.fields = support_fields};
 
 static const field_row station_fields[] = {
-    {"at", NUMBER(ld_station, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"}, {0}};
+    {"at", NUMBER(ld_station, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
+    {"outer_fibre", VECTOR(ld_station, outer_fibre, "m", 2), ABOVE_TO(0, 10),
+     NO_DEFAULT("of a section given by radii the outer one; else none, and no stress is told"),
+     .doc = "distance of the outermost corner from the elastic axis, along y and along z"},
+    {0}};
 static const field_block station_block = {.fields = station_fields};
 
 static const field_row slot_columns[] = {

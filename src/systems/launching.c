@@ -118,8 +118,7 @@ static ld_status build_cuts(launching_system *self, ld_error *error)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the loads at %d stations", count);
     }
     for (int i = 0; i < count; i++)
-        guide_cut_build(&self->cut[i], &self->tube.flexible, &self->tubes,
-                        self->tubes.station[i].at);
+        guide_cut_build(&self->cut[i], &self->tube.flexible, &self->tubes, &self->tubes.station[i]);
     return LD_OK;
 }
 

@@ -313,10 +313,10 @@ static guide_wrench jump_at(const launching_system *system, const instant *now, 
 static guide_wrench jump_of(launching_system *system, instant *now, double x)
 {
     launching_case *c = &now->at;
-    ld_station beside[2] = {{x - 1e-10}, {x + 1e-10}};
+    ld_station beside[2] = {{.at = x - 1e-10}, {.at = x + 1e-10}};
     guide_forces_begin(&now->record, 2, beside);
     for (int i = 0; i < 2; i++)
-        guide_cut_build(&system->cut[i], &system->tube.flexible, &system->tubes, beside[i].at);
+        guide_cut_build(&system->cut[i], &system->tube.flexible, &system->tubes, &beside[i]);
     assert_int_equal(launching_evaluate(system, &c->input, &c->phase, c->state, &now->out),
                      LAUNCHING_OK);
     launching_find_loads(system, &c->input, c->state, &now->out, &now->loads);
@@ -376,6 +376,72 @@ static void the_force_jumps_by_what_acts(void **state)
     reference_model_free(&model);
 }
 
+// ---- stress ----
+
+// Largest error of the stress against `by_hand` on random states, relative.
+static double stress_error(const ld_model *model, double (*by_hand)(v3 moment))
+{
+    launching_system *system = launching_system_of(model);
+    uint64_t seed = 11;
+    double worst = 0;
+    for (int k = 0; k < 20; k++) {
+        instant now;
+        draw_instant(system, launching_evaluate, &seed, k, &now);
+        double exact = by_hand(now.loads.station[0].wrench.m);
+        worst = fmax(worst, fabs(now.loads.station[0].stress / exact - 1));
+        if (system->tubes.section[0].form != LD_SECTION_ANNULUS)
+            assert_true(isnan(now.loads.station[1].stress)); // without an outer fibre
+    }
+    launching_system_drop(system);
+    return worst;
+}
+
+static const double breadth = 0.06, height = 0.09, outer = 0.085, inner = 0.08; // [m]
+
+// Of a bar, breadth along z, over its four corners.
+static double stress_of_bar(v3 moment)
+{
+    double I_z = breadth * height * height * height / 12,
+           I_y = height * breadth * breadth * breadth / 12, largest = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        double y = (corner & 1 ? 0.5 : -0.5) * height, z = (corner & 2 ? 0.5 : -0.5) * breadth;
+        largest = fmax(largest, moment.y * z / I_y - moment.z * y / I_z);
+    }
+    return largest;
+}
+
+// Of a ring, in the direction of the moment.
+static double stress_of_ring(v3 moment)
+{
+    double I = 0.25 * acos(-1) * (pow(outer, 4) - pow(inner, 4));
+    return outer * hypot(moment.y, moment.z) / I;
+}
+
+static void stress_is_that_of_bar_and_ring(void **state)
+{
+    (void)state;
+    const double E = 7e10, h = height, b = breadth;
+    ld_model model;
+    reference_model(&model);
+    ask_for(&model, 2, (double[]){0.7, 1.1});
+    ld_section *section = &model.tubes.section[0];
+    ld_station *station = model.tubes.station;
+    model.tubes.material.youngs_modulus = E;
+    station[0].outer_fibre[0] = h / 2;
+    station[0].outer_fibre[1] = b / 2;
+    station[1].outer_fibre[0] = station[1].outer_fibre[1] = NAN;
+    section->form = LD_SECTION_PLANES;
+    section->bending_stiffness_y = E * h * b * b * b / 12;
+    section->bending_stiffness_z = E * b * h * h * h / 12;
+    CHECK_BELOW("at a bar's corner", stress_error(&model, stress_of_bar), 1e-12);
+    station[0].outer_fibre[0] = station[0].outer_fibre[1] = NAN;
+    section->form = LD_SECTION_ANNULUS;
+    section->outer_radius = outer;
+    section->bending_stiffness = E * 0.25 * acos(-1) * (pow(outer, 4) - pow(inner, 4));
+    CHECK_BELOW("of a ring", stress_error(&model, stress_of_ring), 1e-12);
+    reference_model_free(&model);
+}
+
 // A record changes no bit of what is found.
 static void a_record_changes_nothing(void **state)
 {
@@ -405,6 +471,7 @@ int main(void)
         cmocka_unit_test(clamps_recoil_and_pressure_leave_what_moves_the_tail),
         cmocka_unit_test(a_part_has_the_inertia_of_its_sections),
         cmocka_unit_test(the_force_jumps_by_what_acts),
+        cmocka_unit_test(stress_is_that_of_bar_and_ring),
         cmocka_unit_test(a_record_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -58,8 +58,7 @@ static void by_hand(const ld_model *model, double x, double held, double *shear,
     }
 }
 
-// Largest differences at rest, of the largest moment and force.
-static void check_at_rest(const ld_model *model, double held, const char *name, double bound)
+static launching_loads loads_at_rest(const ld_model *model)
 {
     fresh_launch launch;
     ld_equilibrium_summary equilibrium;
@@ -67,13 +66,22 @@ static void check_at_rest(const ld_model *model, double held, const char *name, 
     launcher_output out;
     launching_loads loads;
     ld_error error;
-    double y[LD_MAX_STATES] = {0}, worst = 0, largest = 0, largest_shear = 0, worst_shear = 0;
+    double y[LD_MAX_STATES] = {0};
     fresh_launch_make(&launch, model);
     double t = launch.state.t_ignition;
     if (simulation_equilibrium(&launch.state, t, y, &equilibrium, &error))
         fail_msg("%s", error.text);
     simulation_input(&launch.state, t, y, &input);
     assert_int_equal(simulation_loads(&launch.state, &input, y, &out, &loads), LAUNCHING_OK);
+    fresh_launch_free(&launch);
+    return loads;
+}
+
+// Largest differences at rest, of the largest moment and force.
+static void check_at_rest(const ld_model *model, double held, const char *name, double bound)
+{
+    double worst = 0, largest = 0, largest_shear = 0, worst_shear = 0;
+    launching_loads loads = loads_at_rest(model);
     for (int i = 0; i < model->tubes.station_count; i++) {
         double shear, moment;
         const guide_wrench *found = &loads.station[i].wrench;
@@ -93,7 +101,6 @@ static void check_at_rest(const ld_model *model, double held, const char *name, 
     printf("  %s: largest moment %.6g N m, shear %.6g N\n", name, largest, largest_shear);
     CHECK_BELOW("bending moment (relative)", worst / largest, bound);
     CHECK_BELOW("shear (relative)", worst_shear / largest_shear, bound);
-    fresh_launch_free(&launch);
 }
 
 static void cantilever_at_rest(void **state)
@@ -110,6 +117,37 @@ static void cantilever_at_rest(void **state)
     check_at_rest(&model, 0, "cantilever on stiff springs", 1e-6);
     model.tubes.support[0].clamped = 0x3f;
     check_at_rest(&model, 0, "cantilever in a clamp", 1e-6);
+    reference_model_free(&model);
+}
+
+// A bar twice as high as broad: 6 M/(b h^2) at its upper edge.
+static void stress_at_rest(void **state)
+{
+    (void)state;
+    const double b = 0.05, h = 0.1;
+    ld_model model;
+    level_model(&model, 0.1);
+    ld_tubes *tubes = &model.tubes;
+    ld_section *section = &tubes->section[0];
+    tubes->support_count = 1;
+    tubes->support[0].clamped = 0x3f;
+    section->form = LD_SECTION_PLANES;
+    section->bending_stiffness_z = section->bending_stiffness;
+    section->bending_stiffness_y = 0.25 * section->bending_stiffness;
+    tubes->material.youngs_modulus = 12 * section->bending_stiffness / (b * h * h * h);
+    ask_for(&model, 3, (double[]){0.3, 1, 1.7});
+    for (int i = 0; i < 3; i++) {
+        tubes->station[i].outer_fibre[0] = 0.5 * h;
+        tubes->station[i].outer_fibre[1] = 0.5 * b;
+    }
+    launching_loads loads = loads_at_rest(&model);
+    double worst = 0;
+    for (int i = 0; i < 3; i++) {
+        double shear, moment;
+        by_hand(&model, tubes->station[i].at, 0, &shear, &moment);
+        worst = fmax(worst, fabs(loads.station[i].stress * b * h * h / (6 * fabs(moment)) - 1));
+    }
+    CHECK_BELOW("stress at a bar's edge (relative)", worst, 1e-6);
     reference_model_free(&model);
 }
 
@@ -251,6 +289,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cantilever_at_rest),
+        cmocka_unit_test(stress_at_rest),
         cmocka_unit_test(influence_line),
         cmocka_unit_test(moving_force),
     };
