@@ -353,7 +353,8 @@ static void curvature_jumps(void **state)
     model.tubes.modes.bending = 3;
     launching_system *system = launching_system_of(&model);
     dense_launch_create(&dense, &model, &system->tube.flexible);
-    static const double tolerance[] = {1e-6, 1e-8}, bound[] = {3e-5, 1e-7};
+    // eight starts 1e-9 apart leave 8e-7 to 1.5e-5 and 7e-8 to 6.9e-7: by where the steps end
+    static const double tolerance[] = {1e-6, 1e-8}, bound[] = {3e-5, 1e-6};
     for (int i = 0; i < 2; i++) {
         flight y = fly(system, &dense, true, tolerance[i]);
         flight V = fly(system, &dense, false, tolerance[i]);
