@@ -21,6 +21,22 @@ LD_INLINE void launching_touch(const int lanes, const launching_system *self,
         adaptors_add(lanes, &self->adaptors, &self->tube, now);
 }
 
+// The rocket and what acts on it and between it and the tube, besides constraints.
+LD_INLINE void launching_load_rocket(const int lanes, const launching_system *self,
+                                     const double *state, launching_instant *now)
+{
+    const launching_input *input = now->input;
+    rocket_load(&self->tube, &self->layout, state, &now->tube, &now->rocket, now->out);
+    rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
+    rocket_forces(&self->rocket->motor, now);
+    crossflow_add(&self->crossflow, &self->tube, now);
+    pressure_add(&self->pressure, now);
+    if (input->load)
+        load_rocket(input->load, now);
+    launching_touch(lanes, self, now);
+    breech_add(lanes, &self->adaptors.law, &self->tube, now);
+}
+
 // The constraints in force at an instant, with what they stand on.
 typedef struct launching_constraints {
     constraint_set set;

@@ -53,22 +53,6 @@ LD_INLINE void accelerate_tube(const int lanes, const launching_system *self,
         react_on_modes(&self->tube, &set->section[i].shapes, all->force[i], all->mu[i], q_ddot);
 }
 
-// The rocket and what acts on it and between it and the tube, besides constraints.
-LD_INLINE void load_and_touch_rocket(const int lanes, const launching_system *self,
-                                     const double *state, launching_instant *now)
-{
-    const launching_input *input = now->input;
-    rocket_load(&self->tube, &self->layout, state, &now->tube, &now->rocket, now->out);
-    rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
-    rocket_forces(&self->rocket->motor, now);
-    crossflow_add(&self->crossflow, &self->tube, now);
-    pressure_add(&self->pressure, now);
-    if (input->load)
-        load_rocket(input->load, now);
-    launching_touch(lanes, self, now);
-    breech_add(lanes, &self->adaptors.law, &self->tube, now);
-}
-
 LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *self,
                                      const launching_input *input, const launching_phase *phase,
                                      const double *state, launching_output *out)
@@ -86,7 +70,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     if (input->load)
         load_tip(lanes, input->load, &self->tube, &now);
     if (phase->rocket)
-        load_and_touch_rocket(lanes, self, state, &now);
+        launching_load_rocket(lanes, self, state, &now);
 
     launching_constraints constraints;
     constrained all;

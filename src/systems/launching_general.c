@@ -100,17 +100,8 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     supports_add(lanes, &self->supports, &self->tube, now);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, now);
-    if (phase->rocket) {
-        rocket_load(&self->tube, at, state, &now->tube, &now->rocket, out);
-        rocket_inertia_load(&input->mass, now->rocket.A_RB, &now->inertia);
-        rocket_forces(&self->rocket->motor, now);
-        crossflow_add(&self->crossflow, &self->tube, now);
-        pressure_add(&self->pressure, now);
-        if (input->load)
-            load_rocket(input->load, now);
-        launching_touch(lanes, self, now);
-        breech_add(lanes, &self->adaptors.law, &self->tube, now);
-    }
+    if (phase->rocket)
+        launching_load_rocket(lanes, self, state, now);
     tube_factor(&self->tube, &now->tube);
     launching_constrain(lanes, self, now, &u->c);
     load_direction_forces(self, q, q_dot, u);
