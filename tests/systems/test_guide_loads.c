@@ -4,26 +4,10 @@
 
 #include "elements/tube_dynamics.h"
 #include "support/check.h"
+#include "support/evaluators.h"
 #include "support/launching_run.h"
 #include "support/launching_state.h"
 #include "support/reference_model.h"
-
-typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
-                                       const launching_phase *, const double *, launching_output *);
-
-static launching_outcome general(const launching_system *system, const launching_input *input,
-                                 const launching_phase *phase, const double *state,
-                                 launching_output *out)
-{
-    return launching_evaluate_general(system, LD_FORMULATION_REDUCED, input, phase, state, out);
-}
-
-static launching_outcome overall(const launching_system *system, const launching_input *input,
-                                 const launching_phase *phase, const double *state,
-                                 launching_output *out)
-{
-    return launching_evaluate_general(system, LD_FORMULATION_OVERALL, input, phase, state, out);
-}
 
 // A state with all that was found in it.
 typedef struct instant {

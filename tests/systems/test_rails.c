@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "support/check.h"
+#include "support/evaluators.h"
 #include "support/launching_state.h"
 #include "support/random_model.h"
 #include "support/reference_model.h"
@@ -152,23 +153,6 @@ static void compare(const launching_system *system, const launching_case *c,
 }
 
 // ---- states ----
-
-typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
-                                       const launching_phase *, const double *, launching_output *);
-
-static launching_outcome general(const launching_system *system, const launching_input *input,
-                                 const launching_phase *phase, const double *state,
-                                 launching_output *out)
-{
-    return launching_evaluate_general(system, LD_FORMULATION_REDUCED, input, phase, state, out);
-}
-
-static launching_outcome overall(const launching_system *system, const launching_input *input,
-                                 const launching_phase *phase, const double *state,
-                                 launching_output *out)
-{
-    return launching_evaluate_general(system, LD_FORMULATION_OVERALL, input, phase, state, out);
-}
 
 // Speeds at first touch: of listed surfaces one each, of a shorthand's one a shoe.
 static void draw_touch_speeds(uint64_t *seed, const ld_model *model, launching_case *c)
