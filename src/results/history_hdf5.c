@@ -133,8 +133,8 @@ ld_status history_hdf5_geometry(history_hdf5 *history, const ld_array *arrays, s
 static hid_t create_column(hid_t group, const ld_column *column, hid_t space, hid_t properties,
                            hid_t access)
 {
-    hid_t dataset = H5Dcreate2(group, column->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
-                               properties, access);
+    hid_t dataset =
+        H5Dcreate2(group, column->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, access);
     if (dataset >= 0 && hdf5_write_string(dataset, "unit", column->unit) &&
         hdf5_write_string(dataset, "description", column->description))
         return dataset;
