@@ -69,14 +69,14 @@ static void get(const double *block, const lane_group *self, int i, size_t first
         number[k] = block[(first + k) * (size_t)self->count + (size_t)i];
 }
 
+// Numbers of a lane's step into, or out of, its column.
 #define STEP_AT(member) (offsetof(dormand_prince_numbers, member) / sizeof(double))
-#define PUT_STEP(self, i, member)                                                                  \
+#define PUT_STEP(self, i, member, count)                                                           \
     put((self)->step, self, i, STEP_AT(member),                                                    \
-        (const double *)&(self)->lane[i].run.steps.step.member,                                    \
-        sizeof((dormand_prince_numbers){0}.member) / sizeof(double))
-#define GET_STEP(self, i, member)                                                                  \
+        (const double *)&(self)->lane[i].run.steps.step.member, count)
+#define GET_STEP(self, i, member, count)                                                           \
     get((self)->step, self, i, STEP_AT(member), (double *)&(self)->lane[i].run.steps.step.member,  \
-        sizeof((dormand_prince_numbers){0}.member) / sizeof(double))
+        count)
 
 // ---- a lane
 
@@ -101,16 +101,16 @@ static void go_on(lane_group *self, int i)
         put(self->number, self, i, 0, (const double *)&run->phase.number, FLIGHT_NUMBERS);
     self->lane[i].piece = run->phase.piece;
     dormand_prince_begin(steps, flight_run_stop(run));
-    PUT_STEP(self, i, t0);
-    PUT_STEP(self, i, y0);
-    PUT_STEP(self, i, k[0]);
+    PUT_STEP(self, i, t0, 1);
+    PUT_STEP(self, i, y0, DORMAND_PRINCE_STATES);
+    PUT_STEP(self, i, k[0], DORMAND_PRINCE_STATES);
 }
 
 static void choose(lane_group *self, int i)
 {
     flight_run *run = &self->lane[i].run;
     if (dormand_prince_choose(&run->steps))
-        PUT_STEP(self, i, size);
+        PUT_STEP(self, i, size, 1);
     else
         end(self, i, flight_run_lost(run));
 }
@@ -121,11 +121,11 @@ static void judge(lane_group *self, int i)
     flight_run *run = &self->lane[i].run;
     dormand_prince *steps = &run->steps;
     steps->evaluations += DORMAND_PRINCE_STAGES - 1;
-    GET_STEP(self, i, error);
+    GET_STEP(self, i, error, 1);
     if (!dormand_prince_judge(steps))
         return;
-    GET_STEP(self, i, y);
-    GET_STEP(self, i, k[6]);
+    GET_STEP(self, i, y, DORMAND_PRINCE_STATES);
+    GET_STEP(self, i, k[6], DORMAND_PRINCE_STATES);
     ld_status status = flight_run_stepped(run);
     if (status)
         end(self, i, status);
@@ -171,8 +171,8 @@ static bool take(lane_group *self, int i)
         one->piece = -2; // none is
         self->side.system[i] = flight->job.system;
         self->side.phase[i] = &one->run.phase;
-        PUT_STEP(self, i, absolute);
-        PUT_STEP(self, i, relative);
+        PUT_STEP(self, i, absolute, DORMAND_PRINCE_STATES);
+        PUT_STEP(self, i, relative, DORMAND_PRINCE_STATES);
         go_on(self, i);
     }
     return true;
