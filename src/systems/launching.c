@@ -43,7 +43,7 @@ static int works_of(const ld_model *model)
 {
     return model_slide_count(model)     ? POWER_RECOIL + 1
            : model_has_pressure(model)  ? POWER_PRESSURE + 1
-           : model_has_crossflow(model) ? POWER_CROSSFLOW + 1
+           : model_feels_air(model)     ? POWER_AIR + 1
                                         : POWER_ALWAYS;
 }
 
