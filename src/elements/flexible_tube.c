@@ -38,6 +38,17 @@ static void hold(line_ties *ties, const ld_support *support, ld_clamp a, ld_clam
     ties->held_slope[ties->held++] = slope;
 }
 
+// How many of what is held the line follows as a rigid one: of slopes alone one, of a single value
+// one, else as many as it has rigid shapes.
+static int held_by_rigid_shapes(const line_ties *ties, int width)
+{
+    int values = 0;
+    for (int c = 0; c < ties->held; c++)
+        values += !ties->held_slope[c];
+    int most = values > 0 ? width : 1;
+    return ties->held < most ? ties->held : most;
+}
+
 // Tail and springs as one line feels them. Both planes share their shapes: bending takes the mean
 // of their inertia and stiffness, which are equal as a rule.
 static line_ties ties_of(line_kind kind, const ld_tubes *model)
@@ -329,7 +340,7 @@ static ld_status choose_shapes(const tube_line *line, const ld_tubes *model, lin
     switch (model->modes.span) {
     case LD_SPAN_SUPPORTED:
         // what is held besides the rigid shapes moves in some of free modes: it bears forces
-        bearing = ties.held > line->width ? ties.held - line->width : 0;
+        bearing = ties.held - held_by_rigid_shapes(&ties, line->width);
         found = take_elastic_parts(line, vector, count, 0, m - bearing, part);
         if (!bearing)
             break;
