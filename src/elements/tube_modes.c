@@ -322,6 +322,17 @@ static ld_status add_clamped_modes(const plane_line *self, int m, elastic_modes 
     return LD_OK;
 }
 
+// How many of what is held the line follows as a rigid one: of slopes alone one, of a single value
+// one, else as many as it has rigid shapes.
+static int held_by_rigid_shapes(const line_ties *ties, int width)
+{
+    int values = 0;
+    for (int c = 0; c < ties->held; c++)
+        values += !ties->held_slope[c];
+    int most = values > 0 ? width : 1;
+    return ties->held < most ? ties->held : most;
+}
+
 // `m` modes of the span, or as many as are independent.
 static ld_status find_modes(const plane_line *self, ld_mode_span span, int m, elastic_modes *modes,
                             ld_error *error)
@@ -334,8 +345,7 @@ static ld_status find_modes(const plane_line *self, ld_mode_span span, int m, el
     if (span == LD_SPAN_FREE_FREE)
         return add_free_modes(&untied, m, m, modes, error);
     // what is held besides the rigid shapes moves in some of free modes: it bears forces
-    int held = self->ties.held, rigid = self->line->width,
-        bearing = held > rigid ? held - rigid : 0;
+    int bearing = self->ties.held - held_by_rigid_shapes(&self->ties, self->line->width);
     ld_status status = add_free_modes(self, m, m - bearing, modes, error);
     return status || !bearing ? status : add_free_modes(&untied, m, m, modes, error);
 }
