@@ -12,6 +12,7 @@
 #include "elements/ideal.h"
 #include "elements/load.h"
 #include "elements/lock.h"
+#include "elements/open_air.h"
 #include "elements/pressure.h"
 #include "elements/shoe.h"
 #include "elements/slot.h"
@@ -76,6 +77,19 @@ launching_outcome launching_evaluate_general(const launching_system *self,
                                              const launching_phase *phase, const double *state,
                                              launching_output *output);
 
+// What an impulse changes speeds by (or, along the same directions, places): as accelerations of
+// the tube and of the rocket.
+typedef struct launching_change {
+    v3 a, w_dot, a_O1, alpha_B;
+    double q_ddot[LD_MAX_MODAL];
+} launching_change;
+
+// The impulse of the set's constraints that takes `wrong` [set->count] out of their rates, from the
+// general mass matrix; none where that is not positive definite.
+void launching_impulse_general(const launching_system *self, const launching_instant *now,
+                               const constraint_set *set, const double *state, const double *wrong,
+                               launching_change *change);
+
 // Derivative of the state from the accelerations found.
 void launching_rates(const launching_system *self, const double *state,
                      const launching_output *output, bool rocket, double *state_dot);
@@ -91,6 +105,9 @@ typedef struct launching_pose {
 // Fills `pose` and, of `output`, x_dot and y.
 void launching_rocket_pose(const launching_system *self, const double *state, launching_pose *pose,
                            launching_output *output);
+
+// Where the rocket's point (of B [m]) is in I [m].
+v3 launching_rocket_point(const launching_system *self, const double *state, v3 point);
 
 // The section at station x (its point of the axis and frame, with their velocity and rate against
 // I), in R.

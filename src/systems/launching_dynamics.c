@@ -153,6 +153,23 @@ static void load_to_project(int lanes, const launching_system *self, const doubl
     tube_factor(&self->tube, &now->tube);
 }
 
+// What that impulse makes of tube and rocket, with all modes that the tube has.
+static void change_by_impulse(int lanes, const launching_system *self, const launching_instant *now,
+                              const constraint_set *set, const double *state, const double *wrong,
+                              launching_change *change)
+{
+    constrained impulse;
+    if (self->tube.flexible.na > 0) { // the fast layout has no axial ones
+        launching_impulse_general(self, now, set, state, wrong, change);
+        return;
+    }
+    find_impulse(lanes, self, now, set, wrong, &impulse);
+    accelerate_tube(lanes, now->phase->rocket, self, now, set, &impulse, &change->a, &change->w_dot,
+                    change->q_ddot);
+    change->a_O1 = impulse.a;
+    change->alpha_B = impulse.alpha;
+}
+
 // Puts the tube where its clamps hold it, by displacements along their forces.
 static void place_on_clamps(int lanes, const launching_system *self, const launching_instant *given,
                             double *state)
@@ -163,9 +180,8 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
     now.phase = &tube_alone;
     for (int pass = 0; pass < 3; pass++) {
         launching_constraints clamps;
-        constrained shift;
-        double wrong[LD_MAX_CONSTRAINTS], q[LD_MAX_MODAL] = {0}, most = 0; // no axial ones
-        v3 r, turn;
+        launching_change shift;
+        double wrong[LD_MAX_CONSTRAINTS], most = 0;
         load_to_project(lanes, self, state, &now);
         launching_constrain(lanes, false, true, self, &now, &clamps);
         for (int i = 0; i < clamps.set.count; i++) {
@@ -174,13 +190,12 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
         }
         if (most < 1e-15)
             return;
-        find_impulse(lanes, self, &now, &clamps.set, wrong, &shift);
-        accelerate_tube(lanes, false, self, &now, &clamps.set, &shift, &r, &turn, q);
-        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(turn));
-        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, r)));
+        change_by_impulse(lanes, self, &now, &clamps.set, state, wrong, &shift);
+        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(shift.w_dot));
+        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, shift.a)));
         memcpy(state + at->quaternion, &turned, sizeof turned);
         for (int i = 0; i < at->nq; i++)
-            state[at->q + i] += q[i];
+            state[at->q + i] += shift.q_ddot[i];
     }
 }
 
@@ -189,21 +204,19 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
                          const constraint_set *set, double *state)
 {
     const launching_layout *at = &self->layout;
-    constrained impulse;
-    double drift[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
-    v3 v, w;
+    launching_change change;
+    double drift[LD_MAX_CONSTRAINTS];
     for (int i = 0; i < set->count; i++)
         drift[i] = set->e[i].drift;
-    find_impulse(lanes, self, now, set, drift, &impulse);
-    accelerate_tube(lanes, now->phase->rocket, self, now, set, &impulse, &v, &w, q_dot);
+    change_by_impulse(lanes, self, now, set, state, drift, &change);
     if (now->phase->rocket) {
-        v3_store(state + at->V, v3_add(now->rocket.v_O1, impulse.a));
-        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, impulse.alpha));
+        v3_store(state + at->V, v3_add(now->rocket.v_O1, change.a_O1));
+        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, change.alpha_B));
     }
-    v3_store(state + at->v, v3_add(now->tube.v, v));
-    v3_store(state + at->w, v3_add(now->tube.w, w));
+    v3_store(state + at->v, v3_add(now->tube.v, change.a));
+    v3_store(state + at->w, v3_add(now->tube.w, change.w_dot));
     for (int i = 0; i < at->nq; i++)
-        state[at->q_dot + i] += q_dot[i];
+        state[at->q_dot + i] += change.q_ddot[i];
 }
 
 void launching_project(const launching_system *self, const launching_input *input,
@@ -236,6 +249,23 @@ void launching_rocket_pose(const launching_system *self, const double *state, la
     tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
     rocket_load(&self->tube, &self->layout, state, &tube, &rocket, output);
     *pose = (launching_pose){rocket.p1, rocket.at.A, rocket.A_RB, rocket.v_O1, rocket.w_B};
+}
+
+v3 launching_rocket_point(const launching_system *self, const double *state, v3 point)
+{
+    const launching_layout *at = &self->layout;
+    const double *x = state + at->x;
+    modal_state modal;
+    element_motion motion;
+    axis_section s;
+    modal_load(self->tube.flexible.nbp / 4, &self->tube, at, state, &modal);
+    s.index = flexible_tube_find(&self->tube.flexible, x[X_S]);
+    element_load(&self->tube, &modal, s.index, &motion);
+    section_load(&self->tube, &motion, x[X_S], &s);
+    v3 r = v3_make(0, x[X_Y], x[X_Z]),
+       turned = m3_apply(rocket_attitude(rocket_turns_of(x)), point);
+    r = v3_add(s.P, m3_apply(s.A, v3_add(r, turned)));
+    return v3_add(v3_from(state + at->r), m3_apply(q_matrix(q_from(state + at->quaternion)), r));
 }
 
 void launching_section_at(const launching_system *self, const double *state, double x,
