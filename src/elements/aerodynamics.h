@@ -36,4 +36,16 @@ typedef struct moving_air {
     double speed_of_sound; // [m/s], > 0
 } moving_air;
 
+// Force f and moment m about the mass centre, in axes whose x is the rocket's.
+typedef struct air_wrench {
+    v3 f, m;
+} air_wrench;
+
+// v: velocity [m/s] through the air of the mass centre c [m from O1], w: angular velocity [rad/s],
+// rho: density [kg/m3], mach: Mach number, held at the table's last; power: the thrust table has
+// not ended; interval: of the table, kept between calls. All in the same axes, of B or of a frame
+// that differs from B by a roll.
+air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
+                               double mach, bool power, size_t *interval);
+
 #endif

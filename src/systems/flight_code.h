@@ -94,8 +94,8 @@ LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, cons
     return out;
 }
 
-LD_INLINE real_wrench air_wrench(const flight_lanes *lanes, const flow *here, real3 v_B, real speed,
-                                 real3 w, real3 c)
+LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, const flow *here, real3 v_B,
+                                      real speed, real3 w, real3 c)
 {
     if (lanes->system[0]->aerodynamics.model == LD_AERODYNAMICS_BODY)
         return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), v_B, speed, w,
@@ -148,7 +148,7 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
             y_dot[FLIGHT_XI + 1] = here.xi_dot[1];
         }
         real3 v_B = roll(c, -s, real33_apply_transposed(&A, here.v));
-        real_wrench wrench = air_wrench(lanes, &here, v_B, real3_norm(here.v), w, mass.c);
+        real_wrench wrench = wrench_of_lanes(lanes, &here, v_B, real3_norm(here.v), w, mass.c);
         force = real3_add(force, wrench.f);
         moment = real3_add(moment, wrench.m);
     }
