@@ -103,7 +103,7 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     if (phase->rocket)
         launching_load_rocket(lanes, self, state, now);
     tube_factor(&self->tube, &now->tube);
-    launching_constrain(lanes, self, now, &u->c);
+    launching_constrain(lanes, phase->rocket, true, self, now, &u->c);
     load_direction_forces(self, q, q_dot, u);
     flatten(self, &now->on_tube, u->h);
 }
@@ -194,7 +194,7 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
         }
         out->a_O1 = r_a;
         out->alpha_B = r_alpha;
-        launching_report(self, &u->now, &u->c.set, out);
+        launching_report(u->now.phase->rocket, true, self, &u->now, &u->c.set, out);
     }
     store_tube(n, e_0, out);
     return LAUNCHING_OK;
@@ -494,7 +494,7 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     memcpy(u->c.set.x, x + 18, sizeof(double) * (size_t)count);
     u->c.set.friction = -rub * x[18];
     out->condition = transfer.condition;
-    launching_report(self, &u->now, &u->c.set, out);
+    launching_report(u->now.phase->rocket, true, self, &u->now, &u->c.set, out);
     return true;
 }
 
