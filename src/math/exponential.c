@@ -263,7 +263,9 @@ static double norm_of(const block *of)
         double sum = 0;
         for (int i = 0; i < of->n; i++)
             sum += fabs(of->L[i + of->n * j]) * of->scale[j] / of->scale[i];
-        most = !(sum <= most) ? sum : most;
+        if (!isfinite(sum))
+            return INFINITY;
+        most = fmax(most, sum);
     }
     return most;
 }
@@ -350,7 +352,7 @@ static int prepare_block(exponential *self, block *of)
     double h = exponential_size(self, rungs), *m[MATRICES];
     balance(of);
     double norm = norm_of(of) * h;
-    while (doublings < 60 && ldexp(norm, -doublings) > 0.5)
+    while (doublings < 60 && !(ldexp(norm, -doublings) <= 0.5))
         doublings++;
     size_t size = matrix_size(of);
     double *memory = doublings < 60 ? aligned_alloc(64, MATRICES * size * sizeof(double)) : NULL;
