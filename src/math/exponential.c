@@ -27,6 +27,10 @@ typedef struct block {
 
 enum { VECTORS = 10, MOST_PIECES = 1 << (EXPONENTIAL_MOST_RUNGS - 1) };
 
+// Matrices in which the functions are found: of z, exp(z), phi_1, phi_2, phi_3, z^2, z^3, and one
+// more.
+enum { Z, E, PHI_1, PHI_2, PHI_3, SQUARE, CUBE, NEXT, MATRICES };
+
 struct exponential {
     exponential_settings settings;
     bool wide_instructions; // AVX2 is there
@@ -36,8 +40,9 @@ struct exponential {
     int *place;      // [n] of a state in a vector
     double *memory;
     double *vector[VECTORS];
-    double *y, *f;  // [n] of a stage
-    double *middle; // [n] slopes in the middle of the step
+    double *matrix[MATRICES]; // for the largest block
+    double *y, *f;            // [n] of a stage
+    double *middle;           // [n] slopes in the middle of the step
     exponential_course course;
     bool found; // its way in steps of the finest rung, each a vector, with the slopes
     double *way[MOST_PIECES + 1], *way_slope[MOST_PIECES + 1];
@@ -156,9 +161,11 @@ static size_t divide(exponential *self, double *memory)
         self->way[k] = take(memory, &used, (size_t)self->size);
         self->way_slope[k] = take(memory, &used, (size_t)self->size);
     }
+    size_t largest = 0;
     for (int b = 0; b < self->block_count; b++) {
         block *of = &self->blocks[b];
         size_t square = matrix_size(of);
+        largest = square > largest ? square : largest;
         of->L = take(memory, &used, (size_t)of->n * (size_t)of->n);
         of->panels = take(memory, &used, square);
         of->scale = take(memory, &used, (size_t)of->n);
@@ -169,6 +176,8 @@ static size_t divide(exponential *self, double *memory)
             functions->last = take(memory, &used, square);
         }
     }
+    for (int i = 0; i < MATRICES; i++)
+        self->matrix[i] = take(memory, &used, largest);
     return used;
 }
 
@@ -270,10 +279,6 @@ static double norm_of(const block *of)
     return most;
 }
 
-// Matrices in which the functions are found: of z, exp(z), phi_1, phi_2, phi_3, z^2, z^3, and one
-// more.
-enum { Z, E, PHI_1, PHI_2, PHI_3, SQUARE, CUBE, NEXT, MATRICES };
-
 // Adds a times the unit matrix.
 static void add_unit(const block *of, double a, double *A)
 {
@@ -345,22 +350,19 @@ static void keep_functions(block *of, double *const m[MATRICES], int rung)
         }
 }
 
-// Other than 0: L is not finite, or too large, or there is no memory.
+// Other than 0: L is not finite, or too large.
 static int prepare_block(exponential *self, block *of)
 {
     int rungs = self->settings.rungs, doublings = 0;
-    double h = exponential_size(self, rungs), *m[MATRICES];
+    double h = exponential_size(self, rungs), **m = self->matrix;
     balance(of);
     double norm = norm_of(of) * h;
     while (doublings < 60 && !(ldexp(norm, -doublings) <= 0.5))
         doublings++;
-    size_t size = matrix_size(of);
-    double *memory = doublings < 60 ? aligned_alloc(64, MATRICES * size * sizeof(double)) : NULL;
-    if (!memory)
+    if (doublings == 60)
         return -1;
-    memset(memory, 0, MATRICES * size * sizeof(double));
     for (int i = 0; i < MATRICES; i++)
-        m[i] = memory + (size_t)i * size;
+        memset(m[i], 0, matrix_size(of) * sizeof(double));
     for (int j = 0; j < of->n; j++)
         for (int i = 0; i < of->n; i++) {
             double L = of->L[i + of->n * j];
@@ -375,7 +377,6 @@ static int prepare_block(exponential *self, block *of)
         if (rung > 0)
             double_functions(self, of, m);
     }
-    free(memory);
     return 0;
 }
 
