@@ -153,6 +153,23 @@ static void load_to_project(int lanes, const launching_system *self, const doubl
     tube_factor(&self->tube, &now->tube);
 }
 
+// What that impulse makes of tube and rocket, with all modes that the tube has.
+static void change_by_impulse(int lanes, const launching_system *self, const launching_instant *now,
+                              const constraint_set *set, const double *state, const double *wrong,
+                              launching_change *change)
+{
+    constrained impulse;
+    if (self->tube.flexible.na > 0) { // the fast layout has no axial ones
+        launching_impulse_general(self, now, set, state, wrong, change);
+        return;
+    }
+    find_impulse(lanes, self, now, set, wrong, &impulse);
+    accelerate_tube(lanes, now->phase->rocket, self, now, set, &impulse, &change->a, &change->w_dot,
+                    change->q_ddot);
+    change->a_O1 = impulse.a;
+    change->alpha_B = impulse.alpha;
+}
+
 // Puts the tube where its clamps hold it, by displacements along their forces.
 static void place_on_clamps(int lanes, const launching_system *self, const launching_instant *given,
                             double *state)
@@ -163,9 +180,8 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
     now.phase = &tube_alone;
     for (int pass = 0; pass < 3; pass++) {
         launching_constraints clamps;
-        constrained shift;
-        double wrong[LD_MAX_CONSTRAINTS], q[LD_MAX_MODAL] = {0}, most = 0; // no axial ones
-        v3 r, turn;
+        launching_change shift;
+        double wrong[LD_MAX_CONSTRAINTS], most = 0;
         load_to_project(lanes, self, state, &now);
         launching_constrain(lanes, false, true, self, &now, &clamps);
         for (int i = 0; i < clamps.set.count; i++) {
@@ -174,13 +190,12 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
         }
         if (most < 1e-15)
             return;
-        find_impulse(lanes, self, &now, &clamps.set, wrong, &shift);
-        accelerate_tube(lanes, false, self, &now, &clamps.set, &shift, &r, &turn, q);
-        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(turn));
-        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, r)));
+        change_by_impulse(lanes, self, &now, &clamps.set, state, wrong, &shift);
+        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(shift.w_dot));
+        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, shift.a)));
         memcpy(state + at->quaternion, &turned, sizeof turned);
         for (int i = 0; i < at->nq; i++)
-            state[at->q + i] += q[i];
+            state[at->q + i] += shift.q_ddot[i];
     }
 }
 
@@ -189,21 +204,19 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
                          const constraint_set *set, double *state)
 {
     const launching_layout *at = &self->layout;
-    constrained impulse;
-    double drift[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
-    v3 v, w;
+    launching_change change;
+    double drift[LD_MAX_CONSTRAINTS];
     for (int i = 0; i < set->count; i++)
         drift[i] = set->e[i].drift;
-    find_impulse(lanes, self, now, set, drift, &impulse);
-    accelerate_tube(lanes, now->phase->rocket, self, now, set, &impulse, &v, &w, q_dot);
+    change_by_impulse(lanes, self, now, set, state, drift, &change);
     if (now->phase->rocket) {
-        v3_store(state + at->V, v3_add(now->rocket.v_O1, impulse.a));
-        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, impulse.alpha));
+        v3_store(state + at->V, v3_add(now->rocket.v_O1, change.a_O1));
+        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, change.alpha_B));
     }
-    v3_store(state + at->v, v3_add(now->tube.v, v));
-    v3_store(state + at->w, v3_add(now->tube.w, w));
+    v3_store(state + at->v, v3_add(now->tube.v, change.a));
+    v3_store(state + at->w, v3_add(now->tube.w, change.w_dot));
     for (int i = 0; i < at->nq; i++)
-        state[at->q_dot + i] += q_dot[i];
+        state[at->q_dot + i] += change.q_ddot[i];
 }
 
 void launching_project(const launching_system *self, const launching_input *input,
