@@ -19,6 +19,8 @@ typedef struct tube_mesh {
     int *section; // [elements] index of the section an element lies in, owned
 } tube_mesh;
 
+enum { PLANE_Y, PLANE_Z }; // of deflections along y, along z
+
 // Bending has the mean of both planes' stiffnesses, which are equal in most tubes.
 typedef enum line_kind { LINE_BENDING, LINE_TORSION, LINE_STRETCH } line_kind;
 

@@ -134,7 +134,6 @@ LD_INLINE void clamp_constrain(const int lanes, const support_set *self, const t
                                clamped_section own[LD_MAX_CLAMPED_STATIONS], constraint_set *set)
 {
     int stations = 0;
-    set->clamp_row = set->count;
     for (int k = 0; self->clamps && k < self->count; k++) {
         const tube_support *support = &self->support[k];
         clamp_state clamp;

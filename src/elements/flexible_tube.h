@@ -13,8 +13,7 @@
 #ifndef LD_ELEMENTS_FLEXIBLE_TUBE_H
 #define LD_ELEMENTS_FLEXIBLE_TUBE_H
 
-#include "launchdyn/status.h"
-#include "model/model.h"
+#include "elements/beam_finite_elements.h"
 
 enum { LD_NB = LD_MAX_BENDING_MODES, LD_NT = LD_MAX_TORSION_MODES, LD_NA = LD_MAX_AXIAL_MODES };
 
@@ -26,8 +25,6 @@ typedef struct tube_element {
     double tau[2][LD_NT];            // torsion
     double a[2][LD_NA];              // stretch
 } tube_element;
-
-enum { PLANE_Y, PLANE_Z }; // of deflections along y, along z
 
 // What K and D of bending have off their diagonals, by plane; zeros on them and as padding.
 typedef struct tube_mixing {
@@ -54,12 +51,6 @@ typedef struct flexible_tube {
     int element_count;
     tube_element *element; // 64-byte aligned, owned
     tube_mixing *mixing;   // owned; NULL: K and D of bending are diagonal
-    // natural frequencies [rad/s] of the whole FE model of tube and tail on its support springs
-    // (base held), per family, ascending: for listing; as many as there are modes; bending with the
-    // means of both planes
-    double supported_bending[LD_NB];
-    double supported_torsion[LD_NT];
-    double supported_axial[LD_NA];
     int support_count;
     int support_element[LD_MAX_SUPPORTS]; // element that holds support k's station
 } flexible_tube;

@@ -119,7 +119,7 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
         if (!support->isotropic)
             moment = rv_left_jacobian_inverse_transposed(phi, moment);
         v3 f_T = v3_neg(v3_add(spring, damper)), m_T = v3_neg(v3_add(moment, twister));
-        if (support->slide.given.present) {
+        if (__builtin_expect(support->slide.given.present, 0)) {
             slide_force slide = slide_load(&support->slide, d.x, d_dot.x, now->phase->frictionless);
             f_T.x = slide.force;
             damping += slide.stops;

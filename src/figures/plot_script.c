@@ -77,6 +77,41 @@ static bool several(const plot_drawing *drawing)
     return drawing->page->runs > 1;
 }
 
+// ---- words ----
+
+enum { WORDS = 96 };
+
+static bool on_surfaces(const history_data *run)
+{
+    for (size_t i = 0; i < run->columns; i++)
+        if (strncmp(run->name[i], "shoe.", 5) == 0)
+            return true;
+    return false;
+}
+
+// A text of the figures, which speak of a tube and adaptors, as it is for a run: on surfaces of a
+// guide and shoes.
+static void put_words(const history_data *run, const char *text, char out[WORDS])
+{
+    static const char *const word[][2] = {
+        {"tube", "guide"}, {"Tube", "Guide"}, {"adaptor", "shoe"}, {"Adaptor", "Shoe"}};
+    enum { COUNT = sizeof word / sizeof *word };
+    size_t used = 0;
+    bool other = on_surfaces(run);
+    while (*text && used + 8 < WORDS) {
+        int k = other ? 0 : COUNT;
+        while (k < COUNT && strncmp(text, word[k][0], strlen(word[k][0])) != 0)
+            k++;
+        if (k < COUNT) {
+            used += (size_t)snprintf(out + used, WORDS - used, "%s", word[k][1]);
+            text += strlen(word[k][0]);
+        } else {
+            out[used++] = *text++;
+        }
+    }
+    out[used] = '\0';
+}
+
 // ---- curves ----
 
 bool plot_column_matches(const char *name, const char *pattern, char *label, size_t size)
@@ -141,7 +176,9 @@ static int find_in_source(plot_drawing *drawing, const plot_curve *wanted,
         return column;
     for (size_t i = 0; i < history->columns && drawing->count < MOST_CURVES; i++) {
         found_curve *curve = &drawing->curve[drawing->count];
-        snprintf(curve->label, sizeof curve->label, "%s", wanted->label);
+        char label[WORDS];
+        put_words(history, wanted->label, label);
+        snprintf(curve->label, sizeof curve->label, "%.*s", (int)sizeof curve->label - 1, label);
         if (!plot_column_matches(history->name[i], wanted->column, curve->label,
                                  sizeof curve->label))
             continue;
@@ -446,8 +483,9 @@ static void write_headings(plot_drawing *drawing)
                 "set arrow from screen 0.016, screen %.6f to screen 0.984, screen %.6f nohead lw 1 "
                 "lc rgb '#c0c0c0'\n",
                 above, above);
-        write_text(drawing, drawing->figure->about.description, 16, drawing->top - HEADING * 0.35,
-                   "left font ',14'");
+        char heading[WORDS];
+        put_words(&page->run[0], drawing->figure->about.description, heading);
+        write_text(drawing, heading, 16, drawing->top - HEADING * 0.35, "left font ',14'");
     }
     drawing->headed = true;
 }
@@ -531,18 +569,22 @@ static void write_panel(plot_drawing *drawing)
 // The `copy`-th diagram of a panel; of one that is drawn for each text that its '*' stands for,
 // that text goes into title and column. False after the last.
 static bool panel_copy(const plot_panel *panel, const history_data *history, int copy,
-                       plot_panel *made, char text[2][96])
+                       plot_panel *made, char text[2][WORDS])
 {
-    char found[LD_MAX_NAME + 8];
+    char found[LD_MAX_NAME + 8], title[WORDS];
     *made = *panel;
-    if (!panel->each)
+    put_words(history, panel->title, title);
+    if (!panel->each) {
+        snprintf(text[0], sizeof *text, "%s", title);
+        made->title = text[0];
         return copy == 0;
+    }
     for (size_t i = 0; i < history->columns; i++)
         if (plot_column_matches(history->name[i], panel->curve[0].column, found, sizeof found) &&
             copy-- == 0) {
-            const char *percent = strstr(panel->title, "%s");
-            snprintf(text[0], sizeof *text, "%.*s%s%s", (int)(percent - panel->title), panel->title,
-                     found, percent + 2);
+            const char *percent = strstr(title, "%s");
+            snprintf(text[0], sizeof *text, "%.*s%s%s", (int)(percent - title), title, found,
+                     percent + 2);
             snprintf(text[1], sizeof *text, "%s", history->name[i]);
             made->title = text[0];
             made->curve[0].column = text[1];
@@ -567,7 +609,7 @@ static double place_panels(const plot_figure *figure, const history_data *histor
 {
     bool right = false;
     plot_panel made;
-    char text[2][96];
+    char text[2][WORDS];
     top += HEADING;
     if (drawing) {
         drawing->figure = figure;

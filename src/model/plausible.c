@@ -12,7 +12,8 @@ static const plausible_rule *const tables[TABLES] = {plausible_of_tube, plausibl
 
 double plausible_bore(const ld_model *model)
 {
-    return model_has_launcher(model) ? model->tubes.section[0].bore_radius : NAN;
+    bool guides = model_has_launcher(model) && !model_has_surfaces(model);
+    return guides ? model->tubes.section[0].bore_radius : NAN;
 }
 
 double plausible_tube_mass(const ld_tubes *tubes)

@@ -72,7 +72,7 @@ static inline plausible_pair plausible_alone(double value)
     return plausible_compare(value, 1);
 }
 
-// Radius of the bore at the rear end [m]; NaN in a flight alone.
+// Radius of the bore at the rear end [m]; NaN on surfaces and in a flight alone.
 double plausible_bore(const ld_model *model);
 // Mass of a tube with its point masses and tail [kg].
 double plausible_tube_mass(const ld_tubes *tubes);

@@ -1,4 +1,5 @@
 // Plausibility of tubes, their supports and the base that carries them.
+#include "model/guide.h"
 #include "model/plausible.h"
 
 #define PI 3.14159265358979323846
@@ -16,6 +17,12 @@ static const ld_section *section_of(const plausible_entry *at)
     return &at->model->tubes.section[at->i];
 }
 
+// Its radius; NaN of a beam that carries surfaces.
+static double bore_of(const plausible_entry *at)
+{
+    return model_has_surfaces(at->model) ? NAN : section_of(at)->bore_radius;
+}
+
 FIND(wall_thickness)
 {
     const ld_section *s = section_of(at);
@@ -25,20 +32,20 @@ FIND(wall_thickness)
 FIND(wall_area)
 {
     const ld_section *s = section_of(at);
-    return plausible_compare(s->area, PI * s->bore_radius * s->bore_radius);
+    return plausible_compare(s->area, PI * bore_of(at) * bore_of(at));
 }
 
 // Radius about which the wall lies: of a thin ring sqrt(2 I/A).
 FIND(radius_of_area)
 {
     const ld_section *s = section_of(at);
-    return plausible_compare(sqrt(2 * s->second_moment / s->area), s->bore_radius);
+    return plausible_compare(sqrt(2 * s->second_moment / s->area), bore_of(at));
 }
 
 FIND(radius_of_stiffness)
 {
     const ld_section *s = section_of(at);
-    return plausible_compare(sqrt(2 * s->bending_stiffness / s->axial_stiffness), s->bore_radius);
+    return plausible_compare(sqrt(2 * s->bending_stiffness / s->axial_stiffness), bore_of(at));
 }
 
 // Radius of gyration about z, beside the tube's length.
@@ -52,7 +59,7 @@ FIND(radius_of_plane)
 FIND(radius_of_inertia)
 {
     const ld_section *s = section_of(at);
-    return plausible_compare(sqrt(s->polar_inertia / s->mass_per_length), s->bore_radius);
+    return plausible_compare(sqrt(s->polar_inertia / s->mass_per_length), bore_of(at));
 }
 
 FIND(mass_over_area)
@@ -122,6 +129,31 @@ FIND(support_time)
                              at->model->run.max_step);
 }
 
+// The distance of a station that is clamped from the nearest of those before it.
+FIND(clamped_distance)
+{
+    const ld_support *support = at->model->tubes.support;
+    double nearest = NAN;
+    for (int k = 0; k < at->i; k++)
+        if (support[k].clamped && support[at->i].clamped)
+            nearest = fmin(nearest, fabs(support[k].at - support[at->i].at));
+    return plausible_compare(nearest, at->model->tubes.length);
+}
+
+// Where the outer fibre lies beside the radius of gyration of its direction, the nearer of both.
+FIND(outer_fibre)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    const ld_station *station = &tubes->station[at->i];
+    const ld_section *s = tubes->section;
+    for (int k = 1; k < tubes->section_count && tubes->section[k].from <= station->at; k++)
+        s = &tubes->section[k];
+    double y = sqrt(section_stiffness_z(s) / s->axial_stiffness);
+    double z = sqrt(section_stiffness_y(s) / s->axial_stiffness);
+    bool along_y = station->outer_fibre[0] / y < station->outer_fibre[1] / z;
+    return plausible_compare(station->outer_fibre[along_y ? 0 : 1], along_y ? y : z);
+}
+
 // What the recuperators carry beside the weight that pulls the tube out of battery.
 FIND(preload)
 {
@@ -132,6 +164,28 @@ FIND(preload)
     for (int i = 0; i < tubes->support_count; i++)
         preload += tubes->support[i].recoil.present ? tubes->support[i].recoil.preload : 0;
     return plausible_compare(preload, weight > 0 ? weight : NAN);
+}
+
+// The greatest force on a rocket without motor beside the weight that holds it back.
+FIND(pressure_by_weight)
+{
+    double weight = plausible_weight_along(at->model);
+    double force = at->model->rocket.motor.absent ? plausible_peak_pressure(at->model) : NAN;
+    return plausible_compare(force, weight > 0 ? weight : NAN);
+}
+
+FIND(greatest_pressure)
+{
+    double bore = plausible_bore(at->model);
+    return plausible_alone(plausible_peak_pressure(at->model) / (PI * bore * bore));
+}
+
+// Reservoir beside what the rocket leaves behind it in the bore.
+FIND(gas_volume)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double bore = plausible_bore(at->model), way = tubes->length - at->model->rocket.start_at;
+    return plausible_compare(tubes->pressure.volume, PI * bore * bore * way);
 }
 
 // Pressure of the gas when the rocket leaves.
@@ -155,6 +209,38 @@ FIND(pitch)
 FIND(first_tube)
 {
     return plausible_compare(norm(at->model->tubes.layout.first), at->model->tubes.length);
+}
+
+// ---- guide of surfaces
+
+FIND(guide_line)
+{
+    const double *line = at->model->tubes.guide.line;
+    return plausible_compare(hypot(line[0], line[1]), at->model->tubes.length);
+}
+
+FIND(surface_place)
+{
+    const double *place = at->model->tubes.guide.surface[at->i].at;
+    return plausible_compare(hypot(place[0], place[1]), at->model->tubes.length);
+}
+
+// Angle that the widest gap and the opposite one leave the rocket between its outer shoes.
+FIND(play)
+{
+    ld_surface surface[LD_MAX_SURFACES];
+    int count = guide_surfaces(&at->model->tubes.guide, surface);
+    double widest = 0, front = plausible_front(at->model);
+    for (int k = 0; k < count; k++)
+        widest = fmax(widest, surface[k].gap);
+    return plausible_alone(count > 0 ? 2 * widest / front : NAN);
+}
+
+FIND(shoe_clearance)
+{
+    const ld_model *model = at->model;
+    return plausible_alone(model_has_surfaces(model) ? model->rocket.adaptor[at->i].clearance
+                                                     : NAN);
 }
 
 // ---- slot
@@ -272,6 +358,21 @@ const plausible_rule plausible_of_tube[] = {
      .of = "tubes.material.density", .why = "the tube rests out of battery"},
     {"tubes.supports.#.recoil.stroke", .unit = "m", .other = "tubes.length", NO_LOW, .high = 1,
      .why = "a slide is shorter than its tube"},
+    {"tubes.supports.#.recoil.friction", .unit = "N", .other = "tubes.supports.#.recoil.preload",
+     NO_LOW, .high = 1, .why = "the tube does not come back into battery"},
+    {"tubes.supports.#.at", "the distance from the nearest clamped station before it", .unit = "m",
+     .other = "tubes.length", .low = 0.005, NO_HIGH, .find = clamped_distance,
+     .why = "stations so near each other hold as one, by forces without measure"},
+    {"tubes.loads.#.outer_fibre", .unit = "m", .other = "the radius of gyration of its direction",
+     .low = 0.99, .high = 20, .find = outer_fibre,
+     .why = "the corner lies farther out than a section's material on the whole"},
+    {"tubes.pressure", "the greatest pressure", .unit = "Pa", NO_LOW, .high = 1e9,
+     .find = greatest_pressure, .why = "no barrel bears 10000 bar"},
+    {"tubes.pressure", "its greatest force", .unit = "N", .other = "the weight towards the rear",
+     .low = 1, NO_HIGH, .find = pressure_by_weight, .why = "the rocket never leaves"},
+    {"tubes.pressure.volume", .unit = "m3", .other = "the volume of the bore before the rocket",
+     .low = 0.001, .high = 1000, .find = gas_volume,
+     .why = "a reservoir is about as large as what it fills"},
     {"tubes.pressure.exponent", .unit = "", .low = 1, .high = 1.7,
      .why = "gases have 1 where they are kept warm, and at most 1.67"},
     {"tubes.pressure.ambient", .unit = "Pa", .other = "the pressure of the gas at the exit", NO_LOW,
@@ -284,6 +385,28 @@ const plausible_rule plausible_of_tube[] = {
     {"tubes.layout.first", "the distance of tube 1 from the platform's origin", .unit = "m",
      .other = "tubes.length", NO_LOW, .high = 5, .find = first_tube,
      .why = "tubes lie on their platform"},
+    {"tubes.guide.line", "its distance from the elastic axis", .unit = "m", .other = "tubes.length",
+     NO_LOW, .high = 0.2, .find = guide_line, .why = "the guide line runs along its beam"},
+    {"tubes.guide.t_slot.lips", .unit = "m", .other = "tubes.length", NO_LOW, .high = 0.2,
+     .why = "a rail is long and narrow"},
+    {"tubes.guide.t_slot.gap", .unit = "m", .other = "tubes.guide.t_slot.lips", NO_LOW, .high = 0.2,
+     .why = "a gap is a small part of the slot"},
+    {"tubes.guide.t_slot.side_gap", .unit = "m", .other = "tubes.guide.t_slot.lips", NO_LOW,
+     .high = 0.2, .why = "a gap is a small part of the slot"},
+    {"tubes.guide.tower.radius", .unit = "m", .other = "tubes.length", NO_LOW, .high = 0.5,
+     .why = "a tower is longer than wide"},
+    {"tubes.guide.tower.gap", .unit = "m", .other = "tubes.guide.tower.radius", NO_LOW, .high = 0.1,
+     .why = "a gap is a small part of the way across"},
+    {"tubes.guide.surfaces.#.at", "its distance from the guide line", .unit = "m",
+     .other = "tubes.length", NO_LOW, .high = 0.2, .find = surface_place,
+     .why = "surfaces lie around the guide line"},
+    {"tubes.guide.surfaces.#.gap", .unit = "m", NO_LOW, .high = 0.03,
+     .why = "gaps are millimetres"},
+    {"rocket.adaptors.#.clearance", .unit = "m", NO_LOW, .high = 0.03, .find = shoe_clearance,
+     .why = "it is added to the gaps of this shoe"},
+    {"rocket.adaptors", "the angle that the widest gap leaves between the outer shoes",
+     .unit = "rad", NO_LOW, .high = 5 * PI / 180, .find = play, .of = "tubes.guide",
+     .why = "shoes so near each other hardly guide"},
     {"tubes.slot.radius", .unit = "m", BORE, .low = 0.5, .high = 2, .find = slot_radius,
      .why = "the slot lies in the wall around the bore"},
     {"tubes.slot.angle", "its greatest angle", .unit = "rad", NO_LOW, .high = 45 * PI / 180,

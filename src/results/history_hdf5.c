@@ -130,10 +130,11 @@ ld_status history_hdf5_geometry(history_hdf5 *history, const ld_array *arrays, s
 }
 
 // One extendible array of doubles with its unit and description.
-static hid_t create_column(hid_t group, const ld_column *column, hid_t space, hid_t properties)
+static hid_t create_column(hid_t group, const ld_column *column, hid_t space, hid_t properties,
+                           hid_t access)
 {
-    hid_t dataset = H5Dcreate2(group, column->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
-                               properties, H5P_DEFAULT);
+    hid_t dataset =
+        H5Dcreate2(group, column->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, access);
     if (dataset >= 0 && hdf5_write_string(dataset, "unit", column->unit) &&
         hdf5_write_string(dataset, "description", column->description))
         return dataset;
@@ -146,16 +147,18 @@ static bool create_columns(history_hdf5 *history, const ld_column *columns, size
 {
     hsize_t none = 0, unlimited = H5S_UNLIMITED, chunk = BLOCK;
     hid_t space = H5Screate_simple(1, &none, &unlimited);
-    hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t properties = H5Pcreate(H5P_DATASET_CREATE), access = H5Pcreate(H5P_DATASET_ACCESS);
     H5Pset_chunk(properties, 1, &chunk);
     H5Pset_fletcher32(properties);
     H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
     H5Pset_obj_track_times(properties, false);
+    H5Pset_chunk_cache(access, 1, 0, 1); // a chunk is written once, and whole: none is kept
     bool fine = true;
     for (size_t i = 0; fine && i < count; i++) {
-        history->dataset[i] = create_column(history->group, &columns[i], space, properties);
+        history->dataset[i] = create_column(history->group, &columns[i], space, properties, access);
         fine = history->dataset[i] >= 0;
     }
+    H5Pclose(access);
     H5Pclose(properties);
     H5Sclose(space);
     return fine && H5Fflush(history->file, H5F_SCOPE_LOCAL) >= 0;

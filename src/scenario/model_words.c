@@ -177,13 +177,35 @@ static void tell_slot(FILE *stream, const ld_slot *slot)
             slot->friction);
 }
 
+// A clamp, of which directions unless of all, and springs beside it.
+static void tell_clamp(FILE *stream, const ld_support *support)
+{
+    static const char *const name[LD_CLAMPS] = {"x", "y", "z", "roll", "yaw", "pitch"};
+    int held = 0, told = 0, springs = 0;
+    for (int i = 0; i < LD_CLAMPS; i++) {
+        held += support_clamps(support, (ld_clamp)i);
+        springs += support_spring(support, (ld_clamp)i) > 0;
+    }
+    fprintf(stream, " a clamp");
+    for (int i = 0; i < LD_CLAMPS && held < LD_CLAMPS; i++)
+        if (support_clamps(support, (ld_clamp)i)) {
+            fprintf(stream, "%s %s", told == 0 ? " of" : told + 1 < held ? "," : " and", name[i]);
+            told++;
+        }
+    fputs(springs ? ", with springs," : "", stream);
+}
+
 static void tell_supports(FILE *stream, const ld_tubes *tubes)
 {
     fprintf(stream, "# supports:");
     for (int i = 0; i < tubes->support_count; i++) {
         const ld_support *support = &tubes->support[i];
-        fprintf(stream, "%s %s at %s", i ? "," : "", support->clamped ? "a clamp" : "springs",
-                METRES(support->at));
+        fputs(i ? "," : "", stream);
+        if (support->clamped)
+            tell_clamp(stream, support);
+        else
+            fputs(" springs", stream);
+        fprintf(stream, " at %s", METRES(support->at));
         if (!support->recoil.present)
             continue;
         fprintf(stream, " with a recoil slide");

@@ -76,6 +76,19 @@ launching_outcome launching_evaluate_general(const launching_system *self,
                                              const launching_phase *phase, const double *state,
                                              launching_output *output);
 
+// What an impulse changes speeds by (or, along the same directions, places): as accelerations of
+// the tube and of the rocket.
+typedef struct launching_change {
+    v3 a, w_dot, a_O1, alpha_B;
+    double q_ddot[LD_MAX_MODAL];
+} launching_change;
+
+// The impulse of the set's constraints that takes `wrong` [set->count] out of their rates, from the
+// general mass matrix; none where that is not positive definite.
+void launching_impulse_general(const launching_system *self, const launching_instant *now,
+                               const constraint_set *set, const double *state, const double *wrong,
+                               launching_change *change);
+
 // Derivative of the state from the accelerations found.
 void launching_rates(const launching_system *self, const double *state,
                      const launching_output *output, bool rocket, double *state_dot);

@@ -3,13 +3,13 @@
 #include "systems/launching_constraints.h"
 
 // Accelerations without constraint forces: r_O and, forward-substituted, e_0.
-LD_INLINE void accelerate_freely(const int lanes, const launching_system *self,
+LD_INLINE void accelerate_freely(const int lanes, const bool rocket, const launching_system *self,
                                  const launching_instant *now, constrained *to)
 {
     v3 f, m;
     const tube_force *h = &now->on_tube;
     to->a = to->alpha = v3_zero();
-    if (now->phase->rocket)
+    if (rocket)
         rocket_solve(&now->inertia, now->f, now->m, &to->a, &to->alpha);
     tube_condense(lanes, &self->tube, &now->tube, h, &f, &m);
     tube_forward(&now->tube, v3_sub(h->f, f), v3_sub(h->m, m), to->rigid);
@@ -40,11 +40,10 @@ LD_INLINE bool constrain(const int lanes, const launching_system *self,
 }
 
 // The tube's accelerations with the constraint forces.
-LD_INLINE void accelerate_tube(const int lanes, const launching_system *self,
+LD_INLINE void accelerate_tube(const int lanes, const bool rocket, const launching_system *self,
                                const launching_instant *now, const constraint_set *set,
                                const constrained *all, v3 *a, v3 *w_dot, double *q_ddot)
 {
-    bool rocket = now->phase->rocket;
     tube_backward(&now->tube, all->rigid, a, w_dot);
     tube_modal_accelerations(lanes, &self->tube, &now->tube,
                              rocket ? &set->section[0].shapes : NULL, &now->on_tube, all->force[0],
@@ -53,9 +52,10 @@ LD_INLINE void accelerate_tube(const int lanes, const launching_system *self,
         react_on_modes(&self->tube, &set->section[i].shapes, all->force[i], all->mu[i], q_ddot);
 }
 
-LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *self,
-                                     const launching_input *input, const launching_phase *phase,
-                                     const double *state, launching_output *out)
+LD_INLINE launching_outcome evaluate(const int lanes, const bool rocket, const bool holds,
+                                     const launching_system *self, const launching_input *input,
+                                     const launching_phase *phase, const double *state,
+                                     launching_output *out)
 {
     launching_instant now;
     now.input = input;
@@ -69,41 +69,47 @@ LD_INLINE launching_outcome evaluate(const int lanes, const launching_system *se
     tube_factor(&self->tube, &now.tube);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, &now);
-    if (phase->rocket)
+    if (rocket)
         launching_load_rocket(lanes, self, state, &now);
 
     launching_constraints constraints;
     constrained all;
-    accelerate_freely(lanes, self, &now, &all);
-    launching_constrain(lanes, self, &now, &constraints);
+    accelerate_freely(lanes, rocket, self, &now, &all);
+    launching_constrain(lanes, rocket, holds, self, &now, &constraints);
     if (!constrain(lanes, self, &now, &constraints.set, &all))
         return LAUNCHING_JAMMED;
-    launching_report(self, &now, &constraints.set, out);
+    launching_report(rocket, holds, self, &now, &constraints.set, out);
     constraints_record(&now, &constraints.set);
     out->a_O1 = all.a;
     out->alpha_B = all.alpha;
-    accelerate_tube(lanes, self, &now, &constraints.set, &all, &out->a, &out->w_dot, out->q_ddot);
+    accelerate_tube(lanes, rocket, self, &now, &constraints.set, &all, &out->a, &out->w_dot,
+                    out->q_ddot);
     return LAUNCHING_OK;
 }
 
-// One instance for the usual number of modes (up to 8 a plane), one for any.
-LD_INLINE launching_outcome evaluate_any(const launching_system *self, const launching_input *input,
-                                         const launching_phase *phase, const double *state,
-                                         launching_output *out)
-{
-    if (self->tube.flexible.nbp == 8)
-        return evaluate(2, self, input, phase, state, out);
-    return evaluate(self->tube.flexible.nbp / 4, self, input, phase, state, out);
-}
+// Instances of the code, each a function of its own: together in one they are 12 % slower. For the
+// usual launch (up to 8 modes a plane, the rocket in the tube, nothing held in its place), for any
+// with as many modes, and for any.
+typedef launching_outcome evaluation(const launching_system *self, const launching_input *input,
+                                     const launching_phase *phase, const double *state,
+                                     launching_output *out);
 
+#define INSTANCE(TARGET, NAME, LANES, ROCKET, HOLDS)                                               \
+    TARGET static __attribute__((noinline)) launching_outcome NAME(                                \
+        const launching_system *self, const launching_input *input, const launching_phase *phase,  \
+        const double *state, launching_output *out)                                                \
+    {                                                                                              \
+        return evaluate(LANES, ROCKET, HOLDS, self, input, phase, state, out);                     \
+    }
+#define INSTANCES(TARGET, USUAL, FEW_MODES, ANY)                                                   \
+    INSTANCE(TARGET, USUAL, 2, true, false)                                                        \
+    INSTANCE(TARGET, FEW_MODES, 2, phase->rocket, launching_holds_places(self))                    \
+    INSTANCE(TARGET, ANY, self->tube.flexible.nbp / 4, phase->rocket, launching_holds_places(self))
+
+INSTANCES(, usual, few_modes, any)
 #if defined(__x86_64__)
 // The same code with the processor's wider instructions: the same bits.
-__attribute__((target("avx2"))) static launching_outcome
-evaluate_wide(const launching_system *self, const launching_input *input,
-              const launching_phase *phase, const double *state, launching_output *out)
-{
-    return evaluate_any(self, input, phase, state, out);
-}
+INSTANCES(__attribute__((target("avx2"))), usual_wide, few_modes_wide, any_wide)
 #endif
 
 launching_outcome launching_evaluate(const launching_system *self, const launching_input *input,
@@ -112,11 +118,14 @@ launching_outcome launching_evaluate(const launching_system *self, const launchi
 {
     if (self->tube.flexible.na > 0) // axial modes: the fast layout has none
         return launching_evaluate_general(self, LD_FORMULATION_REDUCED, input, phase, state, out);
+    bool few = self->tube.flexible.nbp == 8;
+    bool is_usual = few && phase->rocket && !launching_holds_places(self);
+    evaluation *chosen = is_usual ? usual : few ? few_modes : any;
 #if defined(__x86_64__)
     if (self->wide_instructions)
-        return evaluate_wide(self, input, phase, state, out);
+        chosen = is_usual ? usual_wide : few ? few_modes_wide : any_wide;
 #endif
-    return evaluate_any(self, input, phase, state, out);
+    return chosen(self, input, phase, state, out);
 }
 
 // An impulse along the constraints that takes what is wrong, e.g. their drift, out of the speeds:
@@ -144,6 +153,23 @@ static void load_to_project(int lanes, const launching_system *self, const doubl
     tube_factor(&self->tube, &now->tube);
 }
 
+// What that impulse makes of tube and rocket, with all modes that the tube has.
+static void change_by_impulse(int lanes, const launching_system *self, const launching_instant *now,
+                              const constraint_set *set, const double *state, const double *wrong,
+                              launching_change *change)
+{
+    constrained impulse;
+    if (self->tube.flexible.na > 0) { // the fast layout has no axial ones
+        launching_impulse_general(self, now, set, state, wrong, change);
+        return;
+    }
+    find_impulse(lanes, self, now, set, wrong, &impulse);
+    accelerate_tube(lanes, now->phase->rocket, self, now, set, &impulse, &change->a, &change->w_dot,
+                    change->q_ddot);
+    change->a_O1 = impulse.a;
+    change->alpha_B = impulse.alpha;
+}
+
 // Puts the tube where its clamps hold it, by displacements along their forces.
 static void place_on_clamps(int lanes, const launching_system *self, const launching_instant *given,
                             double *state)
@@ -154,24 +180,22 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
     now.phase = &tube_alone;
     for (int pass = 0; pass < 3; pass++) {
         launching_constraints clamps;
-        constrained shift;
-        double wrong[LD_MAX_CONSTRAINTS], q[LD_MAX_MODAL] = {0}, most = 0; // no axial ones
-        v3 r, turn;
+        launching_change shift;
+        double wrong[LD_MAX_CONSTRAINTS], most = 0;
         load_to_project(lanes, self, state, &now);
-        launching_constrain(lanes, self, &now, &clamps);
+        launching_constrain(lanes, false, true, self, &now, &clamps);
         for (int i = 0; i < clamps.set.count; i++) {
             wrong[i] = clamps.set.e[i].error;
             most = fmax(most, fabs(wrong[i]));
         }
         if (most < 1e-15)
             return;
-        find_impulse(lanes, self, &now, &clamps.set, wrong, &shift);
-        accelerate_tube(lanes, self, &now, &clamps.set, &shift, &r, &turn, q);
-        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(turn));
-        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, r)));
+        change_by_impulse(lanes, self, &now, &clamps.set, state, wrong, &shift);
+        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(shift.w_dot));
+        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, shift.a)));
         memcpy(state + at->quaternion, &turned, sizeof turned);
         for (int i = 0; i < at->nq; i++)
-            state[at->q + i] += q[i];
+            state[at->q + i] += shift.q_ddot[i];
     }
 }
 
@@ -180,21 +204,19 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
                          const constraint_set *set, double *state)
 {
     const launching_layout *at = &self->layout;
-    constrained impulse;
-    double drift[LD_MAX_CONSTRAINTS], q_dot[LD_MAX_MODAL] = {0}; // axial modes get no impulse
-    v3 v, w;
+    launching_change change;
+    double drift[LD_MAX_CONSTRAINTS];
     for (int i = 0; i < set->count; i++)
         drift[i] = set->e[i].drift;
-    find_impulse(lanes, self, now, set, drift, &impulse);
-    accelerate_tube(lanes, self, now, set, &impulse, &v, &w, q_dot);
+    change_by_impulse(lanes, self, now, set, state, drift, &change);
     if (now->phase->rocket) {
-        v3_store(state + at->V, v3_add(now->rocket.v_O1, impulse.a));
-        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, impulse.alpha));
+        v3_store(state + at->V, v3_add(now->rocket.v_O1, change.a_O1));
+        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, change.alpha_B));
     }
-    v3_store(state + at->v, v3_add(now->tube.v, v));
-    v3_store(state + at->w, v3_add(now->tube.w, w));
+    v3_store(state + at->v, v3_add(now->tube.v, change.a));
+    v3_store(state + at->w, v3_add(now->tube.w, change.w_dot));
     for (int i = 0; i < at->nq; i++)
-        state[at->q_dot + i] += q_dot[i];
+        state[at->q_dot + i] += change.q_ddot[i];
 }
 
 void launching_project(const launching_system *self, const launching_input *input,
@@ -214,7 +236,7 @@ void launching_project(const launching_system *self, const launching_input *inpu
         rocket_load(&self->tube, at, state, &now.tube, &now.rocket, &unused);
         rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
     }
-    launching_constrain(lanes, self, &now, &constraints);
+    launching_constrain(lanes, phase->rocket, true, self, &now, &constraints);
     if (constraints.set.count)
         remove_drift(lanes, self, &now, &constraints.set, state);
 }

@@ -47,32 +47,32 @@ static void modal_energies(const launching_system *self, const double *state, la
 }
 
 // B = L(s)^T (f, m) of a direction's wrench on the section.
-static void direction_force(const uncoupled *u, const tube_section_state *section,
-                            const constraint_direction *e, double *B)
+static void direction_force(int n, const tube_section_state *section, const constraint_direction *e,
+                            double *B)
 {
     double wrench[6];
     v3_store(wrench, e->force);
     v3_store(wrench + 3, e->moment);
-    for (int j = 0; j < u->n; j++) {
+    for (int j = 0; j < n; j++) {
         B[j] = 0;
         for (int i = 0; i < 6; i++)
-            B[j] += section->L[i * u->n + j] * wrench[i];
+            B[j] += section->L[i * n + j] * wrench[i];
     }
 }
 
-static void load_direction_forces(const launching_system *self, const double *q,
-                                  const double *q_dot, uncoupled *u)
+static void load_direction_forces(const launching_system *self, v3 w, const double *state,
+                                  const constraint_set *set, double B[][SPEEDS])
 {
-    const constraint_set *set = &u->c.set;
+    const double *q = state + self->layout.q, *q_dot = state + self->layout.q_dot;
+    int n = 6 + self->layout.nq;
     for (int k = 0; k < set->section_count; k++) {
         tube_section_state section;
-        tube_section(&self->tube.flexible, set->section[k].at->x, u->now.tube.w, q, q_dot,
-                     &section);
+        tube_section(&self->tube.flexible, set->section[k].at->x, w, q, q_dot, &section);
         for (int i = 0; i < set->count; i++)
             if (set->e[i].section == k)
-                direction_force(u, &section, &set->e[i], u->B[i]);
+                direction_force(n, &section, &set->e[i], B[i]);
         if (set->sliding && set->tangent.section == k)
-            direction_force(u, &section, &set->tangent, u->B[MAX_CONSTRAINTS]);
+            direction_force(n, &section, &set->tangent, B[MAX_CONSTRAINTS]);
     }
 }
 
@@ -103,8 +103,8 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     if (phase->rocket)
         launching_load_rocket(lanes, self, state, now);
     tube_factor(&self->tube, &now->tube);
-    launching_constrain(lanes, self, now, &u->c);
-    load_direction_forces(self, q, q_dot, u);
+    launching_constrain(lanes, phase->rocket, true, self, now, &u->c);
+    load_direction_forces(self, now->tube.w, state, &u->c.set, u->B);
     flatten(self, &now->on_tube, u->h);
 }
 
@@ -126,25 +126,46 @@ static void store_tube(int n, const double *eta_dot, launching_output *out)
 // ---- reduced form ----
 
 // M2, h2: the tail welded to the rear section, L(0)^T M_t L(0) and L(0)^T f_t.
-static void add_tail(const launching_system *self, const uncoupled *u, double *M2, double *h2)
+static void add_tail(const launching_system *self, const tube_state *tube, int n, double *M2,
+                     double *h2)
 {
     const ld_tail *tail = &self->model->tubes.tail;
-    v3 w = u->now.tube.w, g = u->now.tube.g, c = v3_make(tail->center, 0, 0);
+    v3 w = tube->w, g = tube->g, c = v3_make(tail->center, 0, 0);
     m3 J = m3_diagonal(self->tube.tail_inertia.x, self->tube.tail_inertia.y,
                        self->tube.tail_inertia.z);
     m3 mc = m3_scale(tail->mass, m3_skew(c));
     for (int i = 0; i < 3; i++) {
-        M2[i * u->n + i] += tail->mass;
+        M2[i * n + i] += tail->mass;
         for (int j = 0; j < 3; j++) {
-            M2[i * u->n + 3 + j] -= mc.a[i][j];
-            M2[(3 + i) * u->n + j] += mc.a[i][j];
-            M2[(3 + i) * u->n + 3 + j] += J.a[i][j];
+            M2[i * n + 3 + j] -= mc.a[i][j];
+            M2[(3 + i) * n + j] += mc.a[i][j];
+            M2[(3 + i) * n + 3 + j] += J.a[i][j];
         }
     }
     v3 f = v3_scale(tail->mass, v3_sub(g, v3_cross(w, v3_cross(w, c))));
     v3 m = v3_sub(v3_cross(c, v3_scale(tail->mass, g)), v3_cross(w, m3_apply(J, w)));
     v3_store(h2, v3_add(v3_from(h2), f));
     v3_store(h2 + 3, v3_add(v3_from(h2 + 3), m));
+}
+
+// e = M2^-1 B of the directions, from the factor of M2 [n x n], and their products.
+static void load_products(int n, const double *factor, const constraint_set *set,
+                          double B[][SPEEDS], double e[][SPEEDS], constraint_products *D)
+{
+    for (int i = 0; i < set->count + set->sliding; i++) {
+        int row = i < set->count ? i : MAX_CONSTRAINTS;
+        memcpy(e[row], B[row], sizeof(double) * (size_t)n);
+        cholesky_solve(n, factor, e[row]);
+    }
+    for (int i = 0; i < set->count; i++) {
+        const constraint_direction *p = &set->e[i], *tangent = &set->tangent;
+        for (int j = 0; j < set->count; j++)
+            D->D[i][j] = v3_dot(p->G_f, set->e[j].r_a) + v3_dot(p->G_m, set->e[j].r_alpha) +
+                         dot(n, B[i], e[j]);
+        if (set->sliding)
+            D->Dt[i] = v3_dot(p->G_f, tangent->r_a) + v3_dot(p->G_m, tangent->r_alpha) +
+                       dot(n, B[i], e[MAX_CONSTRAINTS]);
+    }
 }
 
 static launching_outcome solve_reduced(const launching_system *self, const launching_phase *phase,
@@ -154,32 +175,21 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
     double M2[SPEEDS * SPEEDS], e_0[SPEEDS], e[MAX_CONSTRAINTS + 1][SPEEDS];
     memcpy(M2, u->M, sizeof(double) * (size_t)(n * n));
     memcpy(e_0, u->h, sizeof(double) * (size_t)n);
-    add_tail(self, u, M2, e_0);
+    add_tail(self, &u->now.tube, n, M2, e_0);
     if (cholesky_factor(n, M2))
         return LAUNCHING_NOT_FINITE;
     cholesky_solve(n, M2, e_0);
     if (phase->rocket || count) {
         v3 r_a = v3_zero(), r_alpha = v3_zero();
         double r[MAX_CONSTRAINTS];
+        constraint_products D;
         if (phase->rocket)
             rocket_solve(&u->now.inertia, u->now.f, u->now.m, &r_a, &r_alpha);
-        for (int i = 0; i < count + u->c.set.sliding; i++) {
-            int row = i < count ? i : MAX_CONSTRAINTS;
-            memcpy(e[row], u->B[row], sizeof(double) * (size_t)n);
-            cholesky_solve(n, M2, e[row]);
-        }
-        constraint_products D;
+        load_products(n, M2, &u->c.set, u->B, e, &D);
         for (int i = 0; i < count; i++) {
             const constraint_direction *p = &u->c.set.e[i];
             r[i] =
                 -(v3_dot(p->G_f, r_a) + v3_dot(p->G_m, r_alpha) - dot(n, u->B[i], e_0) + p->beta);
-            for (int j = 0; j < count; j++)
-                D.D[i][j] = v3_dot(p->G_f, u->c.set.e[j].r_a) +
-                            v3_dot(p->G_m, u->c.set.e[j].r_alpha) + dot(n, u->B[i], e[j]);
-            if (u->c.set.sliding)
-                D.Dt[i] = v3_dot(p->G_f, u->c.set.tangent.r_a) +
-                          v3_dot(p->G_m, u->c.set.tangent.r_alpha) +
-                          dot(n, u->B[i], e[MAX_CONSTRAINTS]);
         }
         if (count && !constraints_solve(&D, r, &u->c.set))
             return LAUNCHING_JAMMED;
@@ -194,10 +204,42 @@ static launching_outcome solve_reduced(const launching_system *self, const launc
         }
         out->a_O1 = r_a;
         out->alpha_B = r_alpha;
-        launching_report(self, &u->now, &u->c.set, out);
+        launching_report(u->now.phase->rocket, true, self, &u->now, &u->c.set, out);
     }
     store_tube(n, e_0, out);
     return LAUNCHING_OK;
+}
+
+void launching_impulse_general(const launching_system *self, const launching_instant *now,
+                               const constraint_set *set, const double *state, const double *wrong,
+                               launching_change *change)
+{
+    const launching_layout *at = &self->layout;
+    int n = 6 + at->nq, count = set->count;
+    double M2[SPEEDS * SPEEDS], h[SPEEDS], eta[SPEEDS] = {0}, x[MAX_CONSTRAINTS];
+    double B[MAX_CONSTRAINTS + 1][SPEEDS], e[MAX_CONSTRAINTS + 1][SPEEDS];
+    constraint_products D;
+    *change = (launching_change){.a = v3_zero()};
+    tube_dynamics_assemble(&self->tube.flexible, now->tube.w, state + at->q, state + at->q_dot,
+                           now->tube.g, M2, h);
+    add_tail(self, &now->tube, n, M2, h);
+    if (cholesky_factor(n, M2))
+        return;
+    load_direction_forces(self, now->tube.w, state, set, B);
+    load_products(n, M2, set, B, e, &D);
+    ldl_factor(count, MAX_CONSTRAINTS, D.D[0]);
+    for (int i = 0; i < count; i++)
+        x[i] = -wrong[i];
+    ldl_solve(count, MAX_CONSTRAINTS, D.D[0], x);
+    for (int i = 0; i < count; i++) {
+        change->a_O1 = v3_axpy(change->a_O1, x[i], set->e[i].r_a);
+        change->alpha_B = v3_axpy(change->alpha_B, x[i], set->e[i].r_alpha);
+        for (int j = 0; j < n; j++)
+            eta[j] -= x[i] * e[i][j];
+    }
+    change->a = v3_from(eta);
+    change->w_dot = v3_from(eta + 3);
+    memcpy(change->q_ddot, eta + 6, (size_t)at->nq * sizeof(double));
 }
 
 // ---- overall form ----
@@ -494,7 +536,7 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     memcpy(u->c.set.x, x + 18, sizeof(double) * (size_t)count);
     u->c.set.friction = -rub * x[18];
     out->condition = transfer.condition;
-    launching_report(self, &u->now, &u->c.set, out);
+    launching_report(u->now.phase->rocket, true, self, &u->now, &u->c.set, out);
     return true;
 }
 

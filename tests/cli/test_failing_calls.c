@@ -342,10 +342,13 @@ static void count_library(const char *name)
     libraries.of[i].count++;
 }
 
-// Whether the function at this place of the program is one of SUNDIALS, which is inside it.
-static bool is_of_sundials(const char *place)
+// The library inside the program to which the function at this place of it belongs, by how its name
+// begins; NULL: none.
+static const char *library_inside(const char *place)
 {
-    static const char *const begins[] = {"ERK", "ark", "ARK", "N_V", "SUN"};
+    static const char *const begins[][2] = {{"ERK", "SUNDIALS"}, {"ark", "SUNDIALS"},
+                                            {"ARK", "SUNDIALS"}, {"N_V", "SUNDIALS"},
+                                            {"SUN", "SUNDIALS"}, {"H5", "HDF5"}};
     char line[128], name[128] = "";
     snprintf(line, sizeof line, "addr2line -f -e " LD_BINARY_DIR "/launchdyn %.20s", place);
     FILE *names = popen(line, "r"); // NOLINT(cert-env33-c)
@@ -353,9 +356,9 @@ static bool is_of_sundials(const char *place)
     bool of = fgets(name, sizeof name, names) != NULL;
     pclose(names);
     for (size_t i = 0; of && i < sizeof begins / sizeof *begins; i++)
-        if (strncmp(name, begins[i], strlen(begins[i])) == 0)
-            return true;
-    return false;
+        if (strncmp(name, begins[i][0], strlen(begins[i][0])) == 0)
+            return begins[i][1];
+    return NULL;
 }
 
 // The library in which the program has crashed by the innermost call that is not the C library's;
@@ -372,9 +375,9 @@ static bool read_crash(char name[32])
         const char *base = strrchr(file, '/') ? strrchr(file, '/') + 1 : file;
         if (strncmp(base, "libc.", 5) == 0 || strncmp(base, "libfailing_calls.", 17) == 0)
             continue;
-        bool inside = strcmp(base, "launchdyn") == 0;
-        snprintf(name, 32, "%.31s", inside ? "SUNDIALS" : base);
-        return !inside || is_of_sundials(place);
+        const char *library = strcmp(base, "launchdyn") == 0 ? library_inside(place) : base;
+        snprintf(name, 32, "%.31s", library ? library : "");
+        return library != NULL;
     }
     return false;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "support/check.h"
+#include "support/line_frequencies.h"
 #include "support/tube_shape.h"
 
 static const char *const span_names[] = {"supported", "clamped", "free-free"};
@@ -343,53 +344,72 @@ static void support_in_an_element(void **state)
     (void)state;
     ld_tubes model = reference_tubes();
     flexible_tube tube;
-    build(&tube, &model);
-    double at_node = tube.supported_bending[1];
-    flexible_tube_free(&tube);
+    double at_node[2], beside[2];
+    line_frequencies(&model, LINE_BENDING, PLANE_Y, 2, at_node);
     model.section_count = 2;
     model.section[1] = model.section[0];
     model.section[1].from = 0.4 + 1e-5;
     build(&tube, &model);
     assert_int_equal(tube.element_count, 40);
     assert_true(tube.element[tube.support_element[0]].x1 == model.section[1].from);
-    CHECK_BELOW("2nd frequency, support 10 um from a node", tube.supported_bending[1] / at_node - 1,
-                1e-5);
+    line_frequencies(&model, LINE_BENDING, PLANE_Y, 2, beside);
+    CHECK_BELOW("2nd frequency, support 10 um from a node", beside[1] / at_node[1] - 1, 1e-5);
     flexible_tube_free(&tube);
 }
 
-// Bending takes the mean of both planes' supports; torsion and stretch their own stiffness.
-static void plane_means(void **state)
+static double lowest(const ld_tubes *model, line_kind kind, int plane)
+{
+    double omega;
+    line_frequencies(model, kind, plane, 1, &omega);
+    return omega;
+}
+
+// Supports and tail that differ between the planes: each plane has its own frequencies, the shapes
+// that they share those of their mean; torsion and stretch have their own stiffness.
+static void planes_on_unlike_supports(void **state)
 {
     (void)state;
-    ld_tubes model = reference_tubes();
-    flexible_tube mean, tube;
-    model.modes.axial = 1;
-    build(&mean, &model);
-    for (int k = 0; k < 2; k++) {
-        ld_support *support = &model.support[k];
-        support->stiffness[1] = 1e7;
-        support->stiffness[2] = 3e7;
-        support->rotational_stiffness[1] = 0.5e5;
-        support->rotational_stiffness[2] = 3.5e5;
-    }
-    model.tail.inertia[1] = 0.1;
-    model.tail.inertia[2] = 0.02;
+    static const double along[] = {1e7, 3e7}, about[] = {3.5e5, 0.5e5}, inertia[] = {0.02, 0.1};
+    ld_tubes mean = reference_tubes(), model = mean, alone[2] = {mean, mean};
+    flexible_tube of_mean, tube;
+    for (int k = 0; k < 2; k++)
+        for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+            for (int i = 0; i < 2; i++) {
+                ld_support *support = &alone[plane].support[k];
+                support->stiffness[1 + i] = along[plane];
+                support->rotational_stiffness[1 + i] = about[plane];
+                alone[plane].tail.inertia[1 + i] = inertia[plane];
+                model.support[k].stiffness[1 + plane] = along[plane];
+                model.support[k].rotational_stiffness[2 - plane] = about[plane];
+                model.tail.inertia[2 - plane] = inertia[plane];
+                mean.tail.inertia[1 + i] = 0.5 * (inertia[0] + inertia[1]);
+            }
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+        CHECK_BELOW("lowest frequency of a plane / of it in both - 1",
+                    lowest(&model, LINE_BENDING, plane) / lowest(&alone[plane], LINE_BENDING, 0) -
+                        1,
+                    1e-14);
+    CHECK_WITHIN("of one plane over that of the other",
+                 lowest(&model, LINE_BENDING, PLANE_Z) / lowest(&model, LINE_BENDING, PLANE_Y),
+                 1.05, 3);
     build(&tube, &model);
-    CHECK_BELOW("1st bending frequency, unequal planes / equal - 1",
-                tube.supported_bending[0] / mean.supported_bending[0] - 1, 1e-14);
+    build(&of_mean, &mean);
+    double off = 0;
+    for (int k = 0; k < tube.nb; k++)
+        off = grow(off, tube.om2_b[PLANE_Z][k] / of_mean.om2_b[PLANE_Y][k] - 1);
+    CHECK_BELOW("shapes against those of the mean: omega^2", off, 1e-12);
+    flexible_tube_free(&of_mean);
     flexible_tube_free(&tube);
     for (int k = 0; k < 2; k++) {
         model.support[k].stiffness[0] *= 4;
         model.support[k].rotational_stiffness[0] = 0;
     }
-    build(&tube, &model);
     CHECK_WITHIN("axial frequency, supports 4 times as stiff: ratio",
-                 tube.supported_axial[0] / mean.supported_axial[0], 1.5, 2);
-    CHECK_BELOW("torsion without springs: lowest frequency", tube.supported_torsion[0], 1e-4);
-    CHECK_BELOW("bending is not concerned",
-                tube.supported_bending[0] / mean.supported_bending[0] - 1, 1e-14);
-    flexible_tube_free(&tube);
-    flexible_tube_free(&mean);
+                 lowest(&model, LINE_STRETCH, PLANES_ALIKE) /
+                     lowest(&mean, LINE_STRETCH, PLANES_ALIKE),
+                 1.5, 2);
+    CHECK_BELOW("torsion without springs: lowest frequency",
+                lowest(&model, LINE_TORSION, PLANES_ALIKE), 1e-4);
 }
 
 // Gives each section the bending stiffness of a plane by factors on what it has.
@@ -592,7 +612,7 @@ int main(void)
         cmocka_unit_test(tangent_form),
         cmocka_unit_test(layout),
         cmocka_unit_test(support_in_an_element),
-        cmocka_unit_test(plane_means),
+        cmocka_unit_test(planes_on_unlike_supports),
         cmocka_unit_test(planes_in_proportion),
         cmocka_unit_test(planes_out_of_proportion),
         cmocka_unit_test(nearly_rigid),

@@ -32,12 +32,16 @@ static int run(const char *format, const char *path)
     return system(command);
 }
 
-// The script of one figure of the made-up run, `runs` times over, from `from` [s] on, to be freed.
-static char *script_of_runs(const char *name, size_t runs, double from)
+// The script of one figure of the made-up run, `runs` times over, from `from` [s] on, with a column
+// of a shoe or without, to be freed.
+static char *script_with(const char *name, size_t runs, double from, bool shoes)
 {
     history_data history[2];
     for (size_t i = 0; i < runs; i++)
         assert_int_equal(history_read(in("run/history.h5"), &history[i], NULL), LD_OK);
+    for (size_t i = 0; i < history[0].columns && shoes; i++)
+        if (strcmp(history[0].name[i], "slot.friction") == 0)
+            memcpy(history[0].name[i], "shoe.rear.mm", sizeof "shoe.rear.mm");
     const plot_figure *figure = plot_figure_find(name);
     assert_non_null(figure);
     const char *names[] = {"the one", "the other's"};
@@ -56,6 +60,11 @@ static char *script_of_runs(const char *name, size_t runs, double from)
     for (size_t i = 0; i < runs; i++)
         history_free(&history[i]);
     return text;
+}
+
+static char *script_of_runs(const char *name, size_t runs, double from)
+{
+    return script_with(name, runs, from, false);
 }
 
 static char *script_of(const char *name)
@@ -185,6 +194,19 @@ static void test_each_of_a_kind(void **state)
                                            "set label 'Adaptor front' at", "$p2c0 << EOD\n"};
     expect_in(script, expected, sizeof expected / sizeof *expected);
     assert_null(strstr(script, "$p3c0"));
+    free(script);
+}
+
+// On surfaces the words are guide and shoe; names that users gave stay.
+static void test_words_on_surfaces(void **state)
+{
+    (void)state;
+    char *script = script_with("contact-force", 1, NAN, true);
+    assert_non_null(strstr(script, "set label 'Shoe rear' at"));
+    free(script);
+    script = script_with("travel", 1, NAN, true);
+    assert_non_null(strstr(script, "set label 'Travel of the rocket along the guide' at"));
+    assert_non_null(strstr(script, "title 'relative to the guide'"));
     free(script);
 }
 
@@ -319,11 +341,17 @@ static void test_without_gnuplot(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_curves_are_the_history), TEST(test_instants_titles_and_names),
-        TEST(test_several_runs),           TEST(test_each_of_a_kind),
-        TEST(test_window_of_time),         TEST(test_every_figure_in_every_format),
-        TEST(test_nothing_to_show),        TEST(test_what_can_be_wrong),
-        TEST(test_without_gnuplot),        cmocka_unit_test(test_relative_rates_are_of_the_angles),
+        TEST(test_curves_are_the_history),
+        TEST(test_instants_titles_and_names),
+        TEST(test_several_runs),
+        TEST(test_each_of_a_kind),
+        TEST(test_words_on_surfaces),
+        TEST(test_window_of_time),
+        TEST(test_every_figure_in_every_format),
+        TEST(test_nothing_to_show),
+        TEST(test_what_can_be_wrong),
+        TEST(test_without_gnuplot),
+        cmocka_unit_test(test_relative_rates_are_of_the_angles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

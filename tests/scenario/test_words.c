@@ -111,6 +111,18 @@ static void test_planes(void **state)
         "# slot: a helix of 4 deg at the radius 82.5 mm, friction 0.1\n" SUPPORTS ROCKET DRIVE);
 }
 
+static void test_clamps(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "tubes.supports=[{at: 0.4 m, clamped: all}, {at: 1 m, clamped: [y]}, {at: "
+        "1.8 m, stiffness: 1e6 0 0 N/m, clamped: [y, z, roll]}]"};
+    check_words("examples/fixed.yaml", sets, 1,
+                "# base: fixed; launcher 19.8 deg up\n" GUIDE
+                "# supports: a clamp at 0.4 m, a clamp of y at 1 m, a clamp of y, z and roll, with "
+                "springs, at 1.8 m\n" ROCKET DRIVE);
+}
+
 static void test_pressure(void **state)
 {
     (void)state;
@@ -156,8 +168,9 @@ static void test_flight_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bore),   cmocka_unit_test(test_surfaces),
-        cmocka_unit_test(test_planes), cmocka_unit_test(test_pressure),
-        cmocka_unit_test(test_bases),  cmocka_unit_test(test_flight_alone)};
+        cmocka_unit_test(test_bore),        cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_planes),      cmocka_unit_test(test_clamps),
+        cmocka_unit_test(test_pressure),    cmocka_unit_test(test_bases),
+        cmocka_unit_test(test_flight_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,7 +88,7 @@ static void draw_turret(uint64_t *seed, ld_turret *turret, double range)
 // Jets of rockets that have left, and a second rocket that feels what the first one's does.
 static void draw_jet(uint64_t *seed, ld_model *model)
 {
-    if (!chance(seed, 0.3))
+    if (!chance(seed, 0.3) || model->rocket.motor.absent)
         return;
     double reach = between(seed, 0.5, 10), force = between(seed, 0, 1e4);
     model->platform.jet = reference_table(2, 2, (double[]){0, force, reach, 0});
@@ -114,6 +114,8 @@ static void draw_vehicle_model(uint64_t seed, ld_model *model)
     scale_together(&seed, 3, vehicle.platform.chassis_inertia);
     model->base = vehicle.base;
     model->platform = vehicle.platform;
+    for (int k = 0; k < model->tubes.support_count; k++)
+        model->tubes.support[k].clamped = 0; // goes with a base that goes where it is told
     vehicle.base.vehicle.road.coherence = (ld_table){0};
     vehicle.platform.azimuth.stabiliser.command = (ld_table){0};
     vehicle.platform.elevation.stabiliser.command = (ld_table){0};

@@ -112,8 +112,8 @@ static void change_all(changes *self, const field_block *block, const void *base
         if (f->kind != FIELD_NUMBER && f->kind != FIELD_INTEGER)
             continue;
         for (int i = 0; i < f->count || i < 1; i++) {
-            snprintf(path + length, sizeof path - (size_t)length, "%s",
-                     f->count > 1 ? component[i] : "");
+            const char *axis = f->count < 2 ? "" : component[f->count == 2 ? i + 1 : i];
+            snprintf(path + length, sizeof path - (size_t)length, "%s", axis);
             change_number(self, path);
         }
     }
@@ -139,14 +139,21 @@ static void change_the_rest(changes *self)
     check_change(self, &model, "tubes.slot");
 }
 
+static void read_tubes(const char *const *sets, size_t count, ld_model *model)
+{
+    ld_messages messages = {0};
+    if (scenario_read_text(text, strlen(text), "tubes.yaml", LD_SOURCE_DIR "/examples", sets, count,
+                           model, &messages)) {
+        ld_messages_print(&messages, stderr);
+        fail_msg("the tubes cannot be read");
+    }
+}
+
 static void test_every_key_of_the_tubes(void **state)
 {
     (void)state;
     ld_model nominal;
-    ld_messages messages = {0};
-    assert_int_equal(scenario_read_text(text, strlen(text), "tubes.yaml", LD_SOURCE_DIR "/examples",
-                                        NULL, 0, &nominal, &messages),
-                     LD_OK);
+    read_tubes(NULL, 0, &nominal);
     static changes all;
     all.nominal = &nominal;
     run_afresh(&nominal, &all.unchanged);
@@ -159,8 +166,53 @@ static void test_every_key_of_the_tubes(void **state)
     model_clear(&nominal);
 }
 
+// What holds, drives and guides in other ways: clamps, on which the modes rest, a gas, surfaces.
+static void test_clamps_gas_and_rails(void **state)
+{
+    (void)state;
+    const char *const sets[] = {
+        "tubes.supports=[{at: 0.4 m, clamped: all}, {at: 1.8 m, clamped: [y, z]}]",
+        "tubes.loads=[{at: 0.2 m}, {at: 1 m, outer_fibre: 90 90 mm}]",
+        "tubes.pressure={pressure: 2 MPa, volume: 0.03 m3, exponent: 1.4, ambient: 0.1 MPa}"};
+    const char *const rail[] = {
+        sets[0], sets[1], "run.start=undeformed",
+        "rocket.adaptors=[{name: rear, at: 0 m}, {name: front, at: 1.9 m}]",
+        "tubes={slot: none, guide: {line: 150 10 mm, t_slot: {at: -80 0 mm, lips: 40 mm, gap: 0 "
+        "mm, side_gap: 0 mm}}}"};
+    static changes gas, shoes;
+    ld_model nominal, changed;
+    read_tubes(sets, 3, &nominal);
+    gas.nominal = &nominal;
+    run_afresh(&nominal, &gas.unchanged);
+    change_all(&gas, field_find(&tubes_block, "pressure")->block, &nominal.tubes.pressure,
+               "tubes.pressure");
+    for (int k = 0; k < 2; k++) {
+        char path[] = "tubes.supports.#.at";
+        path[15] = (char)('1' + k);
+        change_number(&gas, path);
+        changed = nominal;
+        changed.tubes.support[k].clamped ^= 1u << LD_CLAMP_Y;
+        check_change(&gas, &changed, "tubes.supports.N.clamped");
+    }
+    CHECK_WITHIN("changes of clamps and gas that the launch shows", gas.matter, gas.count,
+                 gas.count);
+    ld_simulation_free(gas.renewed);
+    model_clear(&nominal);
+    read_tubes(rail, 5, &nominal);
+    shoes.nominal = &nominal;
+    run_afresh(&nominal, &shoes.unchanged);
+    change_all(&shoes, field_find(&tubes_block, "guide")->block, &nominal.tubes.guide,
+               "tubes.guide");
+    CHECK_WITHIN("changes of a rail that it shows", shoes.matter, shoes.count, shoes.count);
+    ld_simulation_free(shoes.renewed);
+    model_clear(&nominal);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_key_of_the_tubes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_key_of_the_tubes),
+        cmocka_unit_test(test_clamps_gas_and_rails),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

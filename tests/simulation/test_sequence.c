@@ -292,6 +292,40 @@ static void second_equals_a_single_launch(void **state)
     model_clear(&model);
 }
 
+// The same of two tubes that are clamped to a base at rest, and of two rails.
+static void second_clamped_or_on_a_rail(void **state)
+{
+    (void)state;
+    static const char *const file[] = {"fixed.yaml", "rail/pad.yaml"};
+#define PAIR                                                                                       \
+    "tubes.layout={rows: 1, columns: 2, pitch: 0.4 m, first: 0 0 0 m}",                            \
+        "firing=[{tube: 1, at: 0 s}, {tube: 2, at: 1 s}]"
+    static const char *const sets[][5] = {
+        {"tubes.supports=[{at: 0.4 m, clamped: all}, {at: 1.8 m, clamped: [y, z]}]",
+         "rocket.contact={law: bilateral, exponent: 1, friction: 0, damping: 1e3 N.s/m}",
+         "run={end: tip, tolerance: 1e-7, lead_in: 0 s}", PAIR},
+        {"run.max_step=0.2 ms", "rocket.contact.friction=0.1",
+         "run={end: tip, tolerance: 1e-7, lead_in: 0 s}", PAIR},
+    };
+    for (int i = 0; i < 2; i++) {
+        ld_model model = read_example(file[i], sets[i], 5);
+        ld_summary both = run(&model, NULL);
+        model.firing_count = 1;
+        model.firing[0] = (ld_firing){.tube = 2, .at = 0};
+        model.tubes.empty_count = 1;
+        model.tubes.empty[0] = 1;
+        ld_summary single = run(&model, NULL);
+        const ld_rocket_summary *p = &both.rocket[1], *q = &single.rocket[0];
+        CHECK_NEAR("t_rear [s]", p->t_rear, q->t_rear, 1e-6);
+        CHECK_NEAR("muzzle speed [m/s]", p->muzzle_speed, q->muzzle_speed, 1e-6);
+        CHECK_NEAR("pitch rate [rad/s]", p->pitch_rate, q->pitch_rate, 1e-5);
+        CHECK_NEAR("yaw rate [rad/s]", p->yaw_rate, q->yaw_rate, 1e-5);
+        CHECK_BELOW("energy balance of both, of the largest work", both.energy.residual_relative,
+                    1e-7);
+        model_clear(&model);
+    }
+}
+
 // What the balance has missed so far stays missed when the next tube takes its place.
 static void the_balance_goes_on(void **state)
 {
@@ -340,6 +374,7 @@ int main(void)
         cmocka_unit_test(into_the_ground),
         cmocka_unit_test(momentum_is_kept),
         cmocka_unit_test(second_equals_a_single_launch),
+        cmocka_unit_test(second_clamped_or_on_a_rail),
         cmocka_unit_test(the_balance_goes_on),
         cmocka_unit_test(overlapping_launches_are_refused),
     };

@@ -764,7 +764,8 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_cond
             // springs from their potential 1/2 K d^2 + 1/2 K_r phi^2, dampers from their rates
             bool slides = a == 0 && support->recoil.present;
             bool held = support->clamped >> a & 1, free = !(support->clamped >> (3 + a) & 1);
-            double spring = slides || held ? 0 : support->stiffness[a] * d.c[a].v;
+            bool none = slides || held || isnan(support->stiffness[a]);
+            double spring = none ? 0 : support->stiffness[a] * d.c[a].v;
             double damper = slides || held ? 0 : support->damping[a] * d.c[a].e;
             double coil = free ? support->rotational_stiffness[a] * phi.c[a].v : 0;
             if (slides)

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "model/guide.h"
 #include "simulation/summary.h"
 #include "support/check.h"
 #include "support/draw.h"
@@ -169,8 +170,7 @@ static void draw_rocket(uint64_t *seed, double length, ld_rocket *rocket)
         rocket->motor.at[1 + i] = 1e-3 * draw(seed);
         rocket->products[i] = 1e-3 * rocket->full.inertia[1] * draw(seed);
     }
-    bool ideal = rocket->contact.law == LD_CONTACT_IDEAL; // two at most
-    rocket->adaptor_count = ideal ? 2 : 2 + choice(seed, 3);
+    rocket->adaptor_count = 2 + choice(seed, 3);
     rocket->adaptor[3] = rocket->adaptor[2];
     snprintf(rocket->adaptor[3].name, LD_MAX_NAME, "fourth");
     for (int i = 0; i < rocket->adaptor_count; i++) {
@@ -186,6 +186,8 @@ static void draw_rocket(uint64_t *seed, double length, ld_rocket *rocket)
     if (chance(seed, 0.1)) // hardly any thrust
         rocket->motor.thrust_scale = 0.02;
     draw_contact(seed, &rocket->contact);
+    if (rocket->contact.law == LD_CONTACT_IDEAL) // two at most
+        rocket->adaptor_count = 2;
 }
 
 // A lock beside the axis, an inertia that is turned, air on what has come out of the tube.
@@ -232,6 +234,110 @@ static void draw_drive(uint64_t *seed, ld_model *model)
                                                      .stroke = between(seed, 0.05, 1)};
 }
 
+// What slides in what the rocket has as adaptors; shoes may add to the gaps.
+static void draw_guide(uint64_t seed, ld_tubes *tubes, ld_rocket *rocket)
+{
+    if (!chance(&seed, 0.25) || tubes->pressure.present)
+        return;
+    ld_guide *guide = &tubes->guide;
+    guide->present = true;
+    guide->form = (ld_guide_form)choice(&seed, 3);
+    for (int i = 0; i < 2; i++)
+        guide->line[i] = chance(&seed, 0.5) ? 0.15 * draw(&seed) : 0;
+    double gap = chance(&seed, 0.2) ? 0 : between(&seed, 1e-6, 2e-3);
+    guide->t_slot = (ld_t_slot){{0.08 * draw(&seed), 0.04 * draw(&seed)},
+                                between(&seed, 0.01, 0.1),
+                                gap,
+                                chance(&seed, 0.2) ? 0 : between(&seed, 1e-6, 2e-3)};
+    guide->tower =
+        (ld_tower){3 + choice(&seed, 4), between(&seed, -3, 3), gap, between(&seed, 0.05, 0.1)};
+    ld_surface_shape shape = (ld_surface_shape)choice(&seed, 2);
+    guide->surface_count = guide->form == LD_GUIDE_SURFACES ? 4 + choice(&seed, 3) : 0;
+    for (int k = 0; k < guide->surface_count; k++) { // all around, each beside its place
+        double angle = 1.5707963 * (k % 4) + 0.2 * draw(&seed), off = 0.03 * draw(&seed);
+        ld_surface *surface = &guide->surface[k];
+        *surface = (ld_surface){
+            .at = {0.08 * cos(angle) - off * sin(angle), 0.08 * sin(angle) + off * cos(angle)},
+            .normal = angle,
+            .gap = gap,
+            .shape = shape};
+        snprintf(surface->name, LD_MAX_NAME, "surface_%d", k);
+    }
+    tubes->slot.kind = LD_SLOT_NONE;
+    rocket->contact.law = (ld_contact_law)choice(&seed, LD_CONTACT_BILATERAL);
+    bool linear = rocket->contact.law == LD_CONTACT_KELVIN_VOIGT;
+    rocket->contact.exponent = linear ? 1 : between(&seed, 1, 1.5);
+    rocket->contact.damping = linear ? between(&seed, 0, 2e4) : 0;
+    rocket->contact.friction = chance(&seed, 0.3) ? 0 : between(&seed, 0, 0.5);
+    bool carries_roll = guide_is_flat(guide) && chance(&seed, 0.5);
+    rocket->lock.holds_roll = carries_roll ? LD_HOLD_NO : (ld_hold)choice(&seed, 2);
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        rocket->adaptor[i].clearance = chance(&seed, 0.7) ? NAN : 1e-3 * between(&seed, 0, 1);
+}
+
+// Supports that hold directions rigidly, mostly as many as the modes can follow.
+static void draw_clamps(uint64_t seed, ld_model *model)
+{
+    ld_tubes *tubes = &model->tubes;
+    static const unsigned held[] = {
+        (1u << LD_CLAMPS) - 1, // all
+        1u << LD_CLAMP_Y | 1u << LD_CLAMP_Z,
+        1u << LD_CLAMP_Y | 1u << LD_CLAMP_Z | 1u << LD_CLAMP_ROLL,
+        1u << LD_CLAMP_X | 1u << LD_CLAMP_Y,
+        1u << LD_CLAMP_YAW | 1u << LD_CLAMP_PITCH,
+    };
+    int most = chance(&seed, 0.3) ? 1 + choice(&seed, 2) : 0;
+    for (int k = 0; k < tubes->support_count && k < most; k++) {
+        ld_support *support = &tubes->support[k];
+        support->clamped = held[choice(&seed, 5)];
+        if (support->recoil.present || (k > 0 && tubes->modes.axial < 1))
+            support->clamped &= ~(1u << LD_CLAMP_X);
+        model->run.formulation = LD_FORMULATION_REDUCED;
+    }
+}
+
+static void draw_stations(uint64_t seed, ld_tubes *tubes)
+{
+    tubes->station_count = chance(&seed, 0.3) ? 1 + choice(&seed, 3) : 0;
+    if (isnan(tubes->material.youngs_modulus) && tubes->station_count)
+        tubes->material.youngs_modulus = 2.1e11;
+    for (int i = 0; i < tubes->station_count; i++) {
+        ld_station *station = &tubes->station[i];
+        station->at = i == 0 && chance(&seed, 0.3) ? 0 : between(&seed, 0, tubes->length);
+        for (int k = 0; k < 2; k++)
+            station->outer_fibre[k] = chance(&seed, 0.5) ? NAN : between(&seed, 0.05, 0.2);
+    }
+}
+
+// A pressure that is given in place of a gas; no motor beside it.
+static void draw_given_pressure(uint64_t seed, ld_model *model)
+{
+    ld_pressure *pressure = &model->tubes.pressure;
+    if (!pressure->present)
+        return;
+    if (chance(&seed, 0.6)) {
+        double most = pressure->pressure, rise = between(&seed, 1e-4, 0.01);
+        *pressure = (ld_pressure){.present = true, .scale = between(&seed, 0.5, 1)};
+        if (chance(&seed, 0.5)) {
+            pressure->form = LD_PRESSURE_OVER_TIME;
+            pressure->over_time = reference_table(
+                4, 2, (double[]){0, 0, rise, most, 5 * rise, 0.3 * most, 5 * rise, 0.1 * most});
+        } else {
+            pressure->form = LD_PRESSURE_OVER_TRAVEL;
+            pressure->over_travel =
+                reference_table(3, 2, (double[]){0, most, 1, most / 2, 10, most / 10});
+        }
+    }
+    if (chance(&seed, 0.3)) {
+        ld_rocket *rocket = &model->rocket;
+        free(rocket->motor.thrust.data);
+        rocket->motor.thrust = (ld_table){0};
+        rocket->motor.absent = true;
+        rocket->empty = rocket->full;
+        rocket->propellant = 0;
+    }
+}
+
 // Columns that every launch has, taken in all ways, between instants that every rocket has.
 static void draw_measures(uint64_t *seed, ld_model *model)
 {
@@ -275,29 +381,58 @@ void draw_random_model(uint64_t seed, ld_model *model)
         run->end = LD_END_TIME;
         run->end_time = between(&seed, 0.01, 0.3);
     }
+    // by draws of their own, so that the others stay as they are
+    draw_given_pressure(seed ^ 0x94d049bb, model);
+    if (run->formulation == LD_FORMULATION_REDUCED) // the other one takes ten times the work
+        draw_guide(seed ^ 0x85ebca6b, &model->tubes, &model->rocket);
+    draw_clamps(seed ^ 0x9e3779b9, model);
+    draw_stations(seed ^ 0x7f4a7c15, &model->tubes);
 }
 
 // ---- running ----
 
+// When a column's number may be none.
+typedef enum absence { NEVER, WITHOUT_ROCKET, AT_TIMES } absence;
+
 typedef struct watcher {
-    size_t columns, rocket_first, rocket_last; // the rocket's columns are NaN once it has left
-    long rows, not_finite, again;              // `again`: at the instant of the row before
+    size_t columns;
+    absence *none;
+    char (*name)[LD_MAX_QUANTITY];
+    long rows, not_finite, again; // `again`: at the instant of the row before
     double last;
     bool ascending;
 } watcher;
+
+// A passed adaptor has no place in the tube, a section without outer fibre no stress, before the
+// ignition nothing is against its axes; a rocket that has left has no numbers.
+static absence absence_of(const char *column)
+{
+    static const char *const at_times[] = {"contact.", "shoe.", "aim."};
+    static const char *const rocket[] = {"rocket.", "tip_off.", "thrust",     "slot.",
+                                         "lock.",   "breech.",  "crossflow.", "pressure."};
+    for (size_t i = 0; i < sizeof at_times / sizeof *at_times; i++)
+        if (strncmp(column, at_times[i], strlen(at_times[i])) == 0)
+            return AT_TIMES;
+    size_t length = strlen(column);
+    if (strncmp(column, "station.", 8) == 0 && strcmp(column + length - 7, ".stress") == 0)
+        return AT_TIMES;
+    for (size_t i = 0; i < sizeof rocket / sizeof *rocket; i++)
+        if (strncmp(column, rocket[i], strlen(rocket[i])) == 0)
+            return WITHOUT_ROCKET;
+    return NEVER;
+}
 
 static ld_status begin(void *self, const ld_column *columns, size_t count, ld_error *error)
 {
     (void)error;
     watcher *watch = self;
-    *watch = (watcher){.columns = count, .rocket_first = count, .ascending = true};
+    *watch = (watcher){.columns = count, .ascending = true};
+    watch->none = malloc(count * sizeof *watch->none);
+    watch->name = malloc(count * sizeof *watch->name);
+    assert_true(watch->none && watch->name);
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(columns[i].name, "breech.force") == 0 ||
-            strcmp(columns[i].name, "crossflow.z") == 0 ||
-            strcmp(columns[i].name, "pressure.force") == 0)
-            watch->rocket_last = i + 1;
-        if (strncmp(columns[i].name, "rocket.", 7) == 0 && watch->rocket_first == count)
-            watch->rocket_first = i;
+        watch->none[i] = absence_of(columns[i].name);
+        snprintf(watch->name[i], sizeof watch->name[i], "%s", columns[i].name);
     }
     return LD_OK;
 }
@@ -312,11 +447,10 @@ static ld_status row(void *self, const double *values, size_t count, ld_error *e
     watch->last = values[0];
     watch->rows++;
     for (size_t i = 0; i < count; i++) {
-        bool of_rocket = i >= watch->rocket_first && i < watch->rocket_last;
-        // a passed adaptor has no place in the tube
-        bool adaptor = of_rocket && i >= watch->rocket_first + 26 - 4;
-        if (!isfinite(values[i]) && !(of_rocket && gone) && !adaptor)
-            watch->not_finite++;
+        absence none = watch->none[i];
+        bool may = none == AT_TIMES || (none == WITHOUT_ROCKET && gone);
+        if (!isfinite(values[i]) && !may && watch->not_finite++ < 10)
+            printf("      %s is %g in row %ld\n", watch->name[i], values[i], watch->rows);
     }
     return LD_OK;
 }
@@ -377,6 +511,8 @@ static int run_random_model(int number, const ld_model *model)
     ld_status status =
         ld_simulation_run(simulation, &(ld_run_options){.sink = &sink}, &summary, &error);
     ld_simulation_free(simulation);
+    free(watch.none);
+    free(watch.name);
     printf("  %3d %s%s: %ld rows, %lld steps, %.2f s\n", number, status ? "stopped: " : "went well",
            error.text, watch.rows, (long long)summary.statistics.steps,
            summary.statistics.cpu_seconds);

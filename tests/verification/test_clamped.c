@@ -32,6 +32,36 @@ static void cantilever(void **state)
     reference_model_free(&model);
 }
 
+// Lowest frequency [Hz] of a tube on springs whose slopes two stations hold, rigidly or by springs.
+static double held_slopes(bool rigid)
+{
+    ld_model model;
+    ld_simulation *simulation;
+    ld_error error;
+    ld_mode mode[2];
+    reference_model(&model);
+    for (int k = 0; k < 2; k++) {
+        ld_support *support = &model.tubes.support[k];
+        support->at = k ? 1.8 : 0.35;
+        support->clamped = rigid ? 1u << LD_CLAMP_YAW | 1u << LD_CLAMP_PITCH : 0;
+        support->rotational_stiffness[1] = support->rotational_stiffness[2] = 1e10;
+    }
+    if (ld_simulation_create(&model, &simulation, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(ld_simulation_tube_modes(simulation, mode, 2), 2);
+    ld_simulation_free(simulation);
+    reference_model_free(&model);
+    return mode[0].frequency;
+}
+
+// Of two slopes the rigid tube follows one: the other takes a mode that bears it.
+static void two_slopes(void **state)
+{
+    (void)state;
+    CHECK_BELOW("frequency against stiff springs, relative",
+                held_slopes(true) / held_slopes(false) - 1, 1e-3);
+}
+
 // A launch on a wall and a pin; k: springs in their place [N/m], 0: rigid.
 static ld_summary launch(double k, ld_base_kind base)
 {
@@ -85,6 +115,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cantilever),
+        cmocka_unit_test(two_slopes),
         cmocka_unit_test(limit_of_springs),
         cmocka_unit_test(balances_on_a_moving_base),
     };

@@ -205,40 +205,72 @@ static void slot_drift(void **state)
     check_slot(40, (double[3]){5e-6, 2e-6, 5e-7}, (double[3]){0.5, 0.25, 0.06});
 }
 
-// One projection of a state that breaks the constraint by metres per second.
-static void projection_keeps_momenta(void **state)
+// The state's speeds less those of another one, as if they were speeds.
+static double kinetic_of_difference(const launching_run *run, const dense_launch *dense,
+                                    const double *less)
 {
-    (void)state;
+    const launching_layout *at = &run->system->layout;
+    launching_run between = *run;
+    dense_launch_output out;
+    for (int i = 0; i < 6; i++) {
+        between.state[at->v + i] -= less[at->v + i];
+        between.state[at->V + i] -= less[at->V + i];
+    }
+    for (int i = 0; i < at->nq; i++)
+        between.state[at->q_dot + i] -= less[at->q_dot + i];
+    launching_run_dense(&between, dense, &out);
+    return out.kinetic;
+}
+
+// Projections of states that break the constraints by metres per second: momenta stay, and what
+// is taken off has no part of what is left (Pythagoras, by the kinetic energy), as the impulses of
+// constraints make it.
+static void check_projection(ld_contact_law law, int axial, const char *what)
+{
     ld_model model;
     dense_launch dense;
     launching_run run;
-    free_model(&model, LD_CONTACT_BILATERAL);
+    free_model(&model, law);
+    model.tubes.modes.axial = axial;
     launching_system *system = launching_system_of(&model);
     dense_launch_create(&dense, &model, &system->tube.flexible);
     start_strongly(&run, system);
     uint64_t seed = 20260713;
-    double momentum = 0, angular_momentum = 0, broken = 0, left = 0;
+    double momentum = 0, angular_momentum = 0, energy = 0, broken = 0, left = 0;
     for (int k = 0; k < 100; k++) {
         dense_launch_output before, after;
-        double *V = run.state + system->layout.V;
+        double *V = run.state + system->layout.V, was[RUN_STATES];
         for (int i = 0; i < 6; i++)
             V[i] += draw(&seed);
+        memcpy(was, run.state, sizeof was);
         launching_run_dense(&run, &dense, &before);
         launching_project(system, &run.input, &run.phase, run.state);
         launching_run_dense(&run, &dense, &after);
         momentum = fmax(momentum, change3(after.momentum, before.momentum));
         angular_momentum =
             fmax(angular_momentum, change3(after.angular_momentum, before.angular_momentum));
+        double taken = kinetic_of_difference(&run, &dense, was);
+        energy = fmax(energy, fabs((after.kinetic + taken) / before.kinetic - 1));
         broken = fmax(broken, fabs(before.slot_drift));
         left = fmax(left, fabs(after.slot_drift));
     }
-    printf("  drift before the projection up to %.2f m/s\n", broken);
+    printf("  %s: drift before the projection up to %.2f m/s\n", what, broken);
     CHECK_BELOW("drift after it [m/s]", left, 1e-14);
     CHECK_BELOW("linear momentum", momentum, 3e-15);
     CHECK_BELOW("angular momentum", angular_momentum, 3e-15);
+    CHECK_BELOW("kinetic energy, with that of what was taken off", energy, 1e-14);
     dense_launch_free(&dense);
     launching_system_drop(system);
     reference_model_free(&model);
+}
+
+static void projection_keeps_momenta(void **state)
+{
+    (void)state;
+    check_projection(LD_CONTACT_BILATERAL, 0, "slot");
+    check_projection(LD_CONTACT_BILATERAL, 2, "slot, axial modes");
+    check_projection(LD_CONTACT_IDEAL, 0, "slot and ideal adaptors");
+    check_projection(LD_CONTACT_IDEAL, 2, "slot and ideal adaptors, axial modes");
 }
 
 // ---- V and y as states ----

@@ -16,18 +16,26 @@ typedef struct known_motion {
     base_system base;
 } known_motion;
 
-static void know(known_motion *self, const char *example, double tolerance)
+// With at most two other texts for --set.
+static void know_changed(known_motion *self, const char *example, const char *const change[2],
+                         double tolerance)
 {
     char path[512];
     ld_error error;
     ld_messages messages = {0};
-    const char *const sets[] = {"run.lead_in=0.2 s"};
+    const char *const sets[] = {"run.lead_in=0.2 s", change[0], change[1]};
+    size_t count = !change[0] ? 1 : !change[1] ? 2 : 3;
     snprintf(path, sizeof path, "%s/examples/%s", LD_SOURCE_DIR, example);
-    if (scenario_read(path, sets, 1, &self->model, &messages))
+    if (scenario_read(path, sets, count, &self->model, &messages))
         fail_msg("%s", path);
     self->model.run.tolerance = tolerance;
     if (base_build(&self->base, &self->model, &error))
         fail_msg("%s", error.text);
+}
+
+static void know(known_motion *self, const char *example, double tolerance)
+{
+    know_changed(self, example, (const char *[2]){NULL}, tolerance);
 }
 
 static void forget(known_motion *self)
@@ -147,6 +155,33 @@ static void a_ship_told_every_millisecond(void **state)
     forget(&ship);
 }
 
+// A ship's deck with other things on it than springs and a bore. Adaptors that hold on both sides:
+// with gaps the exit hangs on what the first millisecond leaves, which nothing damps on clamps.
+#define CLAMPS "tubes.supports=[{at: 0.4 m, clamped: all}, {at: 1.8 m, clamped: [y, z]}]"
+static const struct {
+    const char *example, *change[2], *what;
+    double bound; // [mrad/s]
+} decks[] = {
+    {"ship.yaml",
+     {CLAMPS, "rocket.contact={law: bilateral, exponent: 1, friction: 0, damping: 1e3 N.s/m}"},
+     "exit rates, on clamps [mrad/s]",
+     2e-2},
+    {"rail/deck.yaml", {NULL}, "on a rail", 1e-2},
+};
+
+static void other_decks_told_every_millisecond(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        known_motion deck;
+        know_changed(&deck, decks[i].example, decks[i].change, 1e-6);
+        ld_summary known = run_through(&deck.model);
+        ld_summary told = run_told(&deck, LD_EXTRAPOLATION_ACCELERATION, 0, 1e-3);
+        CHECK_BELOW(decks[i].what, difference(&told, &known), decks[i].bound);
+        forget(&deck);
+    }
+}
+
 // Jumps that come every h shake the tube the less the faster they come, so it falls faster than the
 // jumps themselves. The exit stands in the middle between two instants.
 static void the_error_falls_with_the_step(void **state)
@@ -232,13 +267,11 @@ static void independent_wrench(const ld_run *run, const double *y, ld_base_wrenc
     v3_store(wrench->moment, m3_apply(input.launching.base.A, v3_from(out.base_moment)));
 }
 
-// At rest it is the weight; on the moving ship, before and during the launch, the independent
-// program's.
-static void the_wrench_is_the_supports(void **state)
+static void the_wrench_at_rest_is_the_weight(void **state)
 {
     (void)state;
     ld_error error;
-    ld_base_wrench told, known;
+    ld_base_wrench told;
     known_motion motion;
     know(&motion, "fixed.yaml", 1e-8);
     ld_model model = told_model(&motion, LD_EXTRAPOLATION_ACCELERATION);
@@ -253,16 +286,20 @@ static void the_wrench_is_the_supports(void **state)
     ld_run_end(run, NULL, NULL);
     ld_simulation_free(simulation);
     forget(&motion);
+}
 
-    know(&motion, "ship.yaml", 1e-8);
-    model = told_model(&motion, LD_EXTRAPOLATION_ACCELERATION);
-    simulation = create(&model);
-    first = frame_at(&motion, -model.run.lead_in);
-    run = begin(simulation, &first);
-    double off[2] = {0};
+// Of a moving deck, before and during the launch.
+static void wrench_on_deck(known_motion *motion, double off[2])
+{
+    ld_error error;
+    ld_base_wrench told, known;
+    ld_model model = told_model(motion, LD_EXTRAPOLATION_ACCELERATION);
+    ld_simulation *simulation = create(&model);
+    ld_base_frame first = frame_at(motion, -model.run.lead_in);
+    ld_run *run = begin(simulation, &first);
     for (int i = -3; i <= 3; i++) {
         double t = 0.05 * i;
-        ld_base_frame now = frame_at(&motion, t);
+        ld_base_frame now = frame_at(motion, t);
         assert_int_equal(ld_run_advance(run, t, &error), LD_OK);
         assert_int_equal(ld_run_tell_base(run, &now, &error), LD_OK);
         assert_int_equal(ld_run_base_wrench(run, &told, &error), LD_OK);
@@ -272,44 +309,70 @@ static void the_wrench_is_the_supports(void **state)
             off[1] = fmax(off[1], fabs(told.moment[k] - known.moment[k]));
         }
     }
-    CHECK_BELOW("on the ship: force against the independent one [N]", off[0], 1e-6);
-    CHECK_BELOW("moment [N m]", off[1], 1e-6);
     ld_run_end(run, NULL, NULL);
     ld_simulation_free(simulation);
-    forget(&motion);
+}
+
+static void the_wrench_is_the_supports_on_decks(void **state)
+{
+    (void)state;
+    static const char *const force[] = {"on springs: force against the independent one [N]",
+                                        "on clamps: force", "on a rail: force"};
+    for (int i = 0; i < 3; i++) {
+        known_motion deck;
+        double off[2] = {0};
+        if (i == 0)
+            know(&deck, "ship.yaml", 1e-8);
+        else
+            know_changed(&deck, decks[i - 1].example, decks[i - 1].change, 1e-8);
+        wrench_on_deck(&deck, off);
+        CHECK_BELOW(force[i], off[0], 1e-6);
+        CHECK_BELOW("moment [N m]", off[1], 1e-6);
+        forget(&deck);
+    }
 }
 
 // ---- state ----
 
 // What it was told last is part of the state: loaded it goes on with the same bits.
-static void a_told_base_is_saved(void **state)
+static void told_base_is_saved(const known_motion *ship)
 {
-    (void)state;
     static unsigned char bytes[65536];
     size_t size;
     ld_error error;
-    known_motion ship;
-    know(&ship, "ship.yaml", 1e-5);
-    ld_model model = told_model(&ship, LD_EXTRAPOLATION_ACCELERATION);
+    ld_model model = told_model(ship, LD_EXTRAPOLATION_ACCELERATION);
     ld_simulation *simulation = create(&model);
-    ld_base_frame first = frame_at(&ship, -model.run.lead_in);
+    ld_base_frame first = frame_at(ship, -model.run.lead_in);
     ld_run *run = begin(simulation, &first), *loaded;
     for (int i = -19; i < 5; i++) {
         double t = 0.01 * i;
-        ld_base_frame now = frame_at(&ship, t);
+        ld_base_frame now = frame_at(ship, t);
         assert_int_equal(ld_run_advance(run, t, &error), LD_OK);
         assert_int_equal(ld_run_tell_base(run, &now, &error), LD_OK);
     }
     assert_int_equal(ld_run_save(run, bytes, sizeof bytes, &size, &error), LD_OK);
     assert_int_equal(ld_run_load(simulation, NULL, bytes, size, &loaded, &error), LD_OK);
     double from = ld_run_time(run) + 0.01;
-    go_on(run, &ship, from, 0.01);
-    go_on(loaded, &ship, from, 0.01);
+    go_on(run, ship, from, 0.01);
+    go_on(loaded, ship, from, 0.01);
     ld_summary all = end(run), part = end(loaded);
     assert_true(all.rocket[0].t_rear > from);
     assert_memory_equal(&all.rocket[0].exit, &part.rocket[0].exit, sizeof all.rocket[0].exit);
     ld_simulation_free(simulation);
+}
+
+static void a_told_base_is_saved(void **state)
+{
+    (void)state;
+    known_motion ship;
+    know(&ship, "ship.yaml", 1e-5);
+    told_base_is_saved(&ship);
     forget(&ship);
+    for (int i = 0; i < 2; i++) {
+        know_changed(&ship, decks[i].example, decks[i].change, 1e-5);
+        told_base_is_saved(&ship);
+        forget(&ship);
+    }
 }
 
 // ---- what is refused ----
@@ -369,9 +432,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ship_told_every_millisecond),
+        cmocka_unit_test(other_decks_told_every_millisecond),
         cmocka_unit_test(the_error_falls_with_the_step),
         cmocka_unit_test(a_base_told_to_stand_is_fixed),
-        cmocka_unit_test(the_wrench_is_the_supports),
+        cmocka_unit_test(the_wrench_at_rest_is_the_weight),
+        cmocka_unit_test(the_wrench_is_the_supports_on_decks),
         cmocka_unit_test(a_told_base_is_saved),
         cmocka_unit_test(what_makes_no_frame_is_refused),
     };
