@@ -30,8 +30,9 @@ void aerodynamics_free(aerodynamics *self);
 
 // The air about a rocket, taken as one over its length.
 typedef struct moving_air {
-    v3 v;           // [m/s] its velocity against the ground, in I
-    double density; // [kg/m3]
+    v3 v;                  // [m/s] its velocity against the ground, in I
+    double density;        // [kg/m3]
+    double speed_of_sound; // [m/s], > 0
 } moving_air;
 
 // Force f and moment m about the mass centre, in axes whose x is the rocket's.

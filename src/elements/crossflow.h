@@ -43,9 +43,11 @@ LD_INLINE void crossflow_add(const crossflow_body *self, const tube_system *guid
     const moving_air *about = &now->input->air;
     launching_output *out = now->out;
     double tip = guide->flexible.length - rocket->s;
+    if (self->half_width == 0)
+        return;
     out->emerged = 0;
     out->crossflow = v3_zero();
-    if (self->half_width == 0 || self->nose <= tip)
+    if (self->nose <= tip)
         return;
     // lateral velocity against the air, u_0 + x u_1; least at x = least, where |u| u has its bend
     v3 d = m3_column(rocket->A_RB, 0), u_1 = v3_cross(rocket->w_B, d);
@@ -61,7 +63,7 @@ LD_INLINE void crossflow_add(const crossflow_body *self, const tube_system *guid
     v3 f = v3_scale(factor, sum.zeroth), first = v3_scale(factor, sum.first);
     out->emerged = self->nose - tip;
     out->crossflow = f;
-    out->power[POWER_CROSSFLOW] = v3_dot(f, rocket->v_O1) + v3_dot(first, u_1);
+    out->power[POWER_AIR] = v3_dot(f, rocket->v_O1) + v3_dot(first, u_1);
     now->f = v3_add(now->f, f);
     now->m = v3_add(now->m, v3_cross(d, first));
 }

@@ -53,9 +53,11 @@ typedef struct launching_input {
     double since;       // [s] the ignition, for the pressure
     int pressure_piece; // of its table over time, from 1; else 1; 0: not lit
     rocket_mass mass;
-    moving_air air;             // about the rocket; read where its emerged part feels it
-    const launching_load *load; // where it is linearised; NULL: none
-    guide_forces *record;       // of what acts on the tube; NULL: none is kept
+    moving_air air;                   // about the rocket; read where it feels it
+    const aerodynamics *aerodynamics; // of the whole rocket, on an open guide; NULL: none
+    bool power;                       // the thrust table has not ended: for those
+    const launching_load *load;       // where it is linearised; NULL: none
+    guide_forces *record;             // of what acts on the tube; NULL: none is kept
 } launching_input;
 
 typedef struct adaptor_report {
@@ -85,9 +87,11 @@ typedef struct shoe_report {
     X(POWER_MODAL_DAMPING, "modal_damping", "work of the modal damping")                           \
     X(POWER_BASE, "base", "work of the moving base through the supports")                          \
     X(POWER_MASS_CHANGE, "mass_change", "kinetic energy carried off by burnt propellant")
-// That of the air on what has emerged, where it is asked for.
+// That of the air, where it acts before the release: in a bore on what has emerged, on an open
+// guide on the whole rocket. Never both: they have one place.
 #define CROSSFLOW_WORKS(X)                                                                         \
-    X(POWER_CROSSFLOW, "crossflow", "work of the air on the emerged part of the rocket")
+    X(POWER_AIR, "crossflow", "work of the air on the emerged part of the rocket")
+#define OPEN_AIR_WORKS(X) X(POWER_AIR, "air", "work of the air on the rocket on its guide")
 
 // That of the pressure behind the rocket, and of slides on which the tube recoils, likewise.
 #define PRESSURE_WORKS(X) X(POWER_PRESSURE, "pressure", "work of the pressure on rocket and tube")
@@ -97,7 +101,7 @@ typedef struct shoe_report {
 enum launching_power {
     LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) PRESSURE_WORKS(WORK_PLACE)
         RECOIL_WORKS(WORK_PLACE) POWER_COUNT,
-    POWER_ALWAYS = POWER_CROSSFLOW, // those that are always there come first
+    POWER_ALWAYS = POWER_AIR, // those that are always there come first
 };
 
 // A slide on which the tube recoils.
@@ -111,16 +115,18 @@ typedef struct launching_output {
     double q_ddot[LD_MAX_MODAL]; // [nq]
     v3 a_O1, alpha_B;            // of the rocket against I, in R
     double x_dot[X_COUNT];
-    double y[6];           // the theory's relative speeds: s_dot, y_S_dot, z_S_dot, w_SB (in S)
-    double N;              // [N] slot force
-    double slot_friction;  // [N] along tau on the rocket
-    double lock_force;     // [N] carried, along +x (minus the force on the rocket)
-    double breech_force;   // [N] on the rocket along +x
-    double pressure;       // [Pa] net, where there is one
-    double pressure_force; // [N] on the rocket along +x
-    double emerged;        // [m] length of the rocket that is out of the tube, in the air
-    v3 crossflow;          // [N] force of the air on it, in R
-    double drift;          // [m/s] n . v_rel, zero but for the step error
+    double y[6];              // the theory's relative speeds: s_dot, y_S_dot, z_S_dot, w_SB (in S)
+    double N;                 // [N] slot force
+    double slot_friction;     // [N] along tau on the rocket
+    double lock_force;        // [N] carried, along +x (minus the force on the rocket)
+    double breech_force;      // [N] on the rocket along +x
+    double pressure;          // [Pa] net, where there is one
+    double pressure_force;    // [N] on the rocket along +x
+    double emerged;           // [m] length of the rocket that is out of the tube, in the air
+    v3 crossflow;             // [N] force of the air on it, in R
+    double air_mach;          // of the mass centre through the air, where all of it feels that
+    v3 air_force, air_moment; // [N], [N m] of the air on it, about the mass centre, in R
+    double drift;             // [m/s] n . v_rel, zero but for the step error
     double power[POWER_COUNT];
     double elastic;             // [J] of supports and modes
     v3 base_force, base_moment; // [N], [N m] on the base, moment about T's origin, in T

@@ -9,6 +9,28 @@
 #include "math/rotation_vector.h"
 #include "math/sine_cosine.h"
 
+// Sines and cosines of the rocket's angles in the tube.
+typedef struct rocket_turns {
+    double sp, cp, st, ct, sg, cg;
+} rocket_turns;
+
+LD_INLINE rocket_turns rocket_turns_of(const double x[X_COUNT])
+{
+    rocket_turns k;
+    sine_cosine_small(x[X_PSI], &k.sp, &k.cp);
+    sine_cosine_small(x[X_THETA], &k.st, &k.ct);
+    sine_cosine_small(x[X_GAMMA], &k.sg, &k.cg);
+    return k;
+}
+
+// A_SB = Rz(psi) Ry(theta) Rx(gamma)
+LD_INLINE m3 rocket_attitude(rocket_turns k)
+{
+    return (m3){{{k.cp * k.ct, k.cp * k.st * k.sg - k.sp * k.cg, k.cp * k.st * k.cg + k.sp * k.sg},
+                 {k.sp * k.ct, k.sp * k.st * k.sg + k.cp * k.cg, k.sp * k.st * k.cg - k.cp * k.sg},
+                 {-k.st, k.ct * k.sg, k.ct * k.cg}}};
+}
+
 // Where the rocket is in the tube and how it moves (formulation.md, section 3).
 LD_INLINE void rocket_load(const tube_system *guide, const launching_layout *layout,
                            const double *state, const tube_state *tube, rocket_state *rocket,
@@ -18,13 +40,8 @@ LD_INLINE void rocket_load(const tube_system *guide, const launching_layout *lay
     rocket->s = x[X_S];
     rocket->y = x[X_Y];
     rocket->z = x[X_Z];
-    double sp, cp, st, ct, sg, cg;
-    sine_cosine_small(x[X_PSI], &sp, &cp);
-    sine_cosine_small(x[X_THETA], &st, &ct);
-    sine_cosine_small(x[X_GAMMA], &sg, &cg);
-    rocket->A_SB = (m3){{{cp * ct, cp * st * sg - sp * cg, cp * st * cg + sp * sg},
-                         {sp * ct, sp * st * sg + cp * cg, sp * st * cg - cp * sg},
-                         {-st, ct * sg, ct * cg}}};
+    rocket_turns k = rocket_turns_of(x);
+    rocket->A_SB = rocket_attitude(k);
     rocket->v_O1 = v3_from(V);
     rocket->w_B = v3_from(V + 3);
     axis_section *at = &rocket->at;
@@ -50,12 +67,12 @@ LD_INLINE void rocket_load(const tube_system *guide, const launching_layout *lay
     rocket->Om = v3_axpy(rates->w, rocket->s_dot, twist);
     v3 w = m3_apply_transposed(at->A, v3_sub(rocket->w_B, v3_add(tube->w, rocket->Om)));
     rocket->w_SB = w;
-    double gamma_dot = (cp * w.x + sp * w.y) / ct;
+    double gamma_dot = (k.cp * w.x + k.sp * w.y) / k.ct;
     out->x_dot[X_S] = out->y[0] = rocket->s_dot;
     out->x_dot[X_Y] = out->y[1] = rocket->y_dot;
     out->x_dot[X_Z] = out->y[2] = rocket->z_dot;
-    out->x_dot[X_PSI] = w.z + st * gamma_dot;
-    out->x_dot[X_THETA] = cp * w.y - sp * w.x;
+    out->x_dot[X_PSI] = w.z + k.st * gamma_dot;
+    out->x_dot[X_THETA] = k.cp * w.y - k.sp * w.x;
     out->x_dot[X_GAMMA] = gamma_dot;
     v3_store(out->y + 3, w);
 }

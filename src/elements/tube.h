@@ -58,18 +58,10 @@ LD_INLINE void tube_build_rows(int support_count, tube_system *self)
 
 // ---- evaluation ----
 
-// State of the frame R and of the modes, and their products with the fixed rows.
-LD_INLINE void tube_load(const int lanes, const tube_system *self, const launching_layout *at,
-                         const double *state, tube_state *tube)
+LD_INLINE void modal_load(const int lanes, const tube_system *self, const launching_layout *at,
+                          const double *state, modal_state *q)
 {
     int nb = self->flexible.nb;
-    tube->r = v3_from(state + at->r);
-    tube->q_IR = q_from(state + at->quaternion);
-    tube->A_IR = q_matrix(tube->q_IR);
-    tube->v = v3_from(state + at->v);
-    tube->w = v3_from(state + at->w);
-    tube->g = m3_apply_transposed(tube->A_IR, v3_make(0, -self->gravity, 0));
-    modal_state *q = &tube->modal;
     const double *from = state + at->q, *rate = state + at->q_dot;
     memset(q->y, 0, (size_t)lanes * sizeof(v4d));
     memset(q->z, 0, (size_t)lanes * sizeof(v4d));
@@ -83,6 +75,21 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
     q->t_dot = rate + 2 * nb;
     q->a = q->t + self->flexible.nt;
     q->a_dot = q->t_dot + self->flexible.nt;
+}
+
+// State of the frame R and of the modes, and their products with the fixed rows.
+LD_INLINE void tube_load(const int lanes, const tube_system *self, const launching_layout *at,
+                         const double *state, tube_state *tube)
+{
+    int nb = self->flexible.nb;
+    tube->r = v3_from(state + at->r);
+    tube->q_IR = q_from(state + at->quaternion);
+    tube->A_IR = q_matrix(tube->q_IR);
+    tube->v = v3_from(state + at->v);
+    tube->w = v3_from(state + at->w);
+    tube->g = m3_apply_transposed(tube->A_IR, v3_make(0, -self->gravity, 0));
+    modal_state *q = &tube->modal;
+    modal_load(lanes, self, at, state, q);
     // the fixed rows (supports, ct, c) times the four vectors of modal coordinates and speeds
     for (int r = 0; r < self->row_lanes; r++) {
         v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;

@@ -964,6 +964,18 @@ static inline bool model_has_crossflow(const ld_model *model)
     return model_has_launcher(model) && air->present && air->emerged.present;
 }
 
+/// Whether the air acts on the whole rocket on its guide: that is open, not a bore.
+static inline bool model_has_open_air(const ld_model *model)
+{
+    return model_has_surfaces(model) && model->rocket.aerodynamics.present;
+}
+
+/// Whether the rocket feels the air before its release.
+static inline bool model_feels_air(const ld_model *model)
+{
+    return model_has_crossflow(model) || model_has_open_air(model);
+}
+
 /// Whether the jets of rockets that have left act on the platform.
 static inline bool model_has_jet(const ld_model *model)
 {

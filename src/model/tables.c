@@ -1037,7 +1037,7 @@ static const field_row aerodynamics_fields[] = {
      .doc = "drag of large angles of attack"},
     {"emerged", SAME_STRUCT(emerged_block), .initial_doc = "none",
      SWITCH(ld_aerodynamics, emerged.present, emerged_words), .other_is_bool = true,
-     .doc = "drag of the lateral speed on the part of the rocket that has come out of its tube, "
+     .doc = "drag of the lateral speed on the part of the rocket that has come out of its bore, "
             "until the rear adaptor does"},
     {"ca_scale", NUMBER(ld_aerodynamics, ca_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
      .doc = "factor on ca_power_off and ca_power_on"},
@@ -1110,7 +1110,9 @@ static const field_row rocket_fields[] = {
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
      .other_is_bool = true,
-     .doc = "air forces in free flight and, by its key emerged, on what has come out of the tube"},
+     .doc =
+         "air forces in free flight and, on a guide of surfaces, from the start on; in a bore, by "
+         "its key emerged, on what has come out of it"},
     {0}};
 static const field_block rocket_block = {
     .fields = rocket_fields, .form = kind_words, .form_offset = offsetof(ld_model, base.kind)};

@@ -301,6 +301,18 @@ static void tell_drive(FILE *stream, const ld_model *model)
         fprintf(stream, "; no lock\n");
 }
 
+// The air that the rocket feels before its release.
+static void tell_air(FILE *stream, const ld_model *model)
+{
+    if (model_has_open_air(model))
+        fprintf(stream, "# air: on the whole rocket on its %s, from the start on\n",
+                model->tubes.guide.form == LD_GUIDE_TOWER ? "tower" : "rail");
+    else if (model_has_crossflow(model))
+        fprintf(stream,
+                "# air: on what has come out of the bore, up to %s before the rear adaptor\n",
+                METRES(model->rocket.aerodynamics.emerged.nose));
+}
+
 void ld_model_describe(const ld_model *model, FILE *stream)
 {
     if (!model_has_launcher(model))
@@ -312,6 +324,7 @@ void ld_model_describe(const ld_model *model, FILE *stream)
     tell_supports(stream, &model->tubes);
     tell_rocket(stream, model);
     tell_drive(stream, model);
+    tell_air(stream, model);
     uselocale(before);
     freelocale(plain);
 }

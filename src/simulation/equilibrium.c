@@ -138,6 +138,7 @@ typedef struct problem {
     const carried_directions *carried; // less what surfaces carry; NULL: all
     double h;                          // [m, rad, ...] step of the differences
     double *jacobian;                  // [count + 1][count + 1] of Newton's method, by columns
+    const base_frame *going; // the base as it moves where it is not held still: through the air
 } problem;
 
 // Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
@@ -224,10 +225,41 @@ static void launching_residual(const problem *the, const double *y, const launch
         rocket[count] = a.x;
 }
 
-// A base in its pose that does not move.
-static void at_rest(base_frame *base)
+// What acts in a state at rest: a base in its pose that does not move, no drive; the air goes past
+// as it does where the base moves.
+static void at_rest(const problem *the, const double *y, launcher_input *input)
 {
+    base_frame *base = &input->launching.base;
+    const launch_state *self = the->self;
+    simulation_input(self, the->t, y, input);
     base->v = base->w = base->a = base->alpha = v3_zero();
+    input->launching.thrust = 0;
+    input->launching.pressure_piece = 0;
+    input->formulation = LD_FORMULATION_REDUCED;
+    if (!self->air || !the->going)
+        return;
+    v3 center = launching_rocket_point(&self->launcher.launching, y, input->launching.mass.c);
+    v3 v = v3_cross(the->going->w, v3_sub(center, the->going->r));
+    input->launching.air.v = v3_sub(input->launching.air.v, v3_add(the->going->v, v));
+}
+
+// The base as it moves with the speeds of y.
+static base_frame going_of(const launch_state *self, double t, const double *y)
+{
+    launcher_input input;
+    launcher_place(&self->launcher, t, y, &input);
+    return input.launching.base;
+}
+
+// The base as it moves where the run begins, in the pose of y.
+static base_frame setting_off(const launch_state *self, double t, const double *y)
+{
+    const base_system *base = &self->launcher.base;
+    double moving[LD_MAX_STATES];
+    memcpy(moving, y, (size_t)self->launcher.state_count * sizeof *y);
+    if (base->kind->dynamics)
+        base->kind->dynamics->set_off(base, moving + self->launcher.base_at);
+    return going_of(self, t, moving);
 }
 
 // What must vanish in equilibrium.
@@ -238,15 +270,11 @@ static int residual(const problem *the, const double *y, double *r)
     launcher_input input;
     launcher_output out;
     double all[MAX_FREEDOMS];
-    simulation_input(self, the->t, y, &input);
+    at_rest(the, y, &input);
     input.held = true;
-    input.formulation = LD_FORMULATION_REDUCED;
     const base_system *base = &launcher->base;
     if (base->kind->dynamics)
         base->kind->dynamics->rest_of(y + launcher->base_at, &input.rest);
-    at_rest(&input.launching.base);
-    input.launching.thrust = 0;
-    input.launching.pressure_piece = 0;
     if (the->dead) {
         dead_load(the, &input, &out.launching);
         if (launcher_evaluate_base(launcher, &input, the->phase, y, &out))
@@ -428,11 +456,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
     launcher_input input;
     launcher_output out;
     double r[MAX_FREEDOMS];
-    simulation_input(self, the->t, y, &input);
-    at_rest(&input.launching.base);
-    input.launching.thrust = 0;
-    input.launching.pressure_piece = 0;
-    input.formulation = LD_FORMULATION_REDUCED;
+    at_rest(the, y, &input);
     launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
     tip_state tip = tip_state_of(self, &input.launching.base, y);
     *summary = (ld_equilibrium_summary){.lock_force = out.launching.lock_force,
@@ -885,8 +909,13 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
     ld_status status = settle_base(self, t, &phase, accepted, start, error);
     if (status)
         return status;
-    problem whole = {
-        .self = self, .t = t, .phase = &phase, .count = simulation_freedoms(self), .h = DIFFERENCE};
+    base_frame going = setting_off(self, t, start);
+    problem whole = {.self = self,
+                     .t = t,
+                     .phase = &phase,
+                     .count = simulation_freedoms(self),
+                     .h = DIFFERENCE,
+                     .going = &going};
     status = make_room(&whole, error);
     if (status)
         return status;
@@ -999,11 +1028,16 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
                        self->model->firing[next].tube, t, why);
 
     // the new tube in equilibrium on the base held still
+    base_frame going = going_of(self, t, y);
     memcpy(still, y, (size_t)launcher->state_count * sizeof(double));
     memset(still + speeds_at, 0, speeds);
     self->on_breech = false;
-    problem tube = {
-        .self = self, .t = t, .phase = &phase, .count = launching_freedoms(self), .h = DIFFERENCE};
+    problem tube = {.self = self,
+                    .t = t,
+                    .phase = &phase,
+                    .count = launching_freedoms(self),
+                    .h = DIFFERENCE,
+                    .going = &going};
     ld_status status = make_room(&tube, error);
     if (status)
         return status;

@@ -172,6 +172,15 @@ static const quantity crossflow[] = {
     {"crossflow.y", "N", "force of the air on it, along y of R", AT(out.launching.crossflow.y)},
     {"crossflow.z", "N", "force of the air on it, along z of R", AT(out.launching.crossflow.z)},
 };
+static const quantity open_air[] = {
+    {"air.mach", "1", "Mach number of the mass centre through the air", AT(out.launching.air_mach)},
+    {"air.x", "N", "force of the air on the rocket, along x of R", AT(out.launching.air_force.x)},
+    {"air.y", "N", "force of the air on the rocket, along y of R", AT(out.launching.air_force.y)},
+    {"air.z", "N", "force of the air on the rocket, along z of R", AT(out.launching.air_force.z)},
+    {"air.moment_x", "N.m", "moment of the air about the mass centre, about x of R", AT(out.launching.air_moment.x)},
+    {"air.moment_y", "N.m", "moment of the air about the mass centre, about y of R", AT(out.launching.air_moment.y)},
+    {"air.moment_z", "N.m", "moment of the air about the mass centre, about z of R", AT(out.launching.air_moment.z)},
+};
 static const quantity pressures[] = {
     {"pressure.net", "Pa", "pressure behind the rocket less that before it", AT(out.launching.pressure)},
     {"pressure.force", "N", "its force on the rocket along the tube", AT(out.launching.pressure_force)},
@@ -211,6 +220,7 @@ static const quantity energies[] = {
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
 static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
+static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
@@ -232,6 +242,7 @@ static const quantity_group groups[] = {
     {.title = "each shoe on a guide of surfaces", .each = EACH_SHOE, ROCKET, QUANTITY_ROWS(shoes)},
     {.title = "slot, lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
     {.title = "air on the emerged part of the rocket", .each = EACH_CROSSFLOW, ROCKET, QUANTITY_ROWS(crossflow)},
+    {.title = "air on the rocket on an open guide", .each = EACH_OPEN_AIR, ROCKET, QUANTITY_ROWS(open_air)},
     {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
     {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
     {.title = "what the tube carries at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
@@ -241,6 +252,7 @@ static const quantity_group balances[] = {
     {.title = "energy", QUANTITY_ROWS(energies)},
     {.title = "works since the start", QUANTITY_ROWS(works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, QUANTITY_ROWS(crossflow_works)},
+    {.title = "work of the air on the rocket on an open guide", .each = EACH_OPEN_AIR, QUANTITY_ROWS(open_air_works)},
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, QUANTITY_ROWS(pressure_works)},
     {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, QUANTITY_ROWS(recoil_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},

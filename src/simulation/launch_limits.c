@@ -104,20 +104,41 @@ static ld_status check_steps(ld_run *run, double t)
                    (long long)steps, spent, t);
 }
 
-// Every millisecond of physics: the caller hears of it, and the tube is looked at.
+// On an open guide the table must go on as in free flight.
+static ld_status check_air(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    const ld_aerodynamics *given = &self->rocket->aerodynamics;
+    if (!model_has_open_air(self->model) || !self->phase.rocket ||
+        given->beyond_table == LD_BEYOND_HOLD)
+        return LD_OK;
+    double last = self->air->aerodynamics.last_mach;
+    const launcher_output *out = simulation_output(self, t, y);
+    if (!out || out->launching.air_mach <= last)
+        return LD_OK;
+    return ld_fail(&run->error, LD_ERR_LAUNCH,
+                   "rocket.aerodynamics.table: ends at Mach %.4g, beyond which the rocket goes at "
+                   "t = %.4f s, still on its guide (beyond_table: hold keeps the last values)",
+                   last, t);
+}
+
+// Every millisecond of physics: the caller hears of it, tube and air are looked at.
 static ld_status report_progress(ld_run *run, double t)
 {
     if (t < run->next_progress)
         return LD_OK;
     run->next_progress = t + 1e-3;
     run->steps_since_progress = 0;
-    ld_status status = launch_check_tube(run, t, propagator_state(run->propagator));
+    const double *y = propagator_state(run->propagator);
+    ld_status status = launch_check_tube(run, t, y);
+    if (!status)
+        status = check_air(run, t, y);
     if (status || !run->options.progress)
         return status;
     // a launch's end is not known: the travel's share is the estimate
     const launch_state *self = &run->launch;
     double length = self->launcher.launching.tube.flexible.length, s0 = self->rocket->start_at;
-    double s = propagator_state(run->propagator)[self->launcher.launching.layout.x + X_S];
+    double s = y[self->launcher.launching.layout.x + X_S];
     double in_tube = fmin(1, sqrt(fmax(0, (s - s0) / (length - s0))));
     double lead_in = self->t_ignition - run->t_start;
     double expected = lead_in + 0.2;

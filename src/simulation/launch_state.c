@@ -27,7 +27,7 @@ void launch_state_select(launch_state *self, int i)
     assert(i >= 0 && i < self->model->firing_count);
     self->current = i;
     self->motor = simulation_motor(self->system, i);
-    self->air = model_has_crossflow(self->model) ? simulation_flight(self->system, i) : NULL;
+    self->air = model_feels_air(self->model) ? simulation_flight(self->system, i) : NULL;
     self->rocket = salvo_rocket(self->model, i);
     launching_set_rocket(&self->launcher.launching, self->rocket);
     self->t_ignition = self->model->firing[i].at;

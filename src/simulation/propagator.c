@@ -12,14 +12,13 @@
 static void find_air(const launch_state *self, double t, const double *y, launching_input *input)
 {
     const launching_system *launching = &self->launcher.launching;
-    const launching_layout *at = &launching->layout;
-    launching_output unused;
-    launching_pose pose;
-    launching_rocket_pose(launching, y, &pose, &unused);
-    v3 center = v3_add(pose.p1, m3_apply(pose.A_RB, input->mass.c));
-    v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), center));
-    double left = launching->tube.flexible.length - y[at->x + X_S];
+    v3 r = launching_rocket_point(launching, y, input->mass.c);
+    double left = launching->tube.flexible.length - y[launching->layout.x + X_S];
     input->air = flight_air_at(self->air, t, r, left);
+    if (!model_has_open_air(self->model))
+        return;
+    input->aerodynamics = &self->air->aerodynamics;
+    input->power = self->piece + 1 < (int)self->motor->corner_count;
 }
 
 // Thrust, mass and air at time t and the launching subsystem's state.
@@ -31,6 +30,7 @@ static void surround(const launch_state *self, double t, const double *y, launch
     input->pressure_piece = self->pressure_piece;
     motor_mass(self->motor, self->piece, tau, &input->mass);
     input->air = (moving_air){0};
+    input->aerodynamics = NULL;
     const base_disturbance *disturbed = self->launcher.base.disturbed;
     input->load = disturbed ? &disturbed->input.launching : NULL;
     input->record = NULL;

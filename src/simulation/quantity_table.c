@@ -15,6 +15,7 @@ quantity_things quantity_things_of(const ld_model *model)
         .count = {[EACH_RUN] = 1,
                   [EACH_VEHICLE] = vehicle,
                   [EACH_CROSSFLOW] = model_has_crossflow(model),
+                  [EACH_OPEN_AIR] = model_has_open_air(model),
                   [EACH_JET] = model_has_jet(model),
                   [EACH_PRESSURE] = model_has_pressure(model),
                   [EACH_SLIDE_WORK] = model_slide_count(model) > 0,

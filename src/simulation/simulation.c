@@ -17,7 +17,7 @@ double simulation_cpu_now(void)
 static ld_status create_flights(ld_simulation *self, ld_error *error)
 {
     const ld_model *model = self->model;
-    if (!model_has_crossflow(model) && !model_has_jet(model))
+    if (!model_feels_air(model) && !model_has_jet(model))
         return LD_OK;
     self->flight_of = calloc((size_t)model->firing_count, sizeof *self->flight_of);
     if (!self->flight_of)

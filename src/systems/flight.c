@@ -226,8 +226,9 @@ moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
         double xi[2] = {-left / scales.L_u, -left / scales.L_w};
         v = v3_add(v, turbulence_at(self, t, place, altitude, xi, &scales));
     }
-    return (moving_air){m3_apply_transposed(ground_axes(self, t), v),
-                        atmosphere_at(&self->atmosphere, altitude).density};
+    air here = atmosphere_at(&self->atmosphere, altitude);
+    return (moving_air){m3_apply_transposed(ground_axes(self, t), v), here.density,
+                        here.speed_of_sound};
 }
 
 // ---- the equations of motion

@@ -41,10 +41,10 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 // Works up to the last kind that the model has.
 static int works_of(const ld_model *model)
 {
-    return model_slide_count(model)     ? POWER_RECOIL + 1
-           : model_has_pressure(model)  ? POWER_PRESSURE + 1
-           : model_has_crossflow(model) ? POWER_CROSSFLOW + 1
-                                        : POWER_ALWAYS;
+    return model_slide_count(model)    ? POWER_RECOIL + 1
+           : model_has_pressure(model) ? POWER_PRESSURE + 1
+           : model_feels_air(model)    ? POWER_AIR + 1
+                                       : POWER_ALWAYS;
 }
 
 // Modes and coefficients follow from all keys of `tubes` but those of slot, guide and pressure, of

@@ -12,6 +12,7 @@
 #include "elements/ideal.h"
 #include "elements/load.h"
 #include "elements/lock.h"
+#include "elements/open_air.h"
 #include "elements/pressure.h"
 #include "elements/shoe.h"
 #include "elements/slot.h"
@@ -104,6 +105,9 @@ typedef struct launching_pose {
 // Fills `pose` and, of `output`, x_dot and y.
 void launching_rocket_pose(const launching_system *self, const double *state, launching_pose *pose,
                            launching_output *output);
+
+// Where the rocket's point (of B [m]) is in I [m].
+v3 launching_rocket_point(const launching_system *self, const double *state, v3 point);
 
 // The section at station x (its point of the axis and frame, with their velocity and rate against
 // I), in R.

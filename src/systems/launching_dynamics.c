@@ -251,6 +251,23 @@ void launching_rocket_pose(const launching_system *self, const double *state, la
     *pose = (launching_pose){rocket.p1, rocket.at.A, rocket.A_RB, rocket.v_O1, rocket.w_B};
 }
 
+v3 launching_rocket_point(const launching_system *self, const double *state, v3 point)
+{
+    const launching_layout *at = &self->layout;
+    const double *x = state + at->x;
+    modal_state modal;
+    element_motion motion;
+    axis_section s;
+    modal_load(self->tube.flexible.nbp / 4, &self->tube, at, state, &modal);
+    s.index = flexible_tube_find(&self->tube.flexible, x[X_S]);
+    element_load(&self->tube, &modal, s.index, &motion);
+    section_load(&self->tube, &motion, x[X_S], &s);
+    v3 r = v3_make(0, x[X_Y], x[X_Z]),
+       turned = m3_apply(rocket_attitude(rocket_turns_of(x)), point);
+    r = v3_add(s.P, m3_apply(s.A, v3_add(r, turned)));
+    return v3_add(v3_from(state + at->r), m3_apply(q_matrix(q_from(state + at->quaternion)), r));
+}
+
 void launching_section_at(const launching_system *self, const double *state, double x,
                           launching_section *out)
 {

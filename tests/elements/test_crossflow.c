@@ -50,7 +50,7 @@ static void check(bench *self, v3 force, v3 moment, double power)
     CHECK_BELOW("force told", v3_norm(v3_sub(found, force)) / f, 1e-13);
     found = m3_apply_transposed(self->now.rocket.A_RB, self->now.m);
     CHECK_BELOW("moment about O1", v3_norm(v3_sub(found, moment)) / m, 1e-13);
-    CHECK_BELOW("power", (self->out.power[POWER_CROSSFLOW] - power) / (f + fabs(power)), 1e-13);
+    CHECK_BELOW("power", (self->out.power[POWER_AIR] - power) / (f + fabs(power)), 1e-13);
     CHECK_BELOW("length [m]", self->out.emerged - (nose - length + self->now.rocket.s), 1e-15);
 }
 

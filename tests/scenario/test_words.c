@@ -94,6 +94,26 @@ static void test_surfaces(void **state)
                 "#   surface cheek: round, 40 mm left of the line, towards -90 deg, gap 1 mm\n");
 }
 
+static void test_air(void **state)
+{
+    (void)state;
+    const char *set =
+        "rocket.aerodynamics={model: body, area: 0.02 m2, emerged: {nose: 2.5 m, drag: 1.2, "
+        "diameter: 160 mm}}";
+    check_words("examples/fixed.yaml", &set, 1,
+                "# base: fixed; launcher 19.8 deg up\n" GUIDE SUPPORTS ROCKET DRIVE
+                "# air: on what has come out of the bore, up to 2.5 m before the rear adaptor\n");
+    check_words("examples/rail/tower.yaml", NULL, 0,
+                "# base: fixed; launcher 85 deg up\n"
+                "# guide: a tower of 4 rails, 5 m long\n"
+                "#   the first rail at 45 deg, gap 0.5 mm\n"
+                "#   from 0 m: EI 40 MN.m2, GJ 10 MN.m2, 60 kg/m\n"
+                "# supports: springs at 0.2 m, springs at 2.2 m\n"
+                "# rocket: 80 kg, from 0.4 m, on shoes rear (0 m), front (1.6 m)\n"
+                "# drive: a motor of at most 7 kN, for 4.1 s; the lock lets go at 2 kN\n"
+                "# air: on the whole rocket on its tower, from the start on\n");
+}
+
 static void test_planes(void **state)
 {
     (void)state;
@@ -168,9 +188,9 @@ static void test_flight_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bore),        cmocka_unit_test(test_surfaces),
-        cmocka_unit_test(test_planes),      cmocka_unit_test(test_clamps),
-        cmocka_unit_test(test_pressure),    cmocka_unit_test(test_bases),
-        cmocka_unit_test(test_flight_alone)};
+        cmocka_unit_test(test_bore),   cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_air),    cmocka_unit_test(test_planes),
+        cmocka_unit_test(test_clamps), cmocka_unit_test(test_pressure),
+        cmocka_unit_test(test_bases),  cmocka_unit_test(test_flight_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

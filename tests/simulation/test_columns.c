@@ -392,7 +392,7 @@ static void say_crossflow(instant *at, double power[LAUNCHER_MOST_WORKS])
         v3 v = velocity_at(&rocket, v3_axpy(rocket.r, x, axis)), slip = v3_sub(v, breeze);
         v3 lateral = v3_axpy(slip, -v3_dot(slip, axis), axis);
         double per_length = -half * given->emerged.diameter * v3_norm(lateral);
-        power[POWER_CROSSFLOW] += share * out->emerged * per_length * v3_dot(lateral, v);
+        power[POWER_AIR] += share * out->emerged * per_length * v3_dot(lateral, v);
     }
 }
 
@@ -630,7 +630,7 @@ static const char *const work_name[LAUNCHER_MOST_WORKS] = {
 // Whether a run has work i.
 static bool has_work(const ld_model *model, int i)
 {
-    if (i == POWER_CROSSFLOW)
+    if (i == POWER_AIR)
         return model_has_crossflow(model);
     if (i == POWER_PRESSURE)
         return model_has_pressure(model);

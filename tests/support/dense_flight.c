@@ -377,13 +377,30 @@ static double next_corner(const ld_model *model, double t)
 
 // ---- the flight
 
+static void set_up_air(dense *d)
+{
+    const ld_table *air = &d->model->rocket.aerodynamics.table;
+    for (int k = 0; k < 7 && air->rows > 0; k++)
+        monotone_slopes((int)air->rows, 8, air->data, k + 1, d->slope[k]);
+}
+
+dense_wrench dense_air(const ld_model *model, bool power, v3 c, v3 v, v3 w, double density,
+                       double sound)
+{
+    const body b = {.c = c, .power = power};
+    dense d = {.model = model};
+    dense_wrench out;
+    set_up_air(&d);
+    air_forces(&d, &b, v, w, density, sound, &out.f, &out.m);
+    return out;
+}
+
 static void set_up(dense *d, const ld_model *model)
 {
     const ld_environment *e = &model->environment;
-    const ld_table *air = &model->rocket.aerodynamics.table, *wind_table = &e->wind.profile;
+    const ld_table *wind_table = &e->wind.profile;
     *d = (dense){.model = model, .round = e->earth.kind != LD_EARTH_FLAT};
-    for (int k = 0; k < 7 && air->rows > 0; k++)
-        monotone_slopes((int)air->rows, 8, air->data, k + 1, d->slope[k]);
+    set_up_air(d);
     for (int k = 0; k < 2 && wind_table->rows > 1; k++)
         monotone_slopes((int)wind_table->rows, 3, wind_table->data, k + 1, d->wind_slope[k]);
     if (!d->round)

@@ -4,6 +4,7 @@
 #ifndef LD_TESTS_SUPPORT_DENSE_FLIGHT_H
 #define LD_TESTS_SUPPORT_DENSE_FLIGHT_H
 
+#include "math/vec3.h"
 #include "model/model.h"
 
 typedef struct dense_flight_end {
@@ -21,5 +22,15 @@ typedef struct dense_flight_end {
 // A flight alone that begins with position, velocity and angles or quaternion against I, at the
 // rear adaptor; no turbulence. `step` [s] at most.
 void dense_flight(const ld_model *model, double step, dense_flight_end *end);
+
+// What the air does to a rocket about its mass centre c [m], all in B.
+typedef struct dense_wrench {
+    v3 f, m; // [N], [N m]
+} dense_wrench;
+
+// v: velocity through the air [m/s], w: rate [rad/s]; density [kg/m3] and speed of sound [m/s];
+// power: the thrust table has not ended. Of a table's ways between its rows: pchip alone.
+dense_wrench dense_air(const ld_model *model, bool power, v3 c, v3 v, v3 w, double density,
+                       double sound);
 
 #endif

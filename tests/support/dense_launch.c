@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/dense_flight.h"
 #include "support/jet.h"
 
 _Static_assert((int)JET_MAX >= (int)DENSE_MAX_COORDINATES, "a jet holds every coordinate");
@@ -1116,6 +1117,34 @@ static void add_crossflow(equations *eq, const jet_scene *scene, const dense_con
     turn_back(output->crossflow, scene->state->A_R[0], force);
 }
 
+// On an open guide: the air of the flight's own equations (support/dense_flight.c) on the rocket.
+static void add_open_air(equations *eq, const jet_scene *scene, const dense_conditions *on,
+                         dense_launch_output *output)
+{
+    const ld_model *model = scene->dense->model;
+    const dense_state *state = scene->state;
+    if (!model->tubes.guide.present || !model->rocket.aerodynamics.present)
+        return;
+    jet3 c = jet3_constant(on->center), center = point_in(&scene->B, &c);
+    double slip[3], v[3], f[3], m[3];
+    for (int i = 0; i < 3; i++)
+        slip[i] = center.c[i].e - on->air[i];
+    turn_back(v, state->A_B[0], slip);
+    dense_wrench air = dense_air(model, on->power, v3_from(on->center), v3_from(v),
+                                 v3_from(state->w_B), on->density, on->sound);
+    turn(f, state->A_B[0], (double[]){air.f.x, air.f.y, air.f.z});
+    turn(m, state->A_B[0], (double[]){air.m.x, air.m.y, air.m.z});
+    double *const on_speeds[2] = {eq->h, eq->other};
+    for (int i = 0; i < 2; i++) { // the last three speeds are the rocket's rate in B
+        add_force(on_speeds[i], &center, f);
+        on_speeds[i][eq->n - 3] += air.m.x;
+        on_speeds[i][eq->n - 2] += air.m.y;
+        on_speeds[i][eq->n - 1] += air.m.z;
+    }
+    turn_back(output->air_force, state->A_R[0], f);
+    turn_back(output->air_moment, state->A_R[0], m);
+}
+
 // The slot's angle at s and its slope: linear between the table's points, constant outside.
 static double slot_angle(const ld_table *table, int piece, double s, double *slope)
 {
@@ -1366,6 +1395,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     add_breech(&eq, &moving, conditions, s, output);
     add_gas(&eq, &moving, conditions, &rear, s.v, output);
     add_crossflow(&eq, &moving, conditions, s.v, output);
+    add_open_air(&eq, &moving, conditions, output);
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)

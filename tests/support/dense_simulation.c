@@ -154,6 +154,8 @@ void dense_rocket_at(const ld_model *model, double since, double middle, dense_c
     const ld_mass_data *full = &rocket->full, *empty = &rocket->empty;
     double burnt = burnt_at(motor, since / motor->time_scale);
     on->thrust = thrust_at(motor, since / motor->time_scale, middle / motor->time_scale);
+    on->power = motor->thrust.rows > 0 &&
+                middle < motor->time_scale * motor->thrust.data[2 * (motor->thrust.rows - 1)];
     on->mass = full->mass + rocket->mass_error - burnt * rocket->propellant;
     for (int i = 0; i < 3; i++) {
         on->center[i] = full->center[i] + burnt * (empty->center[i] - full->center[i]);
@@ -172,6 +174,7 @@ void dense_air_at(const ld_model *model, dense_conditions *on)
     on->air[1] = 0;
     on->air[2] = speed * sin(wind->heading);
     on->density = model->environment.atmosphere.density;
+    on->sound = model->environment.atmosphere.speed_of_sound;
 }
 
 // What acts at time t of the run and state x, on the piece of the thrust table that holds time

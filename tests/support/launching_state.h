@@ -129,6 +129,8 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->breech = c->phase.breech;
     v3_store(conditions->air, c->input.air.v);
     conditions->density = c->input.air.density;
+    conditions->sound = c->input.air.speed_of_sound;
+    conditions->power = c->input.power;
     conditions->breech_speed = c->phase.breech_speed;
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "math/quaternion.h"
+#include "support/dense_flight.h"
 #include "support/dense_simulation.h"
 
 // Body: O1 and attitude in I, speeds of O1 in I and of turning in B.
@@ -66,6 +67,7 @@ static void accelerate(const rail_run *run, double t, double middle, const body_
     const ld_motor *motor = &run->model->rocket.motor;
     dense_conditions on;
     dense_rocket_at(run->model, t, middle, &on);
+    dense_air_at(run->model, &on);
     moving_frame base = frame_at(run->model, t);
     m3 A = q_matrix(x->q);
     double matrix[(6 + ROWS) * (6 + ROWS)] = {0}, right[6 + ROWS] = {0};
@@ -90,6 +92,13 @@ static void accelerate(const rail_run *run, double t, double middle, const body_
     v3 force = v3_sub(v3_add(thrust, weight), swing);
     v3 moment = v3_add(v3_cross(v3_from(motor->at), thrust), v3_cross(c, weight));
     moment = v3_sub(moment, v3_cross(w, L));
+    if (run->model->rocket.aerodynamics.present) {
+        v3 slip = v3_sub(v3_add(x->v, m3_apply(A, v3_cross(w, c))), v3_from(on.air));
+        dense_wrench air = dense_air(run->model, on.power, c, m3_apply_transposed(A, slip), w,
+                                     on.density, on.sound);
+        force = v3_add(force, air.f);
+        moment = v3_add(moment, v3_add(air.m, v3_cross(c, air.f)));
+    }
     v3_store(right, force);
     v3_store(right + 3, moment);
     for (int i = 0; i < 3; i++) { // unknowns: a in B, w_dot in B

@@ -85,10 +85,51 @@ static void draw_rail(uint64_t *seed, int form, ld_model *model)
     rocket->lock.angle = between(seed, -3, 3);
 }
 
+// Coefficients over the Mach number, with a drag of the lateral speed, or a plain body.
+static void draw_air(uint64_t *seed, ld_aerodynamics *air)
+{
+    enum { ROWS = 4 };
+    *air =
+        (ld_aerodynamics){.present = true,
+                          .model = chance(seed, 0.7) ? LD_AERODYNAMICS_TABLE : LD_AERODYNAMICS_BODY,
+                          .reference_diameter = between(seed, 0.1, 0.3),
+                          .fin_cant = between(seed, -0.1, 0.1),
+                          .ca_scale = between(seed, 0.5, 2),
+                          .cn_scale = between(seed, 0.5, 2),
+                          .x_cp_shift = between(seed, -0.2, 0.2),
+                          .area = 0.02,
+                          .drag = between(seed, 0, 2),
+                          .damping = {-1, -2, -3},
+                          .lengths = {0.2, 2, 3}};
+    if (chance(seed, 0.5)) {
+        air->crossflow.present = true;
+        air->crossflow.drag = between(seed, 0, 30);
+        air->crossflow.at = between(seed, 0, 2);
+    }
+    double *row = malloc(sizeof(double) * 8 * ROWS);
+    air->table = (ld_table){.rows = ROWS, .columns = 8, .data = row};
+    for (int i = 0; i < ROWS; i++, row += 8) {
+        const double low[8] = {0.2 * i, 0, 0, 2, 0, -5, -9, -400};
+        const double high[8] = {0.2 * i, 1, 1, 12, 1.5, 5, 0, 0};
+        for (int k = 0; k < 8; k++)
+            row[k] = between(seed, low[k], high[k]);
+    }
+}
+
+// A wind of up to Mach 1 on the rocket.
+static void blow(uint64_t *seed, const aerodynamics *air, launching_case *c)
+{
+    c->input.air.v = draw_v3(seed, 60);
+    c->input.air.density = between(seed, 0.5, 2);
+    c->input.air.speed_of_sound = between(seed, 100, 400);
+    c->input.power = chance(seed, 0.5);
+    c->input.aerodynamics = air;
+}
+
 // ---- agreement ----
 
 typedef struct agreement {
-    double tube, rocket, lock, shoe, base; // largest differences, relative
+    double tube, rocket, lock, shoe, base, air; // largest differences, relative
     int pressed, rubbing;
 } agreement;
 
@@ -146,6 +187,10 @@ static void compare(const launching_system *system, const launching_case *c,
     worst->rocket = fmax(worst->rocket, apart3(dense->a_O1, out->a_O1, a));
     worst->rocket = fmax(worst->rocket, apart3(dense->alpha_B, out->alpha_B, alpha));
     worst->lock = fmax(worst->lock, fabs(dense->lock_force - out->lock_force) / force);
+    if (c->input.aerodynamics) {
+        worst->air = fmax(worst->air, apart3(dense->air_force, out->air_force, force));
+        worst->air = fmax(worst->air, apart3(dense->air_moment, out->air_moment, force));
+    }
     worst->base =
         fmax(worst->base, apart3(dense->base_force, out->base_force, size3(dense->base_force)));
     worst->base =
@@ -171,12 +216,14 @@ static void draw_touch_speeds(uint64_t *seed, const ld_model *model, launching_c
 }
 
 static void compare_states(const ld_model *model, const evaluator evaluate[3], uint64_t *seed,
-                           int count, agreement worst[3])
+                           uint64_t *weather, int count, agreement worst[3])
 {
     launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
     dense_launch *dense = malloc(sizeof *dense);
+    aerodynamics air;
     ld_error error;
     assert_int_equal(launching_build(system, model, NULL, &error), LD_OK);
+    assert_int_equal(aerodynamics_build(&air, &model->rocket.aerodynamics, &error), LD_OK);
     dense_launch_create(dense, model, &system->tube.flexible);
     for (int n = 0; n < count; n++) {
         launching_case c;
@@ -186,6 +233,8 @@ static void compare_states(const ld_model *model, const evaluator evaluate[3], u
         for (int i = system->adaptors.count - 1; i > 0 && chance(seed, 0.3); i--)
             c.phase.passed[i] = true;
         c.phase.frictionless = chance(seed, 0.1);
+        if (air.present)
+            blow(weather, &air, &c);
         copy_to_dense(system, &c);
         draw_touch_speeds(seed, model, &c);
         assert_true(dense_launch_evaluate(dense, &c.dense, &reference));
@@ -198,6 +247,7 @@ static void compare_states(const ld_model *model, const evaluator evaluate[3], u
     }
     dense_launch_free(dense);
     free(dense);
+    aerodynamics_free(&air);
     launching_free(system);
     free(system);
 }
@@ -210,13 +260,15 @@ static void shoes_equal_dense(void **state)
     static const evaluator evaluate[] = {launching_evaluate, general, overall};
     const char *asked = getenv("LD_RAIL_STATES");
     int states = asked ? atoi(asked) : 60, each = 5;
-    uint64_t seed = 15;
+    uint64_t seed = 15, weather = 16;
     for (int f = 0; f < 3; f++) {
         agreement worst[3] = {0};
         for (int n = 0; n < states; n += each) {
             ld_model model;
             draw_rail(&seed, f, &model);
-            compare_states(&model, evaluate, &seed, each, worst);
+            if (n % 2)
+                draw_air(&weather, &model.rocket.aerodynamics);
+            compare_states(&model, evaluate, &seed, &weather, each, worst);
             reference_model_free(&model);
         }
         for (int i = 0; i < 3; i++) {
@@ -225,6 +277,7 @@ static void shoes_equal_dense(void **state)
             CHECK_BELOW("tube accelerations", worst[i].tube, 1e-11);
             CHECK_BELOW("rocket accelerations", worst[i].rocket, 1e-11);
             CHECK_BELOW("lock force", worst[i].lock, 6e-11);
+            CHECK_BELOW("force and moment of the air", worst[i].air, 1e-13);
             CHECK_BELOW("forces and moments of shoes", worst[i].shoe, 6e-11);
             CHECK_BELOW("force and moment on the base", worst[i].base, 1e-12);
         }

@@ -1,7 +1,13 @@
 // The air on a rocket that comes out of its tube: what it leaves on the base by hand, the energy
-// balance of a launch in gusts, and the same air before and after the exit.
+// balance of a launch in gusts, and the same air before and after the exit. The air on a rocket on
+// a rail: what its shoes carry, the flight's own accelerations, damping, energy balance.
+#include <stdlib.h>
+
+#include "scenario/scenario.h"
 #include "simulation/propagator.h"
 #include "support/check.h"
+#include "support/dense_flight.h"
+#include "support/draw.h"
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
@@ -91,7 +97,7 @@ static void energy_in_gusts(void **state)
     ld_summary calm = summary_of_run(&model);
     const ld_rocket_summary *in_wind = &windy.rocket[0], *in_calm = &calm.rocket[0];
     printf("    out at %.4f s; work of the air %.4g J\n", in_wind->t_rear,
-           windy.energy.work[POWER_CROSSFLOW]);
+           windy.energy.work[POWER_AIR]);
     printf("    yaw rate %.6g and %.6g rad/s without\n", in_wind->yaw_rate, in_calm->yaw_rate);
     CHECK_BELOW("energy balance, relative", windy.energy.residual_relative, 1e-9);
     CHECK_WITHIN("what the air does to the yaw rate [rad/s]",
@@ -169,6 +175,285 @@ static void turbulence_on_the_way_to_the_mouth(void **state)
     reference_model_free(&model);
 }
 
+// ---- on a rail ----
+
+#define RAIL                                                                                       \
+    "run.lead_in=20 ms", "rocket.aerodynamics.crossflow={drag: 20, at: 1.3 m}",                    \
+        "rocket.aerodynamics.fin_cant=1 deg", "rocket.eccentricity=0 0 m",                         \
+        "environment.atmosphere={density: 1.2 kg/m3, speed_of_sound: 340 m/s}"
+// Of a rail that does not give, without weight and without play.
+#define RIGID                                                                                      \
+    "tubes.guide={line: 0 0 mm, t_slot: {at: 0 0 mm, lips: 40 mm, gap: 0 mm, side_gap: 0 mm}}",    \
+        "environment.gravity=0 m/s2", "rocket.contact.stiffness=1e10 N/m",                         \
+        "tubes.sections=[{from: 0 m, mass_per_length: 9 kg/m, axial_stiffness: 1e12 N, "           \
+        "bending_stiffness_y: 1e11 N.m2, bending_stiffness_z: 1e11 N.m2, "                         \
+        "torsion_stiffness: 1e11 N.m2, polar_inertia: 0.05 kg.m}]",                                \
+        "tubes.supports=[{at: 0.2 m, clamped: all}]"
+
+static void read_pad(const char *const *set, size_t count, ld_model *model)
+{
+    ld_messages messages;
+    if (scenario_read(LD_SOURCE_DIR "/examples/rail/pad.yaml", set, count, model, &messages)) {
+        ld_messages_print(&messages, stdout);
+        fail();
+    }
+}
+
+static double apart(v3 found, v3 expected)
+{
+    return v3_norm(v3_sub(found, expected)) / v3_norm(expected);
+}
+
+static v3 sum_of_shoes(const launching_output *out, v3 *moment)
+{
+    v3 sum = v3_zero();
+    *moment = v3_zero();
+    for (int i = 0; i < 2; i++) {
+        v3 f = v3_make(0, out->shoe[i].force_y, out->shoe[i].force_z);
+        sum = v3_add(sum, f);
+        *moment = v3_add(*moment, v3_make(out->shoe[i].moment_x, 0, 0));
+        *moment = v3_add(*moment, v3_cross(v3_make(1.6 * i, 0, 0), f));
+    }
+    return sum;
+}
+
+static v3 told(const recorded_run *run, const char *const name[3])
+{
+    double of[3];
+    for (int i = 0; i < 3; i++)
+        of[i] = recorded_value(run, 0, recorded_column(run, name[i]));
+    return v3_from(of);
+}
+
+// At rest the shoes and the lock carry what the air of the flight's other program does.
+static void shoes_carry_the_wind(void **state)
+{
+    (void)state;
+    static const char *const set[] = {RAIL, RIGID, "base.elevation=60 deg", "run.end=1 ms",
+                                      "environment.wind={speed: 20 m/s, heading: 70 deg}"};
+    static const char *const force_name[] = {"air.x", "air.y", "air.z"};
+    static const char *const moment_name[] = {"air.moment_x", "air.moment_y", "air.moment_z"};
+    ld_model model;
+    fresh_launch launch;
+    recorded_run run;
+    ld_equilibrium_summary summary;
+    double y[LD_MAX_STATES];
+    ld_error error;
+    read_pad(set, sizeof set / sizeof *set, &model);
+    fresh_launch_make(&launch, &model);
+    if (simulation_equilibrium(&launch.state, 0, y, &summary, &error))
+        fail_msg("%s", error.text);
+    const launcher_output *found = simulation_output(&launch.state, 0, y);
+    assert_non_null(found);
+    // the wind in the rail's axes
+    double ahead = 20 * cos(70 * degree);
+    v3 breeze = v3_make(ahead * cos(60 * degree), -ahead * sin(60 * degree), 20 * sin(70 * degree));
+    v3 c = v3_make(1.2, 0, 0);
+    dense_wrench on = dense_air(&model, true, c, v3_neg(breeze), v3_zero(), 1.2, 340);
+    v3 about_rear = v3_add(on.m, v3_cross(c, on.f)), moment;
+    v3 force = sum_of_shoes(&found->launching, &moment);
+    force.x = -found->launching.lock_force;
+    printf("    force %.4f N, moment about the rear shoe %.4f N m, of it %.4f about the rail\n",
+           v3_norm(on.f), v3_norm(about_rear), about_rear.x);
+    CHECK_BELOW("force of shoes and lock", apart(force, v3_neg(on.f)), 1e-7);
+    CHECK_BELOW("their moment", apart(moment, v3_neg(about_rear)), 1e-7);
+    CHECK_BELOW("of it about the rail", fabs(moment.x / about_rear.x + 1), 1e-4);
+    fresh_launch_free(&launch);
+    recorded_run_make(&run, &model);
+    CHECK_BELOW("force told", apart(told(&run, force_name), on.f), 1e-7);
+    CHECK_BELOW("moment told", apart(told(&run, moment_name), on.m), 1e-7);
+    CHECK_NEAR("Mach number", recorded_value(&run, 0, recorded_column(&run, "air.mach")), 20. / 340,
+               1e-9);
+    recorded_run_free(&run);
+    model_clear(&model);
+}
+
+// A base that moves through calm air and one that stands in the wind are alike from the start on.
+static void on_a_base_that_moves_through_the_air(void **state)
+{
+    (void)state;
+    static const char *const set[] = {RAIL, "environment.wind={speed: 20 m/s, heading: 70 deg}"};
+    ld_equilibrium_summary summary[2];
+    double yaw_rate[2];
+    for (int moves = 0; moves < 2; moves++) {
+        ld_model model;
+        read_pad(set, sizeof set / sizeof *set, &model);
+        if (moves) {
+            model.environment.wind.present = false;
+            model.base.kind = LD_BASE_PRESCRIBED;
+            model.base.velocity[0] = -20 * cos(70 * degree);
+            model.base.velocity[2] = -20 * sin(70 * degree);
+        }
+        ld_summary found = summary_of_run(&model);
+        summary[moves] = found.equilibrium;
+        yaw_rate[moves] = found.rocket[0].tip_off.yaw_rate_relative;
+        model_clear(&model);
+    }
+    for (int i = 0; i < 2; i++)
+        CHECK_NEAR("force of a shoe at rest [N]", summary[1].contact_force[i],
+                   summary[0].contact_force[i], 1e-8);
+    CHECK_NEAR("yaw rate as it leaves [rad/s]", yaw_rate[1], yaw_rate[0], 1e-6);
+}
+
+// Off the shoes the rocket accelerates as in free flight, in gusts and turbulence.
+static void shoeless_as_in_flight(void **state)
+{
+    (void)state;
+    const char *weather =
+        "environment.wind={speed: 12 m/s, heading: 70 deg, gust: [{start: 90 ms, rise: 50 ms, "
+        "speed: 9 m/s, heading: 10 deg}], turbulence: {model: dryden, wind_at_6m: 10 m/s, seed: "
+        "3}}";
+    const char *const set[] = {RAIL, "environment.atmosphere=us1976", weather,
+                               "rocket.motor.misalignment=2 -1 mrad"};
+    const double t = 0.12;
+    ld_model model;
+    fresh_launch launch;
+    ld_error error;
+    double worst = 0;
+    uint64_t seed = 17;
+    read_pad(set, sizeof set / sizeof *set, &model);
+    fresh_launch_make(&launch, &model);
+    launch_state *self = &launch.state;
+    const launching_layout *at = &self->launcher.launching.layout;
+    flight_system flight;
+    flight_phase burning = {.t_ignition = 0};
+    if (flight_build(&flight, &model, 0, &error))
+        fail_msg("%s", error.text);
+    flight_set_piece(&flight, &burning, 1);
+    self->t_ignition = 0;
+    self->piece = 1;
+    self->phase.locked = false;
+    self->phase.passed[0] = self->phase.passed[1] = true;
+    for (int n = 0; n < 20; n++) {
+        double y[LD_MAX_STATES];
+        launcher_input input;
+        launcher_output out;
+        launching_output unused;
+        launching_pose pose;
+        if (simulation_undeformed(self, t, y, &error))
+            fail_msg("%s", error.text);
+        for (int i = 0; i < at->nq; i++)
+            y[at->q + i] = 1e-3 * draw(&seed);
+        y[at->x + X_S] = model.tubes.length; // no way is left
+        for (int i = X_PSI; i < X_COUNT; i++)
+            y[at->x + i] = 0.05 * draw(&seed);
+        v3_store(y + at->V, v3_add(v3_make(27, 0, 0), draw_v3(&seed, 5)));
+        v3_store(y + at->V + 3, draw_v3(&seed, 3));
+        simulation_input(self, t, y, &input);
+        assert_int_equal(launcher_evaluate(&self->launcher, &input, &self->phase, y, &out),
+                         LAUNCHING_OK);
+        launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+        // the flight there
+        m3 A_IR = q_matrix(q_from(y + at->quaternion)), A_IB = m3_mul(A_IR, pose.A_RB);
+        double x[FLIGHT_STATES], x_dot[FLIGHT_STATES] = {0};
+        v3 w = m3_apply_transposed(pose.A_RB, pose.w_B);
+        flight_pose start = {.r_O1 = v3_add(v3_from(y + at->r), m3_apply(A_IR, pose.p1)),
+                             .v_O1 = m3_apply(A_IR, pose.v_O1),
+                             .q_IB = q_from_matrix(A_IB),
+                             .w = w};
+        flight_enter(&flight, &burning, t, &start, x);
+        flight_rates(&flight, &burning, t, x, x_dot);
+        rocket_mass mass = flight_mass(&flight, &burning, t);
+        v3 of_burning = m3_apply(A_IB, v3_cross(w, mass.c_dot)); // in the flight's v_dot
+        v3 a_C = v3_sub(v3_from(x_dot + FLIGHT_V), of_burning);
+        v3 alpha = v3_from(x_dot + FLIGHT_W); // the roll angle is 0: w_dot less its turning axes
+        alpha = v3_sub(alpha, v3_make(0, -w.x * w.z, w.x * w.y));
+        v3 a = v3_sub(m3_apply_transposed(A_IB, a_C), v3_cross(alpha, mass.c));
+        a = v3_sub(a, v3_cross(w, v3_cross(w, mass.c)));
+        worst = fmax(worst, apart(m3_apply_transposed(pose.A_RB, out.launching.a_O1), a));
+        worst = fmax(worst, apart(m3_apply_transposed(pose.A_RB, out.launching.alpha_B), alpha));
+    }
+    CHECK_BELOW("accelerations on the guide less those in flight, relative", worst, 1e-12);
+    flight_free(&flight);
+    fresh_launch_free(&launch);
+    model_clear(&model);
+}
+
+// A plain body across a wind U: force -k |v| v, so that the linearised equations have 2 k U along
+// the wind, k U across it.
+static void wind_damps_what_moves_in_it(void **state)
+{
+    (void)state;
+    static const char *const set[] = {
+        RIGID,
+        "base.elevation=90 deg",
+        "rocket.eccentricity=0 0 m",
+        "rocket.contact.restitution=1",
+        "environment.atmosphere={density: 1.2 kg/m3, speed_of_sound: 340 m/s}",
+        "environment.wind={speed: 10 m/s, heading: 90 deg}"};
+    const double k = 0.5 * 1.2 * 0.5 * 1.1, U = 10, mass = 80;
+    double at_V[2][2];
+    for (int blows = 0; blows < 2; blows++) {
+        ld_model model;
+        fresh_launch launch;
+        linear_system system;
+        ld_error error;
+        read_pad(set, sizeof set / sizeof *set, &model);
+        model.environment.wind.speed *= blows;
+        model.rocket.aerodynamics.model = LD_AERODYNAMICS_BODY;
+        model.rocket.aerodynamics.area = 0.5;
+        model.rocket.aerodynamics.drag = 1.1;
+        fresh_launch_make(&launch, &model);
+        if (simulation_linearise(&launch.state, false, &system, &error))
+            fail_msg("%s", error.text);
+        for (int i = 0; i < 2; i++) { // y, z of the rocket's speeds
+            int place = system.half + system.tube + 1 + i;
+            at_V[blows][i] = system.J[place + system.count * place];
+        }
+        free(system.J);
+        fresh_launch_free(&launch);
+        model_clear(&model);
+    }
+    CHECK_NEAR("damping along the wind [1/s]", at_V[0][1] - at_V[1][1], 2 * k * U / mass, 1e-6);
+    CHECK_NEAR("across it [1/s]", at_V[0][0] - at_V[1][0], k * U / mass, 1e-6);
+}
+
+// Through gusts from the lead-in to the exit.
+static void energy_on_a_rail_in_gusts(void **state)
+{
+    (void)state;
+    const char *gust = "environment.wind={speed: 15 m/s, heading: 70 deg, gust: [{start: 0.1 s, "
+                       "rise: 0.1 s, speed: 15 m/s, heading: 100 deg}]}";
+    const char *const set[] = {RAIL, "run.tolerance=1e-9", "tubes.modes.bending=3",
+                               "tubes.modes.torsion=1", gust};
+    ld_model model;
+    read_pad(set, sizeof set / sizeof *set, &model);
+    ld_summary windy = summary_of_run(&model);
+    model.environment.wind.present = false;
+    ld_summary calm = summary_of_run(&model);
+    printf("    work of the air %.4g J, %.4g J in calm air; yaw rate %.4g and %.4g rad/s\n",
+           windy.energy.work[POWER_AIR], calm.energy.work[POWER_AIR],
+           windy.rocket[0].tip_off.yaw_rate, calm.rocket[0].tip_off.yaw_rate);
+    CHECK_BELOW("energy balance, relative", windy.energy.residual_relative, 1e-9);
+    CHECK_WITHIN("work of the drag in calm air [J]", calm.energy.work[POWER_AIR], -10, -1);
+    model_clear(&model);
+}
+
+// A table that ends below the speed on the rail, as one that ends below that of the flight.
+static void a_table_ends_on_the_rail(void **state)
+{
+    (void)state;
+    const char *table = "rocket.aerodynamics.table=[[0, 0.4, 0.3, 6, 0.8 m, 5, -7, -360], "
+                        "[0.05, 0.4, 0.3, 6, 0.8 m, 5, -7, -360]]";
+    const char *const set[] = {table, "rocket.aerodynamics.beyond_table=hold"};
+    const char *sentence = "rocket.aerodynamics.table: ends at Mach 0.05, beyond which the rocket "
+                           "goes at t = 0.";
+    for (size_t holds = 0; holds < 2; holds++) {
+        ld_model model;
+        ld_simulation *simulation = NULL;
+        static ld_summary summary;
+        ld_error error;
+        read_pad(set, 1 + holds, &model);
+        assert_int_equal(ld_simulation_create(&model, &simulation, &error), LD_OK);
+        ld_status status = ld_simulation_run(simulation, NULL, &summary, &error);
+        assert_int_equal(status, holds ? LD_OK : LD_ERR_LAUNCH);
+        if (!holds)
+            assert_memory_equal(error.text, sentence, strlen(sentence));
+        ld_simulation_free(simulation);
+        model_clear(&model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -176,6 +461,12 @@ int main(void)
         cmocka_unit_test(energy_in_gusts),
         cmocka_unit_test(the_same_air_before_and_after_the_exit),
         cmocka_unit_test(turbulence_on_the_way_to_the_mouth),
+        cmocka_unit_test(shoes_carry_the_wind),
+        cmocka_unit_test(on_a_base_that_moves_through_the_air),
+        cmocka_unit_test(shoeless_as_in_flight),
+        cmocka_unit_test(wind_damps_what_moves_in_it),
+        cmocka_unit_test(energy_on_a_rail_in_gusts),
+        cmocka_unit_test(a_table_ends_on_the_rail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
