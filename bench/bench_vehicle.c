@@ -1,6 +1,7 @@
 // Cost of a launch from the marching vehicle: one evaluation and its parts, the whole run of
 // examples/reference.yaml (3 s lead-in), and the part in the tube against the fixed base. Process
 // CPU time.
+#include <math.h>
 #include <string.h>
 
 #include "bench_sample.h"
@@ -48,27 +49,57 @@ static void bench_evaluation(launch_state *launch, const part_of_it *part)
     print(part->name, sample, PARTS, 1e-9, "ns");
 }
 
-// Least CPU time [s] of a run.
-static double bench_run(const char *what, const char *file, const char *const *sets, int count)
+// Least CPU time [s] of a run, which fills the summary.
+static double bench_summary(const char *what, const char *file, const char *const *sets, int count,
+                            ld_summary *summary)
 {
     ld_model model;
     ld_messages messages = {0};
     ld_simulation *simulation;
-    ld_summary summary;
     double sample[REPEATS];
     if (scenario_read(file, sets, (size_t)count, &model, &messages) ||
         ld_simulation_create(&model, &simulation, NULL))
         return 0;
     for (int r = 0; r < REPEATS; r++) {
         double start = now();
-        ld_simulation_run(simulation, NULL, &summary, NULL);
+        ld_simulation_run(simulation, NULL, summary, NULL);
         sample[r] = now() - start;
     }
     print(what, sample, REPEATS, 1e-3, "ms");
-    printf("    %lld evaluations\n", (long long)summary.statistics.rhs_evaluations);
+    printf("    %lld steps, %lld evaluations\n", (long long)summary->statistics.steps,
+           (long long)summary->statistics.rhs_evaluations);
     ld_simulation_free(simulation);
     model_clear(&model);
     return sample[0];
+}
+
+static double bench_run(const char *what, const char *file, const char *const *sets, int count)
+{
+    ld_summary summary;
+    return bench_summary(what, file, sets, count, &summary);
+}
+
+// To the tip with the lead-in by short and by long steps: cost, and exit rates against a tight run.
+static void bench_lead_in(const char *what, const char *file, const char *first, const char *second)
+{
+    static const char *const methods[] = {"run.lead_in_method=explicit",
+                                          "run.lead_in_method=exponential"};
+    static ld_summary tight, summary;
+    const char *sets[] = {first, second, "run.end=tip", methods[0], "run.tolerance=1e-8"};
+    printf("%s\n", what);
+    bench_summary("  explicit steps, tolerance 1e-8", file, sets, 5, &tight);
+    for (int k = 0; k < 2; k++) {
+        sets[3] = methods[k];
+        bench_summary(k ? "  exponential steps" : "  explicit steps", file, sets, 4, &summary);
+        double most = 0;
+        for (int i = 0; i < summary.rocket_count; i++) {
+            const ld_rocket_summary *a = &tight.rocket[i], *b = &summary.rocket[i];
+            most = fmax(most, fabs(b->pitch_rate - a->pitch_rate));
+            most = fmax(most, fabs(b->yaw_rate - a->yaw_rate));
+        }
+        printf("    exit rates within %.2g mrad/s, energy residual %.1e of the largest work\n",
+               1e3 * most, summary.energy.residual_relative);
+    }
 }
 
 int main(void)
@@ -94,6 +125,11 @@ int main(void)
     ld_simulation_free(simulation);
     model_clear(&model);
     bench_run("whole run, 3 s lead-in, to the ground", reference, NULL, 0);
+    bench_lead_in("30 km/h, 3 s lead-in", reference, "run.lead_in=3 s", "base.speed=30 km/h");
+    bench_lead_in("class E, 60 km/h", reference, "base.road.class=E", "base.speed=60 km/h");
+    bench_lead_in("parked", reference, "run.lead_in=3 s", "base.speed=0 km/h");
+    bench_lead_in("sequence of four, slewing", LD_SOURCE_DIR "/examples/sequence.yaml",
+                  "run.lead_in=3 s", "base.speed=15 km/h");
     double vehicle = bench_run("in the tube alone, vehicle", reference, in_tube, 2);
     double base = bench_run("in the tube alone, fixed base", fixed, NULL, 0);
     printf("vehicle against fixed base, least against least: %.2f\n", vehicle / base);

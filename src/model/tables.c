@@ -1228,6 +1228,8 @@ static const field_word start_words[] = {
     {"equilibrium", LD_START_EQUILIBRIUM}, {"undeformed", LD_START_UNDEFORMED}, {NULL, 0}};
 static const field_word formulation_words[] = {
     {"reduced", LD_FORMULATION_REDUCED}, {"overall", LD_FORMULATION_OVERALL}, {NULL, 0}};
+static const field_word lead_in_words[] = {
+    {"explicit", LD_LEAD_IN_EXPLICIT}, {"exponential", LD_LEAD_IN_EXPONENTIAL}, {NULL, 0}};
 static const field_word end_words[] = {
     {"tip", LD_END_TIP}, {"", LD_END_TIME}, {"landing", LD_END_LANDING}, {NULL, 0}};
 static const field_row run_fields[] = {
@@ -1238,6 +1240,10 @@ static const field_row run_fields[] = {
      .doc = "reduced transfer equation, or the overall one of order 19"},
     {"lead_in", NUMBER(ld_run_settings, lead_in, "s"), FROM_TO(0, 10000), DEFAULT(0),
      .doc = "time before t = 0"},
+    {"lead_in_method", CHOICE(ld_run_settings, lead_in_method, lead_in_words),
+     DEFAULT(LD_LEAD_IN_EXPLICIT),
+     .doc = "steps while no rocket is driven through its tube: those of the tube, or long ones by "
+            "the linearised equations"},
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
      .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
      .doc =

@@ -1,10 +1,12 @@
 // A launcher in words: what carries, guides, holds and drives the rocket, a line for each.
+#include <assert.h>
 #include <locale.h>
 #include <math.h>
 
 #include "base/printed.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/status.h"
+#include "model/field.h"
 #include "model/model.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180;
@@ -56,15 +58,23 @@ static number_text degrees(double value)
 
 // ---- base ----
 
+// The word of the base's kind, without memory, which may be short.
+static const char *base_word(const ld_model *model)
+{
+    char why[LD_ERROR_TEXT];
+    field_value kind;
+    bool there = field_reach(model, "base.kind", &kind, why, sizeof why);
+    assert(there);
+    return field_word_of(kind.row->words, (int)model->base.kind)->name;
+}
+
 static void tell_base(FILE *stream, const ld_model *model)
 {
     static const char *const looks[] = {
         [LD_LOOKS_PLAIN] = "", [LD_LOOKS_SHIP] = ", a ship", [LD_LOOKS_AIRCRAFT] = ", an aircraft"};
     const ld_base *base = &model->base;
-    char kind[16];
     double elevation;
-    ld_model_text(model, "base.kind", kind, sizeof kind, NULL);
-    fprintf(stream, "# base: %s", kind);
+    fprintf(stream, "# base: %s", base_word(model));
     if (model_has_vehicle(model))
         fprintf(stream, " on %d wheels", base->vehicle.wheel_count);
     else

@@ -56,12 +56,26 @@ static measuring measuring_of(ld_run *run)
     };
 }
 
+// In how many pieces a step is taken: a long one of the lead-in in shorter ones.
+static int pieces_of(const ld_run *run, double step)
+{
+    const double longest = fmax(run->launch.model->run.max_step, 0.5e-3);
+    return (int)fmax(1, ceil(step / longest - 1e-6));
+}
+
 void launch_measure_step(ld_run *run, bool lands)
 {
     const measuring self = measuring_of(run);
     double t = propagator_time(run->propagator), from = run->t_measured, end[LD_MAX_COLUMNS];
     bool looks = measuring_is_open(&self) || (lands && measuring_is_there(&self));
     run->t_measured = t;
+    // a long step in pieces
+    for (int left = looks ? pieces_of(run, t - from) : 1; left > 1; left--) {
+        double to = from + (t - from) / left;
+        find_row(run, to, end);
+        measuring_step(&self, from, to, end);
+        from = to;
+    }
     if (looks)
         history_row(&run->launch, t, propagator_state(run->propagator), run->energy_start, end);
     measuring_step(&self, from, t, looks ? end : NULL);

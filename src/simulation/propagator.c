@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "elements/held_frame.h"
+#include "math/exponential.h"
+#include "simulation/exponential_steps.h"
 
 // ---- the equations ----
 
@@ -196,6 +198,13 @@ struct propagator {
     integrator *integrator; // of all, or of the launching subsystem
     bool stopped;           // its last step landed on a stop
     double state[LD_MAX_STATES];
+
+    // together alone
+    exponential_steps *exponential; // while no rocket is driven through its tube; NULL: never
+    bool long_step;                 // the last step was one of them
+    double t_explicit;              // [s] until when the integrator's steps are taken instead
+    int block[LD_MAX_STATES];
+    bool place[LD_MAX_STATES]; // states that are places in I, x, y and z after each other
 
     // apart alone
     bool apart;
@@ -524,6 +533,88 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
     return status ? status : integrator_create(&settings, &self->marching, error);
 }
 
+// ---- long steps ----
+
+// All goes on as now as if it were rigid: what carries the tube by its own rates, the tube with its
+// base, wheels and the like straight on beside it.
+static void drift(double t, const double *y, const double *y_dot, double *rates, void *user)
+{
+    const propagator *self = user;
+    const launcher_system *launcher = &self->launch->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    launcher_input input;
+    launcher_place(launcher, t, y, &input);
+    const base_frame *tube = &input.launching.base;
+    double v[3];
+    v3_store(v, tube->v);
+    for (int i = 0, k = 0; i < launcher->state_count; i++) {
+        int of_base = i - launcher->base_at;
+        bool carries = of_base >= 0 && of_base < launcher->base.speed_at;
+        rates[i] = carries ? y_dot[i] : self->place[i] ? v[k % 3] : 0;
+        k += self->place[i];
+    }
+    quat q = q_from(y + at->quaternion);
+    v3 lever = v3_sub(v3_from(y + at->r), tube->r);
+    quat q_dot = q_rate(q, m3_apply_transposed(q_matrix(q), tube->w));
+    v3_store(rates + at->r, v3_add(tube->v, v3_cross(tube->w, lever)));
+    memcpy(rates + at->quaternion, &q_dot, sizeof q_dot);
+}
+
+// Tube, rocket and what carries them have one Jacobian, other parts of a base one each.
+static void find_blocks(propagator *self, int *count)
+{
+    const launcher_system *launcher = &self->launch->launcher;
+    const base_dynamics *base = launcher->base.kind->dynamics;
+    *count = 1;
+    for (int i = 0; i < launcher->state_count; i++) {
+        int part = i < launcher->base_at ? 0
+                   : i >= launcher->work_at || !base
+                       ? EXPONENTIAL_NO_BLOCK
+                       : base->part_of(&launcher->base, i - launcher->base_at);
+        self->block[i] = part;
+        *count = part >= *count ? part + 1 : *count;
+    }
+}
+
+// Whether something changes the base's state at instants of its own.
+static bool has_samples(const base_system *base, double t)
+{
+    return base->kind->next_sample && !isinf(base->kind->next_sample(base, t));
+}
+
+// Not where the base is told or sampled at instants of its own, too near to each other.
+static ld_status create_exponential(propagator *self, const integrator_settings *equations,
+                                    ld_error *error)
+{
+    const ld_run_settings *run = &self->launch->model->run;
+    const base_system *base = &self->launch->launcher.base;
+    bool sampled = base->kind->tell || has_samples(base, -run->lead_in);
+    if (run->lead_in_method != LD_LEAD_IN_EXPONENTIAL || sampled)
+        return LD_OK;
+    exponential_steps_settings settings = {
+        .equations = equations,
+        .block = self->block,
+        .row = run->output_step_lead_in,
+        .drift = drift,
+    };
+    find_blocks(self, &settings.block_count);
+    memcpy(self->place, equations->absolute, sizeof self->place);
+    return exponential_steps_create(&settings, &self->exponential, error);
+}
+
+// Whether the equations are such that long steps pay: nothing drives a rocket through its tube.
+static bool goes_slowly(const propagator *self)
+{
+    const launch_state *launch = self->launch;
+    return self->exponential && !(launch->phase.rocket && launch_is_lit(launch));
+}
+
+// Which tube there is, and what stands in it.
+static int kind_of_equations(const launch_state *launch)
+{
+    return 4 * launch->current + 2 * launch->phase.rocket + launch->phase.locked;
+}
+
 // ---- both ----
 
 static ld_status create_integrators(propagator *self, ld_error *error)
@@ -545,8 +636,10 @@ static ld_status create_integrators(propagator *self, ld_error *error)
         .event_count = self->events.count,
         .self = self,
     };
-    if (!self->apart)
-        return integrator_create(&settings, &self->integrator, error);
+    if (!self->apart) {
+        ld_status status = create_exponential(self, &settings, error);
+        return status ? status : integrator_create(&settings, &self->integrator, error);
+    }
     ld_status status = create_base(self, &settings, &all, error);
     int count = launcher->launching.layout.count, works = launcher->launching.work_count;
     for (int i = 0; i < works; i++) {
@@ -581,6 +674,7 @@ void propagator_free(propagator *self)
 {
     if (!self)
         return;
+    exponential_steps_free(self->exponential);
     integrator_free(self->integrator);
     integrator_free(self->orientating);
     integrator_free(self->marching);
@@ -589,8 +683,13 @@ void propagator_free(propagator *self)
 
 ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error)
 {
-    if (!self->apart)
+    if (!self->apart) {
+        if (self->exponential && anew)
+            exponential_steps_count_from(self->exponential, t);
+        self->t_explicit = -INFINITY;
+        self->long_step = false;
         return integrator_start(self->integrator, t, y, error);
+    }
     const launcher_system *launcher = &self->launch->launcher;
     double launching[LD_MAX_STATES];
     if (anew) {
@@ -620,10 +719,39 @@ static integrator_outcome step(propagator *self, double t_stop, ld_error *error)
     return outcome;
 }
 
+// The integrator takes over where the last long step has ended, or from where it began.
+static ld_status take_over(propagator *self, double t, const double *y, ld_error *error)
+{
+    self->long_step = self->stopped = false;
+    return integrator_start(self->integrator, t, y, error);
+}
+
+static integrator_outcome step_together(propagator *self, double t_stop, ld_error *error)
+{
+    double t = propagator_time(self);
+    bool slowly = goes_slowly(self);
+    if (slowly && t >= self->t_explicit) {
+        if (!self->long_step)
+            exponential_steps_start(self->exponential, t, propagator_state(self),
+                                    kind_of_equations(self->launch));
+        self->long_step = true;
+        exponential_outcome outcome = exponential_steps_step(self->exponential, t_stop);
+        if (outcome != EXPONENTIAL_REFUSED)
+            return outcome == EXPONENTIAL_STOPPED ? INTEGRATOR_STOPPED : INTEGRATOR_STEPPED;
+        self->t_explicit = exponential_steps_resume(self->exponential);
+    }
+    if (self->long_step && take_over(self, t, propagator_state(self), error))
+        return INTEGRATOR_FAILED;
+    integrator_outcome outcome =
+        step(self, slowly ? fmin(t_stop, self->t_explicit) : t_stop, error);
+    bool between = outcome == INTEGRATOR_STOPPED && propagator_time(self) < t_stop;
+    return between ? INTEGRATOR_STEPPED : outcome;
+}
+
 integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error)
 {
     if (!self->apart)
-        return step(self, t_stop, error);
+        return step_together(self, t_stop, error);
     double t = integrator_time(self->integrator), launching[LD_MAX_STATES];
     const launcher_system *launcher = &self->launch->launcher;
     if (t >= self->t_next) {
@@ -639,8 +767,22 @@ integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *er
     return outcome == INTEGRATOR_STOPPED && t < t_stop ? INTEGRATOR_STEPPED : outcome;
 }
 
+// The long step that has been taken is left for explicit ones, the first of which may end before t.
+static integrator_outcome return_within(propagator *self, double t, ld_error *error)
+{
+    exponential_steps *steps = self->exponential;
+    if (take_over(self, exponential_steps_previous_time(steps), exponential_steps_previous(steps),
+                  error))
+        return INTEGRATOR_FAILED;
+    self->t_explicit = t;
+    integrator_outcome outcome = step(self, t, error);
+    return outcome == INTEGRATOR_STOPPED ? INTEGRATOR_STEPPED : outcome;
+}
+
 integrator_outcome propagator_return(propagator *self, double t, ld_error *error)
 {
+    if (self->long_step)
+        return return_within(self, t, error);
     integrator_outcome outcome = integrator_return(self->integrator, t, error);
     if (self->apart)
         join(self, integrator_time(self->integrator), integrator_state(self->integrator),
@@ -650,21 +792,29 @@ integrator_outcome propagator_return(propagator *self, double t, ld_error *error
 
 double propagator_time(const propagator *self)
 {
-    return integrator_time(self->integrator);
+    return self->long_step ? exponential_steps_time(self->exponential)
+                           : integrator_time(self->integrator);
 }
 
 double propagator_previous_time(const propagator *self)
 {
-    return integrator_previous_time(self->integrator);
+    return self->long_step ? exponential_steps_previous_time(self->exponential)
+                           : integrator_previous_time(self->integrator);
 }
 
 const double *propagator_state(const propagator *self)
 {
-    return self->apart ? self->state : integrator_state(self->integrator);
+    return self->apart       ? self->state
+           : self->long_step ? exponential_steps_state(self->exponential)
+                             : integrator_state(self->integrator);
 }
 
 void propagator_interpolate(propagator *self, double t, double *y)
 {
+    if (self->long_step) {
+        exponential_steps_interpolate(self->exponential, t, y);
+        return;
+    }
     if (!self->apart) {
         integrator_interpolate(self->integrator, t, y);
         return;
@@ -677,12 +827,13 @@ void propagator_interpolate(propagator *self, double t, double *y)
 int propagator_event(const propagator *self, event_kind kind, int index)
 {
     int i = event_find(&self->events, kind, index);
-    return i < 0 ? 0 : integrator_event(self->integrator, i);
+    return i < 0 || self->long_step ? 0 : integrator_event(self->integrator, i);
 }
 
 int64_t propagator_steps(const propagator *self)
 {
-    return integrator_steps(self->integrator);
+    int64_t longer = self->exponential ? exponential_steps_count(self->exponential) : 0;
+    return longer + integrator_steps(self->integrator);
 }
 
 int64_t propagator_most_steps(const propagator *self)
@@ -698,6 +849,8 @@ int64_t propagator_most_steps(const propagator *self)
 int64_t propagator_evaluations(const propagator *self)
 {
     int64_t sum = integrator_evaluations(self->integrator);
+    if (self->exponential)
+        sum += exponential_steps_evaluations(self->exponential);
     if (self->apart)
         sum += integrator_evaluations(self->orientating) + integrator_evaluations(self->marching);
     return sum;
@@ -735,9 +888,19 @@ static void archive_wrench(archive *bytes, held_wrench *held)
     archive_vector(bytes, &held->moment_rate);
 }
 
+static void archive_long_steps(propagator *self, archive *bytes)
+{
+    archive_bool(bytes, &self->long_step);
+    archive_double(bytes, &self->t_explicit);
+    exponential_steps_archive(self->exponential, bytes);
+}
+
 void propagator_archive(propagator *self, archive *bytes)
 {
     integrator_archive(self->integrator, bytes);
+    archive_expect(bytes, self->exponential != NULL);
+    if (self->exponential)
+        archive_long_steps(self, bytes);
     archive_expect(bytes, self->apart);
     if (!self->apart)
         return;

@@ -207,7 +207,7 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
 // ---- as bytes: five numbers, the state, a checksum
 
 static const int64_t MAGIC = 0x6e7572206e796c6e; // "nlyn run"
-enum { FORM = 2 };                               // of the bytes: goes up when they change
+enum { FORM = 3 };                               // of the bytes: goes up when they change
 
 // What tells a run of this model in this form; `length` is that of all, in bytes.
 static void archive_head(const ld_run *run, archive *bytes, int64_t length)

@@ -101,6 +101,9 @@ typedef struct base_dynamics {
     // Gives it the velocity with which it starts.
     void (*set_off)(const base_system *self, double *state);
 
+    // Its part that a state belongs to: 0 is what carries the tube, others touch only that.
+    int (*part_of)(const base_system *self, int state);
+
     // Equilibrium: a guess under a tube and a rocket of these masses [kg]; its unknowns; what must
     // vanish; what an equilibrium must fulfil for a run to begin in it; what is kept of it.
     void (*guess)(const base_system *self, double tube, double rocket, double *state);

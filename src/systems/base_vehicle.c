@@ -252,6 +252,14 @@ static void tolerances(const base_system *self, double tolerance, double *atol, 
     *wheel = tolerance;
 }
 
+// Each wheel is one; the drive is with the chassis.
+static int part_of(const base_system *self, int state)
+{
+    int wheel = (state - marching_at(self)) / WHEEL_STATES;
+    bool of_wheel = state >= marching_at(self) && wheel < marching_of(self)->wheel_count;
+    return of_wheel ? wheel + 1 : 0;
+}
+
 static void set_off(const base_system *self, double *state)
 {
     double speed = self->model->base.vehicle.speed;
@@ -490,6 +498,7 @@ static const base_dynamics dynamics = {
     .kinetic_energy = kinetic_energy,
     .tolerances = tolerances,
     .set_off = set_off,
+    .part_of = part_of,
     .guess = guess,
     .displace = displace,
     .rest_of = rest_of,
