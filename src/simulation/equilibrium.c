@@ -106,9 +106,6 @@ void simulation_move_with_base(const launch_state *self, double t, double *y)
 
 // Step of Newton's differences.
 static const double DIFFERENCE = 1e-8;
-// Pulls back to its place what constraints hold there: else it could rest anywhere.
-static const double RESTORING = 1e6;
-
 // The phase in which equilibria are found.
 static launching_phase resting_phase(const launch_state *self)
 {
