@@ -7,7 +7,7 @@
 #include <time.h>
 
 #include "scenario/scenario.h"
-#include "simulation/free_flight.h"
+#include "simulation/flight_lanes.h"
 #include "simulation/simulation.h"
 
 enum { REPEATS = 101, EVALUATIONS = 20000 };
@@ -94,6 +94,74 @@ static void bench_flight(ld_model *model, const char *what)
            (long long)summary.statistics.rhs_evaluations);
 }
 
+// ---- side by side
+
+enum { FLEET = 64 };
+
+typedef struct fleet {
+    ld_simulation *simulation[FLEET];
+    ld_summary *summary[FLIGHT_MOST_LANES];
+    ld_error error;
+    int given;
+} fleet;
+
+static bool next_flight(void *self, int lane, lane_flight *flight)
+{
+    fleet *all = self;
+    if (all->given == FLEET)
+        return false;
+    ld_summary *summary = all->summary[lane];
+    flight_alone_prepare(all->simulation[all->given++], NULL, &flight->job, flight->state, summary);
+    flight->rocket = &summary->rocket[0];
+    flight->summary = summary;
+    flight->error = &all->error;
+    return true;
+}
+
+static void flight_done(void *self, int lane, lane_flight *flight, ld_status status)
+{
+    (void)self, (void)lane, (void)flight;
+    if (status)
+        exit(1);
+}
+
+// Flights that differ in their first angle and rates, at the tolerance of 0.1 m.
+static void bench_lanes(ld_model *model, double tolerance)
+{
+    fleet all = {.given = 0};
+    ld_model *drawn = calloc(FLEET, sizeof *drawn);
+    const lane_source source = {next_flight, flight_done, &all};
+    model->run.flight_tolerance = tolerance;
+    for (int i = 0; drawn && i < FLEET; i++) {
+        drawn[i] = *model;
+        drawn[i].flight.pitch += 1e-3 * (i - FLEET / 2);
+        drawn[i].flight.rate[1] += 2e-3 * (i - FLEET / 2);
+        if (ld_simulation_create(&drawn[i], &all.simulation[i], NULL))
+            exit(1);
+    }
+    for (int i = 0; i < FLIGHT_MOST_LANES; i++)
+        all.summary[i] = calloc(1, sizeof *all.summary[i]);
+    for (int lanes = 1; lanes <= flight_lanes_here(); lanes = lanes == 1 ? 4 : 2 * lanes) {
+        double sample[REPEATS];
+        char what[64];
+        for (int r = 0; r < REPEATS; r++) {
+            double start = now();
+            all.given = 0;
+            if (flight_lanes_fly(lanes, &source, NULL))
+                exit(1);
+            sample[r] = (now() - start) / FLEET;
+        }
+        snprintf(what, sizeof what, "    a flight of many in %d lane%s", lanes,
+                 lanes > 1 ? "s" : "");
+        print(what, sample, REPEATS, 1e-6, "us");
+    }
+    for (int i = 0; i < FLEET; i++)
+        ld_simulation_free(all.simulation[i]);
+    for (int i = 0; i < FLIGHT_MOST_LANES; i++)
+        free(all.summary[i]);
+    free(drawn);
+}
+
 int main(void)
 {
     ld_model model;
@@ -104,10 +172,12 @@ int main(void)
     bench_evaluation(&model, 1, "evaluation, flat Earth, burning");
     bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out");
     bench_flight(&model, "reference flight to the ground");
+    bench_lanes(&model, 6.3e-4);
     model.rocket.eccentricity[0] = 0.5e-3;
     model.rocket.motor.misalignment[1] = 0.5e-3;
     bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, not balanced");
     bench_flight(&model, "the same, 0.5 mm eccentric, thrust 0.5 mrad off");
+    bench_lanes(&model, 3.1e-4);
     model.rocket.products[0] = 0.02;
     bench_flight(&model, "the same, also J_xy = 0.02 kg m2");
     model.environment.earth.kind = LD_EARTH_WGS84;

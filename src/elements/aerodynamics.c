@@ -1,7 +1,10 @@
+#define LANES 1
 #include "elements/aerodynamics.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#include "elements/aerodynamics_real.h"
 
 static void build_body(aerodynamics *self, const ld_aerodynamics *model)
 {
@@ -61,4 +64,31 @@ ld_status aerodynamics_build(aerodynamics *self, const ld_aerodynamics *model, l
 void aerodynamics_free(aerodynamics *self)
 {
     curves_free(&self->table);
+}
+
+LD_INLINE real3 real3_of(v3 a)
+{
+    return (real3){a.x, a.y, a.z};
+}
+
+static real_wrench wrench_of(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
+                             double mach, bool power, size_t *interval)
+{
+    if (self->model == LD_AERODYNAMICS_BODY)
+        return aerodynamics_of_body(self->drag, real3_of(self->damping), real3_of(v), speed,
+                                    real3_of(w), rho);
+    double k[AERODYNAMICS_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
+    *interval = curves_interval(&self->table, held, *interval);
+    curves_first_values(&self->table, *interval, held, AERODYNAMICS_COLUMNS, k);
+    const real_body body = {self->half_area, self->diameter, self->cant, self->crossflow_drag,
+                            self->crossflow_at};
+    return aerodynamics_of_coefficients(&body, k, k[power], real3_of(v), speed, real3_of(w),
+                                        real3_of(c), rho);
+}
+
+air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
+                               double mach, bool power, size_t *interval)
+{
+    real_wrench out = wrench_of(self, v, speed, w, c, rho, mach, power, interval);
+    return (air_wrench){{out.f.x, out.f.y, out.f.z}, {out.m.x, out.m.y, out.m.z}};
 }

@@ -1,5 +1,6 @@
-// Air forces on a rocket in free flight, about its x axis (model.md, section 8). Forces hold from
-// rest and at any angle: nothing is divided by a speed or an angle.
+// Air forces on a rocket in free flight, about its x axis (model.md, section 8):
+// aerodynamics_real.h has them. They hold from rest and at any angle: nothing is divided by a speed
+// or an angle.
 #ifndef LD_ELEMENTS_AERODYNAMICS_H
 #define LD_ELEMENTS_AERODYNAMICS_H
 
@@ -44,28 +45,7 @@ typedef struct air_wrench {
 // rho: density [kg/m3], mach: Mach number, held at the table's last; power: the thrust table has
 // not ended; interval: of the table, kept between calls. All in the same axes, of B or of a frame
 // that differs from B by a roll.
-LD_INLINE air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 w, v3 c,
-                                         double rho, double mach, bool power, size_t *interval)
-{
-    if (self->model == LD_AERODYNAMICS_BODY) {
-        v3 f = v3_scale(-rho * self->drag * speed, v);
-        return (air_wrench){f, v3_scale(rho * speed, v3_mul(self->damping, w))};
-    }
-    double k[AERODYNAMICS_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
-    *interval = curves_interval(&self->table, held, *interval);
-    curves_values(&self->table, *interval, held, k);
-    // force of the coefficients at the centre of pressure, drag of the lateral speed where it acts
-    double q = rho * self->half_area * speed, half = 0.5 * self->diameter;
-    double side = -q * k[2];
-    double across = -rho * self->half_area * self->crossflow_drag * sqrt(v.y * v.y + v.z * v.z);
-    v3 f = {-q * k[power] * v.x, side * v.y, side * v.z};
-    v3 g = {0, across * v.y, across * v.z};
-    double qd = q * self->diameter;
-    v3 m = {qd * (k[4] * self->cant * v.x + k[5] * half * w.x), qd * k[6] * half * w.y,
-            qd * k[6] * half * w.z};
-    m = v3_add(m, v3_cross(v3_sub(v3_make(k[3], 0, 0), c), f));
-    m = v3_add(m, v3_cross(v3_sub(v3_make(self->crossflow_at, 0, 0), c), g));
-    return (air_wrench){v3_add(f, g), m};
-}
+air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
+                               double mach, bool power, size_t *interval);
 
 #endif

@@ -2,17 +2,8 @@
 #ifndef LD_ENVIRONMENT_ATMOSPHERE_H
 #define LD_ENVIRONMENT_ATMOSPHERE_H
 
+#include "environment/atmosphere_layer.h"
 #include "model/model.h"
-
-enum { ATMOSPHERE_LAYERS = 7 };
-
-typedef struct atmosphere_layer {
-    double base;        // [m] geopotential height where it begins
-    double lapse;       // [K/m]
-    double temperature; // [K] at the base
-    double pressure;    // [Pa] at the base
-    double density;     // [kg/m3] at the base
-} atmosphere_layer;
 
 typedef struct atmosphere {
     ld_atmosphere_kind kind;

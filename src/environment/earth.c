@@ -1,4 +1,7 @@
+#define LANES 1
 #include "environment/earth.h"
+
+#include "environment/earth_real.h"
 
 static double or_default(double value, double otherwise)
 {
@@ -45,49 +48,25 @@ void earth_build(earth *self, const ld_model *model)
         m3_mul(earth_local_axes(site->latitude, site->longitude), m3_transpose(self->A_IN));
 }
 
+LD_INLINE real3 real3_of(v3 a)
+{
+    return (real3){a.x, a.y, a.z};
+}
+
 v3 earth_gravity(const earth *self, v3 r)
 {
     if (self->flat)
         return v3_make(0, -self->gravity, 0);
-    double r2 = v3_norm2(r), g = -self->gm / (r2 * sqrt(r2));
-    double k = 1.5 * self->j2 * self->a * self->a / r2, s = 5 * r.z * r.z / r2;
-    return v3_make(g * r.x * (1 + k * (1 - s)), g * r.y * (1 + k * (1 - s)),
-                   g * r.z * (1 + k * (3 - s)));
-}
-
-// Sine and cosine of the geodetic latitude of a point at the distances p from the axis and z from
-// the equator: Bowring's iteration on the reduced latitude (Survey Review 23, 1976), by ratios, so
-// that the poles are no exception. The error falls by e2^2 (h/a) or so a round.
-static void latitude_of(const earth *self, double p, double z, int rounds, double *sine,
-                        double *cosine)
-{
-    double outer = self->e2 * self->a, inner = outer * self->a / self->b; // e^2 a, e'^2 b
-    double s = z * self->a, c = p * self->b;
-    for (int i = 0; i < rounds; i++) {
-        double n = 1 / sqrt(s * s + c * c);
-        s *= n;
-        c *= n;
-        double up = z + inner * s * s * s, out = p - outer * c * c * c;
-        s = up * self->b;
-        c = out * self->a;
-        *sine = up;
-        *cosine = out;
-    }
-    double n = 1 / sqrt(*sine * *sine + *cosine * *cosine);
-    *sine *= n;
-    *cosine *= n;
-}
-
-static double height(const earth *self, double p, double z, double sine, double cosine)
-{
-    return p * cosine + z * sine - self->a * sqrt(1 - self->e2 * sine * sine);
+    real3 g = earth_gravitation(self->gm, self->j2, self->a, real3_of(r));
+    return v3_make(g.x, g.y, g.z);
 }
 
 geodetic earth_geodetic(const earth *self, v3 r)
 {
     double sine, cosine, p = hypot(r.x, r.y);
-    latitude_of(self, p, r.z, 3, &sine, &cosine);
-    return (geodetic){atan2(sine, cosine), atan2(r.y, r.x), height(self, p, r.z, sine, cosine)};
+    earth_latitude(self->a, self->b, self->e2, p, r.z, 3, &sine, &cosine);
+    return (geodetic){atan2(sine, cosine), atan2(r.y, r.x),
+                      earth_height_above(self->a, self->e2, p, r.z, sine, cosine)};
 }
 
 v3 earth_place(const earth *self, geodetic place)
@@ -103,13 +82,7 @@ double earth_altitude(const earth *self, v3 r)
 {
     if (self->flat)
         return self->altitude + r.y;
-    double p = sqrt(r.x * r.x + r.y * r.y);
-    if (self->e2 == 0)
-        return sqrt(p * p + r.z * r.z) - self->a;
-    double sine, cosine;
-    // the height changes with the square of the latitude's error
-    latitude_of(self, p, r.z, 2, &sine, &cosine);
-    return height(self, p, r.z, sine, cosine);
+    return earth_altitude_above(self->a, self->b, self->e2, real3_of(r));
 }
 
 double earth_height(const earth *self, v3 r, v3 *up)

@@ -105,11 +105,7 @@ size_t curves_interval(const curves *self, double x, size_t hint)
 
 void curves_values(const curves *self, size_t interval, double x, double *values)
 {
-    int n = self->count;
-    const double *c = self->coefficient + interval * 4 * (size_t)n;
-    double t = x - self->x[interval];
-    for (int k = 0; k < n; k++)
-        values[k] = c[k] + t * (c[n + k] + t * (c[2 * n + k] + t * c[3 * n + k]));
+    curves_first_values(self, interval, x, self->count, values);
 }
 
 void curves_held(const curves *self, double x, double *values)

@@ -25,7 +25,18 @@ void curves_free(curves *self);
 // The interval that x lies in, the first or last one outside; `hint` is tried first.
 size_t curves_interval(const curves *self, double x, size_t hint);
 
-// Values at x [count] by the polynomials of that interval; outside the table they go on.
+// The first `count` values at x by the polynomials of that interval; outside the table they go on.
+static inline void curves_first_values(const curves *self, size_t interval, double x, int count,
+                                       double *values)
+{
+    size_t n = (size_t)self->count;
+    const double *c0 = self->coefficient + interval * 4 * n, *c1 = c0 + n, *c2 = c1 + n,
+                 *c3 = c2 + n;
+    double t = x - self->x[interval];
+    for (int k = 0; k < count; k++)
+        values[k] = c0[k] + t * (c1[k] + t * (c2[k] + t * c3[k]));
+}
+// All of them.
 void curves_values(const curves *self, size_t interval, double x, double *values);
 
 // The same, but constant outside the table.

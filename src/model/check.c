@@ -250,10 +250,13 @@ static void check_block(model_checker *checker, const char *path, const field_bl
         refuse(checker, path, "no value of this choice");
         return;
     }
+    // many models are checked in a study: the part that the keys share is written once
+    int shared = snprintf(key_path, sizeof key_path, "%.100s%s", path, path[0] ? "." : "");
     for (const field_row *f = block->fields; f->name; f++) {
-        snprintf(key_path, sizeof key_path, "%s%s%s", path, path[0] ? "." : "", f->name);
-        if (field_has_form(f, form))
-            check_field(checker, key_path, f, base);
+        if (!field_has_form(f, form))
+            continue;
+        memccpy(key_path + shared, f->name, '\0', sizeof key_path - (size_t)shared);
+        check_field(checker, key_path, f, base);
     }
 }
 

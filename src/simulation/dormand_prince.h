@@ -10,23 +10,31 @@
 
 enum { DORMAND_PRINCE_STATES = 16, DORMAND_PRINCE_STAGES = 7 };
 
-typedef struct dormand_prince {
-    // y_dot = f(t, y) of all the states (those not used: 0)
-    void (*f)(double t, const double *y, double *y_dot, void *self);
-    void *self;
-    // error allowed in a step, root mean square over the states that count: absolute + relative |y|
-    int count;
-    double absolute[DORMAND_PRINCE_STATES], relative[DORMAND_PRINCE_STATES];
+// y_dot = f(t, y) of all the states (those not used: 0).
+typedef void dormand_prince_slopes(const double *t, const double *y, double *y_dot, void *self);
 
-    double t;
-    double y[DORMAND_PRINCE_STATES];
-    double h;     // [s] of the next step; 0: to be found
-    double error; // of the last step, for the controller
-    double t0;    // where the last step began
-    double y0[DORMAND_PRINCE_STATES];
-    double k[DORMAND_PRINCE_STAGES][DORMAND_PRINCE_STATES]; // slopes of the last step, the first
-                                                            // and the last at its ends
-    bool open;                                              // the course between the ends is known
+// The numbers of a step, all doubles: lanes keep them side by side (math/real.h).
+typedef struct dormand_prince_numbers {
+    double t0, size; // [s] where it begins, how long it is
+    double error;    // against what is allowed: 1 is just allowed
+    double y0[DORMAND_PRINCE_STATES], y[DORMAND_PRINCE_STATES]; // at its ends
+    double k[DORMAND_PRINCE_STAGES][DORMAND_PRINCE_STATES];     // slopes, the first and the last
+                                                                // at its ends
+    // error allowed in a step, root mean square over the states that count: absolute + relative |y|
+    double absolute[DORMAND_PRINCE_STATES], relative[DORMAND_PRINCE_STATES];
+} dormand_prince_numbers;
+
+typedef struct dormand_prince {
+    dormand_prince_slopes *f;
+    void *self;
+    int count;                   // of the states
+    dormand_prince_numbers step; // the last step
+    double t;                    // its end
+    double h;                    // [s] of the next step; 0: to be found
+    double error;                // of the last step, for the controller
+    double t_stop, most;         // the step that is being tried: where it may end, its growth
+    bool last;                   // it ends there
+    bool open;                   // the course between the ends is known
     double course[2][DORMAND_PRINCE_STATES];
     int64_t steps, evaluations;
 } dormand_prince;
@@ -37,6 +45,21 @@ void dormand_prince_start(dormand_prince *self, double t, const double *y);
 // One step of error-controlled size, not beyond t_stop (on which it lands exactly).
 // @return false: the step size fell to nothing, or the slopes are not finite
 bool dormand_prince_step(dormand_prince *self, double t_stop);
+
+// The same in parts, for steps side by side: begin; choose, which sets step.size, or says false
+// where that fell to nothing; the stages and the error; judge, and where it says false choose
+// again.
+void dormand_prince_begin(dormand_prince *self, double t_stop);
+bool dormand_prince_choose(dormand_prince *self);
+bool dormand_prince_judge(dormand_prince *self);
+
+// Stages and errors of the steps in a block [DORMAND_PRINCE_NUMBERS][lanes] of 4 or 8 lanes,
+// aligned for these, by slopes of as many; `count` states count. Each lane has the bits of one
+// alone.
+enum { DORMAND_PRINCE_NUMBERS = sizeof(dormand_prince_numbers) / sizeof(double) };
+void dormand_prince_try_default(double *block, int count, dormand_prince_slopes *f, void *self);
+void dormand_prince_try_avx2(double *block, int count, dormand_prince_slopes *f, void *self);
+void dormand_prince_try_avx512(double *block, int count, dormand_prince_slopes *f, void *self);
 
 // Takes the last step anew so that it ends at t, within it.
 void dormand_prince_retake(dormand_prince *self, double t);

@@ -55,6 +55,19 @@ static free_flight flight_of(const ld_simulation *self, double state[FLIGHT_STAT
     };
 }
 
+void flight_alone_prepare(const ld_simulation *self, const ld_run_options *options,
+                          free_flight *job, double *state, ld_summary *summary)
+{
+    *job = flight_of(self, state);
+    job->options = options;
+    summary->model = self->model;
+    summary->rocket_count = 1;
+    summary->note_count = 0;
+    summary->statistics = (ld_statistics){0};
+    rocket_clear(&summary->rocket[0], false);
+    summary->rocket[0].t_ignition = job->t_ignition;
+}
+
 ld_status flight_alone_begin(const ld_simulation *self, ld_error *error)
 {
     double state[FLIGHT_STATES];
@@ -73,13 +86,10 @@ static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *
 {
     const ld_simulation *self = run->self;
     double state[FLIGHT_STATES];
-    free_flight job = flight_of(self, state);
-    job.options = options;
+    free_flight job;
+    flight_alone_prepare(self, options, &job, state, summary);
     job.row = run->sink ? write_row : NULL;
     job.self = run;
-    summary->rocket_count = 1;
-    rocket_clear(&summary->rocket[0], false);
-    summary->rocket[0].t_ignition = job.t_ignition;
     double start = simulation_cpu_now();
     ld_status status = LD_OK;
     if (run->sink)

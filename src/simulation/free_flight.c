@@ -3,39 +3,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "simulation/dormand_prince.h"
-#include "simulation/measuring.h"
 #include "simulation/simulation.h"
 #include "simulation/step_limit.h"
 
-typedef struct flight_run {
-    const free_flight *job;
-    flight_phase phase;
-    dormand_prince steps;
-    ld_flight_summary *flight;
-    double *measured; // of the rocket
-    ld_summary *summary;
-    ld_error *error;
-    double next_output, last_row, output_from;
-    int64_t output_index;
-    double next_progress;
-    double apogee;
-    double fastest, tilted; // largest Mach number and angle of attack
-    double t_beyond;        // when the Mach number first went past the table's last; NaN: not
-    double t_tumbling;      // when the angle of attack first passed 90 degrees; NaN: not
-    double last_time;       // the end of the last step
-    double t_limit;
-    bool burnt_out, past_apex, landed; // in this flight
-    quantity_columns columns;          // where something is measured
-    measure_window window[LD_MAX_MEASURES];
-} flight_run;
-
-static void slopes(double t, const double *y, double *y_dot, void *self)
+static void slopes(const double *t, const double *y, double *y_dot, void *self)
 {
     flight_run *run = self;
-    flight_rates(run->job->system, &run->phase, t, y, y_dot);
-    for (int i = run->job->system->states; i < DORMAND_PRINCE_STATES; i++)
-        y_dot[i] = 0;
+    flight_rates(run->job->system, &run->phase, *t, y, y_dot);
 }
 
 // Absolute tolerances: what an error of the relative tolerance makes of a kilometre, of ten metres
@@ -48,17 +22,17 @@ static void set_tolerances(flight_run *run)
     dormand_prince *steps = &run->steps;
     *steps = (dormand_prince){.f = slopes, .self = run, .count = run->job->system->states};
     for (int i = 0; i < DORMAND_PRINCE_STATES; i++)
-        steps->absolute[i] = 1;
+        steps->step.absolute[i] = 1;
     for (int i = 0; i < 3; i++) {
-        steps->absolute[FLIGHT_R + i] = fmax(1e3 * tolerance, flat ? 0 : 1e-8);
-        steps->absolute[FLIGHT_V + i] = fmax(10 * tolerance, flat ? 0 : 1e-11);
-        steps->absolute[FLIGHT_W + i] = steps->relative[FLIGHT_W + i] = tolerance;
+        steps->step.absolute[FLIGHT_R + i] = fmax(1e3 * tolerance, flat ? 0 : 1e-8);
+        steps->step.absolute[FLIGHT_V + i] = fmax(10 * tolerance, flat ? 0 : 1e-11);
+        steps->step.absolute[FLIGHT_W + i] = steps->step.relative[FLIGHT_W + i] = tolerance;
     }
     for (int i = 0; i < 4; i++)
-        steps->absolute[FLIGHT_Q + i] = steps->relative[FLIGHT_Q + i] = tolerance;
-    steps->absolute[FLIGHT_ROLL] = 10 * tolerance;
+        steps->step.absolute[FLIGHT_Q + i] = steps->step.relative[FLIGHT_Q + i] = tolerance;
+    steps->step.absolute[FLIGHT_ROLL] = 10 * tolerance;
     if (run->job->system->turbulence.present)
-        steps->absolute[FLIGHT_XI] = steps->absolute[FLIGHT_XI + 1] = tolerance;
+        steps->step.absolute[FLIGHT_XI] = steps->step.absolute[FLIGHT_XI + 1] = tolerance;
 }
 
 flight_phase free_flight_phase(const flight_system *system, double t_ignition, double t)
@@ -118,8 +92,9 @@ static bool speeds_up(const flight_run *run, const double *y, const double *y_do
 static double fastest_instant(flight_run *run, double mach)
 {
     const dormand_prince *steps = &run->steps;
-    double a = steps->t0, b = steps->t, share = (sqrt(5) - 1) / 2;
-    if (!speeds_up(run, steps->y0, steps->k[0]) || speeds_up(run, steps->y, steps->k[6]))
+    double a = steps->step.t0, b = steps->t, share = (sqrt(5) - 1) / 2;
+    if (!speeds_up(run, steps->step.y0, steps->step.k[0]) ||
+        speeds_up(run, steps->step.y, steps->step.k[6]))
         return mach >= run->fastest ? b : NAN;
     double c = b - share * (b - a), d = a + share * (b - a);
     double at_c = mach_at(run, c), at_d = mach_at(run, d);
@@ -137,7 +112,7 @@ static double fastest_instant(flight_run *run, double mach)
 // When the Mach number went past the table's last, between the step's begin and t.
 static double beyond_instant(flight_run *run, double t)
 {
-    double a = run->steps.t0, b = t, last = run->job->system->aerodynamics.last_mach;
+    double a = run->steps.step.t0, b = t, last = run->job->system->aerodynamics.last_mach;
     for (int i = 0; i < 50 && b > a; i++) {
         double middle = 0.5 * (a + b);
         *(mach_at(run, middle) > last ? &b : &a) = middle;
@@ -243,7 +218,7 @@ static void record_impact(flight_run *run, double t, const double *y)
 {
     const free_flight *job = run->job;
     earth_motion center = flight_center(job->system, t, y);
-    ld_flight_summary *flight = run->flight;
+    ld_flight_summary *flight = &run->rocket->flight;
     flight->downrange = center.r.x - job->launch_x;
     flight->drift = center.r.z - job->launch_z;
     flight->range = hypot(flight->downrange, flight->drift);
@@ -319,7 +294,7 @@ static measuring measuring_of(flight_run *run)
         .plan = run->job->measure,
         .flight = true,
         .window = run->window,
-        .result = run->measured,
+        .result = run->rocket->measure,
         .row = find_row,
         .has_come = has_come,
         .self = run,
@@ -340,7 +315,7 @@ static void measure_now(flight_run *run, double t, const double *y)
 static void measure_step(flight_run *run, double apex)
 {
     const measuring self = measuring_of(run);
-    double from = run->steps.t0, y[DORMAND_PRINCE_STATES], end[FLIGHT_MAX_COLUMNS];
+    double from = run->steps.step.t0, y[DORMAND_PRINCE_STATES], end[FLIGHT_MAX_COLUMNS];
     if (!measuring_is_there(&self))
         return;
     if (!isnan(apex) && !run->past_apex) {
@@ -351,7 +326,7 @@ static void measure_step(flight_run *run, double apex)
         measure_now(run, apex, y);
         from = apex;
     }
-    flight_row(run->job->system, &run->columns, &run->phase, run->steps.t, run->steps.y, end);
+    flight_row(run->job->system, &run->columns, &run->phase, run->steps.t, run->steps.step.y, end);
     measuring_step(&self, from, run->steps.t, end);
 }
 
@@ -390,9 +365,9 @@ static double find_apex(flight_run *run)
 {
     const flight_system *system = run->job->system;
     const dormand_prince *steps = &run->steps;
-    double before = flight_height_rate(system, &run->phase, steps->t0, steps->y0);
-    double after = flight_height_rate(system, &run->phase, steps->t, steps->y);
-    return before > 0 && after < 0 ? crossing(run, true, steps->t0, steps->t) : NAN;
+    double before = flight_height_rate(system, &run->phase, steps->step.t0, steps->step.y0);
+    double after = flight_height_rate(system, &run->phase, steps->t, steps->step.y);
+    return before > 0 && after < 0 ? crossing(run, true, steps->step.t0, steps->t) : NAN;
 }
 
 // Ends the last step on the ground if it went through; apex: of the same step.
@@ -401,14 +376,14 @@ static bool land(flight_run *run, double apex)
     const flight_system *system = run->job->system;
     dormand_prince *steps = &run->steps;
     double y[DORMAND_PRINCE_STATES];
-    if (!system->has_ground || flight_height(system, steps->y) > system->ground ||
-        flight_height_rate(system, &run->phase, steps->t, steps->y) > 0)
+    if (!system->has_ground || flight_height(system, steps->step.y) > system->ground ||
+        flight_height_rate(system, &run->phase, steps->t, steps->step.y) > 0)
         return false;
-    double t = crossing(run, false, isnan(apex) ? steps->t0 : apex, steps->t);
+    double t = crossing(run, false, isnan(apex) ? steps->step.t0 : apex, steps->t);
     dormand_prince_retake(steps, t);
-    memcpy(y, steps->y, sizeof y);
+    memcpy(y, steps->step.y, sizeof y);
     t = touch_ground(run, t, y);
-    memcpy(steps->y, y, sizeof y);
+    memcpy(steps->step.y, y, sizeof y);
     steps->t = t;
     return true;
 }
@@ -416,8 +391,9 @@ static bool land(flight_run *run, double apex)
 // ---- the loop ----
 
 // The next instant at which a step must end: a corner of the thrust or of a gust, the end.
-static double next_stop(const flight_run *run, double t)
+double flight_run_stop(const flight_run *run)
 {
+    double t = run->steps.t;
     const free_flight *job = run->job;
     const motor *thrust = &job->system->motor;
     double stop = fmin(job->t_end, wind_next_corner(&job->system->wind, t));
@@ -461,16 +437,16 @@ static ld_status after_step(flight_run *run, bool stopped)
     measure_step(run, apex);
     if (!status)
         status = write_rows(run, steps->t);
-    watch(run, steps->t, steps->y);
+    watch(run, steps->t, steps->step.y);
     if (!status)
         status = check_table(run);
     if (!status && (run->landed || stopped))
-        status = write_row(run, steps->t, steps->y);
+        status = write_row(run, steps->t, steps->step.y);
     if (run->landed)
-        record_impact(run, steps->t, steps->y);
+        record_impact(run, steps->t, steps->step.y);
     else if (!status)
         status = check_limit(run, steps->t);
-    return status ? status : report_progress(run, steps->t, steps->y);
+    return status ? status : report_progress(run, steps->t, steps->step.y);
 }
 
 // A flight whose steps are so short hardly goes on.
@@ -487,28 +463,32 @@ static ld_status check_steps(const flight_run *run)
                    (long long)steps->steps, spent, steps->t);
 }
 
-static ld_status loop(flight_run *run)
+bool flight_run_goes_on(const flight_run *run)
+{
+    return !run->landed && run->steps.t < run->job->t_end;
+}
+
+ld_status flight_run_lost(flight_run *run)
+{
+    return ld_fail(run->error, LD_ERR_NUMERIC,
+                   "the equations of flight gave no finite result, or the step size fell to "
+                   "nothing, at t = %.9g s",
+                   run->steps.t);
+}
+
+ld_status flight_run_stepped(flight_run *run)
 {
     dormand_prince *steps = &run->steps;
-    while (!run->landed && steps->t < run->job->t_end) {
-        double stop = next_stop(run, steps->t);
-        if (!dormand_prince_step(steps, stop))
-            return ld_fail(
-                run->error, LD_ERR_NUMERIC,
-                "the equations of flight gave no finite result, or the step size fell to "
-                "nothing, at t = %.9g s",
-                steps->t);
-        bool stopped = steps->t == stop;
-        ld_status status = after_step(run, stopped);
-        if (!status)
-            status = check_steps(run);
-        if (status)
-            return status;
-        if (stopped && pass_corners(run, steps->t))
-            dormand_prince_start(steps, steps->t, steps->y);
-        if (stopped || run->landed)
-            measure_now(run, steps->t, steps->y);
-    }
+    bool stopped = steps->t == steps->t_stop;
+    ld_status status = after_step(run, stopped);
+    if (!status)
+        status = check_steps(run);
+    if (status)
+        return status;
+    if (stopped && pass_corners(run, steps->t))
+        dormand_prince_start(steps, steps->t, steps->step.y);
+    if (stopped || run->landed)
+        measure_now(run, steps->t, steps->step.y);
     return LD_OK;
 }
 
@@ -555,42 +535,55 @@ static void note(flight_run *run)
                         run->steps.t);
 }
 
+ld_status flight_run_begin(flight_run *run, const free_flight *job, const double *state,
+                           ld_rocket_summary *rocket, ld_summary *summary, ld_error *error)
+{
+    *run = (flight_run){.job = job,
+                        .phase = free_flight_phase(job->system, job->t_ignition, job->t_start),
+                        .rocket = rocket,
+                        .summary = summary,
+                        .error = error,
+                        .output_from = job->t_start,
+                        .output_index = 1,
+                        .next_output = job->t_start + job->model->run.output_step_flight,
+                        .next_progress = job->t_start,
+                        .last_row = NAN,
+                        .t_beyond = NAN,
+                        .t_tumbling = NAN};
+    rocket->flown = true;
+    const measuring measured = measuring_of(run);
+    ld_status status = LD_OK;
+    if (measuring_is_there(&measured))
+        status = flight_columns(job->system, &run->columns, error);
+    return status ? status : begin(run, state);
+}
+
+void flight_run_end(flight_run *run, ld_status status, double *state)
+{
+    const measuring measured = measuring_of(run);
+    if (!status)
+        measuring_end(&measured, run->steps.t);
+    quantity_columns_free(&run->columns);
+    memcpy(state, run->steps.step.y, FLIGHT_STATES * sizeof(double));
+    ld_flight_summary *flight = &run->rocket->flight;
+    flight->apogee = run->apogee;
+    flight->max_mach = run->fastest;
+    flight->max_angle_of_attack = run->tilted;
+    record_final(run, run->steps.t, state, &run->rocket->final);
+    note(run);
+    run->summary->t_end = run->steps.t;
+    run->summary->statistics.steps += run->steps.steps;
+    run->summary->statistics.rhs_evaluations += run->steps.evaluations;
+}
+
 ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
                           ld_rocket_summary *rocket, ld_summary *summary, ld_error *error)
 {
-    flight_run run = {.job = self,
-                      .phase = free_flight_phase(self->system, self->t_ignition, self->t_start),
-                      .flight = &rocket->flight,
-                      .measured = rocket->measure,
-                      .summary = summary,
-                      .error = error,
-                      .output_from = self->t_start,
-                      .output_index = 1,
-                      .next_output = self->t_start + self->model->run.output_step_flight,
-                      .next_progress = self->t_start,
-                      .last_row = NAN,
-                      .t_beyond = NAN,
-                      .t_tumbling = NAN};
-    rocket->flown = true;
-    const measuring measured = measuring_of(&run);
-    ld_status status = LD_OK;
-    if (measuring_is_there(&measured))
-        status = flight_columns(self->system, &run.columns, error);
-    if (!status)
-        status = begin(&run, state);
-    if (!status)
-        status = loop(&run);
-    if (!status)
-        measuring_end(&measured, run.steps.t);
-    quantity_columns_free(&run.columns);
-    memcpy(state, run.steps.y, FLIGHT_STATES * sizeof(double));
-    rocket->flight.apogee = run.apogee;
-    rocket->flight.max_mach = run.fastest;
-    rocket->flight.max_angle_of_attack = run.tilted;
-    record_final(&run, run.steps.t, state, &rocket->final);
-    note(&run);
-    summary->t_end = run.steps.t;
-    summary->statistics.steps += run.steps.steps;
-    summary->statistics.rhs_evaluations += run.steps.evaluations;
+    flight_run run;
+    ld_status status = flight_run_begin(&run, self, state, rocket, summary, error);
+    while (!status && flight_run_goes_on(&run))
+        status = dormand_prince_step(&run.steps, flight_run_stop(&run)) ? flight_run_stepped(&run)
+                                                                        : flight_run_lost(&run);
+    flight_run_end(&run, status, state);
     return status;
 }

@@ -2,7 +2,9 @@
 #ifndef LD_SIMULATION_FREE_FLIGHT_H
 #define LD_SIMULATION_FREE_FLIGHT_H
 
+#include "simulation/dormand_prince.h"
 #include "simulation/measures.h"
+#include "simulation/measuring.h"
 #include "simulation/summary.h"
 #include "systems/flight.h"
 
@@ -40,5 +42,47 @@ ld_status flight_columns(const flight_system *system, quantity_columns *columns,
 void flight_row(const flight_system *system, const quantity_columns *columns,
                 const flight_phase *phase, double t, const double *state,
                 double row[FLIGHT_MAX_COLUMNS]);
+
+// ---- step by step, alone or beside others
+
+typedef struct flight_run {
+    const free_flight *job;
+    flight_phase phase;
+    dormand_prince steps;
+    ld_rocket_summary *rocket;
+    ld_summary *summary;
+    ld_error *error;
+    double next_output, last_row, output_from;
+    int64_t output_index;
+    double next_progress;
+    double apogee;
+    double fastest, tilted; // largest Mach number and angle of attack
+    double t_beyond;        // when the Mach number first went past the table's last; NaN: not
+    double t_tumbling;      // when the angle of attack first passed 90 degrees; NaN: not
+    double last_time;       // the end of the last step
+    double t_limit;
+    bool burnt_out, past_apex, landed; // in this flight
+    quantity_columns columns;          // where something is measured
+    measure_window window[LD_MAX_MEASURES];
+} flight_run;
+
+// Begins a flight from `state`; what the run is given stays where it is until its end.
+ld_status flight_run_begin(flight_run *self, const free_flight *job, const double *state,
+                           ld_rocket_summary *rocket, ld_summary *summary, ld_error *error);
+
+// Whether there are steps to come.
+bool flight_run_goes_on(const flight_run *self);
+
+// Where the next step must end at the latest.
+double flight_run_stop(const flight_run *self);
+
+// After a step of `steps` towards that: what happened in it.
+ld_status flight_run_stepped(flight_run *self);
+
+// Where the step's size has fallen to nothing.
+ld_status flight_run_lost(flight_run *self);
+
+// Fills what free_flight_run fills; the state at the end.
+void flight_run_end(flight_run *self, ld_status status, double *state);
 
 #endif

@@ -33,12 +33,10 @@ typedef struct course {
     flight_phase phase;
 } course;
 
-static void slopes(double t, const double *y, double *y_dot, void *self)
+static void slopes(const double *t, const double *y, double *y_dot, void *self)
 {
     course *flown = self;
-    flight_rates(flown->flight, &flown->phase, t, y, y_dot);
-    for (int i = flown->flight->states; i < DORMAND_PRINCE_STATES; i++)
-        y_dot[i] = 0;
+    flight_rates(flown->flight, &flown->phase, *t, y, y_dot);
 }
 
 static bool is_lit(const jet *self)
@@ -92,7 +90,7 @@ static ld_status find_course(jet *self, course *flown, double reach, const doubl
     dormand_prince steps = {.f = slopes, .self = flown, .count = flown->flight->states};
     double y[DORMAND_PRINCE_STATES] = {0};
     for (int i = 0; i < DORMAND_PRINCE_STATES; i++)
-        steps.absolute[i] = 1e-8;
+        steps.step.absolute[i] = 1e-8;
     memcpy(y, state, FLIGHT_STATES * sizeof *y);
     dormand_prince_start(&steps, t, y);
     bool kept = keep_place(self, flown, t, y);
@@ -108,9 +106,9 @@ static ld_status find_course(jet *self, course *flown, double reach, const doubl
             if (pass_corners(&now, steps.t))
                 flight_set_piece(flown->flight, &flown->phase, now.piece);
             if (steps.t == stop)
-                dormand_prince_start(&steps, steps.t, steps.y);
+                dormand_prince_start(&steps, steps.t, steps.step.y);
         }
-        kept = keep_place(self, flown, steps.t, steps.y);
+        kept = keep_place(self, flown, steps.t, steps.step.y);
     }
     return kept ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for a rocket's jet");
 }

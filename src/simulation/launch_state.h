@@ -109,14 +109,19 @@ typedef struct linear_system {
                             // displacements still, d/dt of them in [N], [N m]
 } linear_system;
 
+// [1/s2] pulls back to its place what constraints hold there, where nothing else would keep it.
+static const double RESTORING = 1e6;
+
 // Counts the unknowns and finds the equilibrium at the start, a vehicle at its marching speed.
 ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error);
 
 // Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching
 // speed; lock closed, no Coulomb friction in hinges, that of the adaptors as it is where they
-// hardly slide (`rubbing`) or none. A base that goes where it is told rests in the origin.
-ld_status simulation_linearise(launch_state *self, bool rubbing, linear_system *system,
-                               ld_error *error);
+// hardly slide (`rubbing`) or none; what constraints hold in place pulled back there (`restored`),
+// which adds motions that nothing excites, or not. A base that goes where it is told rests in the
+// origin.
+ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
+                               linear_system *system, ld_error *error);
 
 // Changes an unknown in the state y. By how much in a difference [its unit].
 void linear_displace(const launch_state *self, const linear_system *system, int unknown,

@@ -566,13 +566,14 @@ int ld_simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, in
     return count;
 }
 
-ld_status simulation_linearise(launch_state *self, bool rubbing, linear_system *system,
-                               ld_error *error)
+ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
+                               linear_system *system, ld_error *error)
 {
     static const base_disturbance none;
     self->launcher.base.disturbed = &none;
     ld_status status = linear_rest(self, system, error);
     system->phase.frictionless = !rubbing;
+    system->phase.restoring = restored ? RESTORING : 0;
     if (!status)
         status = linearise(self, NULL, system, error);
     self->launcher.base.disturbed = NULL;
@@ -592,7 +593,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     ld_status status = launch_state_begin(self, simulation, error);
     if (status)
         return status;
-    status = simulation_linearise(self, false, &system, error);
+    status = simulation_linearise(self, false, false, &system, error);
     if (!status)
         status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, poles, pole_capacity,
                              pole_count, NULL, error);
@@ -620,7 +621,7 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
     ld_status status = launch_state_begin(&state, simulation, error);
     // without an equilibrium on a flat road there is nothing to say
     ld_error unused;
-    if (!status && !simulation_linearise(&state, false, &system, &unused) &&
+    if (!status && !simulation_linearise(&state, false, false, &system, &unused) &&
         may_grow(&system, LEAST_RATE))
         eigenvalues(&state, &system, LEAST_RATE, poles, MOST, &count, &fed, &unused);
     launch_state_end(&state);

@@ -8,7 +8,7 @@
 static size_t plant_size(const plant *self)
 {
     size_t n = (size_t)self->states, m = (size_t)self->inputs, p = (size_t)self->outputs;
-    return n * (n + 2 * m) + p * (n + 2 * m) + p;
+    return n * (n + 3 * m) + p * (n + 3 * m) + p;
 }
 
 static ld_status take_room(plant *self, ld_error *error)
@@ -19,16 +19,19 @@ static ld_status take_room(plant *self, ld_error *error)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
     self->B = self->A + n * n;
     self->B_rate = self->B + n * m;
-    self->C = self->B_rate + n * m;
+    self->B_bend = self->B_rate + n * m;
+    self->C = self->B_bend + n * m;
     self->D = self->C + p * n;
     self->D_rate = self->D + p * m;
-    self->rest = self->D_rate + p * m;
+    self->D_bend = self->D_rate + p * m;
+    self->rest = self->D_bend + p * m;
     return LD_OK;
 }
 
 ld_status plant_make_room(plant *self, const plant *as, ld_error *error)
 {
-    *self = (plant){.states = as->states, .inputs = as->inputs, .outputs = as->outputs};
+    *self = (plant){
+        .states = as->states, .inputs = as->inputs, .outputs = as->outputs, .bends = as->bends};
     return take_room(self, error);
 }
 
@@ -55,9 +58,7 @@ void plant_add(plant *to, double factor, const plant *what)
 ld_status plant_inputs(const ld_simulation *simulation, quantity_columns *inputs, ld_error *error)
 {
     quantity_things things = quantity_things_of(simulation->model);
-    // through clamps the base acts by its acceleration, too, which is no input
-    bool clamped = simulation->launcher.launching.supports.clamps;
-    const quantity_part parts[] = {{clamped ? NULL : simulation->launcher.base.kind->inputs, 0},
+    const quantity_part parts[] = {{simulation->launcher.base.kind->inputs, 0},
                                    {&launcher_inputs, 0}};
     return quantity_columns_make(inputs, parts, 2, &things, error);
 }
@@ -132,9 +133,11 @@ static int see_all(bench *self, const quantity_columns *inputs, plant *to)
         size_t offset = inputs->cell[i].offset;
         double *input = (double *)(void *)((char *)&self->disturbed.input + offset);
         double *rate = (double *)(void *)((char *)&self->disturbed.rate + offset);
+        double *bend = (double *)(void *)((char *)&self->disturbed.acceleration + offset);
         int n = to->states * i, p = to->outputs * i;
         bad = see_input(self, input, h, to->B + n, to->D + p, to) ||
-              see_input(self, rate, h, to->B_rate + n, to->D_rate + p, to);
+              see_input(self, rate, h, to->B_rate + n, to->D_rate + p, to) ||
+              (to->bends && see_input(self, bend, h, to->B_bend + n, to->D_bend + p, to));
     }
     go_to_rest(self);
     history_row(launch, self->system.t, self->y, 0, to->rest);
@@ -144,14 +147,16 @@ static int see_all(bench *self, const quantity_columns *inputs, plant *to)
 ld_status plant_make(plant *self, const ld_simulation *simulation, bool rubbing,
                      const quantity_columns *inputs, ld_error *error)
 {
-    *self = (plant){.inputs = inputs->count, .outputs = simulation->columns.count};
+    *self = (plant){.inputs = inputs->count,
+                    .outputs = simulation->columns.count,
+                    .bends = simulation->launcher.launching.supports.clamps};
     bench *at = aligned_alloc(64, (sizeof *at + 63) / 64 * 64);
     if (!at)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
     memset(at, 0, sizeof *at);
     ld_status status = launch_state_begin(&at->launch, simulation, error);
     if (!status)
-        status = simulation_linearise(&at->launch, rubbing, &at->system, error);
+        status = simulation_linearise(&at->launch, rubbing, true, &at->system, error);
     self->states = at->system.count;
     if (!status)
         status = take_room(self, error);

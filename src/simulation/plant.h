@@ -1,5 +1,5 @@
 // The launcher linearised, with what may act on its base and with the columns of a history:
-//   x' = A x + B u + B' u',   y = C x + D u + D' u'
+//   x' = A x + B u + B' u' + B" u",   y = C x + D u + D' u' + D" u"
 // x: the unknowns of linear_system; u: the base_inputs that the base has; y: all columns.
 #ifndef LD_SIMULATION_PLANT_H
 #define LD_SIMULATION_PLANT_H
@@ -10,7 +10,8 @@ typedef struct plant {
     int states, inputs, outputs;
     // [states][states], [states][inputs] and [outputs][states], [outputs][inputs], by columns; a
     // column that has no value: not a number
-    double *A, *B, *B_rate, *C, *D, *D_rate;
+    double *A, *B, *B_rate, *B_bend, *C, *D, *D_rate, *D_bend;
+    bool bends;   // through clamps the base acts by its acceleration, too; else B" and D" are zero
     double *rest; // [outputs] columns in the equilibrium
 } plant;
 

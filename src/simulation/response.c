@@ -52,8 +52,8 @@ struct ld_response {
     bool hinges_rub;
     plant viscous[HINGES];
     double friction[HINGES];
-    // B and B' of the reduced states; C of the chosen columns on them, by rows
-    double *B, *B_rate, *C;
+    // B, B', B" of the reduced states; C of the chosen columns on them, by rows
+    double *B, *B_rate, *B_bend, *C;
 };
 
 // ---- life ----
@@ -192,10 +192,11 @@ static ld_status build(ld_response *self, ld_error *error)
     if (status)
         return status;
     size_t size = (size_t)self->now.states * (size_t)self->now.inputs;
-    self->B = malloc((2 * size + 1) * sizeof *self->B);
+    self->B = calloc(3 * size + 1, sizeof *self->B);
     if (!self->B)
         return no_memory(error);
     self->B_rate = self->B + size;
+    self->B_bend = self->B_rate + size;
     return LD_OK;
 }
 
@@ -343,6 +344,8 @@ static ld_status set_plant(ld_response *self, double speed, ld_error *error)
         return ld_fail(error, LD_ERR_NUMERIC, "the linearised equations cannot be reduced");
     reduce_inputs(&self->solver, self->now.inputs, self->now.B, self->B);
     reduce_inputs(&self->solver, self->now.inputs, self->now.B_rate, self->B_rate);
+    if (self->now.bends)
+        reduce_inputs(&self->solver, self->now.inputs, self->now.B_bend, self->B_bend);
     reduce_outputs(self);
     self->speed_now = speed;
     return LD_OK;
@@ -373,23 +376,25 @@ static ld_phasor turn_of(const ld_response *self, const excitation *by, int k, d
     return (ld_phasor){cos(angle), sin(angle)};
 }
 
-// (B + i omega B') u.
+// (B + i omega B' - omega^2 B") u.
 static void excite(const ld_response *self, const excitation *by, double omega, double *z)
 {
     int n = self->now.states;
     memset(z, 0, 2 * (size_t)n * sizeof *z);
     for (int k = 0; k < by->count; k++) {
-        const double *B = self->B + n * by->input[k], *B_rate = self->B_rate + n * by->input[k];
+        int first = n * by->input[k];
+        const double *B = self->B + first, *B_rate = self->B_rate + first,
+                     *B_bend = self->B_bend + first;
         ld_phasor turn = turn_of(self, by, k, omega);
         for (int i = 0; i < n; i++) {
-            double b = omega * B_rate[i];
-            z[i] += B[i] * turn.real - b * turn.imaginary;
-            z[n + i] += B[i] * turn.imaginary + b * turn.real;
+            double a = B[i] - omega * omega * B_bend[i], b = omega * B_rate[i];
+            z[i] += a * turn.real - b * turn.imaginary;
+            z[n + i] += a * turn.imaginary + b * turn.real;
         }
     }
 }
 
-// C x + (D + i omega D') u.
+// C x + (D + i omega D' - omega^2 D") u.
 static void tell(const ld_response *self, const excitation *by, double omega, const double *z,
                  ld_phasor *y)
 {
@@ -403,7 +408,8 @@ static void tell(const ld_response *self, const excitation *by, double omega, co
         }
         for (int k = 0; k < by->count; k++) {
             int at = self->chosen[i] + rows * by->input[k];
-            double d = self->now.D[at], d_rate = omega * self->now.D_rate[at];
+            double d = self->now.D[at] - omega * omega * self->now.D_bend[at];
+            double d_rate = omega * self->now.D_rate[at];
             ld_phasor turn = turn_of(self, by, k, omega);
             y[i].real += d * turn.real - d_rate * turn.imaginary;
             y[i].imaginary += d * turn.imaginary + d_rate * turn.real;

@@ -56,6 +56,10 @@ void simulation_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 
 ld_status flight_alone_create(ld_simulation *self, ld_error *error);
 // Whether the flight can begin.
 ld_status flight_alone_begin(const ld_simulation *self, ld_error *error);
+// The flight (simulation/free_flight.h) from `state`, without rows; clears the summary for it.
+struct free_flight;
+void flight_alone_prepare(const ld_simulation *self, const ld_run_options *options,
+                          struct free_flight *job, double *state, ld_summary *summary);
 ld_status flight_alone_run(const ld_simulation *self, const ld_run_options *options,
                            ld_summary *summary, ld_error *error);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "simulation/flight_lanes.h"
 #include "simulation/simulation.h"
 #include "simulation/study_results.h"
 
@@ -87,33 +88,127 @@ static void fill_values(study_worker *self)
     }
 }
 
-void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument)
+static ld_status draw(study_worker *self, int64_t number, ld_error *error)
 {
     const study_sampler *sampler = &self->study->sampler[study_point_of(self->study, number)];
-    ld_error error = {0};
     self->summary->rocket_count = 0;
-    ld_status outcome =
-        sample_draw(self->sample, sampler, study_draw_of(self->study, number), &error);
-    if (!outcome)
-        outcome = run_sample(self, &(permission){go_on, argument}, &error);
+    return sample_draw(self->sample, sampler, study_draw_of(self->study, number), error);
+}
+
+static void fill_record(study_worker *self, int64_t number, ld_status outcome,
+                        const ld_error *error)
+{
     study_record *record = self->record;
     record->number = number;
     record->outcome = outcome;
     record->shape = self->study->shape;
     record->shape.rockets = self->sample->model.firing_count;
-    snprintf(record->reason, sizeof record->reason, "%s", outcome ? error.text : "");
+    snprintf(record->reason, sizeof record->reason, "%s", outcome ? error->text : "");
     fill_values(self);
 }
 
-void worker_run_all(study_ledger *ledger)
+void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument)
+{
+    ld_error error = {0};
+    ld_status outcome = draw(self, number, &error);
+    if (!outcome)
+        outcome = run_sample(self, &(permission){go_on, argument}, &error);
+    fill_record(self, number, outcome, &error);
+}
+
+// ---- flights alone, side by side
+
+typedef struct lane_worker {
+    study_worker worker;
+    int64_t number;
+    ld_error error;
+} lane_worker;
+
+typedef struct lane_workers {
+    study_ledger *ledger;
+    permission asked;
+    ld_run_options options;
+    lane_worker lane[FLIGHT_MOST_LANES];
+    bool waits; // the ledger did not know yet
+} lane_workers;
+
+static bool take_number(lane_workers *self, lane_worker *one)
+{
+    one->number = ledger_next(self->ledger);
+    self->waits = one->number == LEDGER_WAIT;
+    return one->number > 0;
+}
+
+static void keep(lane_workers *self, lane_worker *one, ld_status outcome)
+{
+    fill_record(&one->worker, one->number, outcome, &one->error);
+    ledger_keep(self->ledger, one->worker.record);
+}
+
+static bool next_flight(void *user, int lane, lane_flight *flight)
+{
+    lane_workers *self = user;
+    lane_worker *one = &self->lane[lane];
+    study_worker *worker = &one->worker;
+    while (take_number(self, one)) {
+        one->error = (ld_error){0};
+        ld_status status = draw(worker, one->number, &one->error);
+        if (!status)
+            status = simulation_renew(&worker->simulation, &worker->sample->model, &one->error);
+        if (!status) {
+            ld_summary *summary = worker->summary;
+            flight_alone_prepare(worker->simulation, &self->options, &flight->job, flight->state,
+                                 summary);
+            flight->rocket = &summary->rocket[0];
+            flight->summary = summary;
+            flight->error = &one->error;
+            return true;
+        }
+        keep(self, one, status);
+    }
+    return false;
+}
+
+static void flight_done(void *user, int lane, lane_flight *flight, ld_status status)
+{
+    lane_workers *self = user;
+    (void)flight;
+    keep(self, &self->lane[lane], status);
+}
+
+static ld_status fly_all(study_ledger *ledger, ld_error *error)
+{
+    int lanes = flight_lanes_here();
+    lane_workers *self = calloc(1, sizeof *self);
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for flights side by side");
+    const lane_source source = {next_flight, flight_done, self};
+    self->ledger = ledger;
+    self->asked = (permission){ledger_goes_on, ledger};
+    self->options = (ld_run_options){.self = &self->asked, .progress = may_go_on};
+    ld_status status = LD_OK;
+    for (int i = 0; i < lanes && !status; i++)
+        status = worker_create(&self->lane[i].worker, ledger->study, error);
+    while (!status) {
+        status = flight_lanes_fly(lanes, &source, error);
+        if (!self->waits)
+            break;
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    }
+    for (int i = 0; i < lanes; i++)
+        worker_free(&self->lane[i].worker);
+    free(self);
+    return status;
+}
+
+// ---- all
+
+static ld_status run_one_by_one(study_ledger *ledger, ld_error *error)
 {
     study_worker worker;
-    ld_error error;
-    ld_status status = worker_create(&worker, ledger->study, &error);
-    if (status) {
-        ledger_stop(ledger, status, &error);
-        return;
-    }
+    ld_status status = worker_create(&worker, ledger->study, error);
+    if (status)
+        return status;
     for (int64_t number; (number = ledger_next(ledger)) != 0;) {
         if (number == LEDGER_WAIT) {
             nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
@@ -123,6 +218,24 @@ void worker_run_all(study_ledger *ledger)
         ledger_keep(ledger, worker.record);
     }
     worker_free(&worker);
+    return LD_OK;
+}
+
+static bool has_launches(const ld_study *study)
+{
+    int i = 0;
+    while (i < study->points && !model_has_launcher(&study->model[i]))
+        i++;
+    return i < study->points;
+}
+
+void worker_run_all(study_ledger *ledger)
+{
+    ld_error error;
+    bool flights = !has_launches(ledger->study);
+    ld_status status = flights ? fly_all(ledger, &error) : run_one_by_one(ledger, &error);
+    if (status)
+        ledger_stop(ledger, status, &error);
 }
 
 static void *run_all(void *ledger)

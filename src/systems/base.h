@@ -34,9 +34,9 @@ typedef struct base_inputs {
 } base_inputs;
 
 // A base that is linearised is at rest on flat ground, whatever the scenario moves it by; what is
-// added to that, and its rate.
+// added to that, its rate and, of its motion, its acceleration.
 typedef struct base_disturbance {
-    base_inputs input, rate;
+    base_inputs input, rate, acceleration;
 } base_disturbance;
 
 // A base as it was built; a run has a copy (base_share) with `tube` and `disturbed` of its own.

@@ -26,9 +26,9 @@ static void place(const base_system *self, double t, const double *state, base_f
     (void)t, (void)state, (void)found;
     const base_frame *still = self->own;
     const base_disturbance *disturbed = self->disturbed;
-    static const double none[6];
     if (disturbed)
-        base_frame_at(disturbed->input.motion, disturbed->rate.motion, none, &still->A, tube);
+        base_frame_at(disturbed->input.motion, disturbed->rate.motion,
+                      disturbed->acceleration.motion, &still->A, tube);
     else
         *tube = *still;
 }

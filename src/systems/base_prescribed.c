@@ -58,7 +58,7 @@ static void coordinates(const base_system *base, double t, double x[6], double u
             continue;
         x[i] = (i < 3 ? 0 : x[i]) + disturbed->input.motion[i];
         u[i] = disturbed->rate.motion[i];
-        a[i] = 0;
+        a[i] = disturbed->acceleration.motion[i];
     }
 }
 

@@ -13,6 +13,40 @@ static bool is_symmetric_mass(const rocket_mass *mass)
            J[1][2] == 0;
 }
 
+// The numbers that no piece of the thrust curve changes.
+static flight_numbers numbers_of(const flight_system *self)
+{
+    const aerodynamics *body = &self->aerodynamics;
+    const earth *globe = &self->earth;
+    const atmosphere *above = &self->atmosphere;
+    bool uniform = above->kind == LD_ATMOSPHERE_UNIFORM;
+    flight_numbers number = {
+        .mass = self->motor.full.m,
+        .propellant = self->motor.propellant,
+        .air = {.density = uniform ? above->density_scale * above->density : 0,
+                .speed_of_sound = uniform ? above->speed_of_sound : 1,
+                .density_scale = above->density_scale,
+                .temperature_offset = above->temperature_offset,
+                .drag = body->drag,
+                .half_area = body->half_area,
+                .diameter = body->diameter,
+                .cant = body->cant,
+                .crossflow_drag = body->crossflow_drag,
+                .crossflow_at = body->crossflow_at,
+                .last_mach = body->last_mach},
+        .earth = {globe->altitude, globe->gravity, globe->gm, globe->j2, globe->rotation, globe->a,
+                  globe->b, globe->e2},
+    };
+    v3_store(number.air.damping, body->damping);
+    v3_store(number.thrust_point, self->thrust_point);
+    v3_store(number.thrust_direction, self->thrust_direction);
+    v3_store(number.c, self->motor.full.c);
+    v3_store(number.c_change, self->c_change);
+    memcpy(number.J, self->motor.full.J.a, sizeof number.J);
+    memcpy(number.J_change, self->J_change.a, sizeof number.J_change);
+    return number;
+}
+
 ld_status flight_build(flight_system *self, const ld_model *model, int rocket, ld_error *error)
 {
     const ld_rocket *flying = salvo_rocket(model, rocket);
@@ -44,6 +78,7 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
                       is_symmetric_mass(&self->motor.empty) && direction.y == 0 &&
                       direction.z == 0 && self->thrust_point.y == 0 && self->thrust_point.z == 0 &&
                       self->aerodynamics.axisymmetric;
+    self->number = numbers_of(self);
     return LD_OK;
 }
 
@@ -55,64 +90,30 @@ void flight_free(flight_system *self)
     motor_free(&self->motor);
 }
 
-// Inverse of a symmetric matrix by its adjugate.
-LD_INLINE m3 inverse(const m3 *J)
-{
-    const double(*a)[3] = J->a;
-    double c00 = a[1][1] * a[2][2] - a[1][2] * a[1][2], c01 = a[0][2] * a[1][2] - a[0][1] * a[2][2];
-    double c02 = a[0][1] * a[1][2] - a[0][2] * a[1][1];
-    double s = 1 / (a[0][0] * c00 + a[0][1] * c01 + a[0][2] * c02);
-    double d01 = s * c01, d02 = s * c02, d12 = s * (a[0][1] * a[0][2] - a[0][0] * a[1][2]);
-    return (m3){{{s * c00, d01, d02},
-                 {d01, s * (a[0][0] * a[2][2] - a[0][2] * a[0][2]), d12},
-                 {d02, d12, s * (a[0][0] * a[1][1] - a[0][1] * a[0][1])}}};
-}
-
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
 {
-    int corners = (int)self->motor.corner_count;
+    const motor *thrust = &self->motor;
+    int corners = (int)thrust->corner_count;
+    double total = motor_total_impulse(thrust);
     phase->piece = piece;
     phase->burning = piece >= 0 && piece + 1 < corners;
-    phase->power = piece + 1 < corners;
-    motor_mass(&self->motor, piece, piece < 0 ? 0 : self->motor.t[piece], &phase->mass);
-    phase->J_inverse = inverse(&phase->mass.J);
+    phase->number = self->number;
+    phase->number.burn.power = piece + 1 < corners;
+    phase->number.burn.share = piece >= 0 && total > 0 ? thrust->impulse[piece] / total : 0;
     if (!phase->burning)
         return;
-    const motor *thrust = &self->motor;
     double length = thrust->t[piece + 1] - thrust->t[piece];
-    phase->burn.rate = 1 / motor_total_impulse(thrust);
-    phase->burn.t0 = phase->t_ignition + thrust->t[piece];
-    phase->burn.thrust = thrust->thrust[piece];
-    phase->burn.slope = (thrust->thrust[piece + 1] - thrust->thrust[piece]) / length;
-    phase->burn.share = thrust->impulse[piece] * phase->burn.rate;
-}
-
-// Thrust and mass data while it burns, as motor_thrust and motor_mass have them; of a symmetric
-// rocket only the two moments of inertia.
-LD_INLINE double burn_at(const flight_system *self, const flight_phase *phase, double t,
-                         bool symmetric, rocket_mass *mass)
-{
-    const rocket_mass *full = &self->motor.full;
-    double since = t - phase->burn.t0, thrust = phase->burn.thrust + phase->burn.slope * since;
-    double burnt = 0.5 * (phase->burn.thrust + thrust) * since;
-    double share = phase->burn.share + phase->burn.rate * burnt;
-    mass->m = full->m - share * self->motor.propellant;
-    mass->c = v3_axpy(full->c, share, self->c_change);
-    mass->c_dot = v3_scale(phase->burn.rate * thrust, self->c_change);
-    if (symmetric) {
-        mass->J.a[0][0] = full->J.a[0][0] + share * self->J_change.a[0][0];
-        mass->J.a[1][1] = full->J.a[1][1] + share * self->J_change.a[1][1];
-    } else {
-        mass->J = m3_add(full->J, m3_scale(share, self->J_change));
-    }
-    return thrust;
+    phase->number.burn.rate = 1 / total;
+    phase->number.burn.t0 = phase->t_ignition + thrust->t[piece];
+    phase->number.burn.thrust = thrust->thrust[piece];
+    phase->number.burn.slope = (thrust->thrust[piece + 1] - thrust->thrust[piece]) / length;
+    phase->number.burn.share = thrust->impulse[piece] * phase->number.burn.rate;
 }
 
 rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t)
 {
-    rocket_mass mass = phase->mass;
-    if (phase->burning)
-        motor_mass(&self->motor, phase->piece, t - phase->t_ignition, &mass);
+    rocket_mass mass;
+    motor_mass(&self->motor, phase->piece, t - phase->t_ignition, &mass);
     return mass;
 }
 
@@ -123,8 +124,7 @@ double flight_thrust(const flight_system *self, const flight_phase *phase, doubl
 
 // ---- the air
 
-// Velocity of the air against the ground, in C, at the point r of C.
-static v3 wind_velocity(const flight_system *self, double t, v3 r, double altitude)
+v3 flight_wind(const flight_system *self, double t, v3 r, double altitude)
 {
     const wind *moving = &self->wind;
     const earth *globe = &self->earth;
@@ -148,65 +148,13 @@ static double height_over_ground(const flight_system *self, v3 r, double altitud
     return (self->earth.flat ? r.y : altitude) - self->ground;
 }
 
-// Velocity of the air by turbulence, in C, and its scales at the point r of C.
-static v3 turbulence_at(const flight_system *self, double t, v3 r, double altitude,
-                        const double xi[2], turbulence_scales *scales)
+v3 flight_turbulence(const flight_system *self, double t, v3 r, double altitude, const double xi[2],
+                     turbulence_scales *scales)
 {
     const earth *globe = &self->earth;
     *scales = turbulence_scales_at(&self->turbulence, height_over_ground(self, r, altitude));
     v3 v = turbulence_velocity(&self->turbulence, scales, xi[0], xi[1]);
     return globe->flat ? v : m3_apply(earth_turn(globe, t), m3_apply(globe->A_EI, v));
-}
-
-// The air at a point of C that moves with v: density, speed of sound, velocity through it, in C.
-typedef struct flow {
-    double altitude;
-    air air;
-    v3 v;
-    double xi_dot[2];
-} flow;
-
-LD_INLINE flow flow_at(const flight_system *self, double t, v3 r, v3 v, const double xi[2])
-{
-    flow out;
-    out.altitude = earth_altitude(&self->earth, r);
-    out.air = atmosphere_at(&self->atmosphere, out.altitude);
-    if (!self->earth.flat)
-        v = v3_sub(v, v3_cross(earth_rate(&self->earth), r));
-    if (self->wind.present)
-        v = v3_sub(v, wind_velocity(self, t, r, out.altitude));
-    if (self->turbulence.present) {
-        turbulence_scales scales;
-        double mean_speed = v3_norm(v);
-        v = v3_sub(v, turbulence_at(self, t, r, out.altitude, xi, &scales));
-        out.xi_dot[0] = mean_speed / scales.L_u;
-        out.xi_dot[1] = mean_speed / scales.L_w;
-    }
-    out.v = v;
-    return out;
-}
-
-flight_flow flight_flow_at(const flight_system *self, double t, const double *state)
-{
-    v3 r = v3_from(state + FLIGHT_R), v = v3_from(state + FLIGHT_V);
-    flow here = flow_at(self, t, r, v, state + FLIGHT_XI);
-    v3 axis = m3_column(q_matrix(q_from(state + FLIGHT_Q)), 0);
-    double along = v3_dot(axis, here.v), speed = v3_norm(here.v);
-    bool has_air = self->atmosphere.kind != LD_ATMOSPHERE_NONE;
-    flight_flow out = {.altitude = here.altitude,
-                       .density = here.air.density,
-                       .airspeed = speed,
-                       .mach = has_air ? speed / here.air.speed_of_sound : 0,
-                       .angle_of_attack = atan2(v3_norm(v3_cross(axis, here.v)), along)};
-    if (self->wind.present) {
-        v3 w = wind_velocity(self, t, r, here.altitude);
-        turbulence_scales scales;
-        if (self->turbulence.present)
-            w = v3_add(w, turbulence_at(self, t, r, here.altitude, state + FLIGHT_XI, &scales));
-        m3 A_CI = m3_mul(earth_turn(&self->earth, t), self->earth.A_EI);
-        out.wind = m3_apply_transposed(A_CI, w);
-    }
-    return out;
 }
 
 static m3 ground_axes(const flight_system *self, double t)
@@ -219,94 +167,29 @@ moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
     v3 v = v3_zero(), place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
     double altitude = earth_altitude(&self->earth, place);
     if (self->wind.present)
-        v = wind_velocity(self, t, place, altitude);
+        v = flight_wind(self, t, place, altitude);
     if (self->turbulence.present) {
         turbulence_scales scales =
             turbulence_scales_at(&self->turbulence, height_over_ground(self, place, altitude));
         double xi[2] = {-left / scales.L_u, -left / scales.L_w};
-        v = v3_add(v, turbulence_at(self, t, place, altitude, xi, &scales));
+        v = v3_add(v, flight_turbulence(self, t, place, altitude, xi, &scales));
     }
     air here = atmosphere_at(&self->atmosphere, altitude);
     return (moving_air){m3_apply_transposed(ground_axes(self, t), v), here.density,
                         here.speed_of_sound};
 }
 
-// ---- the equations of motion
+// ---- side by side
 
-// Rotation about x by an angle of which cosine and sine are given, and back.
-LD_INLINE v3 roll(double c, double s, v3 a)
+bool flight_is_like(const flight_system *self, const flight_system *other)
 {
-    return v3_make(a.x, c * a.y - s * a.z, s * a.y + c * a.z);
-}
-
-LD_INLINE void rates(const flight_system *self, flight_phase *phase, double t, const double *y,
-                     double *y_dot, bool symmetric)
-{
-    v3 r = v3_from(y + FLIGHT_R), v = v3_from(y + FLIGHT_V), w_N = v3_from(y + FLIGHT_W);
-    quat q = q_from(y + FLIGHT_Q);
-    m3 A = q_matrix(q);
-    // roll between N and B; of a symmetric rocket every such pair of axes is as good as B's
-    double c = 1, s = 0;
-    if (!symmetric) {
-        c = cos(y[FLIGHT_ROLL]);
-        s = sin(y[FLIGHT_ROLL]);
-    }
-    v3 w = roll(c, -s, w_N);
-    // mass and thrust
-    double thrust = 0;
-    rocket_mass burning;
-    const rocket_mass *mass = &phase->mass;
-    if (phase->burning) {
-        thrust = burn_at(self, phase, t, symmetric, &burning);
-        mass = &burning;
-    }
-    v3 force = v3_scale(thrust, self->thrust_direction);
-    v3 moment = v3_cross(v3_sub(self->thrust_point, mass->c), force);
-    // air
-    if (self->aerodynamics.present) {
-        flow here = flow_at(self, t, r, v, y + FLIGHT_XI);
-        if (self->turbulence.present)
-            memcpy(y_dot + FLIGHT_XI, here.xi_dot, sizeof here.xi_dot);
-        double speed = v3_norm(here.v), mach = speed / here.air.speed_of_sound;
-        v3 v_B = roll(c, -s, m3_apply_transposed(A, here.v));
-        air_wrench wrench =
-            aerodynamics_wrench(&self->aerodynamics, v_B, speed, w, mass->c, here.air.density, mach,
-                                phase->power, &phase->interval);
-        force = v3_add(force, wrench.f);
-        moment = v3_add(moment, wrench.m);
-    }
-    // Newton and Euler
-    v3 alpha, a = v3_scale(1 / mass->m, force);
-    if (symmetric) {
-        double Jx = mass->J.a[0][0], Jt = mass->J.a[1][1];
-        alpha = v3_make(moment.x / Jx, (moment.y - (Jx - Jt) * w.x * w.z) / Jt,
-                        (moment.z - (Jt - Jx) * w.x * w.y) / Jt);
-    } else {
-        m3 J_inverse = phase->burning ? inverse(&mass->J) : phase->J_inverse;
-        moment = v3_sub(moment, v3_cross(w, m3_apply(mass->J, w)));
-        alpha = m3_apply(J_inverse, moment);
-    }
-    v3 r_dot = v;
-    if (phase->burning) {
-        a = v3_add(a, v3_cross(w, mass->c_dot));
-        r_dot = v3_add(r_dot, m3_apply(A, roll(c, s, mass->c_dot)));
-    }
-    alpha = roll(c, s, alpha);
-    v3_store(y_dot + FLIGHT_R, r_dot);
-    v3_store(y_dot + FLIGHT_V, v3_add(earth_gravity(&self->earth, r), m3_apply(A, roll(c, s, a))));
-    quat q_dot = q_rate(q, v3_make(0, w_N.y, w_N.z));
-    memcpy(y_dot + FLIGHT_Q, &q_dot, sizeof q_dot);
-    y_dot[FLIGHT_ROLL] = w_N.x;
-    v3_store(y_dot + FLIGHT_W, v3_make(alpha.x, alpha.y - w_N.x * w_N.z, alpha.z + w_N.x * w_N.y));
-}
-
-void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,
-                  double *state_dot)
-{
-    if (self->symmetric)
-        rates(self, phase, t, state, state_dot, true);
-    else
-        rates(self, phase, t, state, state_dot, false);
+    return self->earth.flat == other->earth.flat &&
+           self->atmosphere.kind == other->atmosphere.kind &&
+           self->wind.present == other->wind.present &&
+           self->turbulence.present == other->turbulence.present &&
+           self->aerodynamics.present == other->aerodynamics.present &&
+           self->aerodynamics.model == other->aerodynamics.model &&
+           self->symmetric == other->symmetric;
 }
 
 // ---- in and out

@@ -34,6 +34,30 @@ enum {
     FLIGHT_STATES = 16,
 };
 
+// The numbers that the equations of motion read, all doubles: lanes keep them side by side
+// (math/real.h). What does not burn has a thrust of 0.
+typedef struct flight_numbers {
+    struct {
+        double t0;            // [s] where the piece of the thrust curve begins
+        double thrust, slope; // [N] there, [N/s]
+        double share, rate;   // burnt share of the propellant there; 1 over the total impulse
+        double power;         // 1: the thrust table has not ended
+    } burn;
+    double thrust_point[3], thrust_direction[3];
+    double mass, propellant; // [kg] full; what burns
+    double c[3], c_change[3];
+    double J[9], J_change[9];
+    struct {
+        double density, speed_of_sound; // where these do not change with height
+        double density_scale, temperature_offset;
+        double drag, damping[3]; // as in elements/aerodynamics.h
+        double half_area, diameter, cant, crossflow_drag, crossflow_at, last_mach;
+    } air;
+    struct {
+        double altitude, gravity, gm, j2, rotation, a, b, e2; // as in environment/earth.h
+    } earth;
+} flight_numbers;
+
 typedef struct flight_system {
     const ld_rocket *rocket;
     earth earth;
@@ -50,6 +74,7 @@ typedef struct flight_system {
     bool symmetric;      // the same all around its x axis: nothing depends on the roll angle
     double ground;       // [m] its height: of the plane y, else above sphere or ellipsoid
     bool has_ground;
+    flight_numbers number; // before anything burns
 } flight_system;
 
 // Of the rocket with this place in the firing sequence, from 0, which decides its turbulence.
@@ -61,23 +86,40 @@ typedef struct flight_phase {
     double t_ignition; // [s]
     int piece;         // of the thrust curve
     bool burning;
-    struct {
-        double t0;            // [s] where the piece begins
-        double thrust, slope; // [N] there, [N/s]
-        double share, rate;   // burnt share of the propellant there; 1 over the total impulse
-    } burn;                   // while it burns
-    bool power;               // the thrust table has not ended
-    rocket_mass mass;         // while it does not burn
-    m3 J_inverse;
     size_t interval; // of the aerodynamic table, where it was last read
+    flight_numbers number;
 } flight_phase;
 
 // Begins a piece of the thrust curve (elements/motor.h).
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece);
 
-// Derivative of the state, of as many numbers as the system has states.
+// Derivative of the state.
 void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,
                   double *state_dot);
+
+// Flights side by side, which flight_is_like allows.
+enum { FLIGHT_MOST_LANES = 8, FLIGHT_NUMBERS = sizeof(flight_numbers) / sizeof(double) };
+typedef struct flight_lanes {
+    const flight_system *system[FLIGHT_MOST_LANES];
+    flight_phase *phase[FLIGHT_MOST_LANES]; // of which `interval` is kept
+    const double *number;                   // [FLIGHT_NUMBERS][lanes] of the phases
+} flight_lanes;
+
+// Whether the equations of the two ask for the same functions.
+bool flight_is_like(const flight_system *self, const flight_system *other);
+
+// Derivatives of the states [FLIGHT_STATES][lanes] at the times t [lanes], of 4 and 8 lanes; the
+// arrays are aligned for these. Each lane has the bits of flight_rates.
+void flight_rates_avx2(const flight_lanes *lanes, const double *t, const double *state,
+                       double *state_dot);
+void flight_rates_avx512(const flight_lanes *lanes, const double *t, const double *state,
+                         double *state_dot);
+
+// Velocity of the air against the ground, in C, at the point r of C: without turbulence, and the
+// turbulence, with its scales, where the distances flown through the air have come to xi.
+v3 flight_wind(const flight_system *self, double t, v3 r, double altitude);
+v3 flight_turbulence(const flight_system *self, double t, v3 r, double altitude, const double xi[2],
+                     turbulence_scales *scales);
 
 // The rocket as the rest of the program knows it: rear adaptor O1 and attitude against the ground.
 typedef struct flight_pose {

@@ -410,6 +410,92 @@ static void a_slow_base_takes_all_along(void **state)
     reference_model_free(&model);
 }
 
+// The reference tube on a wall and a pin, k: springs [N/m] in their place, 0: rigid.
+static void hold_rigidly(ld_model *model, double k)
+{
+    static const unsigned held[] = {0x3f, 1u << LD_CLAMP_Y | 1u << LD_CLAMP_Z};
+    reference_model(model);
+    model->gravity = 0;
+    model->rocket.contact.law = LD_CONTACT_BILATERAL;
+    model->rocket.contact.friction = 0;
+    model->tubes.station_count = 1;
+    model->tubes.station[0] = (ld_station){.at = 1, .outer_fibre = {NAN, NAN}};
+    for (int i = 0; i < 2; i++) {
+        ld_support support = {.at = model->tubes.support[i].at, .clamped = k > 0 ? 0 : held[i]};
+        for (int a = 0; a < 3; a++) {
+            support.stiffness[a] = held[i] >> a & 1u ? k : 0;
+            support.rotational_stiffness[a] = held[i] >> (3 + a) & 1u ? k : 0;
+        }
+        model->tubes.support[i] = support;
+    }
+}
+
+// The tip against I across the undeformed tube, per unit of an input.
+static double complex across(ld_response *response, const ld_model *model, const char *input,
+                             double f)
+{
+    double elevation = model->base.elevation;
+    return cos(elevation) * gain_of(response, 0, input, "tip.inertial_y", f) -
+           sin(elevation) * gain_of(response, 0, input, "tip.inertial_x", f);
+}
+
+// What a base that clamps hold the tube on does to the tip, the tip's force does to the base
+// (Maxwell), at any frequency; slowly it takes the tip along.
+static void clamps_carry_the_base_to_the_tip(void **state)
+{
+    (void)state;
+    ld_model model;
+    double aside = 0, turning = 0, slow = 0;
+    hold_rigidly(&model, 0);
+    ld_response *response = respond(&model, NAN, NAN);
+    for (double f = 0.5; f < 100; f *= 6) {
+        double complex z = gain_of(response, 0, "base.z", "tip.inertial_z", f);
+        double complex y = across(response, &model, "base.pitch", f), force = 0, moment = 0;
+        for (int k = 0; k < 2; k++) {
+            char name[2][32];
+            snprintf(name[0], sizeof name[0], "support.%d.force_z", k + 1);
+            force += gain_of(response, 0, "tip.force_z", name[0], f);
+            snprintf(name[0], sizeof name[0], "support.%d.force_y", k + 1);
+            snprintf(name[1], sizeof name[1], "support.%d.moment_z", k + 1);
+            moment += gain_of(response, 0, "tip.force_y", name[1], f) +
+                      model.tubes.support[k].at * gain_of(response, 0, "tip.force_y", name[0], f);
+        }
+        aside = fmax(aside, cabs(z + force) / cabs(z));
+        turning = fmax(turning, cabs(y + moment) / cabs(y));
+        slow = f == 0.5 ? cabs(z - 1) : slow;
+    }
+    CHECK_BELOW("tip aside per base, and force on the base per tip's", aside, 1e-8);
+    CHECK_BELOW("tip across per turn of the base, and moment per tip's force", turning, 1e-8);
+    CHECK_BELOW("tip less base at 0.5 Hz", slow, 1e-3);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// Clamps are the limit of springs for a base that moves.
+static void clamps_are_stiff_springs(void **state)
+{
+    (void)state;
+    static const char *const inputs[] = {"base.x", "base.y", "base.yaw", "base.roll"};
+    static const char *const tips[] = {"tip.inertial_vx", "tip.inertial_vy", "tip.inertial_vz",
+                                       "tip.inertial_vz"};
+    ld_model rigid, stiff;
+    double off[4];
+    hold_rigidly(&rigid, 0);
+    hold_rigidly(&stiff, 1e9);
+    ld_response *response[] = {respond(&rigid, NAN, NAN), respond(&stiff, NAN, NAN)};
+    for (int i = 0; i < 4; i++) {
+        double complex a = gain_of(response[0], 0, inputs[i], tips[i], 40);
+        double complex b = gain_of(response[1], 0, inputs[i], tips[i], 40);
+        off[i] = cabs(a - b) / cabs(b);
+        printf("  %s: %.6g, on springs %.6g\n", inputs[i], cabs(a), cabs(b));
+        CHECK_BELOW("springs of 1e9 N/m off clamps, relative", off[i], 2e-2);
+    }
+    for (int i = 0; i < 2; i++)
+        ld_response_free(response[i]);
+    reference_model_free(&rigid);
+    reference_model_free(&stiff);
+}
+
 // ---- what is wrong ----
 
 static void wrong_names_and_ranges_are_told(void **state)
@@ -463,6 +549,8 @@ int main(void)
         cmocka_unit_test(the_road_as_a_density),
         cmocka_unit_test(friction_of_hinges_is_a_viscous_one),
         cmocka_unit_test(a_slow_base_takes_all_along),
+        cmocka_unit_test(clamps_carry_the_base_to_the_tip),
+        cmocka_unit_test(clamps_are_stiff_springs),
         cmocka_unit_test(wrong_names_and_ranges_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -394,7 +394,7 @@ static void wind_damps_what_moves_in_it(void **state)
         model.rocket.aerodynamics.area = 0.5;
         model.rocket.aerodynamics.drag = 1.1;
         fresh_launch_make(&launch, &model);
-        if (simulation_linearise(&launch.state, false, &system, &error))
+        if (simulation_linearise(&launch.state, false, false, &system, &error))
             fail_msg("%s", error.text);
         for (int i = 0; i < 2; i++) { // y, z of the rocket's speeds
             int place = system.half + system.tube + 1 + i;

@@ -54,7 +54,7 @@ static response linear_response(const recorded_run *run, const ld_model *model, 
     ld_error error;
     launch_state launch;
     assert_int_equal(launch_state_begin(&launch, run->simulation, &error), LD_OK);
-    assert_int_equal(simulation_linearise(&launch, false, &system, &error), LD_OK);
+    assert_int_equal(simulation_linearise(&launch, false, false, &system, &error), LD_OK);
     launch_state_end(&launch);
     int n = system.count, chassis = system.tube + system.rocket;
     double complex *A = malloc((size_t)n * (size_t)n * sizeof *A),

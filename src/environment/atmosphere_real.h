@@ -1,0 +1,79 @@
+// The US Standard Atmosphere over reals (math/real.h).
+#ifndef LD_ENVIRONMENT_ATMOSPHERE_REAL_H
+#define LD_ENVIRONMENT_ATMOSPHERE_REAL_H
+
+#include "environment/atmosphere_layer.h"
+#include "math/real_functions.h"
+
+#define ATMOSPHERE_GRAVITY 9.80665                  // [m/s2] g_0'
+#define ATMOSPHERE_GAS_CONSTANT (8314.32 / 28.9644) // [J/(kg K)] R*/M_0
+#define ATMOSPHERE_RATIO_OF_HEATS 1.4               // gamma
+#define ATMOSPHERE_EARTH_RADIUS 6356766.0           // [m] r_0
+#define ATMOSPHERE_TOP 86000.0                      // [m] geometric
+
+typedef struct real_layer {
+    real base, lapse, temperature, density; // as in atmosphere_layer
+    real exponent;
+} real_layer;
+
+LD_INLINE int atmosphere_layer_number(const atmosphere_layer *layer, double H)
+{
+    int i = 0;
+    while (i + 1 < ATMOSPHERE_LAYERS && H >= layer[i + 1].base)
+        i++;
+    return i;
+}
+
+// The layer of the geopotential height H.
+LD_INLINE real_layer atmosphere_layer_at(const atmosphere_layer *layer, real H)
+{
+    real_layer out;
+    for (int lane = 0; lane < LANES; lane++) {
+        int i = atmosphere_layer_number(layer, REAL_LANE(H, lane));
+        REAL_LANE(out.base, lane) = layer[i].base;
+        REAL_LANE(out.lapse, lane) = layer[i].lapse;
+        REAL_LANE(out.temperature, lane) = layer[i].temperature;
+        REAL_LANE(out.density, lane) = layer[i].density;
+        REAL_LANE(out.exponent, lane) = layer[i].exponent;
+    }
+    return out;
+}
+
+LD_INLINE real atmosphere_geopotential(real altitude)
+{
+    return ATMOSPHERE_EARTH_RADIUS * altitude / (ATMOSPHERE_EARTH_RADIUS + altitude);
+}
+
+// Ratio of the pressure at geopotential height H to that at the layer's base; T: temperature at H.
+LD_INLINE real atmosphere_pressure_ratio(const real_layer *layer, real H, real T)
+{
+    real_condition isothermal = layer->lapse == 0.0;
+    real_pair log_ratio = {real_all(0), real_all(0)};
+    if (real_any(layer->lapse != 0.0))
+        log_ratio = real_log_power(T, layer->temperature, layer->exponent);
+    if (real_any(isothermal)) {
+        real fall =
+            ATMOSPHERE_GRAVITY * (H - layer->base) / (ATMOSPHERE_GAS_CONSTANT * layer->temperature);
+        log_ratio.high = real_select(isothermal, -fall, log_ratio.high);
+        log_ratio.low = real_select(isothermal, real_all(0), log_ratio.low);
+    }
+    return real_exp(log_ratio);
+}
+
+// Density [kg/m3] and speed of sound [m/s] at a geometric altitude [m].
+LD_INLINE void atmosphere_standard(const atmosphere_layer *layers, real altitude,
+                                   real density_scale, real temperature_offset, real *density,
+                                   real *speed_of_sound)
+{
+    real H = atmosphere_geopotential(
+        real_select(altitude < ATMOSPHERE_TOP, altitude, real_all(ATMOSPHERE_TOP)));
+    real_layer layer = atmosphere_layer_at(layers, H);
+    real T = layer.temperature + layer.lapse * (H - layer.base), warm = T + temperature_offset;
+    // rho = p/(R T), the pressure being that of the standard whatever the offset
+    real rho = density_scale * layer.density * atmosphere_pressure_ratio(&layer, H, T) *
+               layer.temperature / warm;
+    *density = real_select(altitude <= ATMOSPHERE_TOP, rho, real_all(0));
+    *speed_of_sound = real_sqrt(ATMOSPHERE_RATIO_OF_HEATS * ATMOSPHERE_GAS_CONSTANT * warm);
+}
+
+#endif

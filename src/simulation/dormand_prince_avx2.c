@@ -1,0 +1,9 @@
+// Steps in 4 lanes.
+#define LANES 4
+#include "simulation/dormand_prince_code.h"
+
+void dormand_prince_try_avx2(double *block, int count, dormand_prince_slopes *f, void *self)
+{
+    take_stages(block, f, self);
+    find_error(block, count);
+}

@@ -1,0 +1,9 @@
+// Steps of one integration.
+#define LANES 1
+#include "simulation/dormand_prince_code.h"
+
+void dormand_prince_try_default(double *block, int count, dormand_prince_slopes *f, void *self)
+{
+    take_stages(block, f, self);
+    find_error(block, count);
+}

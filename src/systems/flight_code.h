@@ -1,0 +1,193 @@
+// The equations of motion of flights side by side, one in each lane (math/real.h): the text of
+// flight.c, which has one lane, and of flight_avx2.c and flight_avx512.c. Wind, turbulence and
+// tables are asked for lane by lane.
+#ifndef LD_SYSTEMS_FLIGHT_CODE_H
+#define LD_SYSTEMS_FLIGHT_CODE_H
+
+#include "elements/aerodynamics_real.h"
+#include "environment/atmosphere_real.h"
+#include "environment/earth_real.h"
+#include "math/real_functions.h"
+#include "math/real_vec3.h"
+#include "systems/flight.h"
+
+// A number of the flights, and three of them.
+#define OF(member) (*REALS(lanes->number, flight_numbers, member))
+#define THREE_OF(member) real3_from(REALS(lanes->number, flight_numbers, member))
+
+// What burns, and the mass data; of a symmetric rocket only the two moments of inertia.
+typedef struct burning {
+    real thrust, mass;
+    real3 c, c_dot;
+    real33 J;
+} burning;
+
+LD_INLINE burning burning_at(const flight_lanes *lanes, real t, bool symmetric)
+{
+    burning out;
+    real since = t - OF(burn.t0);
+    out.thrust = OF(burn.thrust) + OF(burn.slope) * since;
+    real burnt = 0.5 * (OF(burn.thrust) + out.thrust) * since;
+    real share = OF(burn.share) + OF(burn.rate) * burnt;
+    real3 change = THREE_OF(c_change);
+    out.mass = OF(mass) - share * OF(propellant);
+    out.c = real3_axpy(THREE_OF(c), share, change);
+    out.c_dot = real3_scale(OF(burn.rate) * out.thrust, change);
+    const real *J = REALS(lanes->number, flight_numbers, J),
+               *J_change = REALS(lanes->number, flight_numbers, J_change);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (!symmetric || (i == j && i < 2))
+                out.J.a[i][j] = J[3 * i + j] + share * J_change[3 * i + j];
+    return out;
+}
+
+// The air at points of C that move with v: density, speed of sound, velocity through it, in C.
+typedef struct flow {
+    real altitude, density, speed_of_sound;
+    real3 v;
+    real xi_dot[2];
+} flow;
+
+// Less the wind's velocity and that of turbulence.
+LD_INLINE void take_wind(const flight_lanes *lanes, real t, real3 r, const real xi[2], flow *out)
+{
+    for (int i = 0; i < LANES; i++) {
+        const flight_system *system = lanes->system[i];
+        v3 place = {REAL_LANE(r.x, i), REAL_LANE(r.y, i), REAL_LANE(r.z, i)};
+        v3 v = {REAL_LANE(out->v.x, i), REAL_LANE(out->v.y, i), REAL_LANE(out->v.z, i)};
+        double now = REAL_LANE(t, i), altitude = REAL_LANE(out->altitude, i);
+        v = v3_sub(v, flight_wind(system, now, place, altitude));
+        if (system->turbulence.present) {
+            turbulence_scales scales;
+            double mean_speed = v3_norm(v), at[2] = {REAL_LANE(xi[0], i), REAL_LANE(xi[1], i)};
+            v = v3_sub(v, flight_turbulence(system, now, place, altitude, at, &scales));
+            REAL_LANE(out->xi_dot[0], i) = mean_speed / scales.L_u;
+            REAL_LANE(out->xi_dot[1], i) = mean_speed / scales.L_w;
+        }
+        REAL_LANE(out->v.x, i) = v.x;
+        REAL_LANE(out->v.y, i) = v.y;
+        REAL_LANE(out->v.z, i) = v.z;
+    }
+}
+
+LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, const real xi[2])
+{
+    const flight_system *first = lanes->system[0];
+    flow out = {.v = v};
+    if (first->earth.flat) {
+        out.altitude = OF(earth.altitude) + r.y;
+    } else {
+        out.altitude = earth_altitude_above(OF(earth.a), OF(earth.b), OF(earth.e2), r);
+        out.v =
+            real3_sub(v, (real3){-OF(earth.rotation) * r.y, OF(earth.rotation) * r.x, real_all(0)});
+    }
+    if (first->atmosphere.kind == LD_ATMOSPHERE_US1976) {
+        atmosphere_standard(first->atmosphere.layer, out.altitude, OF(air.density_scale),
+                            OF(air.temperature_offset), &out.density, &out.speed_of_sound);
+    } else {
+        out.density = OF(air.density);
+        out.speed_of_sound = OF(air.speed_of_sound);
+    }
+    if (first->wind.present)
+        take_wind(lanes, t, r, xi, &out);
+    return out;
+}
+
+LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, const flow *here, real3 v_B,
+                                      real speed, real3 w, real3 c)
+{
+    if (lanes->system[0]->aerodynamics.model == LD_AERODYNAMICS_BODY)
+        return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), v_B, speed, w,
+                                    here->density);
+    real coefficient[AERODYNAMICS_COLUMNS], mach = speed / here->speed_of_sound;
+    real held = real_select(mach < OF(air.last_mach), mach, OF(air.last_mach));
+    for (int i = 0; i < LANES; i++) {
+        double k[AERODYNAMICS_COLUMNS], at = REAL_LANE(held, i);
+        const curves *table = &lanes->system[i]->aerodynamics.table;
+        size_t *interval = &lanes->phase[i]->interval;
+        *interval = curves_interval(table, at, *interval);
+        curves_first_values(table, *interval, at, AERODYNAMICS_COLUMNS, k);
+        for (int j = 0; j < AERODYNAMICS_COLUMNS; j++)
+            REAL_LANE(coefficient[j], i) = k[j];
+    }
+    const real_body body = {OF(air.half_area), OF(air.diameter), OF(air.cant),
+                            OF(air.crossflow_drag), OF(air.crossflow_at)};
+    real drag = real_select(OF(burn.power) != 0.0, coefficient[1], coefficient[0]);
+    return aerodynamics_of_coefficients(&body, coefficient, drag, v_B, speed, w, c, here->density);
+}
+
+// Rotation about x by an angle of which cosine and sine are given, and back.
+LD_INLINE real3 roll(real c, real s, real3 a)
+{
+    return (real3){a.x, c * a.y - s * a.z, s * a.y + c * a.z};
+}
+
+LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_dot, bool symmetric)
+{
+    const flight_system *first = lanes->system[0];
+    real3 r = real3_from(y + FLIGHT_R), v = real3_from(y + FLIGHT_V);
+    real3 w_N = real3_from(y + FLIGHT_W);
+    const real *q = y + FLIGHT_Q;
+    real33 A = real33_of_quaternion(q);
+    // roll between N and B; of a symmetric rocket every such pair of axes is as good as B's
+    real c = real_all(1), s = real_all(0);
+    if (!symmetric)
+        real_sine_cosine(y[FLIGHT_ROLL], &s, &c);
+    real3 w = roll(c, -s, w_N);
+    // mass and thrust
+    burning mass = burning_at(lanes, t, symmetric);
+    real3 force = real3_scale(mass.thrust, THREE_OF(thrust_direction));
+    real3 moment = real3_cross(real3_sub(THREE_OF(thrust_point), mass.c), force);
+    // air
+    y_dot[FLIGHT_XI] = y_dot[FLIGHT_XI + 1] = real_all(0);
+    if (first->aerodynamics.present) {
+        flow here = flow_at(lanes, t, r, v, y + FLIGHT_XI);
+        if (first->turbulence.present) {
+            y_dot[FLIGHT_XI] = here.xi_dot[0];
+            y_dot[FLIGHT_XI + 1] = here.xi_dot[1];
+        }
+        real3 v_B = roll(c, -s, real33_apply_transposed(&A, here.v));
+        real_wrench wrench = wrench_of_lanes(lanes, &here, v_B, real3_norm(here.v), w, mass.c);
+        force = real3_add(force, wrench.f);
+        moment = real3_add(moment, wrench.m);
+    }
+    // Newton and Euler
+    real3 alpha, a = real3_scale(1.0 / mass.mass, force);
+    if (symmetric) {
+        real Jx = mass.J.a[0][0], Jt = mass.J.a[1][1];
+        alpha = (real3){moment.x / Jx, (moment.y - (Jx - Jt) * w.x * w.z) / Jt,
+                        (moment.z - (Jt - Jx) * w.x * w.y) / Jt};
+    } else {
+        real33 J_inverse = real33_symmetric_inverse(&mass.J);
+        moment = real3_sub(moment, real3_cross(w, real33_apply(&mass.J, w)));
+        alpha = real33_apply(&J_inverse, moment);
+    }
+    a = real3_add(a, real3_cross(w, mass.c_dot));
+    real3 r_dot = real3_add(v, real33_apply(&A, roll(c, s, mass.c_dot)));
+    alpha = roll(c, s, alpha);
+    real3 gravity = {real_all(0), -OF(earth.gravity), real_all(0)};
+    if (!first->earth.flat)
+        gravity = earth_gravitation(OF(earth.gm), OF(earth.j2), OF(earth.a), r);
+    real3_store(y_dot + FLIGHT_R, r_dot);
+    real3_store(y_dot + FLIGHT_V, real3_add(gravity, real33_apply(&A, roll(c, s, a))));
+    // q_dot = 1/2 q (0, 0, w_y, w_z)
+    y_dot[FLIGHT_Q] = 0.5 * (-q[2] * w_N.y - q[3] * w_N.z);
+    y_dot[FLIGHT_Q + 1] = 0.5 * (q[2] * w_N.z - q[3] * w_N.y);
+    y_dot[FLIGHT_Q + 2] = 0.5 * (q[0] * w_N.y - q[1] * w_N.z);
+    y_dot[FLIGHT_Q + 3] = 0.5 * (q[0] * w_N.z + q[1] * w_N.y);
+    y_dot[FLIGHT_ROLL] = w_N.x;
+    real3_store(y_dot + FLIGHT_W,
+                (real3){alpha.x, alpha.y - w_N.x * w_N.z, alpha.z + w_N.x * w_N.y});
+}
+
+LD_INLINE void flight_rates_of(const flight_lanes *lanes, const double *t, const double *y,
+                               double *y_dot)
+{
+    if (lanes->system[0]->symmetric)
+        rates(lanes, *(const real *)t, (const real *)y, (real *)y_dot, true);
+    else
+        rates(lanes, *(const real *)t, (const real *)y, (real *)y_dot, false);
+}
+
+#endif

@@ -1,0 +1,190 @@
+// Flights side by side: whatever their options and in whatever lane, each has the bits that it has
+// alone.
+#include "support/check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenario/scenario.h"
+#include "simulation/flight_lanes.h"
+#include "simulation/simulation.h"
+
+enum { FLIGHTS = 11, MOST_SETTINGS = 5 };
+
+// What is set beside examples/flight.yaml; "body": a plain body in the place of its table.
+static const char *const options[][MOST_SETTINGS] = {
+    {NULL},
+    {"rocket.eccentricity=0.3 -0.2 mm", "rocket.motor.misalignment=0.4 -0.3 mrad"},
+    {"rocket.products_of_inertia=0.02 0.01 0 kg.m2", "rocket.dynamic_imbalance=1 -1 mrad"},
+    {"rocket.aerodynamics.interpolation=spline", "rocket.aerodynamics.cn_scale=1.1"},
+    {"rocket.aerodynamics.interpolation=linear", "rocket.aerodynamics.x_cp_shift=2 mm"},
+    {"body"},
+    {"rocket.aerodynamics=none"},
+    {"environment.atmosphere={density: 1.2 kg/m3, speed_of_sound: 340 m/s}"},
+    {"environment.atmosphere=none"},
+    {"environment.wind={speed: 8 m/s, heading: 60 deg}"},
+    {"environment.wind={profile: [[0 m, 1 m/s, 2 m/s], [400 m, 5 m/s, -3 m/s], [2 km, 9 m/s, 4 "
+     "m/s]]}"},
+    {"environment.wind={speed: 4 m/s, turbulence: {wind_at_6m: 8 m/s, harmonics: 20}}"},
+    {"environment.wind={gust: [{start: 1 s, rise: 0.5 s, hold: 2 s, speed: 12 m/s, heading: 90 "
+     "deg}]}"},
+    {"environment.earth=round"},
+    {"environment={earth: wgs84, site: {latitude: 45 deg, longitude: 7 deg, azimuth: 30 deg}}"},
+    {"environment={earth: wgs84, site: {latitude: 45 deg}, wind: {axes: geographic, profile: [[0 "
+     "m, "
+     "1 m/s, 2 m/s], [2 km, 9 m/s, 4 m/s]], turbulence: {wind_at_6m: 5 m/s, harmonics: 20}}}"},
+    {"flight.velocity=330 1800 0 m/s", "flight.attitude.pitch=80 deg"},
+    {"run.end=1 s"},
+    {"flight.position=0 -5 0 m"},
+    {"run.flight_limit=3 s"},
+    {"measures=[{name: fastest, of: airspeed, take: peak, from: start, to: t_apogee}]"},
+};
+
+typedef struct flown {
+    const ld_model *model;
+    ld_simulation *simulation;
+    ld_summary summary;
+    ld_status status;
+    ld_error error;
+} flown;
+
+typedef struct fleet {
+    ld_model model[FLIGHTS];
+    flown alone[FLIGHTS], beside[FLIGHTS];
+    int given, done;
+    flown *in_lane[FLIGHT_MOST_LANES];
+} fleet;
+
+static void take_body(ld_model *model)
+{
+    ld_aerodynamics *drag = &model->rocket.aerodynamics;
+    drag->model = LD_AERODYNAMICS_BODY;
+    drag->area = 0.02;
+    drag->drag = 0.8;
+    for (int i = 0; i < 3; i++) {
+        drag->damping[i] = i ? -2 : -1;
+        drag->lengths[i] = 2;
+    }
+}
+
+// A flight that differs from the others in numbers only.
+static bool vary(ld_model *model, const char *const *settings, int i)
+{
+    const char *set[MOST_SETTINGS] = {NULL};
+    size_t count = 0;
+    ld_messages messages = {0};
+    bool body = settings[0] && strcmp(settings[0], "body") == 0;
+    while (!body && count < MOST_SETTINGS && settings[count]) {
+        set[count] = settings[count];
+        count++;
+    }
+    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", set, count, model, &messages)) {
+        ld_messages_print(&messages, stderr);
+        ld_messages_free(&messages);
+        return false;
+    }
+    ld_messages_free(&messages);
+    if (body)
+        take_body(model);
+    model->run.flight_tolerance = 1e-4;
+    model->rocket.mass_error += 0.1 * i;
+    model->rocket.motor.thrust_scale += 0.004 * i;
+    model->rocket.aerodynamics.ca_scale += 0.01 * i;
+    model->flight.pitch += 0.01 * i;
+    model->flight.rate[1] += 0.05 * i;
+    return true;
+}
+
+static bool next(void *self, int lane, lane_flight *flight)
+{
+    fleet *all = self;
+    if (all->given == FLIGHTS)
+        return false;
+    flown *one = all->in_lane[lane] = &all->beside[all->given++];
+    flight_alone_prepare(one->simulation, NULL, &flight->job, flight->state, &one->summary);
+    flight->rocket = &one->summary.rocket[0];
+    flight->summary = &one->summary;
+    flight->error = &one->error;
+    return true;
+}
+
+static void done(void *self, int lane, lane_flight *flight, ld_status status)
+{
+    fleet *all = self;
+    all->in_lane[lane]->status = status;
+    all->done++;
+    (void)flight;
+}
+
+static void check_same(const flown *alone, const flown *beside, int lanes)
+{
+    const ld_rocket_summary *a = &alone->summary.rocket[0], *b = &beside->summary.rocket[0];
+    bool same =
+        alone->status == beside->status && strcmp(alone->error.text, beside->error.text) == 0 &&
+        memcmp(&a->flight, &b->flight, sizeof a->flight) == 0 &&
+        memcmp(a->measure, b->measure, sizeof a->measure) == 0 &&
+        memcmp(a->final.center, b->final.center, sizeof a->final.center) == 0 &&
+        memcmp(a->final.quaternion, b->final.quaternion, sizeof a->final.quaternion) == 0 &&
+        memcmp(a->final.rate, b->final.rate, sizeof a->final.rate) == 0 &&
+        alone->summary.statistics.steps == beside->summary.statistics.steps &&
+        alone->summary.statistics.rhs_evaluations == beside->summary.statistics.rhs_evaluations;
+    if (!same)
+        print_message("%d lanes: range %.17g alone, %.17g beside; \"%s\", \"%s\"\n", lanes,
+                      a->flight.range, b->flight.range, alone->error.text, beside->error.text);
+    assert_true(same);
+}
+
+// Alone by ld_simulation_run, then in each width that there is.
+static void check_fleet(fleet *all)
+{
+    const lane_source source = {next, done, all};
+    for (int i = 0; i < FLIGHTS; i++) {
+        flown *one = &all->alone[i];
+        assert_int_equal(ld_simulation_create(&all->model[i], &one->simulation, NULL), LD_OK);
+        one->status = ld_simulation_run(one->simulation, NULL, &one->summary, &one->error);
+    }
+    for (int lanes = flight_lanes_here(); lanes > 0; lanes = lanes == 4 ? 1 : lanes / 2) {
+        memset(all->beside, 0, sizeof all->beside);
+        all->given = all->done = 0;
+        for (int i = 0; i < FLIGHTS; i++)
+            all->beside[i].simulation = all->alone[i].simulation;
+        assert_int_equal(flight_lanes_fly(lanes, &source, NULL), LD_OK);
+        assert_int_equal(all->done, FLIGHTS);
+        for (int i = 0; i < FLIGHTS; i++)
+            check_same(&all->alone[i], &all->beside[i], lanes);
+    }
+    for (int i = 0; i < FLIGHTS; i++) {
+        ld_simulation_free(all->alone[i].simulation);
+        model_clear(&all->model[i]);
+    }
+}
+
+static void test_options(void **state)
+{
+    fleet *all = calloc(1, sizeof *all);
+    for (size_t k = 0; k < sizeof options / sizeof *options; k++) {
+        for (int i = 0; i < FLIGHTS; i++)
+            assert_true(vary(&all->model[i], options[k], i));
+        check_fleet(all);
+    }
+    free(all);
+    (void)state;
+}
+
+// Flights that ask for other functions than those in the air are flown alone.
+static void test_mixed(void **state)
+{
+    fleet *all = calloc(1, sizeof *all);
+    for (int i = 0; i < FLIGHTS; i++)
+        assert_true(vary(&all->model[i], options[i], i));
+    check_fleet(all);
+    free(all);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_options),
+                                       cmocka_unit_test(test_mixed)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
