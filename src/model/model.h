@@ -721,7 +721,7 @@ typedef struct ld_firing_order {
 
 typedef enum ld_start { LD_START_EQUILIBRIUM, LD_START_UNDEFORMED } ld_start;
 typedef enum ld_formulation { LD_FORMULATION_REDUCED, LD_FORMULATION_OVERALL } ld_formulation;
-typedef enum ld_lead_in_method { LD_LEAD_IN_EXPONENTIAL, LD_LEAD_IN_EXPLICIT } ld_lead_in_method;
+typedef enum ld_lead_in_method { LD_LEAD_IN_EXPLICIT, LD_LEAD_IN_EXPONENTIAL } ld_lead_in_method;
 typedef enum ld_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING } ld_end;
 
 typedef struct ld_run_settings {

@@ -115,6 +115,12 @@ static launching_phase resting_phase(const launch_state *self)
     return phase;
 }
 
+// O1, the rocket's axes and its section's, in I.
+typedef struct rocket_place {
+    v3 r;
+    m3 A_IB, A_IS;
+} rocket_place;
+
 // What Newton's method solves: the unknowns from `first` on. With `dead` the tube and its rocket
 // are a dead load on the base.
 typedef struct problem {
@@ -123,9 +129,10 @@ typedef struct problem {
     const launching_phase *phase;
     int first, count;
     bool dead;
-    double spring; // [1/s2] holds the rocket's freedoms to the axis, or guide line
+    double spring;                     // [1/s2] holds the rocket's freedoms
+    const rocket_place *place;         // to where it is in space, or, NULL,
+    double rest[SHOE_FREEDOMS];        // where it is in the guide
     const carried_directions *carried; // less what surfaces carry; NULL: all
-    double lean[SHOE_FREEDOMS];        // to a place beside it
     double h;                          // [m, rad, ...] step of the differences
     double *jacobian;                  // [count + 1][count + 1] of Newton's method, by columns
     const base_frame *going; // the base as it moves where it is not held still: through the air
@@ -144,14 +151,43 @@ static void dead_load(const problem *the, const launcher_input *input, launching
     out->base_moment = v3_cross(moment, down);
 }
 
-// How far the rocket stands from its centred place, less what surfaces carry.
-static void off_the_line(const problem *the, const double *y, double off[SHOE_FREEDOMS])
+static rocket_place place_of(const launch_state *self, const double *y)
 {
-    const launching_system *launching = &the->self->launcher.launching;
-    const double *x = y + launching->layout.x + X_Y;
-    const double centred[SHOE_FREEDOMS] = {launching->surfaces.line_y, launching->surfaces.line_z};
+    const launching_layout *at = &self->launcher.launching.layout;
+    launching_pose pose;
+    launching_output unused;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    return (rocket_place){.r = v3_add(v3_from(y + at->r), m3_apply(A, pose.p1)),
+                          .A_IB = m3_mul(A, pose.A_RB),
+                          .A_IS = m3_mul(A, pose.A_RS)};
+}
+
+// How far the rocket stands from a place in space, in the axes of its section.
+static void off_in_space(const launch_state *self, const double *y, const rocket_place *place,
+                         double off[SHOE_FREEDOMS])
+{
+    rocket_place now = place_of(self, y);
+    v3 move = m3_apply_transposed(now.A_IS, v3_sub(now.r, place->r));
+    v3 turn = rv_log(m3_mul(now.A_IB, m3_transpose(place->A_IB)));
+    turn = m3_apply_transposed(now.A_IS, turn);
+    off[0] = move.y;
+    off[1] = move.z;
+    off[2] = turn.z;
+    off[3] = turn.y;
+    off[4] = turn.x;
+}
+
+// How far the rocket stands from where the spring holds it, less what surfaces carry.
+static void off_its_place(const problem *the, const double *y, double off[SHOE_FREEDOMS])
+{
+    if (the->place) {
+        off_in_space(the->self, y, the->place, off);
+        return;
+    }
+    const double *x = y + the->self->launcher.launching.layout.x + X_Y;
     for (int i = 0; i < SHOE_FREEDOMS; i++)
-        off[i] = x[i] - (centred[i] + the->lean[i]);
+        off[i] = x[i] - the->rest[i];
     if (the->carried)
         carried_remove(the->carried, off);
 }
@@ -179,7 +215,7 @@ static void launching_residual(const problem *the, const double *y, const launch
     if (count > 4)
         rocket[4] = alpha.x;
     double off[SHOE_FREEDOMS];
-    off_the_line(the, y, off);
+    off_its_place(the, y, off);
     for (int i = 0; i < count; i++)
         rocket[i] -= the->spring * off[i];
     if (self->on_breech)
@@ -597,39 +633,11 @@ static double newton_fine(problem *the, const double *from, double accepted, dou
     return reached;
 }
 
-// Soft springs hold a rocket on surfaces to its centred place, at first by `held` [1/s2], and are
-// let go in steps, until where it has play the surfaces touched carry it, or nothing does; smaller
-// steps where a touch is in the way, or one leads far away to another rest. Returns 0, or where no
-// step is small enough the residual.
-static double let_go(const problem *the, double held, double accepted, double *y)
-{
-    const double softest = 1e-3, widest = 0.1;
-    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], factor = 0.3, reached = INFINITY;
-    problem soft = *the;
-    soft.count = launching_freedoms(the->self);
-    bool away = false;
-    while (held > softest && factor < 0.99) {
-        soft.spring = factor * held;
-        reached = newton_fine(&soft, y, accepted, trial);
-        off_the_line(&soft, trial, off);
-        away = hypot(hypot(off[0], off[1]), hypot(off[2], hypot(off[3], off[4]))) > widest;
-        if (reached > accepted || away) {
-            factor = sqrt(factor);
-            continue;
-        }
-        memcpy(y, trial, sizeof trial);
-        held = soft.spring;
-        factor = fmax(0.1, factor * factor);
-    }
-    return held <= softest || (away && reached <= accepted) ? 0 : reached;
-}
-
-// The largest acceleration that the spring must hold where no surface does, and along or about
-// what.
-static double uncarried(const problem *the, const double *y, int *worst)
+// The largest acceleration that the spring must hold, and along or about what.
+static double held_by_spring(const problem *the, const double *y, int *worst)
 {
     double off[SHOE_FREEDOMS];
-    off_the_line(the, y, off);
+    off_its_place(the, y, off);
     *worst = 0;
     for (int i = 1; i < rocket_freedoms(the->self); i++)
         if (fabs(off[i]) > fabs(off[*worst]))
@@ -637,60 +645,106 @@ static double uncarried(const problem *the, const double *y, int *worst)
     return the->spring * fabs(off[*worst]);
 }
 
-// How a rocket on surfaces is let go.
-typedef struct release {
-    double held;      // [1/s2] by springs
-    double up, right; // where its front leans to, and its rear from
-} release;
-
-// Equilibrium of a rocket on surfaces, let go from its centred place or, where its weight along the
-// guide topples it, from one where it leans to a side.
-static double rest_released(problem *the, const double *start, const release *from,
-                            carried_directions *carried, double accepted, double *y)
+// Twice the kinetic energy that two small displacements have in common, taken as rates: gravity
+// takes a rocket that is let go where this is positive of its way and what pulls it.
+static double in_common(const rocket_mass *rocket, const double a[SHOE_FREEDOMS],
+                        const double b[SHOE_FREEDOMS])
 {
-    const launching_system *launching = &the->self->launcher.launching;
-    const double wide = 5e-3, length = launching->adaptors.at[launching->adaptors.count - 1];
-    const double lean[SHOE_FREEDOMS] = {-wide * from->up, -wide * from->right,
-                                        2 * wide * from->up / length,
-                                        -2 * wide * from->right / length};
-    double found[LD_MAX_STATES];
-    problem soft = *the;
-    soft.carried = NULL;
-    memcpy(soft.lean, lean, sizeof lean);
-    guess_straight(the, start, found);
-    double stuck = let_go(&soft, from->held, accepted, found);
-    if (stuck > 0)
-        return stuck;
-    find_carried(the, found, carried);
-    the->carried = carried;
-    the->spring = 1e4;
-    double best = newton_fine(the, found, accepted, y);
-    return fmin(best, newton(the, y));
+    v3 turn_a = v3_make(a[4], a[3], a[2]), turn_b = v3_make(b[4], b[3], b[2]);
+    v3 move_a = v3_add(v3_make(0, a[0], a[1]), v3_cross(turn_a, rocket->c));
+    v3 move_b = v3_add(v3_make(0, b[0], b[1]), v3_cross(turn_b, rocket->c));
+    return rocket->m * v3_dot(move_a, move_b) + v3_dot(turn_a, m3_apply(rocket->J, turn_b));
 }
 
-// What the surfaces that the rocket touches do not carry stays centred, held by a spring that must
-// find nothing to pull. Hard springs, which do not pull back at the rail, may have no rest.
-static double find_on_surfaces(problem *the, const double *start, carried_directions *carried,
-                               double accepted, double *y)
+// Whether a rocket on surfaces stands so far from its centred place that they do not hold it.
+static bool is_away(const problem *the, const double *y)
 {
-    static const release from[] = {{1e7, 0, 0}, {1e7, 1, 0},  {1e7, -1, 0},
-                                   {1e7, 0, 1}, {1e7, 0, -1}, {1e5, 0, 0}};
-    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
-    double trial[LD_MAX_STATES], best = INFINITY;
-    carried_directions tried = {0};
-    bool rests = false;
+    const double widest = 0.5; // [m, rad]
+    problem centred = *the;
     int unused;
-    for (size_t i = 0; i < sizeof from / sizeof *from && !rests; i++) {
-        double reached = rest_released(the, start, &from[i], &tried, accepted, trial);
-        rests = reached <= accepted && uncarried(the, trial, &unused) <= accepted;
-        if (rests || (reached < best && !(best <= accepted))) {
-            best = reached;
-            *carried = tried;
-            memcpy(y, trial, size);
+    centred.place = NULL;
+    centred.spring = 1;
+    return held_by_spring(&centred, y, &unused) > widest;
+}
+
+// Whether the rocket has gone further than a small way, or once round.
+static bool is_far(const launch_state *self, const double *from, const double *to)
+{
+    const double longest = 0.05; // [m, rad]
+    int x = self->launcher.launching.layout.x + X_Y;
+    for (int i = 0; i < SHOE_FREEDOMS; i++)
+        if (fabs(to[x + i] - from[x + i]) > longest)
+            return true;
+    return false;
+}
+
+// Lets a rocket on surfaces go from y to where gravity takes it, in small ways: a spring holds it
+// to where it is, then to where that took it, softer each time. Back over a top leads no way that
+// gravity takes: the spring was too soft, as where Newton's method finds none. Ends where the
+// spring has nothing to hold, or away from the guide. Returns the residual.
+static double let_go(const problem *the, double accepted, double *y)
+{
+    const double softest = 1e-3, hardest = 1e9;
+    const rocket_mass *rocket = &the->self->motor->full;
+    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], before[SHOE_FREEDOMS] = {0};
+    double best = INFINITY, ease = 0.1;
+    int unused;
+    problem held = *the;
+    held.spring = 1e7;
+    for (int step = 0; step < 300 && held.spring < hardest; step++) {
+        rocket_place place = place_of(the->self, y);
+        held.place = &place;
+        double reached = newton_fine(&held, y, accepted, trial);
+        off_its_place(&held, trial, off);
+        if (reached > accepted || is_far(the->self, y, trial) ||
+            in_common(rocket, off, before) < 0) {
+            best = fmin(best, reached);
+            held.spring /= ease * ease;
+            ease = sqrt(ease);
+            continue;
         }
+        memcpy(y, trial, sizeof trial);
+        memcpy(before, off, sizeof off);
+        if (held_by_spring(&held, y, &unused) <= 0.1 * accepted || is_away(the, y))
+            return reached;
+        held.spring = fmax(softest, ease * held.spring);
+        ease = fmax(0.1, ease * ease);
     }
-    the->carried = best <= accepted ? carried : NULL;
     return best;
+}
+
+// Equilibrium of a rocket on surfaces, pressed into the breech by `depth`. What the surfaces that
+// it touches do not carry is centred if it also rests there, else it stays where it came to.
+static double find_on_surfaces(problem *the, const double *start, double depth,
+                               carried_directions *carried, double accepted, double *y)
+{
+    const launch_state *self = the->self;
+    double found[LD_MAX_STATES];
+    int unused;
+    the->rest[0] = self->launcher.launching.surfaces.line_y;
+    the->rest[1] = self->launcher.launching.surfaces.line_z;
+    problem tube = *the;
+    tube.count = launching_freedoms(self);
+    guess_straight(the, start, found);
+    found[self->launcher.launching.layout.x + X_S] -= depth;
+    double reached = let_go(&tube, accepted, found);
+    if (the->count > tube.count && reached <= accepted)
+        reached = let_go(the, accepted, found);
+    memcpy(y, found, sizeof found);
+    *carried = (carried_directions){.scale = {1, 1, 1, 1, 1}};
+    the->carried = carried;
+    the->spring = 1e4;
+    if (!(reached <= accepted) || is_away(the, y))
+        return reached;
+    find_carried(the, found, carried);
+    for (int i = 0; i < 2; i++) {
+        reached = newton_fine(the, found, accepted, y);
+        reached = fmin(reached, newton(the, y));
+        if (reached <= accepted && held_by_spring(the, y, &unused) <= accepted)
+            break;
+        memcpy(the->rest, found + self->launcher.launching.layout.x + X_Y, sizeof the->rest);
+    }
+    return reached;
 }
 
 // Says so where gravity pulls the rocket along a direction in which nothing carries it.
@@ -701,7 +755,7 @@ static ld_status check_carried(const problem *the, const double *y, double accep
                                         "about z of the guide", "about y of the guide",
                                         "about the guide line"};
     int worst;
-    if (!the->carried || uncarried(the, y, &worst) <= accepted)
+    if (held_by_spring(the, y, &worst) <= accepted)
         return LD_OK;
     return ld_fail(error, LD_ERR_LAUNCH,
                    "run.start: no static equilibrium: gravity pulls the rocket %s, and no surface "
@@ -727,24 +781,36 @@ static double find_rest(const problem *the, const double *start, double accepted
     return best;
 }
 
-// Finds the equilibrium as find_rest() does, with the lock closed. Where there is none, and gravity
-// presses the rocket on the breech by more than nothing, it then goes there: s is an unknown, too.
+// Without a lock the breech carries a rocket that gravity presses on it by more than nothing: s is
+// an unknown, too.
+static void stand_on_breech(launch_state *self, problem *the, launching_phase *phase)
+{
+    self->on_breech = true;
+    phase->locked = false;
+    the->count++;
+}
+
+// Finds the equilibrium as find_rest() does, with the lock closed, or on surfaces. Where there is
+// none, and gravity presses the rocket on the breech, it goes there then, on surfaces at once.
 static double find_start(launch_state *self, problem *the, launching_phase *phase,
                          const double *start, carried_directions *carried, double accepted,
                          double *y)
 {
-    self->on_breech = false;
-    double best = self->launcher.launching.surfaces.count
-                      ? find_on_surfaces(the, start, carried, accepted, y)
-                      : find_rest(the, start, accepted, y);
     double pressed = -self->motor->full.m * pull_at(self, the->t, start).x;
-    if (self->rocket->lock.present ||
-        !(pressed > 1e-9 * self->motor->full.m * self->model->gravity) || !(best <= accepted))
+    bool stands =
+        !self->rocket->lock.present && pressed > 1e-9 * self->motor->full.m * self->model->gravity;
+    double depth = stands ? depth_under(&self->rocket->contact, pressed) : 0;
+    self->on_breech = false;
+    if (self->launcher.launching.surfaces.count) {
+        if (stands)
+            stand_on_breech(self, the, phase);
+        return find_on_surfaces(the, start, depth, carried, accepted, y);
+    }
+    double best = find_rest(the, start, accepted, y);
+    if (!stands || !(best <= accepted))
         return best;
-    self->on_breech = true;
-    phase->locked = false;
-    the->count++;
-    y[self->launcher.launching.layout.x + X_S] -= depth_under(&self->rocket->contact, pressed);
+    stand_on_breech(self, the, phase);
+    y[self->launcher.launching.layout.x + X_S] -= depth;
     best = INFINITY;
     for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
         best = newton(the, y);

@@ -144,6 +144,15 @@ static ld_status export_rows(const study_data *data, const char *csv, const char
     return status;
 }
 
+// That not all samples are in what has been written, and what else has failed, if anything.
+static ld_status tell_damage(const study_data *data, ld_status failed, ld_error *error)
+{
+    const ld_error also = failed && error ? *error : (ld_error){.text = ""};
+    return ld_fail(error, failed ? failed : LD_ERR_INPUT,
+                   "%s; the table holds what is intact, %" PRId64 " rockets%s%s", data->damage.text,
+                   data->rockets, *also.text ? "; " : "", also.text);
+}
+
 ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5, ld_error *error)
 {
     study_data data;
@@ -153,10 +162,8 @@ ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5,
     locale_t before = numeric_locale_enter();
     status = export_rows(&data, csv, hdf5, error);
     numeric_locale_leave(before);
-    if (!status && data.damage.status)
-        status =
-            ld_fail(error, LD_ERR_INPUT, "%s; the table holds what is intact, %" PRId64 " rockets",
-                    data.damage.text, data.rockets);
+    if (data.damage.status)
+        status = tell_damage(&data, status, error);
     study_data_close(&data);
     return status;
 }

@@ -683,37 +683,52 @@ static void react_on_base(const jet_scene *scene, const dense_base *base, const 
     turn_back(output->base_moment, base->A[0], moment);
 }
 
-// A recoil slide at d (its stretch along the base's x), whose derivatives are the direction of its
-// force: the part with a potential, then what rubs.
-static void add_slide(equations *eq, const ld_support *support, const jet *d, double *force,
-                      dense_launch_output *output)
+// Parts of a slide's force along the base's x: that with a potential, and what rubs.
+typedef struct slide_parts {
+    double spring, loss, energy;
+} slide_parts;
+
+// A stop pressed in by p, growing at p_dot, that pushes towards `side`; `held`: whether it does, as
+// in dense_conditions. Returns what is positive where it pushes [N].
+static double add_stop(const ld_support *support, double p, double p_dot, double side, int held,
+                       slide_parts *parts)
+{
+    double elastic = support->stiffness[0] * p, damped = support->damping[0] * p_dot;
+    double press = fmin(elastic, elastic + damped);
+    bool pushes = held ? held > 0 : press > 0;
+    if (pushes || p > 0) {
+        parts->spring += side * elastic;
+        parts->loss += side * (pushes ? damped : -elastic);
+        parts->energy += 0.5 * elastic * p;
+    }
+    return press;
+}
+
+// Recoil slide i at d (its stretch along the base's x), whose derivatives are the direction of its
+// force.
+static void add_slide(equations *eq, const ld_support *support, int i, const jet *d,
+                      const dense_conditions *on, double *force, dense_launch_output *output)
 {
     const ld_recoil *slide = &support->recoil;
-    double K = support->stiffness[0], C = support->damping[0], x = d->v, v = d->e;
-    double spring = slide->preload, energy = -slide->preload * x, loss = 0;
-    if (x > 0) {
-        spring -= K * x;
-        energy += 0.5 * K * x * x;
-        loss -= C * v < -K * x ? -K * x : C * v;
-    } else {
-        spring += slide->stiffness * -x;
-        energy += 0.5 * slide->stiffness * x * x;
+    double x = d->v, v = d->e, *press = output->slide_press[i];
+    slide_parts parts = {.spring = slide->preload, .energy = -slide->preload * x};
+    if (x < 0) {
+        parts.spring -= slide->stiffness * x;
+        parts.energy += 0.5 * slide->stiffness * x * x;
     }
-    if (x < -slide->stroke) {
-        double p = -x - slide->stroke;
-        spring += K * p;
-        energy += 0.5 * K * p * p;
-        loss += -C * v < -K * p ? -K * p : -C * v;
-    }
-    loss -= (slide->damping + slide->quadratic_damping * fabs(v)) * v;
+    press[0] = add_stop(support, x, v, -1, on->slide_stop[i][0], &parts);
+    press[1] = isnan(slide->stroke)
+                   ? -1
+                   : add_stop(support, -x - slide->stroke, -v, 1, on->slide_stop[i][1], &parts);
+    parts.loss -= (slide->damping + slide->quadratic_damping * fabs(v)) * v;
     if (!eq->frictionless)
-        loss -= slide->friction * v / hypot(v, slide->friction_speed);
+        parts.loss -= slide->friction * v / hypot(v, slide->friction_speed);
     for (int k = 0; k < eq->n; k++) {
-        force[k] += (spring + loss) * d->d[k];
-        eq->other[k] += loss * d->d[k];
+        force[k] += (parts.spring + parts.loss) * d->d[k];
+        eq->other[k] += parts.loss * d->d[k];
     }
-    eq->potential += energy;
-    output->slide_force += spring + loss;
+    eq->potential += parts.energy;
+    output->slide_force += parts.spring + parts.loss;
 }
 
 // Holds what x is at no acceleration, by a force along its gradient.
@@ -725,12 +740,12 @@ static void hold(equations *eq, int row, const jet *x)
     eq->rhs[row] = -x->te;
 }
 
-static void add_supports(equations *eq, const jet_scene *scene, const dense_base *motion,
+static void add_supports(equations *eq, const jet_scene *scene, const dense_conditions *on,
                          dense_launch_output *output)
 {
     const ld_tubes *tubes = &scene->dense->model->tubes;
     double force[DENSE_MAX_COORDINATES] = {0};
-    jet_frame base = base_frame(motion);
+    jet_frame base = base_frame(&on->base);
     jet33 to_base = jet33_transpose(&base.A);
     int row = CLAMPED;
     for (int i = 0; i < tubes->support_count; i++) {
@@ -755,7 +770,7 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_base
             double damper = slides || held ? 0 : support->damping[a] * d.c[a].e;
             double coil = free ? support->rotational_stiffness[a] * phi.c[a].v : 0;
             if (slides)
-                add_slide(eq, support, &d.c[0], force, output);
+                add_slide(eq, support, i, &d.c[0], on, force, output);
             moment[a] = free ? -support->rotational_damping[a] * w[a] : 0;
             for (int k = 0; k < eq->n; k++) {
                 force[k] -= spring * d.c[a].d[k] + coil * phi.c[a].d[k] + damper * d.c[a].d[k];
@@ -1369,7 +1384,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
               conditions->products, model->gravity);
     // forces
     add_modes(&eq, &moving);
-    add_supports(&eq, &moving, &conditions->base, output);
+    add_supports(&eq, &moving, conditions, output);
     for (int i = 0; i < rocket->adaptor_count; i++)
         (dense->surface_count ? add_shoe : add_adaptor)(&eq, &moving, &still, conditions, i,
                                                         state->s + rocket->adaptor[i].at, output);

@@ -79,10 +79,12 @@ typedef struct dense_conditions {
     bool passed[LD_MAX_ADAPTORS];        // adaptor has left the tube
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] of Lankarani-Nikravesh; 0: the reference speed
     double surface_touch_speed[DENSE_MAX_SURFACES]; // the same, where the guide has surfaces
-    double breech, breech_speed; // [m] station of the breech; [m/s] touched at, likewise
-    double air[3], density;      // [m/s] velocity of the air, in I; [kg/m3]
-    double sound;                // [m/s] speed of sound
-    bool power;                  // the thrust table has not ended
+    double breech, breech_speed;        // [m] station of the breech; [m/s] touched at, likewise
+    double air[3], density;             // [m/s] velocity of the air, in I; [kg/m3]
+    double sound;                       // [m/s] speed of sound
+    bool power;                         // the thrust table has not ended
+    int slide_stop[LD_MAX_SUPPORTS][2]; // front and rear stop of a support's slide: 0 as its travel
+                                        // says, 1 pushes, -1 does not (held by an integrator)
 } dense_conditions;
 
 // State as the program has it: rocket relative to the tube, speeds absolute, in R axes.
@@ -110,8 +112,9 @@ typedef struct dense_launch_output {
     double breech_force; // [N] on the rocket along e_x of S
     double gas_force;    // [N] of the pressure on the rocket
     double slide_force;  // [N] of all recoil slides on the tube, along the base's x
-    double emerged;      // [m] of the rocket out of the tube, where it feels the air
-    double crossflow[3]; // [N] of the air on it, in R
+    double slide_press[LD_MAX_SUPPORTS][2]; // [N] positive where its front or rear stop pushes
+    double emerged;                     // [m] of the rocket out of the tube, where it feels the air
+    double crossflow[3];                // [N] of the air on it, in R
     double air_force[3], air_moment[3]; // [N], [N m] on all of it, about its mass centre, in R
     double slot_drift;                  // [m/s] n . v_rel
     double lock_drift;                  // [m/s] e_x . v_rel at its point, locked

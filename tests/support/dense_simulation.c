@@ -25,8 +25,9 @@ typedef struct launch_run {
     bool apart[DENSE_MAX_SURFACES];      // adaptor (or surface of a shoe) was off the wall
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] when it last touched
     double surface_touch_speed[DENSE_MAX_SURFACES]; // the same of a surface
-    int slot_piece; // stretch of the slot's table, as in dense_conditions
-    double s;       // [m] where O1 was last
+    int slot_piece;                     // stretch of the slot's table, as in dense_conditions
+    int slide_stop[LD_MAX_SUPPORTS][2]; // likewise
+    double s;                           // [m] where O1 was last
     double step;
     dense_summary *summary;
 } launch_run;
@@ -192,6 +193,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, con
     on->breech = launch->model->rocket.start_at;
     on->frictionless = launch->frictionless;
     on->slot_piece = launch->slot_piece;
+    memcpy(on->slide_stop, launch->slide_stop, sizeof on->slide_stop);
     memcpy(on->passed, launch->passed, sizeof on->passed);
     memcpy(on->touch_speed, launch->touch_speed, sizeof on->touch_speed);
     memcpy(on->surface_touch_speed, launch->surface_touch_speed, sizeof on->surface_touch_speed);
@@ -658,8 +660,8 @@ static bool start(launch_run *launch, double t, double *x)
 
 // ---------------------------------------------------------------- events and summary
 
-// Exit of adaptor i is event i, its touch TOUCH + i.
-enum { RELEASE = LD_MAX_ADAPTORS, SLOT_POINT, TOUCH, EVENTS = TOUCH + DENSE_MAX_SURFACES };
+// Exit of adaptor i is event i, its touch TOUCH + i; stop k of support i's slide is STOP + 2 i + k.
+enum { RELEASE = LD_MAX_ADAPTORS, SLOT_POINT, STOP, TOUCH = STOP + 2 * LD_MAX_SUPPORTS };
 
 // What touch `number` is of: an adaptor, or a surface of a shoe.
 static int shoe_of(const launch_run *launch, int number)
@@ -691,6 +693,11 @@ static double event(const launch_run *launch, int which, const dense_launch_outp
         return launch->slot_piece && launch->slot_piece <= (int)angle->rows
                    ? output->s - angle->data[2 * (launch->slot_piece - 1)]
                    : -1;
+    if (which >= STOP && which < TOUCH) {
+        int support = (which - STOP) / 2, k = (which - STOP) % 2;
+        int held = launch->slide_stop[support][k];
+        return held ? -held * output->slide_press[support][k] : -1;
+    }
     if (which < TOUCH)
         return which < model->rocket.adaptor_count && !launch->passed[which]
                    ? output->contact[which].s - model->tubes.length
@@ -770,6 +777,10 @@ static void note_event(launch_run *launch, int which, double t, const dense_laun
     }
     if (which == SLOT_POINT) {
         launch->slot_piece++;
+        return;
+    }
+    if (which >= STOP && which < TOUCH) {
+        launch->slide_stop[(which - STOP) / 2][(which - STOP) % 2] *= -1;
         return;
     }
     if (which >= TOUCH) {
@@ -857,12 +868,27 @@ static double next_corner(const launch_run *launch, double t)
     return next;
 }
 
+// Which stops of the slides push at the start.
+static bool set_stops(launch_run *launch, double t, const double *x)
+{
+    double rate[STATE_MAX];
+    dense_launch_output output;
+    if (!derivative(launch, t, t, x, rate, &output))
+        return false;
+    for (int i = 0; i < launch->model->tubes.support_count; i++)
+        for (int k = 0; k < 2 && launch->model->tubes.support[i].recoil.present; k++)
+            launch->slide_stop[i][k] = output.slide_press[i][k] > 0 ? 1 : -1;
+    return true;
+}
+
 // Runs from t, start state x.
 static bool run(launch_run *launch, double t, double *x)
 {
     double k1[STATE_MAX] = {0}, after[STATE_MAX] = {0}, rate[STATE_MAX] = {0};
     dense_launch_output before, output;
     double end = launch->ignition + launch->model->run.stuck_time;
+    if (!set_stops(launch, t, x))
+        return false;
     while (t < end) {
         // pieces between corners, in equal steps; a step that an event cuts starts a new piece
         double corner = fmin(next_corner(launch, t), end);

@@ -109,7 +109,6 @@ void reference_model(ld_model *model)
     model->run = (ld_run_settings){.start = LD_START_EQUILIBRIUM,
                                    .formulation = LD_FORMULATION_REDUCED,
                                    .lead_in = 0,
-                                   .lead_in_method = LD_LEAD_IN_EXPLICIT,
                                    .end = LD_END_TIP,
                                    .tolerance = 1e-5,
                                    .max_step = 2e-4,
