@@ -134,8 +134,8 @@ static void bench_lanes(ld_model *model, double tolerance)
     model->run.flight_tolerance = tolerance;
     for (int i = 0; drawn && i < FLEET; i++) {
         drawn[i] = *model;
-        drawn[i].flight.pitch += 1e-3 * (i - FLEET / 2);
-        drawn[i].flight.rate[1] += 2e-3 * (i - FLEET / 2);
+        drawn[i].flight.pitch += 1e-3 * (i - 0.5 * FLEET);
+        drawn[i].flight.rate[1] += 2e-3 * (i - 0.5 * FLEET);
         if (ld_simulation_create(&drawn[i], &all.simulation[i], NULL))
             exit(1);
     }
