@@ -497,9 +497,10 @@ static bool may_grow(const linear_system *system, double least)
 {
     int n = system->count;
     size_t square = (size_t)n * (size_t)n;
-    double *J = malloc((square + 2 * (size_t)n) * sizeof *J), *wr = J + square;
+    double *J = malloc((square + 2 * (size_t)n) * sizeof *J);
     if (!J)
         return true;
+    double *wr = J + square;
     memcpy(J, system->J, square * sizeof *J);
     bool may = general_eigen(n, J, wr, wr + n, NULL, NULL) != 0;
     for (int i = 0; i < n && !may; i++)

@@ -17,10 +17,8 @@ static void find_air(const launch_state *self, double t, const double *y, launch
     v3 r = launching_rocket_point(launching, y, input->mass.c);
     double left = launching->tube.flexible.length - y[launching->layout.x + X_S];
     input->air = flight_air_at(self->air, t, r, left);
-    if (!model_has_open_air(self->model))
-        return;
-    input->aerodynamics = &self->air->aerodynamics;
-    input->power = self->piece + 1 < (int)self->motor->corner_count;
+    if (model_has_open_air(self->model))
+        input->aerodynamics = &self->air->aerodynamics;
 }
 
 // Thrust, mass and air at time t and the launching subsystem's state.
@@ -28,6 +26,7 @@ static void surround(const launch_state *self, double t, const double *y, launch
 {
     double tau = t - self->t_ignition;
     input->thrust = motor_thrust(self->motor, self->piece, tau);
+    input->power = self->piece + 1 < (int)self->motor->corner_count;
     input->since = tau;
     input->pressure_piece = self->pressure_piece;
     motor_mass(self->motor, self->piece, tau, &input->mass);
