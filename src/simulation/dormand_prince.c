@@ -46,7 +46,7 @@ void dormand_prince_start(dormand_prince *self, double t, const double *y)
     memmove(self->step.y, y, sizeof self->step.y);
     memcpy(self->step.y0, self->step.y, sizeof self->step.y0);
     self->open = false;
-    self->step.before = 1e-4;
+    self->step.log_before = DORMAND_PRINCE_LOG_LEAST;
     self->step.outcome = DORMAND_PRINCE_DONE;
     evaluate(self, t, self->step.y, self->step.k[6]);
     if (self->step.h == 0)

@@ -21,14 +21,17 @@ typedef struct dormand_prince_numbers {
                                                                 // at its ends
     // error allowed in a step, root mean square over the states that count: absolute + relative |y|
     double absolute[DORMAND_PRINCE_STATES], relative[DORMAND_PRINCE_STATES];
-    double t;       // its end
-    double t_stop;  // where it may end at the latest, and then ends exactly
-    double h;       // [s] of the next step; 0: to be found
-    double before;  // its error, for the controller
-    double most;    // how many times longer the next one may be
-    double outcome; // of the trial, a dormand_prince_outcome
+    double t;          // its end
+    double t_stop;     // where it may end at the latest, and then ends exactly
+    double h;          // [s] of the next step; 0: to be found
+    double log_before; // the logarithm of its error, for the controller
+    double most;       // how many times longer the next one may be
+    double outcome;    // of the trial, a dormand_prince_outcome
     double steps, evaluations;
 } dormand_prince_numbers;
+
+// The least of these logarithms, of 1e-4.
+#define DORMAND_PRINCE_LOG_LEAST (-9.2103403719761827)
 
 typedef enum dormand_prince_outcome {
     DORMAND_PRINCE_LOST = -1, // the size fell to nothing, or the slopes are not finite

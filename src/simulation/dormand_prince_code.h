@@ -3,9 +3,7 @@
 #ifndef LD_SIMULATION_DORMAND_PRINCE_CODE_H
 #define LD_SIMULATION_DORMAND_PRINCE_CODE_H
 
-#include <math.h>
-
-#include "math/real.h"
+#include "math/real_functions.h"
 #include "simulation/dormand_prince.h"
 
 static const double node[DORMAND_PRINCE_STAGES] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
@@ -107,30 +105,25 @@ LD_INLINE void find_error(double *block, int count)
     OF_STEP(error) = real_sqrt(sum / (double)count);
 }
 
-// a^b of each lane.
-LD_INLINE real power(real a, double b)
-{
-    real out;
-    for (int lane = 0; lane < LANES; lane++)
-        REAL_LANE(out, lane) = pow(REAL_LANE(a, lane), b);
-    return out;
-}
-
 // Whether the step is good enough, and the next size. `last`: it ends at its stop.
 LD_INLINE void judge(double *block, real_condition last)
 {
     real size = OF_STEP(size), error = OF_STEP(error), h = OF_STEP(h);
     real_condition goes = (size > 4e-16 * real_abs(OF_STEP(t0))) & (size > 0.0);
     real_condition done = (error <= 1.0) & goes, refused = real_not(done) & goes;
-    real grow = real_select(error - error == 0.0, 0.9 * power(error, -0.17), real_all(0.3));
+    // 0.9 error^-0.17, of a step that is done times before^0.04
+    real log_error = real_log(real_max(real_min(error, real_all(1e40)), real_all(1e-40)));
+    real power = -0.17 * log_error + real_select(done, 0.04 * OF_STEP(log_before), real_all(0));
+    real grow = 0.9 * real_exp((real_pair){power, real_all(0)});
+    grow = real_select(error - error == 0.0, grow, real_all(0.3));
     real shrunk = size * real_max(real_all(0.2), real_min(real_all(1), grow));
-    real next = grow * power(OF_STEP(before), 0.04);
-    next = size * real_min(OF_STEP(most), real_max(real_all(0.2), next));
+    real next = size * real_min(OF_STEP(most), real_max(real_all(0.2), grow));
     // a step cut short by a stop tells nothing against the size before it
     next = real_select(size < h, real_max(next, h), next);
     OF_STEP(h) = real_select(done, next, real_select(refused, shrunk, h));
     OF_STEP(most) = real_select(refused, real_all(1), OF_STEP(most));
-    OF_STEP(before) = real_select(done, real_max(error, real_all(1e-4)), OF_STEP(before));
+    OF_STEP(log_before) = real_select(done, real_max(log_error, real_all(DORMAND_PRINCE_LOG_LEAST)),
+                                      OF_STEP(log_before));
     real end = real_select(last, OF_STEP(t_stop), OF_STEP(t0) + size);
     OF_STEP(t) = real_select(done, end, OF_STEP(t));
     OF_STEP(steps) += real_select(done, real_all(1), real_all(0));
