@@ -52,6 +52,7 @@ int command_study(const command *self, int argc, char **argv);
 void command_study_help(void);
 int command_check(const command *self, int argc, char **argv);
 int command_modes(const command *self, int argc, char **argv);
+int command_fmu(const command *self, int argc, char **argv);
 int command_plot(const command *self, int argc, char **argv);
 void command_plot_help(void);
 int command_report(const command *self, int argc, char **argv);

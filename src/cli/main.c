@@ -21,6 +21,8 @@ static const command commands[] = {
     {"report", "DIR...",
      "Write one HTML file that shows runs or studies, offline and in any browser", NULL,
      command_report, true},
+    {"fmu", "export FILE", "Write a Functional Mock-up Unit of the launch, for other simulators",
+     NULL, command_fmu, true},
     {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road,
      true},
     {"response", "FILE",

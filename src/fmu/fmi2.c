@@ -1,0 +1,466 @@
+// FMI 2.0 for co-simulation over fmu_instance: every function of the standard; those of what this
+// FMU does not offer answer with an error and a line of the log.
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmu/fmi2_interface.h"
+#include "fmu/fmu_instance.h"
+
+enum { PATH_SIZE = 4096 };
+
+// An instance, its importer, and what the last step came to.
+typedef struct component {
+    fmu_instance *inside;
+    fmi2CallbackFunctions call;
+    char *name;
+    fmu_step last;
+} component;
+
+typedef struct saved_state {
+    unsigned char *bytes;
+    size_t size;
+} saved_state;
+
+static void say(const component *self, fmi2Status status, const char *category, const char *text)
+{
+    if (self->call.logger)
+        self->call.logger(self->call.componentEnvironment, self->name, status, category, "%s",
+                          text);
+}
+
+// What a call came to: LD_OK, or a line of the log.
+static fmi2Status answer(const component *self, ld_status status, const ld_error *error)
+{
+    if (!status)
+        return fmi2OK;
+    say(self, fmi2Error, "logStatusError", error->text);
+    return fmi2Error;
+}
+
+static fmi2Status not_offered(void *c, const char *function)
+{
+    ld_error error;
+    return answer(c, ld_fail(&error, LD_ERR_MISSING, "%s: this FMU does not offer it", function),
+                  &error);
+}
+
+const char *fmi2GetTypesPlatform(void)
+{
+    return "default";
+}
+
+const char *fmi2GetVersion(void)
+{
+    return "2.0";
+}
+
+// Errors are always told: there is nothing else in the log.
+fmi2Status fmi2SetDebugLogging(void *c, int on, size_t count, const char *const *categories)
+{
+    (void)c, (void)on, (void)count, (void)categories;
+    return fmi2OK;
+}
+
+// ---- life ----
+
+static int hexadecimal(char c)
+{
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+// "file:///a%20b" as "/a b"; what is no such URI stays. False: it does not fit.
+static bool path_of(const char *uri, char path[PATH_SIZE])
+{
+    size_t length = 0;
+    bool is_uri = strncmp(uri, "file:", 5) == 0;
+    if (is_uri) {
+        uri += 5;
+        if (strncmp(uri, "//", 2) == 0) // with a host, which is none or this one
+            uri = strchr(uri + 2, '/') ? strchr(uri + 2, '/') : "";
+    }
+    while (*uri && length + 1 < PATH_SIZE) {
+        int high = is_uri && uri[0] == '%' ? hexadecimal(uri[1]) : -1;
+        int low = high >= 0 ? hexadecimal(uri[2]) : -1;
+        path[length++] = low >= 0 ? (char)(16 * high + low) : *uri;
+        uri += low >= 0 ? 3 : 1;
+    }
+    path[length] = '\0';
+    return *uri == '\0';
+}
+
+static ld_status open_instance(component *self, fmi2Type type, const char *guid,
+                               const char *resources, ld_error *error)
+{
+    char path[PATH_SIZE];
+    if (type != fmi2CoSimulation)
+        return ld_fail(error, LD_ERR_MISSING, "this FMU is one for co-simulation");
+    if (!guid || !resources || !path_of(resources, path))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "GUID or place of the resources is missing or too long");
+    self->inside = fmu_instance_new(path, guid, error);
+    return self->inside ? LD_OK : error->status;
+}
+
+static void free_component(component *self)
+{
+    fmu_instance_free(self->inside);
+    free(self->name);
+    free(self);
+}
+
+void *fmi2Instantiate(const char *name, fmi2Type type, const char *guid, const char *resources,
+                      const fmi2CallbackFunctions *call, int visible, int logging)
+{
+    ld_error error;
+    (void)visible, (void)logging;
+    component *self = call ? calloc(1, sizeof *self) : NULL;
+    if (!self)
+        return NULL;
+    self->call = *call;
+    self->name = strdup(name ? name : "");
+    if (self->name && !answer(self, open_instance(self, type, guid, resources, &error), &error))
+        return self;
+    free_component(self);
+    return NULL;
+}
+
+void fmi2FreeInstance(void *c)
+{
+    if (c)
+        free_component(c);
+}
+
+fmi2Status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance, double start,
+                               int stop_defined, double stop)
+{
+    component *self = c;
+    ld_error error;
+    (void)stop_defined, (void)stop;
+    return answer(
+        self, fmu_set_experiment(self->inside, start, tolerance_defined ? tolerance : 0, &error),
+        &error);
+}
+
+fmi2Status fmi2EnterInitializationMode(void *c)
+{
+    (void)c;
+    return fmi2OK;
+}
+
+fmi2Status fmi2ExitInitializationMode(void *c)
+{
+    component *self = c;
+    ld_error error;
+    return answer(self, fmu_go(self->inside, &error), &error);
+}
+
+fmi2Status fmi2Terminate(void *c)
+{
+    (void)c;
+    return fmi2OK;
+}
+
+fmi2Status fmi2Reset(void *c)
+{
+    component *self = c;
+    ld_error error;
+    self->last = (fmu_step){0};
+    return answer(self, fmu_instance_reset(self->inside, &error), &error);
+}
+
+// ---- values ----
+
+fmi2Status fmi2GetReal(void *c, const unsigned *reference, size_t count, double *value)
+{
+    component *self = c;
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++)
+        status = answer(self, fmu_get_number(self->inside, reference[i], false, &value[i], &error),
+                        &error);
+    return status;
+}
+
+fmi2Status fmi2SetReal(void *c, const unsigned *reference, size_t count, const double *value)
+{
+    component *self = c;
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++)
+        status = answer(self, fmu_set_number(self->inside, reference[i], false, value[i], &error),
+                        &error);
+    return status;
+}
+
+fmi2Status fmi2GetBoolean(void *c, const unsigned *reference, size_t count, int *value)
+{
+    component *self = c;
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++) {
+        double number;
+        status =
+            answer(self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
+        value[i] = number == 1;
+    }
+    return status;
+}
+
+fmi2Status fmi2SetBoolean(void *c, const unsigned *reference, size_t count, const int *value)
+{
+    component *self = c;
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++)
+        status = answer(
+            self, fmu_set_number(self->inside, reference[i], true, value[i] != 0, &error), &error);
+    return status;
+}
+
+fmi2Status fmi2GetString(void *c, const unsigned *reference, size_t count, const char **value)
+{
+    component *self = c;
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++)
+        status = answer(self, fmu_get_text(self->inside, reference[i], &value[i], &error), &error);
+    return status;
+}
+
+fmi2Status fmi2SetString(void *c, const unsigned *reference, size_t count, const char *const *value)
+{
+    component *self = c;
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++)
+        status = answer(self, fmu_set_text(self->inside, reference[i], value[i], &error), &error);
+    return status;
+}
+
+// There are no integers.
+fmi2Status fmi2GetInteger(void *c, const unsigned *reference, size_t count, int *value)
+{
+    (void)reference, (void)value;
+    return count == 0 ? fmi2OK : not_offered(c, "fmi2GetInteger");
+}
+
+fmi2Status fmi2SetInteger(void *c, const unsigned *reference, size_t count, const int *value)
+{
+    (void)reference, (void)value;
+    return count == 0 ? fmi2OK : not_offered(c, "fmi2SetInteger");
+}
+
+// ---- steps ----
+
+fmi2Status fmi2DoStep(void *c, double t, double size, int no_return)
+{
+    component *self = c;
+    ld_error error;
+    (void)no_return;
+    fmi2Status status =
+        answer(self, fmu_step_on(self->inside, t, size, false, &self->last, &error), &error);
+    return !status && self->last.ended ? fmi2Discard : status;
+}
+
+fmi2Status fmi2CancelStep(void *c)
+{
+    return not_offered(c, "fmi2CancelStep");
+}
+
+fmi2Status fmi2GetStatus(void *c, fmi2StatusKind kind, fmi2Status *value)
+{
+    (void)kind, (void)value;
+    return not_offered(c, "fmi2GetStatus");
+}
+
+fmi2Status fmi2GetRealStatus(void *c, fmi2StatusKind kind, double *value)
+{
+    const component *self = c;
+    if (kind != fmi2LastSuccessfulTime)
+        return not_offered(c, "fmi2GetRealStatus");
+    *value = self->last.t;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetIntegerStatus(void *c, fmi2StatusKind kind, int *value)
+{
+    (void)kind, (void)value;
+    return not_offered(c, "fmi2GetIntegerStatus");
+}
+
+fmi2Status fmi2GetBooleanStatus(void *c, fmi2StatusKind kind, int *value)
+{
+    const component *self = c;
+    if (kind != fmi2Terminated)
+        return not_offered(c, "fmi2GetBooleanStatus");
+    *value = self->last.ended;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetStringStatus(void *c, fmi2StatusKind kind, const char **value)
+{
+    (void)kind, (void)value;
+    return not_offered(c, "fmi2GetStringStatus");
+}
+
+fmi2Status fmi2SetRealInputDerivatives(void *c, const unsigned *reference, size_t count,
+                                       const int *order, const double *value)
+{
+    (void)reference, (void)count, (void)order, (void)value;
+    return not_offered(c, "fmi2SetRealInputDerivatives");
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(void *c, const unsigned *reference, size_t count,
+                                        const int *order, double *value)
+{
+    (void)reference, (void)count, (void)order, (void)value;
+    return not_offered(c, "fmi2GetRealOutputDerivatives");
+}
+
+fmi2Status fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t unknowns,
+                                        const unsigned *known, size_t knowns, const double *seed,
+                                        double *sensitivity)
+{
+    (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)sensitivity;
+    return not_offered(c, "fmi2GetDirectionalDerivative");
+}
+
+// ---- states ----
+
+fmi2Status fmi2FreeFMUstate(void *c, void **state)
+{
+    (void)c;
+    saved_state *saved = *state;
+    if (saved)
+        free(saved->bytes);
+    free(saved);
+    *state = NULL;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetFMUstate(void *c, void **state)
+{
+    component *self = c;
+    ld_error error;
+    if (*state)
+        fmi2FreeFMUstate(c, state);
+    saved_state *saved = calloc(1, sizeof *saved);
+    ld_status status = saved ? fmu_save(self->inside, &saved->bytes, &saved->size, &error)
+                             : ld_fail(&error, LD_ERR_MEMORY, "no memory");
+    if (status)
+        free(saved);
+    else
+        *state = saved;
+    return answer(self, status, &error);
+}
+
+fmi2Status fmi2SetFMUstate(void *c, void *state)
+{
+    component *self = c;
+    const saved_state *saved = state;
+    ld_error error;
+    ld_status status = saved ? fmu_load(self->inside, saved->bytes, saved->size, &error)
+                             : ld_fail(&error, LD_ERR_INPUT, "there is no state");
+    return answer(self, status, &error);
+}
+
+fmi2Status fmi2SerializedFMUstateSize(void *c, void *state, size_t *size)
+{
+    (void)c;
+    *size = ((const saved_state *)state)->size;
+    return fmi2OK;
+}
+
+fmi2Status fmi2SerializeFMUstate(void *c, void *state, char *bytes, size_t size)
+{
+    const saved_state *saved = state;
+    ld_error error;
+    if (size < saved->size)
+        return answer(c,
+                      ld_fail(&error, LD_ERR_INPUT, "%zu bytes have no room for a state of %zu",
+                              size, saved->size),
+                      &error);
+    memcpy(bytes, saved->bytes, saved->size);
+    return fmi2OK;
+}
+
+fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void **state)
+{
+    ld_error error;
+    saved_state *saved = calloc(1, sizeof *saved);
+    unsigned char *copy = malloc(size ? size : 1);
+    if (!saved || !copy) {
+        free(saved);
+        free(copy);
+        return answer(c, ld_fail(&error, LD_ERR_MEMORY, "no memory"), &error);
+    }
+    memcpy(copy, bytes, size);
+    *saved = (saved_state){copy, size};
+    *state = saved;
+    return fmi2OK;
+}
+
+// ---- model exchange ----
+
+fmi2Status fmi2EnterEventMode(void *c)
+{
+    return not_offered(c, "fmi2EnterEventMode");
+}
+
+fmi2Status fmi2NewDiscreteStates(void *c, fmi2EventInfo *info)
+{
+    (void)info;
+    return not_offered(c, "fmi2NewDiscreteStates");
+}
+
+fmi2Status fmi2EnterContinuousTimeMode(void *c)
+{
+    return not_offered(c, "fmi2EnterContinuousTimeMode");
+}
+
+fmi2Status fmi2CompletedIntegratorStep(void *c, int no_return, int *enter_event, int *terminate)
+{
+    (void)no_return, (void)enter_event, (void)terminate;
+    return not_offered(c, "fmi2CompletedIntegratorStep");
+}
+
+fmi2Status fmi2SetTime(void *c, double t)
+{
+    (void)t;
+    return not_offered(c, "fmi2SetTime");
+}
+
+fmi2Status fmi2SetContinuousStates(void *c, const double *x, size_t count)
+{
+    (void)x, (void)count;
+    return not_offered(c, "fmi2SetContinuousStates");
+}
+
+fmi2Status fmi2GetDerivatives(void *c, double *rate, size_t count)
+{
+    (void)rate, (void)count;
+    return not_offered(c, "fmi2GetDerivatives");
+}
+
+fmi2Status fmi2GetEventIndicators(void *c, double *indicator, size_t count)
+{
+    (void)indicator, (void)count;
+    return not_offered(c, "fmi2GetEventIndicators");
+}
+
+fmi2Status fmi2GetContinuousStates(void *c, double *x, size_t count)
+{
+    (void)x, (void)count;
+    return not_offered(c, "fmi2GetContinuousStates");
+}
+
+fmi2Status fmi2GetNominalsOfContinuousStates(void *c, double *nominal, size_t count)
+{
+    (void)nominal, (void)count;
+    return not_offered(c, "fmi2GetNominalsOfContinuousStates");
+}

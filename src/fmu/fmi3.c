@@ -1,0 +1,585 @@
+// FMI 3.0 for co-simulation over fmu_instance: every function of the standard; those of what this
+// FMU does not offer answer with an error and a line of the log.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmu/fmi3_interface.h"
+#include "fmu/fmu_instance.h"
+
+// An instance and its importer.
+typedef struct component {
+    fmu_instance *inside;
+    fmi3Logger log;
+    void *environment;
+    bool at_events; // steps end at events, where the importer is ready for them
+    bool ended;
+} component;
+
+typedef struct saved_state {
+    unsigned char *bytes;
+    size_t size;
+} saved_state;
+
+// What a call came to: LD_OK, or a line of the log.
+static fmi3Status answer(const component *self, ld_status status, const ld_error *error)
+{
+    if (!status)
+        return fmi3OK;
+    if (self->log)
+        self->log(self->environment, fmi3Error, "logStatusError", error->text);
+    return fmi3Error;
+}
+
+static fmi3Status not_offered(void *instance, const char *function)
+{
+    ld_error error;
+    return answer(instance,
+                  ld_fail(&error, LD_ERR_MISSING, "%s: this FMU does not offer it", function),
+                  &error);
+}
+
+const char *fmi3GetVersion(void)
+{
+    return "3.0";
+}
+
+// Errors are always told: there is nothing else in the log.
+fmi3Status fmi3SetDebugLogging(void *instance, bool on, size_t count, const char *const *categories)
+{
+    (void)instance, (void)on, (void)count, (void)categories;
+    return fmi3OK;
+}
+
+// ---- life ----
+
+static void *refuse(fmi3Logger log, void *environment, const char *text)
+{
+    if (log)
+        log(environment, fmi3Error, "logStatusError", text);
+    return NULL;
+}
+
+void *fmi3InstantiateModelExchange(const char *name, const char *token, const char *resources,
+                                   bool visible, bool logging, void *environment, fmi3Logger log)
+{
+    (void)name, (void)token, (void)resources, (void)visible, (void)logging;
+    return refuse(log, environment, "this FMU is one for co-simulation");
+}
+
+void *fmi3InstantiateCoSimulation(const char *name, const char *token, const char *resources,
+                                  bool visible, bool logging, bool event_mode, bool early_return,
+                                  const uint32_t *intermediate, size_t intermediates,
+                                  void *environment, fmi3Logger log, fmi3IntermediateUpdate update)
+{
+    ld_error error;
+    (void)name, (void)visible, (void)logging, (void)intermediate, (void)update;
+    if (intermediates > 0)
+        return refuse(log, environment, "there are no variables between communication points");
+    if (!token || !resources)
+        return refuse(log, environment, "token or place of the resources is missing");
+    component *self = calloc(1, sizeof *self);
+    if (!self)
+        return refuse(log, environment, "no memory");
+    *self = (component){.log = log,
+                        .environment = environment,
+                        .at_events = event_mode && early_return,
+                        .inside = fmu_instance_new(resources, token, &error)};
+    if (self->inside)
+        return self;
+    free(self);
+    return refuse(log, environment, error.text);
+}
+
+void *fmi3InstantiateScheduledExecution(const char *name, const char *token, const char *resources,
+                                        bool visible, bool logging, void *environment,
+                                        fmi3Logger log, void (*clock)(void *), void (*lock)(void),
+                                        void (*unlock)(void))
+{
+    (void)name, (void)token, (void)resources, (void)visible, (void)logging;
+    (void)clock, (void)lock, (void)unlock;
+    return refuse(log, environment, "this FMU is one for co-simulation");
+}
+
+void fmi3FreeInstance(void *instance)
+{
+    component *self = instance;
+    if (!self)
+        return;
+    fmu_instance_free(self->inside);
+    free(self);
+}
+
+fmi3Status fmi3EnterInitializationMode(void *instance, bool tolerance_defined, double tolerance,
+                                       double start, bool stop_defined, double stop)
+{
+    component *self = instance;
+    ld_error error;
+    (void)stop_defined, (void)stop;
+    return answer(
+        self, fmu_set_experiment(self->inside, start, tolerance_defined ? tolerance : 0, &error),
+        &error);
+}
+
+fmi3Status fmi3ExitInitializationMode(void *instance)
+{
+    component *self = instance;
+    ld_error error;
+    return answer(self, fmu_go(self->inside, &error), &error);
+}
+
+fmi3Status fmi3EnterConfigurationMode(void *instance)
+{
+    return not_offered(instance, "fmi3EnterConfigurationMode");
+}
+
+fmi3Status fmi3ExitConfigurationMode(void *instance)
+{
+    return not_offered(instance, "fmi3ExitConfigurationMode");
+}
+
+fmi3Status fmi3Terminate(void *instance)
+{
+    (void)instance;
+    return fmi3OK;
+}
+
+fmi3Status fmi3Reset(void *instance)
+{
+    component *self = instance;
+    ld_error error;
+    self->ended = false;
+    return answer(self, fmu_instance_reset(self->inside, &error), &error);
+}
+
+// ---- values ----
+
+static fmi3Status check_counts(const component *self, size_t references, size_t values)
+{
+    ld_error error;
+    return references == values
+               ? fmi3OK
+               : answer(self,
+                        ld_fail(&error, LD_ERR_INPUT,
+                                "%zu values for %zu variables, all of which are scalars", values,
+                                references),
+                        &error);
+}
+
+fmi3Status fmi3GetFloat64(void *instance, const uint32_t *reference, size_t references,
+                          double *value, size_t values)
+{
+    component *self = instance;
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++)
+        status = answer(self, fmu_get_number(self->inside, reference[i], false, &value[i], &error),
+                        &error);
+    return status;
+}
+
+fmi3Status fmi3SetFloat64(void *instance, const uint32_t *reference, size_t references,
+                          const double *value, size_t values)
+{
+    component *self = instance;
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++)
+        status = answer(self, fmu_set_number(self->inside, reference[i], false, value[i], &error),
+                        &error);
+    return status;
+}
+
+fmi3Status fmi3GetBoolean(void *instance, const uint32_t *reference, size_t references, bool *value,
+                          size_t values)
+{
+    component *self = instance;
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++) {
+        double number;
+        status =
+            answer(self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
+        value[i] = number == 1;
+    }
+    return status;
+}
+
+fmi3Status fmi3SetBoolean(void *instance, const uint32_t *reference, size_t references,
+                          const bool *value, size_t values)
+{
+    component *self = instance;
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++)
+        status = answer(self, fmu_set_number(self->inside, reference[i], true, value[i], &error),
+                        &error);
+    return status;
+}
+
+fmi3Status fmi3GetString(void *instance, const uint32_t *reference, size_t references,
+                         const char **value, size_t values)
+{
+    component *self = instance;
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++)
+        status = answer(self, fmu_get_text(self->inside, reference[i], &value[i], &error), &error);
+    return status;
+}
+
+fmi3Status fmi3SetString(void *instance, const uint32_t *reference, size_t references,
+                         const char *const *value, size_t values)
+{
+    component *self = instance;
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++)
+        status = answer(self, fmu_set_text(self->inside, reference[i], value[i], &error), &error);
+    return status;
+}
+
+// Types of which there are no variables.
+#define NO_VALUES(name, type)                                                                      \
+    fmi3Status fmi3Get##name(void *instance, const uint32_t *reference, size_t references,         \
+                             type *value, size_t values)                                           \
+    {                                                                                              \
+        (void)reference, (void)value, (void)values;                                                \
+        return references == 0 ? fmi3OK : not_offered(instance, "fmi3Get" #name);                  \
+    }                                                                                              \
+    fmi3Status fmi3Set##name(void *instance, const uint32_t *reference, size_t references,         \
+                             const type *value, size_t values)                                     \
+    {                                                                                              \
+        (void)reference, (void)value, (void)values;                                                \
+        return references == 0 ? fmi3OK : not_offered(instance, "fmi3Set" #name);                  \
+    }
+
+NO_VALUES(Float32, float)
+NO_VALUES(Int8, int8_t)
+NO_VALUES(UInt8, uint8_t)
+NO_VALUES(Int16, int16_t)
+NO_VALUES(UInt16, uint16_t)
+NO_VALUES(Int32, int32_t)
+NO_VALUES(UInt32, uint32_t)
+NO_VALUES(Int64, int64_t)
+NO_VALUES(UInt64, uint64_t)
+
+fmi3Status fmi3GetBinary(void *instance, const uint32_t *reference, size_t references, size_t *size,
+                         const uint8_t **value, size_t values)
+{
+    (void)reference, (void)size, (void)value, (void)values;
+    return references == 0 ? fmi3OK : not_offered(instance, "fmi3GetBinary");
+}
+
+fmi3Status fmi3SetBinary(void *instance, const uint32_t *reference, size_t references,
+                         const size_t *size, const uint8_t *const *value, size_t values)
+{
+    (void)reference, (void)size, (void)value, (void)values;
+    return references == 0 ? fmi3OK : not_offered(instance, "fmi3SetBinary");
+}
+
+fmi3Status fmi3GetClock(void *instance, const uint32_t *reference, size_t references, bool *value)
+{
+    (void)reference, (void)value;
+    return references == 0 ? fmi3OK : not_offered(instance, "fmi3GetClock");
+}
+
+fmi3Status fmi3SetClock(void *instance, const uint32_t *reference, size_t references,
+                        const bool *value)
+{
+    (void)reference, (void)value;
+    return references == 0 ? fmi3OK : not_offered(instance, "fmi3SetClock");
+}
+
+fmi3Status fmi3GetNumberOfVariableDependencies(void *instance, uint32_t reference, size_t *count)
+{
+    (void)reference, (void)count;
+    return not_offered(instance, "fmi3GetNumberOfVariableDependencies");
+}
+
+fmi3Status fmi3GetVariableDependencies(void *instance, uint32_t dependent, size_t *element,
+                                       uint32_t *independent, size_t *of_independent, int *kind,
+                                       size_t count)
+{
+    (void)dependent, (void)element, (void)independent, (void)of_independent, (void)kind;
+    (void)count;
+    return not_offered(instance, "fmi3GetVariableDependencies");
+}
+
+// ---- steps and events ----
+
+fmi3Status fmi3DoStep(void *instance, double t, double size, bool no_return, bool *event,
+                      bool *terminate, bool *early, double *reached)
+{
+    component *self = instance;
+    ld_error error;
+    fmu_step step;
+    (void)no_return;
+    ld_status status = fmu_step_on(self->inside, t, size, self->at_events, &step, &error);
+    self->ended = step.ended;
+    *event = step.event;
+    *terminate = step.ended;
+    *early = step.event && step.t < t + size;
+    *reached = step.t;
+    return answer(self, status, &error);
+}
+
+fmi3Status fmi3EnterEventMode(void *instance)
+{
+    (void)instance;
+    return fmi3OK;
+}
+
+fmi3Status fmi3EnterStepMode(void *instance)
+{
+    (void)instance;
+    return fmi3OK;
+}
+
+// What happened has happened within the step; inputs act on the next one.
+fmi3Status fmi3UpdateDiscreteStates(void *instance, bool *again, bool *terminate, bool *nominals,
+                                    bool *values, bool *next_defined, double *next)
+{
+    const component *self = instance;
+    *again = *nominals = *values = *next_defined = false;
+    *terminate = self->ended;
+    *next = 0;
+    return fmi3OK;
+}
+
+fmi3Status fmi3EvaluateDiscreteStates(void *instance)
+{
+    return not_offered(instance, "fmi3EvaluateDiscreteStates");
+}
+
+fmi3Status fmi3GetOutputDerivatives(void *instance, const uint32_t *reference, size_t references,
+                                    const int32_t *order, double *value, size_t values)
+{
+    (void)reference, (void)references, (void)order, (void)value, (void)values;
+    return not_offered(instance, "fmi3GetOutputDerivatives");
+}
+
+fmi3Status fmi3GetDirectionalDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
+                                        const uint32_t *known, size_t knowns, const double *seed,
+                                        size_t seeds, double *value, size_t values)
+{
+    (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)seeds;
+    (void)value, (void)values;
+    return not_offered(instance, "fmi3GetDirectionalDerivative");
+}
+
+fmi3Status fmi3GetAdjointDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
+                                    const uint32_t *known, size_t knowns, const double *seed,
+                                    size_t seeds, double *value, size_t values)
+{
+    (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)seeds;
+    (void)value, (void)values;
+    return not_offered(instance, "fmi3GetAdjointDerivative");
+}
+
+// ---- states ----
+
+fmi3Status fmi3FreeFMUState(void *instance, void **state)
+{
+    (void)instance;
+    saved_state *saved = *state;
+    if (saved)
+        free(saved->bytes);
+    free(saved);
+    *state = NULL;
+    return fmi3OK;
+}
+
+fmi3Status fmi3GetFMUState(void *instance, void **state)
+{
+    component *self = instance;
+    ld_error error;
+    if (*state)
+        fmi3FreeFMUState(instance, state);
+    saved_state *saved = calloc(1, sizeof *saved);
+    ld_status status = saved ? fmu_save(self->inside, &saved->bytes, &saved->size, &error)
+                             : ld_fail(&error, LD_ERR_MEMORY, "no memory");
+    if (status)
+        free(saved);
+    else
+        *state = saved;
+    return answer(self, status, &error);
+}
+
+fmi3Status fmi3SetFMUState(void *instance, void *state)
+{
+    component *self = instance;
+    const saved_state *saved = state;
+    ld_error error;
+    ld_status status = saved ? fmu_load(self->inside, saved->bytes, saved->size, &error)
+                             : ld_fail(&error, LD_ERR_INPUT, "there is no state");
+    return answer(self, status, &error);
+}
+
+fmi3Status fmi3SerializedFMUStateSize(void *instance, void *state, size_t *size)
+{
+    (void)instance;
+    *size = ((const saved_state *)state)->size;
+    return fmi3OK;
+}
+
+fmi3Status fmi3SerializeFMUState(void *instance, void *state, uint8_t *bytes, size_t size)
+{
+    const saved_state *saved = state;
+    ld_error error;
+    if (size < saved->size)
+        return answer(instance,
+                      ld_fail(&error, LD_ERR_INPUT, "%zu bytes have no room for a state of %zu",
+                              size, saved->size),
+                      &error);
+    memcpy(bytes, saved->bytes, saved->size);
+    return fmi3OK;
+}
+
+fmi3Status fmi3DeserializeFMUState(void *instance, const uint8_t *bytes, size_t size, void **state)
+{
+    ld_error error;
+    saved_state *saved = calloc(1, sizeof *saved);
+    unsigned char *copy = malloc(size ? size : 1);
+    if (!saved || !copy) {
+        free(saved);
+        free(copy);
+        return answer(instance, ld_fail(&error, LD_ERR_MEMORY, "no memory"), &error);
+    }
+    memcpy(copy, bytes, size);
+    *saved = (saved_state){copy, size};
+    *state = saved;
+    return fmi3OK;
+}
+
+// ---- clocks: there are none ----
+
+static fmi3Status no_clocks(void *instance, const uint32_t *reference, size_t references,
+                            const char *function)
+{
+    (void)reference;
+    return references == 0 ? fmi3OK : not_offered(instance, function);
+}
+
+fmi3Status fmi3GetIntervalDecimal(void *instance, const uint32_t *reference, size_t references,
+                                  double *interval, int *qualifier)
+{
+    (void)interval, (void)qualifier;
+    return no_clocks(instance, reference, references, "fmi3GetIntervalDecimal");
+}
+
+fmi3Status fmi3GetIntervalFraction(void *instance, const uint32_t *reference, size_t references,
+                                   uint64_t *counter, uint64_t *resolution, int *qualifier)
+{
+    (void)counter, (void)resolution, (void)qualifier;
+    return no_clocks(instance, reference, references, "fmi3GetIntervalFraction");
+}
+
+fmi3Status fmi3GetShiftDecimal(void *instance, const uint32_t *reference, size_t references,
+                               double *shift)
+{
+    (void)shift;
+    return no_clocks(instance, reference, references, "fmi3GetShiftDecimal");
+}
+
+fmi3Status fmi3GetShiftFraction(void *instance, const uint32_t *reference, size_t references,
+                                uint64_t *counter, uint64_t *resolution)
+{
+    (void)counter, (void)resolution;
+    return no_clocks(instance, reference, references, "fmi3GetShiftFraction");
+}
+
+fmi3Status fmi3SetIntervalDecimal(void *instance, const uint32_t *reference, size_t references,
+                                  const double *interval)
+{
+    (void)interval;
+    return no_clocks(instance, reference, references, "fmi3SetIntervalDecimal");
+}
+
+fmi3Status fmi3SetIntervalFraction(void *instance, const uint32_t *reference, size_t references,
+                                   const uint64_t *counter, const uint64_t *resolution)
+{
+    (void)counter, (void)resolution;
+    return no_clocks(instance, reference, references, "fmi3SetIntervalFraction");
+}
+
+fmi3Status fmi3SetShiftDecimal(void *instance, const uint32_t *reference, size_t references,
+                               const double *shift)
+{
+    (void)shift;
+    return no_clocks(instance, reference, references, "fmi3SetShiftDecimal");
+}
+
+fmi3Status fmi3SetShiftFraction(void *instance, const uint32_t *reference, size_t references,
+                                const uint64_t *counter, const uint64_t *resolution)
+{
+    (void)counter, (void)resolution;
+    return no_clocks(instance, reference, references, "fmi3SetShiftFraction");
+}
+
+fmi3Status fmi3ActivateModelPartition(void *instance, uint32_t clock, double t)
+{
+    (void)clock, (void)t;
+    return not_offered(instance, "fmi3ActivateModelPartition");
+}
+
+// ---- model exchange ----
+
+fmi3Status fmi3EnterContinuousTimeMode(void *instance)
+{
+    return not_offered(instance, "fmi3EnterContinuousTimeMode");
+}
+
+fmi3Status fmi3CompletedIntegratorStep(void *instance, bool no_return, bool *event, bool *terminate)
+{
+    (void)no_return, (void)event, (void)terminate;
+    return not_offered(instance, "fmi3CompletedIntegratorStep");
+}
+
+fmi3Status fmi3SetTime(void *instance, double t)
+{
+    (void)t;
+    return not_offered(instance, "fmi3SetTime");
+}
+
+fmi3Status fmi3SetContinuousStates(void *instance, const double *x, size_t count)
+{
+    (void)x, (void)count;
+    return not_offered(instance, "fmi3SetContinuousStates");
+}
+
+fmi3Status fmi3GetContinuousStateDerivatives(void *instance, double *rate, size_t count)
+{
+    (void)rate, (void)count;
+    return not_offered(instance, "fmi3GetContinuousStateDerivatives");
+}
+
+fmi3Status fmi3GetEventIndicators(void *instance, double *indicator, size_t count)
+{
+    (void)indicator, (void)count;
+    return not_offered(instance, "fmi3GetEventIndicators");
+}
+
+fmi3Status fmi3GetContinuousStates(void *instance, double *x, size_t count)
+{
+    (void)x, (void)count;
+    return not_offered(instance, "fmi3GetContinuousStates");
+}
+
+fmi3Status fmi3GetNominalsOfContinuousStates(void *instance, double *nominal, size_t count)
+{
+    (void)nominal, (void)count;
+    return not_offered(instance, "fmi3GetNominalsOfContinuousStates");
+}
+
+fmi3Status fmi3GetNumberOfEventIndicators(void *instance, size_t *count)
+{
+    (void)count;
+    return not_offered(instance, "fmi3GetNumberOfEventIndicators");
+}
+
+fmi3Status fmi3GetNumberOfContinuousStates(void *instance, size_t *count)
+{
+    (void)count;
+    return not_offered(instance, "fmi3GetNumberOfContinuousStates");
+}

@@ -1,0 +1,262 @@
+#include "fmu/fmu_description.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "launchdyn/version.h"
+
+enum { BASE_UNITS = 5, MOST_UNITS = 128 };
+
+static const char *const base_unit[BASE_UNITS] = {"kg", "m", "s", "K", "rad"};
+
+// A unit by powers of the base units.
+typedef struct derived_unit {
+    const char *name;
+    int power[BASE_UNITS];
+} derived_unit;
+
+static const derived_unit derived_units[] = {
+    {"N", {1, 1, -2, 0, 0}},  {"Pa", {1, -1, -2, 0, 0}}, {"J", {1, 2, -2, 0, 0}},
+    {"W", {1, 2, -3, 0, 0}},  {"Hz", {0, 0, -1, 0, 0}},  {"kg", {1, 0, 0, 0, 0}},
+    {"m", {0, 1, 0, 0, 0}},   {"s", {0, 0, 1, 0, 0}},    {"K", {0, 0, 0, 1, 0}},
+    {"rad", {0, 0, 0, 0, 1}}, {"1", {0, 0, 0, 0, 0}},
+};
+
+// Adds powers of one factor of a unit, "m2" or "rad"; false: none that whole powers tell.
+static bool add_factor(const char *text, size_t length, int sign, int power[BASE_UNITS])
+{
+    size_t letters = 0;
+    while (letters < length && isalpha((unsigned char)text[letters]))
+        letters++;
+    if (letters == 0 && length == 1 && *text == '1')
+        return true;
+    char *end;
+    long times = letters < length ? strtol(text + letters, &end, 10) : 1;
+    if (letters < length && end != text + length)
+        return false;
+    for (size_t i = 0; i < sizeof derived_units / sizeof *derived_units; i++) {
+        const derived_unit *unit = &derived_units[i];
+        if (strlen(unit->name) != letters || strncmp(unit->name, text, letters) != 0)
+            continue;
+        for (int k = 0; k < BASE_UNITS; k++)
+            power[k] += sign * (int)times * unit->power[k];
+        return true;
+    }
+    return false;
+}
+
+// "kg.m2/s", "N.m/rad/s": what stands behind each '/' divides.
+static bool powers_of(const char *unit, int power[BASE_UNITS])
+{
+    int sign = 1;
+    memset(power, 0, BASE_UNITS * sizeof *power);
+    while (*unit) {
+        size_t length = strcspn(unit, "./ ");
+        if (!add_factor(unit, length, sign, power))
+            return false;
+        unit += length;
+        sign = *unit == '/' ? -1 : 1;
+        unit += *unit != '\0';
+    }
+    return true;
+}
+
+static bool has_unit(const fmu_variable *variable)
+{
+    return *variable->unit && strcmp(variable->unit, "1") != 0;
+}
+
+static void write_unit(FILE *stream, const char *name)
+{
+    int power[BASE_UNITS];
+    fprintf(stream, "    <Unit name=\"%s\">", name);
+    if (powers_of(name, power)) {
+        fputs("<BaseUnit", stream);
+        for (int k = 0; k < BASE_UNITS; k++)
+            if (power[k] != 0)
+                fprintf(stream, " %s=\"%d\"", base_unit[k], power[k]);
+        fputs("/>", stream);
+    }
+    fputs("</Unit>\n", stream);
+}
+
+static void write_units(FILE *stream, const fmu_variables *variables)
+{
+    const char *known[MOST_UNITS];
+    int count = 0;
+    fputs("  <UnitDefinitions>\n", stream);
+    for (size_t i = 0; i < variables->count; i++) {
+        const fmu_variable *v = &variables->item[i];
+        bool told = !has_unit(v) || count == MOST_UNITS;
+        for (int k = 0; k < count && !told; k++)
+            told = strcmp(known[k], v->unit) == 0;
+        if (told)
+            continue;
+        known[count++] = v->unit;
+        write_unit(stream, v->unit);
+    }
+    fputs("  </UnitDefinitions>\n", stream);
+}
+
+static void write_text(FILE *stream, const char *text)
+{
+    for (; *text; text++)
+        switch (*text) {
+        case '&':
+            fputs("&amp;", stream);
+            break;
+        case '<':
+            fputs("&lt;", stream);
+            break;
+        case '>':
+            fputs("&gt;", stream);
+            break;
+        case '"':
+            fputs("&quot;", stream);
+            break;
+        default:
+            fputc((unsigned char)*text < ' ' ? ' ' : *text, stream);
+        }
+}
+
+// ---- variables ----
+
+static const char *causality_of(const fmu_variable *v)
+{
+    return v->group == FMU_TIME  ? "independent"
+           : fmu_is_input(v)     ? "input"
+           : fmu_is_parameter(v) ? "parameter"
+                                 : "output";
+}
+
+static const char *variability_of(const fmu_variable *v)
+{
+    return fmu_is_parameter(v)                                ? "fixed"
+           : v->group == FMU_IGNITE || v->group == FMU_RESULT ? "discrete"
+                                                              : "continuous";
+}
+
+static void write_head(FILE *stream, const fmu_variable *v, size_t reference)
+{
+    fprintf(stream, " name=\"");
+    write_text(stream, v->name);
+    fprintf(stream, "\" valueReference=\"%zu\" description=\"", reference);
+    write_text(stream, v->description);
+    fprintf(stream, "\" causality=\"%s\" variability=\"%s\"", causality_of(v), variability_of(v));
+}
+
+static void write_start(FILE *stream, const fmu_variable *v)
+{
+    if (fmu_is_boolean(v))
+        fprintf(stream, " start=\"%s\"", v->start != 0 ? "true" : "false");
+    else if (!isnan(v->start))
+        fprintf(stream, " start=\"%.17g\"", v->start);
+}
+
+static void write_unit_name(FILE *stream, const fmu_variable *v)
+{
+    if (has_unit(v))
+        fprintf(stream, " unit=\"%s\"", v->unit);
+}
+
+static void write_variable_2(FILE *stream, const fmu_variable *v, size_t reference)
+{
+    fputs("    <ScalarVariable", stream);
+    write_head(stream, v, reference);
+    if (fmu_is_text(v)) {
+        fputs("><String start=\"", stream);
+        write_text(stream, v->text);
+        fputs("\"/>", stream);
+    } else {
+        fputs(fmu_is_boolean(v) ? "><Boolean" : "><Real", stream);
+        write_unit_name(stream, v);
+        write_start(stream, v);
+        fputs("/>", stream);
+    }
+    fputs("</ScalarVariable>\n", stream);
+}
+
+static void write_variable_3(FILE *stream, const fmu_variable *v, size_t reference)
+{
+    const char *type = fmu_is_text(v) ? "String" : fmu_is_boolean(v) ? "Boolean" : "Float64";
+    fprintf(stream, "    <%s", type);
+    write_head(stream, v, reference);
+    if (fmu_is_text(v)) {
+        fputs("><Start value=\"", stream);
+        write_text(stream, v->text);
+        fputs("\"/></String>\n", stream);
+        return;
+    }
+    write_unit_name(stream, v);
+    write_start(stream, v);
+    fputs("/>\n", stream);
+}
+
+// ---- structure: outputs, and what is unknown at the start, which are the same ----
+
+static void write_structure(FILE *stream, const fmu_description *self)
+{
+    const fmu_variables *variables = self->variables;
+    fputs("  <ModelStructure>\n", stream);
+    for (int initial = 0; initial < 2; initial++) {
+        if (self->version == 2)
+            fputs(initial ? "    <InitialUnknowns>\n" : "    <Outputs>\n", stream);
+        for (size_t i = 0; i < variables->count; i++) {
+            if (!fmu_is_output(&variables->item[i]))
+                continue;
+            if (self->version == 2) // there counted from 1
+                fprintf(stream, "      <Unknown index=\"%zu\"/>\n", i + 1);
+            else
+                fprintf(stream, "    <%s valueReference=\"%zu\"/>\n",
+                        initial ? "InitialUnknown" : "Output", i);
+        }
+        if (self->version == 2)
+            fputs(initial ? "    </InitialUnknowns>\n" : "    </Outputs>\n", stream);
+    }
+    fputs("  </ModelStructure>\n", stream);
+}
+
+// ---- the whole ----
+
+static void write_root(FILE *stream, const fmu_description *self)
+{
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
+    fprintf(stream, "<fmiModelDescription fmiVersion=\"%s\" modelName=\"",
+            self->version == 2 ? "2.0" : "3.0");
+    write_text(stream, self->title);
+    fprintf(
+        stream,
+        "\"\n    %s=\"%s\"\n    generationTool=\"launchdyn %s\" variableNamingConvention=\"flat\"",
+        self->version == 2 ? "guid" : "instantiationToken", self->token, ld_version());
+    fprintf(stream, "%s>\n", self->version == 2 ? " numberOfEventIndicators=\"0\"" : "");
+}
+
+static void write_co_simulation(FILE *stream, int version)
+{
+    fputs("  <CoSimulation modelIdentifier=\"" FMU_MODEL_IDENTIFIER
+          "\" canHandleVariableCommunicationStepSize=\"true\"\n",
+          stream);
+    fputs(version == 2 ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
+                       : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
+                         "hasEventMode=\"true\"/>\n",
+          stream);
+}
+
+void fmu_description_write(const fmu_description *self, FILE *stream)
+{
+    write_root(stream, self);
+    write_co_simulation(stream, self->version);
+    write_units(stream, self->variables);
+    fputs("  <LogCategories><Category name=\"logStatusError\"/></LogCategories>\n", stream);
+    fprintf(stream, "  <DefaultExperiment startTime=\"%.17g\" tolerance=\"%.17g\"/>\n", self->start,
+            self->tolerance);
+    fputs("  <ModelVariables>\n", stream);
+    for (size_t i = 0; i < self->variables->count; i++)
+        (self->version == 2 ? write_variable_2 : write_variable_3)(stream,
+                                                                   &self->variables->item[i], i);
+    fputs("  </ModelVariables>\n", stream);
+    write_structure(stream, self);
+    fputs("</fmiModelDescription>\n", stream);
+}

@@ -1,0 +1,22 @@
+// modelDescription.xml of an FMU, for FMI 2.0 and 3.0.
+#ifndef LD_FMU_FMU_DESCRIPTION_H
+#define LD_FMU_FMU_DESCRIPTION_H
+
+#include <stdio.h>
+
+#include "fmu/fmu_variables.h"
+
+// The name of the binary in the FMU.
+#define FMU_MODEL_IDENTIFIER "launchdyn"
+
+typedef struct fmu_description {
+    int version; // of FMI: 2 or 3
+    const char *title, *token;
+    double start, tolerance; // [s]; of the run
+    const fmu_variables *variables;
+} fmu_description;
+
+// Writes it; what fails shows in the stream's error.
+void fmu_description_write(const fmu_description *self, FILE *stream);
+
+#endif

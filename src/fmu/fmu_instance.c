@@ -1,0 +1,631 @@
+#include "fmu/fmu_instance.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/archive.h"
+#include "base/numeric_locale.h"
+#include "base/text_file.h"
+#include "fmu/fmu_source.h"
+#include "fmu/fmu_variables.h"
+#include "launchdyn/scenario.h"
+#include "launchdyn/summary.h"
+#include "model/digest.h"
+#include "model/source.h"
+
+enum { PATH_SIZE = 4096, SET_SIZE = 2048, SAVED_TEXT = 1024, SCENARIO_BYTES = 64 << 20 };
+
+struct fmu_instance {
+    ld_source *source; // the scenario's texts
+    uint64_t scenario; // digest of what was understood
+    fmu_variables variables;
+
+    // what was set: [variables.count], by value reference
+    double *number; // NaN of what is calculated
+    char **text;    // NULL: as at the start
+    bool *changed;
+    double tolerance; // that the importer wants; 0: the scenario's
+    double start;     // [s] on the importer's clock; NaN: that of the run
+
+    ld_model *model;
+    ld_simulation *simulation;
+    uint64_t built_with; // digest of the parameters that these have
+    ld_run *run;         // NULL: not begun with what was set
+    bool going;
+    double ahead;       // [s] of the importer's clock against the run's
+    bool base_set;      // since the last step
+    ld_base_frame base; // that the run was told last, and when
+    double base_at;     // [s] on the run's clock
+    bool lit;           // the input of the last step
+    double *row;        // columns at the present
+    bool row_known;
+};
+
+static ld_status no_memory(ld_error *error)
+{
+    return ld_fail(error, LD_ERR_MEMORY, "no memory");
+}
+
+// ---- model, simulation, run ----
+
+static void end_run(fmu_instance *self)
+{
+    if (self->run)
+        ld_run_end(self->run, NULL, NULL);
+    self->run = NULL;
+    self->row_known = false;
+}
+
+static void unbuild(fmu_instance *self)
+{
+    end_run(self);
+    ld_simulation_free(self->simulation);
+    ld_model_free(self->model);
+    self->simulation = NULL;
+    self->model = NULL;
+}
+
+// The first message of the reader in one sentence.
+static ld_status told(const ld_messages *messages, ld_status status, ld_error *error)
+{
+    if (messages->count == 0)
+        return ld_fail(error, status, "no memory");
+    return ld_fail(error, status, "%s: %s", messages->item[0].path, messages->item[0].text);
+}
+
+// "path=value" of a parameter that was changed.
+static void write_set(const fmu_instance *self, size_t i, char *set)
+{
+    const fmu_variable *v = &self->variables.item[i];
+    if (fmu_is_text(v))
+        snprintf(set, SET_SIZE, "%s=%s", fmu_key_of(v), self->text[i]);
+    else
+        snprintf(set, SET_SIZE, "%s=%.17g %s", fmu_key_of(v), self->number[i], v->unit);
+}
+
+static bool is_set_key(const fmu_instance *self, size_t i)
+{
+    fmu_group group = self->variables.item[i].group;
+    return self->changed[i] && (group == FMU_NUMBER || group == FMU_TEXT);
+}
+
+// What the parameters are now.
+static uint64_t parameters_digest(const fmu_instance *self)
+{
+    uint64_t digest = digest_bytes(DIGEST_BEGIN, &self->tolerance, sizeof self->tolerance);
+    for (size_t i = 0; i < self->variables.count; i++) {
+        if (!is_set_key(self, i))
+            continue;
+        digest = digest_bytes(digest, &i, sizeof i);
+        digest = digest_bytes(digest, &self->number[i], sizeof self->number[i]);
+        if (self->text[i])
+            digest = digest_bytes(digest, self->text[i], strlen(self->text[i]));
+    }
+    return digest;
+}
+
+static bool add_sets(const fmu_instance *self, ld_source *source)
+{
+    char set[SET_SIZE];
+    bool fine = true;
+    for (size_t i = 0; i < self->variables.count && fine; i++)
+        if (is_set_key(self, i)) {
+            write_set(self, i, set);
+            fine = source_add_set(source, set);
+        }
+    if (fine && self->tolerance > 0) {
+        snprintf(set, sizeof set, "run.tolerance=%.17g", self->tolerance);
+        fine = source_add_set(source, set);
+    }
+    return fine;
+}
+
+static ld_status read_model(fmu_instance *self, ld_error *error)
+{
+    ld_messages messages = {0};
+    ld_source *source = source_copy(self->source);
+    if (!source)
+        return no_memory(error);
+    locale_t before = numeric_locale_enter();
+    ld_status status = add_sets(self, source) ? LD_OK : no_memory(error);
+    numeric_locale_leave(before);
+    if (!status) {
+        status = ld_scenario_read_source(source, 0, &self->model, &messages);
+        if (status)
+            told(&messages, status, error);
+        ld_messages_free(&messages);
+    }
+    source_free(source);
+    return status;
+}
+
+// A model whose columns are others than those that the FMU has cannot be told by it.
+static ld_status check_columns(const fmu_instance *self, ld_error *error)
+{
+    const ld_column *column;
+    size_t columns = ld_simulation_columns(self->simulation, &column), found = 0;
+    for (size_t i = 0; i < self->variables.count; i++) {
+        const fmu_variable *v = &self->variables.item[i];
+        if (v->group != FMU_COLUMN)
+            continue;
+        found++;
+        if ((size_t)v->index >= columns || strcmp(column[v->index].name, v->name) != 0)
+            return ld_fail(error, LD_ERR_INPUT,
+                           "with these parameters there is no output %s: export it with them",
+                           v->name);
+    }
+    return found + 1 == columns ? LD_OK
+                                : ld_fail(error, LD_ERR_INPUT,
+                                          "with these parameters there are %zu columns for %zu "
+                                          "outputs: export it with them",
+                                          columns, found + 1);
+}
+
+// Model and simulation with the parameters of now.
+static ld_status build(fmu_instance *self, ld_error *error)
+{
+    uint64_t digest = parameters_digest(self);
+    if (self->simulation && digest == self->built_with)
+        return LD_OK;
+    unbuild(self);
+    self->built_with = digest;
+    ld_status status = read_model(self, error);
+    if (!status)
+        status = ld_simulation_create(self->model, &self->simulation, error);
+    if (!status && self->variables.count > 0)
+        status = check_columns(self, error);
+    if (status)
+        unbuild(self);
+    return status;
+}
+
+static double number_of(const fmu_instance *self, fmu_group group, int index)
+{
+    for (size_t i = 0; i < self->variables.count; i++)
+        if (self->variables.item[i].group == group && self->variables.item[i].index == index)
+            return self->number[i];
+    return NAN;
+}
+
+// The base as it was told, its quaternion made of length 1.
+static ld_base_frame base_of(const fmu_instance *self)
+{
+    ld_base_frame base = fmu_base_at_origin();
+    double *part[FMU_BASE_INPUTS], length = 0;
+    for (int i = 0; i < 3; i++) {
+        part[i] = &base.position[i];
+        part[7 + i] = &base.velocity[i];
+        part[10 + i] = &base.rate[i];
+    }
+    for (int i = 0; i < 4; i++)
+        part[3 + i] = &base.quaternion[i];
+    for (size_t i = 0; i < self->variables.count; i++)
+        if (self->variables.item[i].group == FMU_BASE)
+            *part[self->variables.item[i].index] = self->number[i];
+    for (int i = 0; i < 4; i++)
+        length += base.quaternion[i] * base.quaternion[i];
+    for (int i = 0; i < 4 && length != 1; i++)
+        base.quaternion[i] /= sqrt(length);
+    return base;
+}
+
+ld_status fmu_begin(fmu_instance *self, ld_error *error)
+{
+    if (self->run)
+        return LD_OK;
+    ld_status status = build(self, error);
+    if (status)
+        return status;
+    self->base = base_of(self);
+    self->run = fmu_run_begin(self->simulation, self->variables.external, &self->base, error);
+    if (!self->run)
+        return error->status;
+    self->base_at = ld_run_time(self->run);
+    self->ahead = isnan(self->start) ? 0 : self->start - self->base_at;
+    self->base_set = false;
+    if (number_of(self, FMU_WAIT, 0) != 0 && ld_run_ignite(self->run, INFINITY, NULL))
+        status = ld_fail(error, LD_ERR_INPUT,
+                         "ignition_by_input wants a rocket that is not lit at the start: give "
+                         "scenario.run.lead_in, or a later firing");
+    if (status)
+        end_run(self);
+    return status;
+}
+
+ld_status fmu_go(fmu_instance *self, ld_error *error)
+{
+    ld_status status = fmu_begin(self, error);
+    self->going = !status;
+    return status;
+}
+
+// ---- instance ----
+
+static ld_status read_scenario(fmu_instance *self, const char *resources, const char *token,
+                               ld_error *error)
+{
+    char path[PATH_SIZE], own[FMU_TOKEN_SIZE], *text;
+    size_t length;
+    ld_error why;
+    snprintf(path, sizeof path, "%.4000s/" FMU_SCENARIO_FILE, resources);
+    ld_status status = text_file_read(path, SCENARIO_BYTES, &text, &length, &why);
+    if (status)
+        return ld_fail(error, status, "%.300s %s", path, why.text);
+    fmu_token(text, length, own);
+    self->scenario = digest_bytes(DIGEST_BEGIN, text, length);
+    free(text);
+    if (strcmp(token, own) != 0)
+        return ld_fail(error, LD_ERR_INPUT, "the token is %.100s, that of this FMU is %s", token,
+                       own);
+    self->source = fmu_source_read(resources, error);
+    return self->source ? LD_OK : error->status;
+}
+
+static ld_status make_room(fmu_instance *self, ld_error *error)
+{
+    const ld_column *column;
+    size_t count = self->variables.count;
+    self->number = malloc(count * sizeof *self->number);
+    self->text = calloc(count, sizeof *self->text);
+    self->changed = calloc(count, sizeof *self->changed);
+    self->row = calloc(ld_simulation_columns(self->simulation, &column), sizeof *self->row);
+    return self->number && self->text && self->changed && self->row ? LD_OK : no_memory(error);
+}
+
+fmu_instance *fmu_instance_new(const char *resources, const char *token, ld_error *error)
+{
+    fmu_instance *self = calloc(1, sizeof *self);
+    ld_status status = self ? read_scenario(self, resources, token, error) : no_memory(error);
+    if (!status)
+        status = build(self, error);
+    if (!status)
+        status = fmu_variables_make(self->model, self->simulation, &self->variables, error);
+    if (!status)
+        status = make_room(self, error);
+    if (!status)
+        status = fmu_instance_reset(self, error);
+    if (!status)
+        return self;
+    fmu_instance_free(self);
+    return NULL;
+}
+
+void fmu_instance_free(fmu_instance *self)
+{
+    if (!self)
+        return;
+    unbuild(self);
+    for (size_t i = 0; self->text && i < self->variables.count; i++)
+        free(self->text[i]);
+    fmu_variables_free(&self->variables);
+    source_free(self->source);
+    free(self->number);
+    free(self->text);
+    free(self->changed);
+    free(self->row);
+    free(self);
+}
+
+ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
+{
+    for (size_t i = 0; i < self->variables.count; i++) {
+        self->number[i] = self->variables.item[i].start;
+        self->changed[i] = false;
+        free(self->text[i]);
+        self->text[i] = NULL;
+    }
+    self->tolerance = 0;
+    self->start = NAN;
+    self->going = self->base_set = self->lit = false;
+    end_run(self);
+    return build(self, error);
+}
+
+ld_status fmu_set_experiment(fmu_instance *self, double start, double tolerance, ld_error *error)
+{
+    double usual = NAN;
+    if (self->going)
+        return ld_fail(error, LD_ERR_INPUT, "the run has begun");
+    ld_model_number(self->model, "run.tolerance", &usual, NULL);
+    if (!isfinite(start))
+        return ld_fail(error, LD_ERR_INPUT, "the start time is no number");
+    end_run(self);
+    self->start = start;
+    self->tolerance = tolerance > 0 && tolerance != usual ? tolerance : 0;
+    return LD_OK;
+}
+
+// ---- values ----
+
+typedef enum value_type { VALUE_NUMBER, VALUE_BOOLEAN, VALUE_TEXT } value_type;
+
+static value_type type_of(const fmu_variable *variable)
+{
+    return fmu_is_text(variable)      ? VALUE_TEXT
+           : fmu_is_boolean(variable) ? VALUE_BOOLEAN
+                                      : VALUE_NUMBER;
+}
+
+// NULL: there is none, or one of another type.
+static const fmu_variable *find(const fmu_instance *self, unsigned reference, value_type type,
+                                ld_error *error)
+{
+    if (reference >= self->variables.count) {
+        ld_fail(error, LD_ERR_INPUT, "there is no variable %u", reference);
+        return NULL;
+    }
+    const fmu_variable *variable = &self->variables.item[reference];
+    if (type_of(variable) == type)
+        return variable;
+    ld_fail(error, LD_ERR_INPUT, "%s is of another type", variable->name);
+    return NULL;
+}
+
+static ld_status output(fmu_instance *self, const fmu_variable *variable, double *value,
+                        ld_error *error)
+{
+    ld_base_wrench wrench;
+    ld_status status = fmu_begin(self, error);
+    if (status)
+        return status;
+    switch (variable->group) {
+    case FMU_TIME:
+        *value = ld_run_time(self->run) + self->ahead;
+        return LD_OK;
+    case FMU_WRENCH:
+        status = ld_run_base_wrench(self->run, &wrench, error);
+        *value = variable->index < 3 ? wrench.force[variable->index]
+                                     : wrench.moment[variable->index - 3];
+        return status;
+    case FMU_COLUMN:
+        if (!self->row_known)
+            status = ld_run_row(self->run, self->row, error);
+        self->row_known = !status;
+        *value = self->row[variable->index];
+        return status;
+    default:
+        return ld_summary_number(ld_run_summary(self->run), variable->name + strlen("summary."),
+                                 value, error);
+    }
+}
+
+ld_status fmu_get_number(fmu_instance *self, unsigned reference, bool boolean, double *value,
+                         ld_error *error)
+{
+    const fmu_variable *variable =
+        find(self, reference, boolean ? VALUE_BOOLEAN : VALUE_NUMBER, error);
+    *value = NAN;
+    if (!variable)
+        return LD_ERR_INPUT;
+    if (variable->group == FMU_TIME || fmu_is_output(variable))
+        return output(self, variable, value, error);
+    *value = self->number[reference];
+    return LD_OK;
+}
+
+ld_status fmu_get_text(fmu_instance *self, unsigned reference, const char **text, ld_error *error)
+{
+    const fmu_variable *variable = find(self, reference, VALUE_TEXT, error);
+    *text = "";
+    if (!variable)
+        return LD_ERR_INPUT;
+    *text = self->text[reference] ? self->text[reference] : variable->text;
+    return LD_OK;
+}
+
+// What is set holds from the next step on, or, before the run goes, from its start on.
+static ld_status take_change(fmu_instance *self, const fmu_variable *variable, unsigned reference,
+                             ld_error *error)
+{
+    if (!fmu_is_input(variable) && !fmu_is_parameter(variable))
+        return ld_fail(error, LD_ERR_INPUT, "%s is no input and no parameter", variable->name);
+    if (fmu_is_parameter(variable) && self->going)
+        return ld_fail(error, LD_ERR_INPUT, "%s is fixed once the run has begun", variable->name);
+    if (!self->going)
+        end_run(self);
+    self->base_set |= variable->group == FMU_BASE;
+    self->changed[reference] = true;
+    return LD_OK;
+}
+
+ld_status fmu_set_number(fmu_instance *self, unsigned reference, bool boolean, double value,
+                         ld_error *error)
+{
+    const fmu_variable *variable =
+        find(self, reference, boolean ? VALUE_BOOLEAN : VALUE_NUMBER, error);
+    if (!variable)
+        return LD_ERR_INPUT;
+    if (!isfinite(value))
+        return ld_fail(error, LD_ERR_INPUT, "%s cannot be %g", variable->name, value);
+    ld_status status = take_change(self, variable, reference, error);
+    if (!status)
+        self->number[reference] = value;
+    return status;
+}
+
+ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text, ld_error *error)
+{
+    const fmu_variable *variable = find(self, reference, VALUE_TEXT, error);
+    if (!variable)
+        return LD_ERR_INPUT;
+    if (strlen(text) >= SAVED_TEXT)
+        return ld_fail(error, LD_ERR_INPUT, "the text of %s is too long", variable->name);
+    char *copy = strdup(text);
+    ld_status status = copy ? take_change(self, variable, reference, error) : no_memory(error);
+    if (status) {
+        free(copy);
+        return status;
+    }
+    free(self->text[reference]);
+    self->text[reference] = copy;
+    return LD_OK;
+}
+
+// ---- steps ----
+
+// Once at an instant, unless it says something else then.
+static ld_status tell_base(fmu_instance *self, ld_error *error)
+{
+    ld_base_frame base = base_of(self);
+    double now = ld_run_time(self->run);
+    self->base_set = false;
+    if (now == self->base_at &&
+        memcmp((const char *)&base, (const char *)&self->base, sizeof base) == 0)
+        return LD_OK;
+    self->base = base;
+    self->base_at = now;
+    self->row_known = false;
+    return ld_run_tell_base(self->run, &base, error);
+}
+
+// Tells the run what was set since the last step.
+static ld_status apply_inputs(fmu_instance *self, ld_error *error)
+{
+    ld_status status = LD_OK;
+    bool lit = number_of(self, FMU_IGNITE, 0) != 0;
+    if (self->base_set)
+        status = tell_base(self, error);
+    if (!status && lit && !self->lit)
+        status = ld_run_ignite(self->run, ld_run_time(self->run), error);
+    self->lit = lit;
+    return status;
+}
+
+// Whether an importer wants to hear of it: not what happens to wheels and walls many times.
+static bool is_told(const ld_event *event)
+{
+    return event->kind == LD_EVENT_IGNITION || event->kind == LD_EVENT_RELEASE ||
+           event->kind == LD_EVENT_EXIT || event->kind == LD_EVENT_TUBE ||
+           event->kind == LD_EVENT_END;
+}
+
+static ld_status go_to_event(fmu_instance *self, double end, bool *found, ld_error *error)
+{
+    ld_event event;
+    ld_status status;
+    do
+        status = ld_run_advance_to_event(self->run, end, &event, error);
+    while (!status && event.kind != LD_EVENT_NONE && !is_told(&event));
+    *found = !status && event.kind != LD_EVENT_NONE;
+    return status;
+}
+
+ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events, fmu_step *step,
+                      ld_error *error)
+{
+    double now = self->run ? ld_run_time(self->run) + self->ahead : NAN,
+           end = t + size - self->ahead;
+    *step = (fmu_step){.t = now};
+    if (!self->going)
+        return ld_fail(error, LD_ERR_INPUT, "the run has not begun");
+    if (!(fabs(t - now) <= 1e-9 * fmax(1, fabs(t))) || !(size >= 0) || !isfinite(t + size))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a step of %.17g s from %.17g s, where the run is at %.17g s", size, t, now);
+    ld_status status = apply_inputs(self, error);
+    self->row_known = false;
+    if (!status && at_events)
+        status = go_to_event(self, end, &step->event, error);
+    else if (!status)
+        status = ld_run_advance(self->run, end, error);
+    step->t = ld_run_time(self->run) + self->ahead;
+    step->ended = ld_run_is_finished(self->run);
+    return status;
+}
+
+// ---- states ----
+
+static const int64_t MAGIC = INT64_C(0x554d4664796c31), FORM = 1;
+
+static void archive_set_text(fmu_instance *self, archive *state, size_t i)
+{
+    char text[SAVED_TEXT] = "";
+    bool there = self->text[i] != NULL;
+    archive_bool(state, &there);
+    if (!there) {
+        if (state->loading) {
+            free(self->text[i]);
+            self->text[i] = NULL;
+        }
+        return;
+    }
+    if (!state->loading)
+        snprintf(text, sizeof text, "%s", self->text[i]);
+    archive_text(state, text, sizeof text);
+    if (state->loading) {
+        free(self->text[i]);
+        self->text[i] = strdup(text);
+        state->failed |= !self->text[i];
+    }
+}
+
+// All but the run; `run_size` bytes of that follow.
+static void archive_head(fmu_instance *self, archive *state, int64_t *run_size)
+{
+    archive_expect(state, MAGIC);
+    archive_expect(state, FORM);
+    archive_expect(state, (int64_t)self->scenario);
+    archive_double(state, &self->tolerance);
+    archive_double(state, &self->start);
+    archive_double(state, &self->ahead);
+    archive_bool(state, &self->going);
+    archive_bool(state, &self->base_set);
+    archive_doubles(state, self->base.position, 3);
+    archive_doubles(state, self->base.quaternion, 4);
+    archive_doubles(state, self->base.velocity, 3);
+    archive_doubles(state, self->base.rate, 3);
+    archive_double(state, &self->base_at);
+    archive_bool(state, &self->lit);
+    for (size_t i = 0; i < self->variables.count; i++)
+        if (fmu_is_input(&self->variables.item[i]) || fmu_is_parameter(&self->variables.item[i])) {
+            archive_double(state, &self->number[i]);
+            archive_bool(state, &self->changed[i]);
+            archive_set_text(self, state, i);
+        }
+    archive_count(state, run_size);
+}
+
+ld_status fmu_save(fmu_instance *self, unsigned char **bytes, size_t *size, ld_error *error)
+{
+    size_t run_size = 0;
+    archive count = archive_save(NULL, 0);
+    *bytes = NULL;
+    if (self->run) {
+        ld_run_save(self->run, NULL, 0, &run_size, error);
+        if (run_size == 0)
+            return error->status;
+    }
+    int64_t following = (int64_t)run_size;
+    archive_head(self, &count, &following);
+    *size = count.at + run_size;
+    *bytes = malloc(*size);
+    if (!*bytes)
+        return no_memory(error);
+    archive state = archive_save(*bytes, count.at);
+    archive_head(self, &state, &following);
+    ld_status status = LD_OK;
+    if (self->run)
+        status = ld_run_save(self->run, *bytes + count.at, run_size, &run_size, error);
+    if (status) {
+        free(*bytes);
+        *bytes = NULL;
+    }
+    return status;
+}
+
+ld_status fmu_load(fmu_instance *self, const unsigned char *bytes, size_t size, ld_error *error)
+{
+    int64_t following = 0;
+    archive state = archive_load(bytes, size);
+    end_run(self);
+    archive_head(self, &state, &following);
+    if (state.failed || state.at + (size_t)following != size)
+        return ld_fail(error, LD_ERR_INPUT, "this is no state of this FMU, or a damaged one");
+    ld_status status = build(self, error);
+    if (!status && following > 0)
+        status = ld_run_load(self->simulation, NULL, bytes + state.at, (size_t)following,
+                             &self->run, error);
+    return status;
+}

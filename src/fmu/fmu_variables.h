@@ -1,0 +1,74 @@
+// The variables of an FMU: what its description lists, and what its instances count by the same
+// numbers (value references).
+#ifndef LD_FMU_FMU_VARIABLES_H
+#define LD_FMU_FMU_VARIABLES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "launchdyn/run.h"
+
+// In the order in which they are counted.
+typedef enum fmu_group {
+    FMU_TIME,   // independent
+    FMU_BASE,   // inputs: where an external base is and how it moves, as ld_base_frame
+    FMU_IGNITE, // input: becomes true, and the waiting rocket is lit
+    FMU_WAIT,   // parameter: no rocket is lit but by the input
+    FMU_NUMBER, // parameters: keys of the scenario
+    FMU_TEXT,
+    FMU_WRENCH, // outputs: what the tube does to its base, as ld_base_wrench
+    FMU_COLUMN, // columns of the history
+    FMU_RESULT, // numbers of the rockets' summary, NaN until they are known
+} fmu_group;
+
+enum { FMU_BASE_INPUTS = 13, FMU_WRENCH_OUTPUTS = 6 };
+
+typedef struct fmu_variable {
+    fmu_group group;
+    int index;         // in its group, from 0
+    char *name;        // "input.base.position.x", "scenario.rocket.mass", "tip.y"
+    char *unit;        // SI; "" without
+    char *description; // one line
+    double start;      // of numbers and of what is true (1) or false (0); NaN: calculated
+    char *text;        // start of texts; NULL
+} fmu_variable;
+
+typedef struct fmu_variables {
+    size_t count, capacity;
+    fmu_variable *item;
+    double start;  // [s] of the run's clock
+    bool external; // the base is told where it is
+} fmu_variables;
+
+// Those of a simulation of `model`. fmu_variables_free() is due in any case.
+// Returns LD_OK, LD_ERR_MEMORY, LD_ERR_INPUT (a flight alone), or why no run of it begins.
+ld_status fmu_variables_make(const ld_model *model, const ld_simulation *simulation,
+                             fmu_variables *self, ld_error *error);
+void fmu_variables_free(fmu_variables *self);
+
+bool fmu_is_boolean(const fmu_variable *variable);
+bool fmu_is_text(const fmu_variable *variable);
+bool fmu_is_input(const fmu_variable *variable);
+bool fmu_is_parameter(const fmu_variable *variable);
+bool fmu_is_output(const fmu_variable *variable);
+
+// The key's path of a parameter that is one.
+const char *fmu_key_of(const fmu_variable *variable);
+
+// What an FMU's resources hold: the scenario that was understood, all in SI.
+#define FMU_SCENARIO_FILE "scenario.yaml"
+
+enum { FMU_TOKEN_SIZE = 48 };
+
+// The token of the FMU of a scenario's text: that of this version of the program and of that text.
+void fmu_token(const char *scenario, size_t length, char token[FMU_TOKEN_SIZE]);
+
+// Begins a run of a simulation whose base, where it is external, is at `base`; NULL after a
+// failure.
+ld_run *fmu_run_begin(const ld_simulation *simulation, bool external, const ld_base_frame *base,
+                      ld_error *error);
+
+// A base that rests at the origin, its tube along x: what holds until it is told otherwise.
+ld_base_frame fmu_base_at_origin(void);
+
+#endif

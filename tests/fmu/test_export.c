@@ -1,0 +1,603 @@
+// FMUs for co-simulation, by an importer of our own: what they tell is what the library tells, to
+// the bit, in steps of any length; states come back to the bit; early returns stand at the events;
+// what is wrong is refused with a line of the log.
+// link: -ldl
+#include <pthread.h>
+
+#include "fmu/fmi2_interface.h"
+#include "fmu/fmi3_interface.h"
+#include "launchdyn/run.h"
+#include "launchdyn/scenario.h"
+#include "launchdyn/summary.h"
+#include "support/fmu.h"
+
+#define EXAMPLE(name) LD_SOURCE_DIR "/examples/" name ".yaml"
+
+// ---- the library ----
+
+typedef struct library {
+    ld_model *model;
+    ld_simulation *simulation;
+    ld_run *run;
+} library;
+
+static library library_begin(const char *scenario, const char *set, const ld_base_frame *base)
+{
+    library self;
+    ld_messages messages;
+    ld_error error;
+    assert_int_equal(ld_scenario_read(scenario, &set, set != NULL, &self.model, &messages), LD_OK);
+    assert_int_equal(ld_simulation_create(self.model, &self.simulation, &error), LD_OK);
+    assert_int_equal(
+        ld_run_begin(self.simulation, &(ld_run_options){.base = base}, &self.run, &error), LD_OK);
+    return self;
+}
+
+static void library_end(library *self)
+{
+    ld_run_end(self->run, NULL, NULL);
+    ld_simulation_free(self->simulation);
+    ld_model_free(self->model);
+}
+
+static double told(library *self, const char *name)
+{
+    double value;
+    ld_error error;
+    ld_base_wrench wrench;
+    if (strncmp(name, "summary.", 8) == 0) {
+        assert_int_equal(ld_summary_number(ld_run_summary(self->run), name + 8, &value, &error),
+                         LD_OK);
+    } else if (strcmp(name, "wrench.moment.z") == 0) {
+        assert_int_equal(ld_run_base_wrench(self->run, &wrench, &error), LD_OK);
+        value = wrench.moment[2];
+    } else {
+        assert_int_equal(ld_run_number(self->run, name, &value, &error), LD_OK);
+    }
+    return value;
+}
+
+// ---- FMI 3 ----
+
+static char logged[2048];
+
+static void keep_log(void *environment, fmi3Status status, const char *category,
+                     const char *message)
+{
+    (void)environment;
+    assert_int_equal(status, fmi3Error);
+    assert_string_equal(category, "logStatusError");
+    snprintf(logged, sizeof logged, "%s", message);
+}
+
+static void *begin_3(const unpacked_fmu *fmu, bool at_events)
+{
+    void *instance = FMU_FUNCTION(fmu, fmi3InstantiateCoSimulation)(
+        "one", fmu->token, fmu->resources, false, false, at_events, at_events, NULL, 0, NULL,
+        keep_log, NULL);
+    assert_non_null(instance);
+    return instance;
+}
+
+static void start_3(const unpacked_fmu *fmu, void *instance, double start)
+{
+    assert_int_equal(
+        FMU_FUNCTION(fmu, fmi3EnterInitializationMode)(instance, false, 0, start, false, 0),
+        fmi3OK);
+    assert_int_equal(FMU_FUNCTION(fmu, fmi3ExitInitializationMode)(instance), fmi3OK);
+}
+
+typedef struct taken_step {
+    bool event, terminate, early;
+    double t;
+} taken_step;
+
+static taken_step step_3(const unpacked_fmu *fmu, void *instance, double t, double size)
+{
+    taken_step s;
+    assert_int_equal(FMU_FUNCTION(fmu, fmi3DoStep)(instance, t, size, true, &s.event, &s.terminate,
+                                                   &s.early, &s.t),
+                     fmi3OK);
+    return s;
+}
+
+static double value_3(const unpacked_fmu *fmu, void *instance, const char *name)
+{
+    uint32_t reference = reference_of(fmu, name);
+    double value;
+    assert_int_equal(FMU_FUNCTION(fmu, fmi3GetFloat64)(instance, &reference, 1, &value, 1), fmi3OK);
+    return value;
+}
+
+static fmi3Status set_3(const unpacked_fmu *fmu, void *instance, const char *name, double value)
+{
+    uint32_t reference = reference_of(fmu, name);
+    return FMU_FUNCTION(fmu, fmi3SetFloat64)(instance, &reference, 1, &value, 1);
+}
+
+static const char *const outputs[] = {"rocket.s",
+                                      "tip.y",
+                                      "rocket.pitch_rate",
+                                      "energy.kinetic",
+                                      "wrench.moment.z",
+                                      "summary.rocket.1.t_release",
+                                      "summary.rocket.1.muzzle_speed"};
+enum { OUTPUTS = sizeof outputs / sizeof *outputs };
+
+static bool same(double a, double b)
+{
+    return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
+}
+
+static int count_unequal(const unpacked_fmu *fmu, void *instance, library *by)
+{
+    int unequal = 0;
+    for (int i = 0; i < OUTPUTS; i++)
+        unequal += !same(value_3(fmu, instance, outputs[i]), told(by, outputs[i]));
+    return unequal;
+}
+
+static void tells_what_the_library_tells(void **state)
+{
+    (void)state;
+    static const char *const scenarios[] = {EXAMPLE("fixed"), EXAMPLE("ship"), EXAMPLE("smooth")};
+    for (int i = 0; i < 3; i++) {
+        unpacked_fmu fmu = fmu_open(scenarios[i], 3);
+        library by = library_begin(scenarios[i], NULL, NULL);
+        void *instance = begin_3(&fmu, false);
+        double t = ld_run_time(by.run);
+        int unequal = 0, steps = 0;
+        start_3(&fmu, instance, t);
+        for (; steps < 60; steps++) {
+            double size = 1e-4 * (1 + steps * 7 % 60);
+            unequal += count_unequal(&fmu, instance, &by);
+            assert_true(same(value_3(&fmu, instance, "time"), t));
+            taken_step s = step_3(&fmu, instance, t, size);
+            assert_int_equal(ld_run_advance(by.run, t + size, NULL), LD_OK);
+            if (s.terminate)
+                break;
+            t += size;
+            assert_true(same(s.t, t));
+        }
+        CHECK_BELOW("outputs that differ from the library's", unequal, 0);
+        FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+        library_end(&by);
+        fmu_close(&fmu);
+    }
+}
+
+static void returns_at_events(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
+    library by = library_begin(EXAMPLE("fixed"), NULL, NULL);
+    void *instance = begin_3(&fmu, true);
+    double t = 0, worst = 0;
+    int events = 0;
+    bool ended = false;
+    start_3(&fmu, instance, t);
+    while (!ended) {
+        ld_event event;
+        bool again, terminate, nominals, values, defined;
+        double next;
+        taken_step s = step_3(&fmu, instance, t, 0.05);
+        t = s.t;
+        ended = s.terminate;
+        if (!s.event)
+            continue;
+        do
+            assert_int_equal(ld_run_advance_to_event(by.run, INFINITY, &event, NULL), LD_OK);
+        while (event.kind != LD_EVENT_RELEASE && event.kind != LD_EVENT_EXIT &&
+               event.kind != LD_EVENT_END && event.kind != LD_EVENT_IGNITION);
+        worst = fmax(worst, fabs(event.t - t));
+        events++;
+        assert_int_equal(FMU_FUNCTION(&fmu, fmi3EnterEventMode)(instance), fmi3OK);
+        assert_int_equal(FMU_FUNCTION(&fmu, fmi3UpdateDiscreteStates)(
+                             instance, &again, &terminate, &nominals, &values, &defined, &next),
+                         fmi3OK);
+        assert_true(!again && !values && !defined && terminate == ended);
+        assert_int_equal(FMU_FUNCTION(&fmu, fmi3EnterStepMode)(instance), fmi3OK);
+    }
+    CHECK_BELOW("instants of release, exits and end [s]", worst, 0);
+    assert_int_equal(events, 5);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    library_end(&by);
+    fmu_close(&fmu);
+}
+
+static void parameters_are_overrides(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
+    library by = library_begin(EXAMPLE("fixed"), "rocket.mass=61 kg", NULL);
+    void *instance = begin_3(&fmu, false);
+    uint32_t law = reference_of(&fmu, "scenario.rocket.contact.law");
+    const char *word;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetString)(instance, &law, 1, &word, 1), fmi3OK);
+    assert_string_equal(word, "hunt-crossley");
+    CHECK_BELOW("start of a parameter", value_3(&fmu, instance, "scenario.rocket.mass") - 60, 0);
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", 61), fmi3OK);
+    start_3(&fmu, instance, 0);
+    step_3(&fmu, instance, 0, 0.1);
+    assert_int_equal(ld_run_advance(by.run, 0.1, NULL), LD_OK);
+    CHECK_BELOW("outputs that differ from those of the override",
+                count_unequal(&fmu, instance, &by), 0);
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", 62), fmi3Error);
+    assert_string_equal(logged, "scenario.rocket.mass is fixed once the run has begun");
+
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3Reset)(instance), fmi3OK);
+    CHECK_BELOW("a parameter after a reset", value_3(&fmu, instance, "scenario.rocket.mass") - 60,
+                0);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    library_end(&by);
+    fmu_close(&fmu);
+}
+
+static void states_come_back(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("ship"), 3);
+    void *instance = begin_3(&fmu, false), *other = begin_3(&fmu, false), *saved = NULL,
+         *back = NULL;
+    size_t size;
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", 61), fmi3OK);
+    start_3(&fmu, instance, 0);
+    step_3(&fmu, instance, 0, 0.0307);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetFMUState)(instance, &saved), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SerializedFMUStateSize)(instance, saved, &size),
+                     fmi3OK);
+    uint8_t *bytes = malloc(size);
+    assert_non_null(bytes);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SerializeFMUState)(instance, saved, bytes, size - 1),
+                     fmi3Error);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SerializeFMUState)(instance, saved, bytes, size),
+                     fmi3OK);
+
+    double first[OUTPUTS];
+    int unequal = 0;
+    step_3(&fmu, instance, 0.0307, 0.05);
+    for (int i = 0; i < OUTPUTS; i++)
+        first[i] = value_3(&fmu, instance, outputs[i]);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetFMUState)(instance, saved), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3DeserializeFMUState)(other, bytes, size, &back),
+                     fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetFMUState)(other, back), fmi3OK);
+    void *const again[] = {instance, other};
+    for (int k = 0; k < 2; k++) {
+        step_3(&fmu, again[k], 0.0307, 0.05);
+        for (int i = 0; i < OUTPUTS; i++)
+            unequal += !same(first[i], value_3(&fmu, again[k], outputs[i]));
+    }
+    CHECK_BELOW("outputs that differ after a state came back", unequal, 0);
+
+    bytes[size / 2] ^= 4;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3FreeFMUState)(other, &back), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3DeserializeFMUState)(other, bytes, size, &back),
+                     fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetFMUState)(other, back), fmi3Error);
+    FMU_FUNCTION(&fmu, fmi3FreeFMUState)(other, &back);
+    FMU_FUNCTION(&fmu, fmi3FreeFMUState)(instance, &saved);
+    assert_null(saved);
+    free(bytes);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(other);
+    fmu_close(&fmu);
+}
+
+// ---- a base that is told where it is ----
+
+static ld_base_frame swaying(double t)
+{
+    double angle = 0.3 + 0.02 * sin(3 * t);
+    return (ld_base_frame){.position = {8 * t, 0.05 * sin(5 * t), 0},
+                           .quaternion = {cos(angle / 2), 0, 0, sin(angle / 2)},
+                           .velocity = {8, 0.25 * cos(5 * t), 0},
+                           .rate = {0, 0, 0.06 * cos(3 * t)}};
+}
+
+static void tell_3(const unpacked_fmu *fmu, void *instance, const ld_base_frame *base)
+{
+    static const char *const axis[] = {"x", "y", "z"};
+    char name[64];
+    for (int i = 0; i < 3; i++) {
+        snprintf(name, sizeof name, "input.base.position.%s", axis[i]);
+        assert_int_equal(set_3(fmu, instance, name, base->position[i]), fmi3OK);
+        snprintf(name, sizeof name, "input.base.velocity.%s", axis[i]);
+        assert_int_equal(set_3(fmu, instance, name, base->velocity[i]), fmi3OK);
+        snprintf(name, sizeof name, "input.base.rate.%s", axis[i]);
+        assert_int_equal(set_3(fmu, instance, name, base->rate[i]), fmi3OK);
+    }
+    for (int i = 0; i < 4; i++) {
+        snprintf(name, sizeof name, "input.base.quaternion.%d", i);
+        assert_int_equal(set_3(fmu, instance, name, base->quaternion[i]), fmi3OK);
+    }
+}
+
+static void moves_with_its_base(void **state)
+{
+    (void)state;
+    const char *scenario = "external.yaml";
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", shell.folder, scenario);
+    assert_int_equal(run("sed -e 's/kind: fixed/kind: external/; /elevation:/d' -e "
+                         "'s/^run:/run:\\n  lead_in: 0.1 s/' examples/fixed.yaml >external.yaml"),
+                     0);
+    unpacked_fmu fmu = fmu_open(scenario, 3);
+    ld_base_frame base = swaying(-0.1);
+    library by = library_begin(path, NULL, &base);
+    void *instance = begin_3(&fmu, false);
+    int unequal = 0;
+    tell_3(&fmu, instance, &base);
+    start_3(&fmu, instance, -0.1);
+    for (int i = 0; i < 200; i++) {
+        double t = -0.1 + i * 1e-3, size = -0.1 + (i + 1) * 1e-3 - t;
+        base = swaying(t);
+        tell_3(&fmu, instance, &base);
+        if (i > 0)
+            assert_int_equal(ld_run_tell_base(by.run, &base, NULL), LD_OK);
+        step_3(&fmu, instance, t, size);
+        assert_int_equal(ld_run_advance(by.run, t + size, NULL), LD_OK);
+        unequal += count_unequal(&fmu, instance, &by);
+    }
+    CHECK_BELOW("outputs that differ, on a base that is told", unequal, 0);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    library_end(&by);
+    fmu_close(&fmu);
+}
+
+// ---- ignition by the input ----
+
+static void waits_for_the_input(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
+    void *instance = begin_3(&fmu, false);
+    uint32_t wait = reference_of(&fmu, "ignition_by_input"),
+             light = reference_of(&fmu, "input.ignition");
+    bool yes = true;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetBoolean)(instance, &wait, 1, &yes, 1), fmi3OK);
+    assert_int_equal(set_3(&fmu, instance, "scenario.run.lead_in", 0.02), fmi3OK);
+    start_3(&fmu, instance, 10); // the importer's clock is another one
+    step_3(&fmu, instance, 10, 0.05);
+    CHECK_BELOW("thrust before the input [N]", value_3(&fmu, instance, "thrust"), 0);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetBoolean)(instance, &light, 1, &yes, 1), fmi3OK);
+    step_3(&fmu, instance, 10.05, 0.15);
+    const double ahead = 10 - -0.02;
+    library by = library_begin(EXAMPLE("fixed"), "run.lead_in=0.02 s", NULL);
+    assert_int_equal(ld_run_ignite(by.run, INFINITY, NULL), LD_OK);
+    assert_int_equal(ld_run_advance(by.run, 10.05 - ahead, NULL), LD_OK);
+    assert_int_equal(ld_run_ignite(by.run, ld_run_time(by.run), NULL), LD_OK);
+    assert_int_equal(ld_run_advance(by.run, 10.05 + 0.15 - ahead, NULL), LD_OK);
+    CHECK_BELOW("outputs that differ, lit by the input", count_unequal(&fmu, instance, &by), 0);
+    CHECK_WITHIN("travel then [m]", value_3(&fmu, instance, "rocket.s"), 1, 4);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    library_end(&by);
+    fmu_close(&fmu);
+}
+
+// ---- FMI 2, and what is wrong ----
+
+static void keep_log_2(void *environment, const char *name, fmi2Status status, const char *category,
+                       const char *message, ...)
+{
+    va_list arguments;
+    (void)environment, (void)category;
+    assert_int_equal(status, fmi2Error);
+    assert_string_equal(name, "two");
+    va_start(arguments, message);
+    vsnprintf(logged, sizeof logged, message, arguments);
+    va_end(arguments);
+}
+
+static void speaks_version_2(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 2);
+    library by = library_begin(EXAMPLE("fixed"), NULL, NULL);
+    const fmi2CallbackFunctions call = {.logger = keep_log_2};
+    char uri[256];
+    snprintf(uri, sizeof uri, "file://localhost%s", fmu.resources);
+    char *at = strstr(uri, "unpacked"); // its first letter as %75
+    memmove(at + 3, at + 1, strlen(at));
+    memcpy(at, "%75", 3);
+    void *c =
+        FMU_FUNCTION(&fmu, fmi2Instantiate)("two", fmi2CoSimulation, fmu.token, uri, &call, 0, 0);
+    assert_non_null(c);
+    assert_string_equal(FMU_FUNCTION(&fmu, fmi2GetVersion)(), "2.0");
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2SetupExperiment)(c, 0, 0, 0, 0, 0), fmi2OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2EnterInitializationMode)(c), fmi2OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2ExitInitializationMode)(c), fmi2OK);
+    double t = 0, value;
+    int unequal = 0, ended = 0;
+    while (!ended) {
+        fmi2Status status = FMU_FUNCTION(&fmu, fmi2DoStep)(c, t, 0.02, 1);
+        assert_int_equal(ld_run_advance(by.run, t + 0.02, NULL), LD_OK);
+        assert_int_equal(FMU_FUNCTION(&fmu, fmi2GetBooleanStatus)(c, fmi2Terminated, &ended),
+                         fmi2OK);
+        assert_int_equal(status, ended ? fmi2Discard : fmi2OK);
+        assert_int_equal(FMU_FUNCTION(&fmu, fmi2GetRealStatus)(c, fmi2LastSuccessfulTime, &t),
+                         fmi2OK);
+        for (int i = 0; i < OUTPUTS; i++) {
+            unsigned reference = reference_of(&fmu, outputs[i]);
+            assert_int_equal(FMU_FUNCTION(&fmu, fmi2GetReal)(c, &reference, 1, &value), fmi2OK);
+            unequal += !same(value, told(&by, outputs[i]));
+        }
+    }
+    CHECK_BELOW("outputs that differ from the library's, FMI 2", unequal, 0);
+    CHECK_BELOW("where the launch ends [s]", t - ld_run_time(by.run), 0);
+
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2DoStep)(c, t + 1, 0.02, 1), fmi2Error);
+    assert_non_null(strstr(logged, "where the run is at"));
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2SetTime)(c, 0), fmi2Error);
+    assert_string_equal(logged, "fmi2SetTime: this FMU does not offer it");
+    unsigned none = 100000, output = reference_of(&fmu, "tip.y");
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2GetReal)(c, &none, 1, &value), fmi2Error);
+    assert_string_equal(logged, "there is no variable 100000");
+    value = 1;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2SetReal)(c, &output, 1, &value), fmi2Error);
+    assert_string_equal(logged, "tip.y is no input and no parameter");
+    int truth;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2GetBoolean)(c, &output, 1, &truth), fmi2Error);
+    assert_string_equal(logged, "tip.y is of another type");
+    FMU_FUNCTION(&fmu, fmi2FreeInstance)(c);
+    assert_null(
+        FMU_FUNCTION(&fmu, fmi2Instantiate)("two", fmi2CoSimulation, "{other}", uri, &call, 0, 0));
+    assert_non_null(strstr(logged, "the token is {other}, that of this FMU is {launchdyn-"));
+    library_end(&by);
+    fmu_close(&fmu);
+}
+
+static void refuses_wrong_values(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
+    void *instance = begin_3(&fmu, false);
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", -1), fmi3OK);
+    assert_int_equal(
+        FMU_FUNCTION(&fmu, fmi3EnterInitializationMode)(instance, false, 0, 0, false, 0), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3ExitInitializationMode)(instance), fmi3Error);
+    assert_string_equal(
+        logged, "rocket.mass: found \"-1 kg\"; expected a number with a unit of kg, > 0 kg");
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", NAN), fmi3Error);
+    assert_string_equal(logged, "scenario.rocket.mass cannot be nan");
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3Reset)(instance), fmi3OK);
+    assert_int_equal(set_3(&fmu, instance, "scenario.tubes.modes.bending", 5), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3ExitInitializationMode)(instance), fmi3Error);
+    assert_non_null(strstr(logged, "export it with them"));
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    fmu_close(&fmu);
+
+    assert_int_equal(run("launchdyn fmu export examples/flight.yaml --out x.fmu"), 2);
+    assert_int_equal(run("launchdyn fmu export examples/fixed.yaml --fmi 1 --out x.fmu"), 2);
+    assert_string_equal(shell.err, "launchdyn: there is no FMI 1 here, but 2 and 3\n");
+    assert_int_equal(run("launchdyn fmu export examples/fixed.yaml"), 2);
+    assert_int_equal(run("launchdyn fmu export examples/fixed.yaml --out none/x.fmu"), 3);
+    assert_int_equal(run("ls | grep -c '[.]part$'"), 1);
+}
+
+// ---- the description ----
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+// Every variable has a name of its own and the next reference, every output stands in the structure
+// as an output and as an unknown of the start, every unit is defined.
+static void check_description(const char *scenario, int version)
+{
+    enum { MOST = 4096 };
+    static char *name[MOST];
+    unpacked_fmu fmu = fmu_open(scenario, version);
+    const char *structure = strstr(fmu.description, "<ModelStructure>"),
+               *units = strstr(fmu.description, "<UnitDefinitions>");
+    size_t count = 0, outputs_there = 0;
+    const char *head = version == 2 ? "<ScalarVariable name=" : " name=\"";
+    for (const char *at = strstr(fmu.description, "<ModelVariables>");
+         (at = strstr(at + 1, head)) && at < structure;) {
+        char text[256], wanted[300];
+        name[count] = calloc(1, 256);
+        assert_non_null(name[count]);
+        attribute_after(at, "name", name[count], 256);
+        attribute_after(at, "valueReference", text, sizeof text);
+        assert_int_equal(atoi(text), count);
+        attribute_after(at, "causality", text, sizeof text);
+        snprintf(wanted, sizeof wanted,
+                 version == 2 ? "<Unknown index=\"%zu\"/>" : "<Output valueReference=\"%zu\"/>",
+                 count + (version == 2));
+        bool listed = strstr(structure, wanted) != NULL;
+        assert_true(listed == (strcmp(text, "output") == 0));
+        snprintf(wanted, sizeof wanted,
+                 version == 2 ? "<InitialUnknowns>" : "<InitialUnknown valueReference=\"%zu\"/>",
+                 count);
+        assert_true(!listed || strstr(structure, wanted));
+        outputs_there += listed;
+        const char *end = strstr(at, "/>"), *unit = strstr(at, " unit=\"");
+        if (unit && unit < end) {
+            attribute_after(unit, "unit", text, sizeof text);
+            snprintf(wanted, sizeof wanted, "<Unit name=\"%s\">", text);
+            assert_non_null(strstr(units, wanted));
+        }
+        count++;
+    }
+    printf("    %zu variables, %zu outputs\n", count, outputs_there);
+    assert_non_null(strstr(units, "<Unit name=\"m/s2\"><BaseUnit m=\"1\" s=\"-2\"/></Unit>"));
+    assert_non_null(strstr(units, "<Unit name=\"N.s/m\"><BaseUnit kg=\"1\" s=\"-1\"/></Unit>"));
+    assert_non_null(strstr(units, "<Unit name=\"kg0.5.m/s\"></Unit>")); // no whole powers
+    assert_true(count > 250 && outputs_there > 150);
+    qsort(name, count, sizeof *name, compare_names);
+    for (size_t i = 1; i < count; i++)
+        assert_true(strcmp(name[i - 1], name[i]) < 0);
+    for (size_t i = 0; i < count; i++)
+        free(name[i]);
+    fmu_close(&fmu);
+}
+
+static void is_described(void **state)
+{
+    (void)state;
+    for (int version = 2; version <= 3; version++) {
+        check_description("examples/reference.yaml", version);
+        check_description("examples/test-barrel.yaml", version);
+    }
+}
+
+// ---- two at a time ----
+
+typedef struct side {
+    const unpacked_fmu *fmu;
+    void *instance;
+    double value[OUTPUTS];
+} side;
+
+static void *go_side(void *data)
+{
+    side *self = data;
+    for (int i = 0; i < 50; i++)
+        step_3(self->fmu, self->instance, i * 2e-3, (i + 1) * 2e-3 - i * 2e-3);
+    for (int i = 0; i < OUTPUTS; i++)
+        self->value[i] = value_3(self->fmu, self->instance, outputs[i]);
+    return NULL;
+}
+
+static void go_side_by_side(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("ship"), 3);
+    side sides[3];
+    pthread_t thread[2];
+    int unequal = 0;
+    for (int k = 0; k < 3; k++) {
+        sides[k] = (side){.fmu = &fmu, .instance = begin_3(&fmu, false)};
+        start_3(&fmu, sides[k].instance, 0);
+    }
+    for (int k = 0; k < 2; k++)
+        assert_int_equal(pthread_create(&thread[k], NULL, go_side, &sides[k]), 0);
+    for (int k = 0; k < 2; k++)
+        pthread_join(thread[k], NULL);
+    go_side(&sides[2]);
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < OUTPUTS; i++)
+            unequal += !same(sides[0].value[i], sides[k].value[i]);
+        FMU_FUNCTION(&fmu, fmi3FreeInstance)(sides[k].instance);
+    }
+    CHECK_BELOW("outputs that differ between threads", unequal, 0);
+    fmu_close(&fmu);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(tells_what_the_library_tells, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(returns_at_events, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(parameters_are_overrides, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(states_come_back, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(moves_with_its_base, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(waits_for_the_input, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(speaks_version_2, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(refuses_wrong_values, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(is_described, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(go_side_by_side, shell_make, shell_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
