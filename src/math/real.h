@@ -64,6 +64,15 @@ LD_ALWAYS_INLINE real real_select(real_condition holds, real a, real b)
 #endif
 }
 
+LD_ALWAYS_INLINE real_condition real_not(real_condition a)
+{
+#if LANES == 1
+    return !a;
+#else
+    return ~a;
+#endif
+}
+
 // Whether a condition holds in some lane.
 LD_ALWAYS_INLINE bool real_any(real_condition holds)
 {
@@ -71,6 +80,15 @@ LD_ALWAYS_INLINE bool real_any(real_condition holds)
     for (int lane = 0; lane < LANES; lane++)
         any |= REAL_LANE(holds, lane);
     return any != 0;
+}
+
+// In which lanes a condition holds: bit i for lane i.
+LD_ALWAYS_INLINE unsigned real_lanes(real_condition holds)
+{
+    unsigned lanes = 0;
+    for (int lane = 0; lane < LANES; lane++)
+        lanes |= (unsigned)(REAL_LANE(holds, lane) != 0) << lane;
+    return lanes;
 }
 
 LD_ALWAYS_INLINE real real_sqrt(real a)
@@ -93,6 +111,12 @@ LD_ALWAYS_INLINE real real_abs(real a)
 LD_ALWAYS_INLINE real real_max(real a, real b)
 {
     return real_select(a > b, a, b);
+}
+
+// The smaller; b where a is not a number.
+LD_ALWAYS_INLINE real real_min(real a, real b)
+{
+    return real_select(a < b, a, b);
 }
 
 #endif

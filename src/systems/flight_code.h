@@ -190,4 +190,80 @@ LD_INLINE void flight_rates_of(const flight_lanes *lanes, const double *t, const
         rates(lanes, *(const real *)t, (const real *)y, (real *)y_dot, false);
 }
 
+// ---- watching
+
+// Whether a flight is getting faster, in a wind that does not change.
+LD_INLINE real_condition speeds_up(real rotation, const real *y, const real *y_dot)
+{
+    real3 v = real3_from(y + FLIGHT_V), a = real3_from(y_dot + FLIGHT_V);
+    real3 v_rel = {v.x + rotation * y[FLIGHT_R + 1], v.y - rotation * y[FLIGHT_R], v.z};
+    real3 a_rel = {a.x + rotation * v.y, a.y - rotation * v.x, a.z};
+    return v_rel.x * a_rel.x + v_rel.y * a_rel.y + v_rel.z * a_rel.z > 0.0;
+}
+
+// How fast a flight rises; on a round Earth against the sphere, within 0.004 of its speed.
+LD_INLINE real rise_of(bool flat, const real *y, const real *y_dot, real *margin)
+{
+    real3 r = real3_from(y + FLIGHT_R), r_dot = real3_from(y_dot + FLIGHT_R);
+    *margin = real_all(0);
+    if (flat)
+        return r_dot.y;
+    *margin = 0.004 * real3_norm(r_dot);
+    return (r.x * r_dot.x + r.y * r_dot.y + r.z * r_dot.z) / real3_norm(r);
+}
+
+// Whether the highest point may lie in the step, or the ground at its end at the height given.
+LD_INLINE real_condition turns_or_lands(const flight_lanes *lanes, const flight_step *step,
+                                        real altitude)
+{
+    bool flat = lanes->system[0]->earth.flat;
+    const real *y = (const real *)step->y;
+    real margin0, margin;
+    real rise0 = rise_of(flat, (const real *)step->y0, (const real *)step->y0_dot, &margin0);
+    real rise = rise_of(flat, y, (const real *)step->y_dot, &margin);
+    real height = altitude - 1e-3;
+    if (flat)
+        height = y[FLIGHT_R + 1];
+    return ((rise0 > -margin0) & (rise < margin)) | (height <= OF(earth.ground));
+}
+
+LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step *step)
+{
+    const flight_system *first = lanes->system[0];
+    const real *y = (const real *)step->y, *q = y + FLIGHT_Q;
+    real *most = (real *)step->extremes;
+    flow here = flow_at(lanes, *(const real *)step->t, real3_from(y + FLIGHT_R),
+                        real3_from(y + FLIGHT_V), y + FLIGHT_XI);
+    real speed = real3_norm(here.v), mach = real_all(0);
+    if (first->atmosphere.kind != LD_ATMOSPHERE_NONE)
+        mach = speed / here.speed_of_sound;
+    // the Mach number is greatest within the step, or so far at its end
+    real rotation = OF(earth.rotation);
+    real_condition slows = real_not(speeds_up(rotation, y, (const real *)step->y_dot));
+    real_condition within =
+        speeds_up(rotation, (const real *)step->y0, (const real *)step->y0_dot) & slows;
+    real_condition faster = mach >= *REALS(most, flight_extremes, mach);
+    // angle of attack
+    real33 A = real33_of_quaternion(q);
+    real3 axis = {A.a[0][0], A.a[1][0], A.a[2][0]};
+    real along = axis.x * here.v.x + axis.y * here.v.y + axis.z * here.v.z;
+    real across = real3_norm(real3_cross(axis, here.v));
+    real_condition in_air = here.density > 0.0;
+    real_condition more = in_air & (speed > 0.0) &
+                          (across * *REALS(most, flight_extremes, along) >
+                           along * *REALS(most, flight_extremes, across));
+    real_condition look = turns_or_lands(lanes, step, here.altitude) | within;
+    if (first->aerodynamics.present)
+        look |= (faster & (mach > OF(air.last_mach))) | (in_air & (speed > 10.0) & (along < 0.0));
+    real_condition done = *(const real *)step->done > 0.0, keep = done & real_not(look);
+#define KEEP(condition, member, value)                                                             \
+    *REALS(most, flight_extremes, member) =                                                        \
+        real_select(condition, value, *REALS(most, flight_extremes, member))
+    KEEP(faster & keep, mach, mach);
+    KEEP(more & keep, across, across);
+    KEEP(more & keep, along, along);
+#undef KEEP
+    return real_lanes(look & done);
+}
+
 #endif
