@@ -33,7 +33,7 @@ int event_find(const event_list *self, event_kind kind, int index)
 double event_stop_press(const launch_state *self, int index, const launching_output *out)
 {
     // beyond rounding, which would make a tube that lies on a stop without a force come and go
-    const double least = 1e-9;
+    const double least = 1e-13;
     int slide = index / LD_SLIDE_STOPS, stop = index % LD_SLIDE_STOPS;
     double press =
         supports_stop_press(&self->launcher.launching.supports, slide, stop, &out->slide[slide]);

@@ -320,8 +320,8 @@ static void stops_are_events(void **state)
     printf("  in battery: %d times left, %d come to; behind: %d, %d\n", left[0], came[0], left[1],
            came[1]);
     assert_true(left[0] > 0 && came[1] > 0 && left[1] > 0);
-    CHECK_BELOW("place of the tube where it comes to a stop [m]", off, 2e-9);
-    CHECK_BELOW("force of a stop that the tube leaves [kN]", press, 1e-4);
+    CHECK_BELOW("place of the tube where it comes to a stop [m]", off, 1e-11);
+    CHECK_BELOW("force of a stop that the tube leaves [kN]", press, 1e-6);
 }
 
 // ---- reading
