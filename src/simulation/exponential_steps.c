@@ -28,6 +28,7 @@ struct exponential_steps {
     double *y, *slope, *y_end, *slope_end, *error, *drift;
     double *g, *g_end; // [event_count]
     double t, t_previous;
+    double before; // the next stop, where the equations may become others: the last instant of these
     double first;  // instants of steps count from here
     double resume; // where explicit steps end
     bool known;    // slope and g are those of the present
@@ -45,7 +46,7 @@ static int rates(double t, const double *y, double *y_dot, void *user)
 {
     exponential_steps *self = user;
     self->evaluations++;
-    return self->equations.rhs(t, y, y_dot, self->equations.self);
+    return self->equations.rhs(fmin(t, self->before), y, y_dot, self->equations.self);
 }
 
 static double longest_step(double row)
@@ -269,7 +270,7 @@ static bool arrive(exponential_steps *self, double t)
     self->t_previous = self->t;
     self->t = t;
     self->count++;
-    if (equations->project)
+    if (equations->project || t > self->before)
         self->known = false;
     return !equations->project || equations->project(t, self->y, equations->self) == 0;
 }
@@ -311,6 +312,7 @@ exponential_outcome exponential_steps_step(exponential_steps *self, double t_sto
     const integrator_settings *equations = &self->equations;
     double x = (self->t - self->first) / finest(self), left = t_stop - self->t, error = 0;
     int64_t at = llround(x);
+    self->before = nextafter(t_stop, -INFINITY);
     if (fabs(x - (double)at) > 1e-6)
         return refuse(self, self->first + ceil(x) * finest(self));
     if (finest(self) > left * (1 + 1e-9) || !find_present(self))
