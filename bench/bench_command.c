@@ -40,14 +40,14 @@ static struct rusage run(char *const *word)
 
 static void bench(const char *what, char *const *word)
 {
-    double cpu[REPEATS];
-    struct rusage used = {0};
+    double cpu[REPEATS], faults[REPEATS];
     for (int i = 0; i < REPEATS; i++) {
-        used = run(word);
+        struct rusage used = run(word);
+        faults[i] = (double)(used.ru_minflt + used.ru_majflt);
         cpu[i] = seconds(used.ru_utime) + seconds(used.ru_stime);
     }
     print(what, cpu, REPEATS, 1e-3, "ms");
-    printf("%-58s        %8ld\n", "  page faults", used.ru_minflt + used.ru_majflt);
+    print("  page faults", faults, REPEATS, 1, "");
 }
 
 int main(int argc, char **argv)

@@ -1,38 +1,19 @@
 // Forward dynamics by the reduced sweep: nanoseconds an evaluation and a body, least and median of
 // many short repeats, one thread. On a loaded machine the least is the figure that repeats.
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
 
 #include "../tests/support/multibody_case.h"
-#include "launchdyn/mstmm.h"
+#include "bench_sample.h"
 
 enum { REPEATS = 201 };
 
-typedef struct timing {
-    double least, median; // [ns]
-} timing;
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec * 1e9 + (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-// Time of one evaluation; each one starts from slightly changed coordinates.
-static timing measure(ld_mstmm *system, double *q, const double *u, const double *tau)
+// Prints the times of an evaluation and returns the least [s]; each evaluation starts from slightly
+// changed coordinates.
+static double measure(const char *what, ld_mstmm *system, double *q, const double *u,
+                      const double *tau)
 {
     int n = ld_mstmm_speed_count(system);
-    double *u_dot = malloc((size_t)n * sizeof *u_dot), time[REPEATS], sum = 0;
+    double *u_dot = malloc((size_t)n * sizeof *u_dot), sample[REPEATS], sum = 0;
     int calls = 20000 / n + 1;
     for (int k = -REPEATS / 10; k < REPEATS; k++) { // the first ones warm up
         double start = now();
@@ -41,21 +22,23 @@ static timing measure(ld_mstmm *system, double *q, const double *u, const double
             ld_mstmm_accelerations(system, q, u, tau, NULL, u_dot, NULL);
             sum += u_dot[n - 1];
         }
-        time[k < 0 ? 0 : k] = (now() - start) / calls;
+        sample[k < 0 ? 0 : k] = (now() - start) / calls;
     }
-    qsort(time, REPEATS, sizeof *time, compare);
     free(u_dot);
-    return isfinite(sum) ? (timing){time[0], time[REPEATS / 2]} : (timing){NAN, NAN};
+    print(what, sample, REPEATS, 1e-9, "ns");
+    return isfinite(sum) ? sample[0] : NAN;
 }
 
 // A revolute chain of the reference file's kind with n bodies, every one different, axes in general
 // directions.
-static timing chain(int n)
+static double chain(int n)
 {
+    char what[32];
     ld_mstmm_element *element = calloc((size_t)n, sizeof *element);
     char(*name)[16] = calloc((size_t)n, sizeof *name);
     double *q = calloc((size_t)n, 4 * sizeof *q), *u = q + n, *tau = u + n;
-    timing ns = {NAN, NAN};
+    double least = NAN;
+    snprintf(what, sizeof what, "chain of %d bodies", n);
     srand(1);
     for (int i = 0; i < n; i++) {
         snprintf(name[i], sizeof *name, "%d", i);
@@ -83,46 +66,41 @@ static timing chain(int n)
     if (ld_mstmm_create(element, n, gravity, &system, &error))
         fprintf(stderr, "%s\n", error.text);
     else {
-        ns = measure(system, q, u, tau);
+        least = measure(what, system, q, u, tau);
         ld_mstmm_free(system);
     }
     free(element);
     free(name);
     free(q);
-    return ns;
+    return least;
 }
 
-static timing reference(const char *name)
+static void reference(const char *name)
 {
     static multibody_case c;
     ld_mstmm *system;
     if (read_multibody_case(name, &c) ||
         ld_mstmm_create(c.element, c.count, c.gravity, &system, NULL))
-        return (timing){NAN, NAN};
-    timing ns = measure(system, c.q, c.u, c.tau);
+        exit(1);
+    measure(name, system, c.q, c.u, c.tau);
     ld_mstmm_free(system);
-    return ns;
 }
 
 int main(void)
 {
     const int counts[] = {3, 10, 30, 100, 300, 1000, 3000, 10000};
     double previous = 0;
-    printf("%-12s %10s %10s %14s %10s   exponent of the least\n", "system", "least ns", "median",
-           "a body: least", "median");
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
-        timing ns = chain(counts[i]);
-        printf("chain %-6d %10.0f %10.0f %14.1f %10.1f", counts[i], ns.least, ns.median,
-               ns.least / counts[i], ns.median / counts[i]);
+        double least = chain(counts[i]);
+        printf("    a body: %.1f ns", 1e9 * least / counts[i]);
         if (i > 0)
-            printf(" %10.3f", log(ns.least / previous) / log((double)counts[i] / counts[i - 1]));
+            printf(", exponent of the least %.3f",
+                   log(least / previous) / log((double)counts[i] / counts[i - 1]));
         printf("\n");
-        previous = ns.least;
+        previous = least;
     }
     const char *const cases[] = {"chain3", "chain10", "chain100", "vehicle"};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        timing ns = reference(cases[i]);
-        printf("%-12s %10.0f %10.0f\n", cases[i], ns.least, ns.median);
-    }
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        reference(cases[i]);
     return 0;
 }

@@ -1,24 +1,15 @@
 // Cost of a row in history.h5 and history.csv, and of opening and closing the files: 60 and 110
 // columns, process CPU time.
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "bench_sample.h"
 #include "results/history.h"
 
 enum { MOST_COLUMNS = 110, ROWS = 50000 };
 
 static char names[MOST_COLUMNS][16];
 static ld_column columns[MOST_COLUMNS];
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static void check(ld_status status, const ld_error *error)
 {
@@ -28,10 +19,13 @@ static void check(ld_status status, const ld_error *error)
     }
 }
 
-static void print(const char *what, size_t count, double rows, double ends)
+static void print_file(const char *file, size_t count, double row, double ends)
 {
-    printf("%-12s %4zu columns  %7.2f us a row  %7.2f ms to open and close\n", what, count,
-           rows / ROWS * 1e6, ends * 1e3);
+    char what[64];
+    snprintf(what, sizeof what, "%s, %zu columns: a row", file, count);
+    print(what, &row, 1, 1e-6, "us");
+    snprintf(what, sizeof what, "%s, %zu columns: to open and close", file, count);
+    print(what, &ends, 1, 1e-3, "ms");
 }
 
 static void bench_hdf5(const char *path, size_t count, const double *values)
@@ -46,7 +40,7 @@ static void bench_hdf5(const char *path, size_t count, const double *values)
         check(history_hdf5_row(history, values + row % 64, &error), &error);
     double written = now();
     check(history_hdf5_close(history, NULL, &error), &error);
-    print("history.h5", count, written - opened, opened - start + now() - written);
+    print_file("history.h5", count, (written - opened) / ROWS, opened - start + now() - written);
 }
 
 static void bench_csv(const char *path, size_t count, const double *values)
@@ -61,7 +55,8 @@ static void bench_csv(const char *path, size_t count, const double *values)
         check(history_csv_row(history, values + row % 64, count, &error), &error);
     double written = now();
     check(history_csv_close(history, &error), &error);
-    print("history.csv", count, 10 * (written - opened), opened - start + now() - written);
+    print_file("history.csv", count, (written - opened) / (ROWS / 10),
+               opened - start + now() - written);
 }
 
 int main(void)

@@ -73,6 +73,24 @@ LD_INLINE real real_exp(real_pair x)
     return real_from_bits(real_to_bits(value) + (real_to_bits(shifted) << 52));
 }
 
+// log(a), a between 1e-300 and 1e300.
+LD_INLINE real real_log(real a)
+{
+    // a = 2^n m, m between sqrt(1/2) and sqrt(2), of which the first has the bits `least`
+    const uint64_t one = 0x3ff0000000000000, least = 0x3fe6a09e667f3bcd;
+    const double shift = 4503599627370496.0; // 2^52
+    real_bits bits = real_to_bits(a) + (one - least);
+    real n = real_from_bits((bits >> 52) | real_to_bits(real_all(shift))) - (shift + 1023);
+    real m = real_from_bits((bits & 0x000fffffffffffff) + least);
+    // log(m) = 2 s + 2/3 s^3 + 2/5 s^5 ..., |s| < 0.172
+    real s = (m - 1.0) / (m + 1.0), z = s * s, w = z * z, v = w * w;
+    real p = (2.0 / 3 + z * (2.0 / 5)) + w * (2.0 / 7 + z * (2.0 / 9));
+    real q = (2.0 / 11 + z * (2.0 / 13)) + w * (2.0 / 15 + z * (2.0 / 17));
+    real r = 2.0 / 19 + z * (2.0 / 21);
+    real log_m = 2.0 * s + s * z * (p + v * (q + v * r));
+    return n * 6.93147180559945309417e-01 + log_m;
+}
+
 // The logarithm of (a/b)^y for positive a and b; of a/b between 2/3 and 3/2 the relative error is
 // below 2^-56, beyond it grows slowly.
 LD_INLINE real_pair real_log_power(real a, real b, real y)

@@ -8,13 +8,7 @@ enum { N = DORMAND_PRINCE_STATES };
 static void evaluate(dormand_prince *self, double t, const double *y, double *y_dot)
 {
     self->f(&t, y, y_dot, self->self);
-    self->evaluations++;
-}
-
-static void take_step(dormand_prince *self)
-{
-    dormand_prince_try_default((double *)&self->step, self->count, self->f, self->self);
-    self->evaluations += DORMAND_PRINCE_STAGES - 1;
+    self->step.evaluations++;
 }
 
 static double norm(const dormand_prince *self, const double *v, const double *y)
@@ -38,7 +32,7 @@ static double first_size(dormand_prince *self)
     h = fmin(h, 0.1);
     for (int i = 0; i < N; i++)
         at[i] = self->step.y[i] + h * self->step.k[6][i];
-    evaluate(self, self->t + h, at, slope);
+    evaluate(self, self->step.t + h, at, slope);
     for (int i = 0; i < N; i++)
         change[i] = (slope[i] - self->step.k[6][i]) / h;
     double d2 = fmax(norm(self, change, self->step.y), d1);
@@ -48,74 +42,32 @@ static double first_size(dormand_prince *self)
 
 void dormand_prince_start(dormand_prince *self, double t, const double *y)
 {
-    self->t = self->step.t0 = t;
+    self->step.t = self->step.t0 = t;
     memmove(self->step.y, y, sizeof self->step.y);
     memcpy(self->step.y0, self->step.y, sizeof self->step.y0);
     self->open = false;
-    self->error = 1e-4;
+    self->step.log_before = DORMAND_PRINCE_LOG_LEAST;
+    self->step.outcome = DORMAND_PRINCE_DONE;
     evaluate(self, t, self->step.y, self->step.k[6]);
-    if (self->h == 0)
-        self->h = first_size(self);
-}
-
-void dormand_prince_begin(dormand_prince *self, double t_stop)
-{
-    dormand_prince_numbers *step = &self->step;
-    step->t0 = self->t;
-    memcpy(step->y0, step->y, sizeof step->y0);
-    memcpy(step->k[0], step->k[6], sizeof step->k[0]);
-    self->open = false;
-    self->t_stop = t_stop;
-    self->most = 10;
-}
-
-bool dormand_prince_choose(dormand_prince *self)
-{
-    dormand_prince_numbers *step = &self->step;
-    // what is left before a stop is taken in one step or in two
-    double left = self->t_stop - step->t0;
-    self->last = self->h >= left * (1 - 1e-12);
-    step->size = self->last ? left : 2 * self->h > left ? 0.5 * left : self->h;
-    if (step->size > 4e-16 * fabs(step->t0) && step->size > 0)
-        return true;
-    memcpy(step->y, step->y0, sizeof step->y);
-    return false;
-}
-
-bool dormand_prince_judge(dormand_prince *self)
-{
-    double h = self->step.size, error = self->step.error;
-    double grow = isfinite(error) ? 0.9 * pow(error, -0.17) : 0.3;
-    if (!(error <= 1)) {
-        self->h = h * fmax(0.2, fmin(1, grow));
-        self->most = 1;
-        return false;
-    }
-    double next = h * fmin(self->most, fmax(0.2, grow * pow(self->error, 0.04)));
-    // a step cut short by a stop tells nothing against the size before it
-    self->h = h < self->h ? fmax(next, self->h) : next;
-    self->error = fmax(error, 1e-4);
-    self->t = self->last ? self->t_stop : self->step.t0 + h;
-    self->steps++;
-    return true;
+    if (self->step.h == 0)
+        self->step.h = first_size(self);
 }
 
 bool dormand_prince_step(dormand_prince *self, double t_stop)
 {
-    dormand_prince_begin(self, t_stop);
-    while (dormand_prince_choose(self)) {
-        take_step(self);
-        if (dormand_prince_judge(self))
-            return true;
-    }
-    return false;
+    self->step.t_stop = t_stop;
+    self->open = false;
+    do
+        dormand_prince_try_default((double *)&self->step, self->count, self->f, self->self);
+    while (self->step.outcome == DORMAND_PRINCE_REFUSED);
+    return self->step.outcome == DORMAND_PRINCE_DONE;
 }
 
 void dormand_prince_retake(dormand_prince *self, double t)
 {
     self->step.size = t - self->step.t0;
-    take_step(self);
-    self->t = t;
+    dormand_prince_stages(&self->step, self->f, self->self);
+    self->step.t = t;
     self->open = false;
 }
 
@@ -124,7 +76,7 @@ void dormand_prince_retake(dormand_prince *self, double t)
 // The cubic by values and slopes at the ends, plus x^2 (1 - x)^2 (A + B x), x from 0 to 1.
 static void course_at(const dormand_prince *self, double x, double *y)
 {
-    double left = 1 - x, w = x * x * left * left, h = self->t - self->step.t0;
+    double left = 1 - x, w = x * x * left * left, h = self->step.t - self->step.t0;
     double end = x * x * (3 - 2 * x), first = h * x * left * left, last = -h * x * x * left;
     for (int i = 0; i < N; i++)
         y[i] = self->step.y0[i] + end * (self->step.y[i] - self->step.y0[i]) +
@@ -136,7 +88,7 @@ static void course_at(const dormand_prince *self, double x, double *y)
 // over: the first time on the cubic.
 static void find_course(dormand_prince *self)
 {
-    double h = self->t - self->step.t0, at[N], f[2][N];
+    double h = self->step.t - self->step.t0, at[N], f[2][N];
     memset(self->course, 0, sizeof self->course);
     for (int round = 0; round < 2; round++) {
         for (int k = 0; k < 2; k++) {
@@ -157,7 +109,7 @@ static void find_course(dormand_prince *self)
 
 void dormand_prince_between(dormand_prince *self, double t, double *y)
 {
-    double h = self->t - self->step.t0;
+    double h = self->step.t - self->step.t0;
     if (!self->open)
         find_course(self);
     course_at(self, h > 0 ? (t - self->step.t0) / h : 1, y);

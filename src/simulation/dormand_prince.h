@@ -6,7 +6,6 @@
 #define LD_SIMULATION_DORMAND_PRINCE_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
 enum { DORMAND_PRINCE_STATES = 16, DORMAND_PRINCE_STAGES = 7 };
 
@@ -22,21 +21,31 @@ typedef struct dormand_prince_numbers {
                                                                 // at its ends
     // error allowed in a step, root mean square over the states that count: absolute + relative |y|
     double absolute[DORMAND_PRINCE_STATES], relative[DORMAND_PRINCE_STATES];
+    double t;          // its end
+    double t_stop;     // where it may end at the latest, and then ends exactly
+    double h;          // [s] of the next step; 0: to be found
+    double log_before; // the logarithm of its error, for the controller
+    double most;       // how many times longer the next one may be
+    double outcome;    // of the trial, a dormand_prince_outcome
+    double steps, evaluations;
 } dormand_prince_numbers;
+
+// The least of these logarithms, of 1e-4.
+#define DORMAND_PRINCE_LOG_LEAST (-9.2103403719761827)
+
+typedef enum dormand_prince_outcome {
+    DORMAND_PRINCE_LOST = -1, // the size fell to nothing, or the slopes are not finite
+    DORMAND_PRINCE_REFUSED,   // to be tried again with another size
+    DORMAND_PRINCE_DONE,
+} dormand_prince_outcome;
 
 typedef struct dormand_prince {
     dormand_prince_slopes *f;
     void *self;
     int count;                   // of the states
     dormand_prince_numbers step; // the last step
-    double t;                    // its end
-    double h;                    // [s] of the next step; 0: to be found
-    double error;                // of the last step, for the controller
-    double t_stop, most;         // the step that is being tried: where it may end, its growth
-    bool last;                   // it ends there
     bool open;                   // the course between the ends is known
     double course[2][DORMAND_PRINCE_STATES];
-    int64_t steps, evaluations;
 } dormand_prince;
 
 // (Re)starts at t from y[DORMAND_PRINCE_STATES], whenever the equations have changed.
@@ -46,20 +55,16 @@ void dormand_prince_start(dormand_prince *self, double t, const double *y);
 // @return false: the step size fell to nothing, or the slopes are not finite
 bool dormand_prince_step(dormand_prince *self, double t_stop);
 
-// The same in parts, for steps side by side: begin; choose, which sets step.size, or says false
-// where that fell to nothing; the stages and the error; judge, and where it says false choose
-// again.
-void dormand_prince_begin(dormand_prince *self, double t_stop);
-bool dormand_prince_choose(dormand_prince *self);
-bool dormand_prince_judge(dormand_prince *self);
-
-// Stages and errors of the steps in a block [DORMAND_PRINCE_NUMBERS][lanes] of 4 or 8 lanes,
-// aligned for these, by slopes of as many; `count` states count. Each lane has the bits of one
-// alone.
+// Trials of steps side by side, in a block [DORMAND_PRINCE_NUMBERS][lanes] of 4 or 8 lanes, aligned
+// for these, by slopes of as many; `count` states count. Where the last trial's outcome is a step
+// that is done the next one begins. Each lane has the bits of one alone.
 enum { DORMAND_PRINCE_NUMBERS = sizeof(dormand_prince_numbers) / sizeof(double) };
 void dormand_prince_try_default(double *block, int count, dormand_prince_slopes *f, void *self);
 void dormand_prince_try_avx2(double *block, int count, dormand_prince_slopes *f, void *self);
 void dormand_prince_try_avx512(double *block, int count, dormand_prince_slopes *f, void *self);
+
+// y at the end of the step of size `size` from y0, with its stages.
+void dormand_prince_stages(dormand_prince_numbers *step, dormand_prince_slopes *f, void *self);
 
 // Takes the last step anew so that it ends at t, within it.
 void dormand_prince_retake(dormand_prince *self, double t);

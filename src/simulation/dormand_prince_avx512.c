@@ -4,6 +4,5 @@
 
 void dormand_prince_try_avx512(double *block, int count, dormand_prince_slopes *f, void *self)
 {
-    take_stages(block, f, self);
-    find_error(block, count);
+    try_steps(block, count, f, self);
 }

@@ -476,6 +476,12 @@ static v3 pull_at(const launch_state *self, double t, const double *y)
     return m3_apply_transposed(input.launching.base.A, v3_make(0, -self->model->gravity, 0));
 }
 
+static bool is_upright(const problem *the, const double *start)
+{
+    v3 pull = pull_at(the->self, the->t, start);
+    return hypot(pull.y, pull.z) < 1e-2 * fabs(pull.x);
+}
+
 // Tube and rocket straight on the base as it stands in `start`.
 static void guess_straight(const problem *the, const double *start, double *y)
 {
@@ -522,17 +528,29 @@ static double try_pairs(const problem *the, const double *start, double extra, d
     return best;
 }
 
-// What nothing carries, as in an upright tube, stays on the axis: a spring, which must find nothing
-// to pull, makes Newton's method regular.
-static double try_centred(const problem *the, const double *start, double *y)
+// The largest acceleration that the spring must hold, and along or about what.
+static double held_by_spring(const problem *the, const double *y, int *worst)
 {
+    double off[SHOE_FREEDOMS];
+    off_its_place(the, y, off);
+    *worst = 0;
+    for (int i = 1; i < rocket_freedoms(the->self); i++)
+        if (fabs(off[i]) > fabs(off[*worst]))
+            *worst = i;
+    return the->spring * fabs(off[*worst]);
+}
+
+// What nothing carries, as in an upright tube, stays on the axis: a spring, which must find nothing
+// to pull, makes Newton's method regular. The rocket is pressed into the breech by `depth`.
+static double try_centred(const problem *the, const double *start, double depth, double *y)
+{
+    int unused;
     problem held = *the;
     held.spring = 1e6;
     guess_straight(the, start, y);
-    double reached = settle(&held, y), off = 0;
-    for (int i = 1; i < 5; i++)
-        off = fmax(off, fabs(y[the->self->launcher.launching.layout.x + i]));
-    return held.spring * off < 1e-9 * the->self->model->gravity ? reached : INFINITY;
+    y[the->self->launcher.launching.layout.x + X_S] -= depth;
+    double reached = settle(&held, y), holds = held_by_spring(&held, y, &unused);
+    return holds < 1e-9 * the->self->model->gravity ? reached : INFINITY;
 }
 
 // One adaptor in the plane across the tube: its load, and where that presses it.
@@ -599,7 +617,7 @@ static double try_leaning(const problem *the, const double *start, double accept
 // The rocket upright: on the axis where nothing pulls it off, else leaning.
 static double try_upright(const problem *the, const double *start, double accepted, double *y)
 {
-    double best = try_centred(the, start, y);
+    double best = try_centred(the, start, 0, y);
     if (best <= accepted)
         return best;
     // what carries little is pressed in by little
@@ -622,27 +640,16 @@ static void find_carried(const problem *the, const double *y, carried_directions
 }
 
 // newton_whole() from the guess in `from`, with finer and finer differences: a surface that carries
-// little is pressed in by little.
-static double newton_fine(problem *the, const double *from, double accepted, double *y)
+// little is pressed in by little. What is further off than `near` [m/s2] is left to be so.
+static double newton_fine(problem *the, const double *from, double accepted, double near, double *y)
 {
-    double reached = INFINITY;
-    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= accepted); the->h *= 0.1) {
+    double reached = near;
+    for (the->h = DIFFERENCE; the->h > 1e-12 && reached > accepted && reached <= near;
+         the->h *= 0.1) {
         memcpy(y, from, (size_t)the->self->launcher.state_count * sizeof(double));
         reached = newton_whole(the, y);
     }
     return reached;
-}
-
-// The largest acceleration that the spring must hold, and along or about what.
-static double held_by_spring(const problem *the, const double *y, int *worst)
-{
-    double off[SHOE_FREEDOMS];
-    off_its_place(the, y, off);
-    *worst = 0;
-    for (int i = 1; i < rocket_freedoms(the->self); i++)
-        if (fabs(off[i]) > fabs(off[*worst]))
-            *worst = i;
-    return the->spring * fabs(off[*worst]);
 }
 
 // Twice the kinetic energy that two small displacements have in common, taken as rates: gravity
@@ -656,15 +663,20 @@ static double in_common(const rocket_mass *rocket, const double a[SHOE_FREEDOMS]
     return rocket->m * v3_dot(move_a, move_b) + v3_dot(turn_a, m3_apply(rocket->J, turn_b));
 }
 
-// Whether a rocket on surfaces stands so far from its centred place that they do not hold it.
+// Whether a rocket on surfaces stands so far from its centred place that they do not hold it. Round
+// ones do not feel its roll.
 static bool is_away(const problem *the, const double *y)
 {
     const double widest = 0.5; // [m, rad]
+    int count = the->self->launcher.launching.surfaces.flat ? SHOE_FREEDOMS : SHOE_FREEDOMS - 1;
+    double off[SHOE_FREEDOMS];
     problem centred = *the;
-    int unused;
     centred.place = NULL;
-    centred.spring = 1;
-    return held_by_spring(&centred, y, &unused) > widest;
+    off_its_place(&centred, y, off);
+    for (int i = 0; i < count; i++)
+        if (fabs(off[i]) > widest)
+            return true;
+    return false;
 }
 
 // Whether the rocket has gone further than a small way, or once round.
@@ -684,17 +696,17 @@ static bool is_far(const launch_state *self, const double *from, const double *t
 // spring has nothing to hold, or away from the guide. Returns the residual.
 static double let_go(const problem *the, double accepted, double *y)
 {
-    const double softest = 1e-3, hardest = 1e9;
+    const double softest = 1e-3, hardest = 1e9, near = 1e-2 * the->self->model->gravity;
     const rocket_mass *rocket = &the->self->motor->full;
     double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], before[SHOE_FREEDOMS] = {0};
     double best = INFINITY, ease = 0.1;
     int unused;
     problem held = *the;
     held.spring = 1e7;
-    for (int step = 0; step < 300 && held.spring < hardest; step++) {
+    for (int step = 0; step < 500 && held.spring < hardest; step++) {
         rocket_place place = place_of(the->self, y);
         held.place = &place;
-        double reached = newton_fine(&held, y, accepted, trial);
+        double reached = newton_fine(&held, y, accepted, near, trial);
         off_its_place(&held, trial, off);
         if (reached > accepted || is_far(the->self, y, trial) ||
             in_common(rocket, off, before) < 0) {
@@ -713,8 +725,10 @@ static double let_go(const problem *the, double accepted, double *y)
     return best;
 }
 
-// Equilibrium of a rocket on surfaces, pressed into the breech by `depth`. What the surfaces that
-// it touches do not carry is centred if it also rests there, else it stays where it came to.
+// Equilibrium of a rocket on surfaces, pressed into the breech by `depth`: upright in its centred
+// place, where nothing pulls it off that, or from there to where gravity and the air take it. What
+// the surfaces that it touches do not carry is centred if it also rests there, else it stays where
+// it came to.
 static double find_on_surfaces(problem *the, const double *start, double depth,
                                carried_directions *carried, double accepted, double *y)
 {
@@ -723,6 +737,12 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
     int unused;
     the->rest[0] = self->launcher.launching.surfaces.line_y;
     the->rest[1] = self->launcher.launching.surfaces.line_z;
+    *carried = (carried_directions){.scale = {1, 1, 1, 1, 1}};
+    if (is_upright(the, start)) {
+        double centred = try_centred(the, start, depth, y);
+        if (centred <= accepted)
+            return centred;
+    }
     problem tube = *the;
     tube.count = launching_freedoms(self);
     guess_straight(the, start, found);
@@ -731,14 +751,13 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
     if (the->count > tube.count && reached <= accepted)
         reached = let_go(the, accepted, found);
     memcpy(y, found, sizeof found);
-    *carried = (carried_directions){.scale = {1, 1, 1, 1, 1}};
     the->carried = carried;
     the->spring = 1e4;
     if (!(reached <= accepted) || is_away(the, y))
         return reached;
     find_carried(the, found, carried);
     for (int i = 0; i < 2; i++) {
-        reached = newton_fine(the, found, accepted, y);
+        reached = newton_fine(the, found, accepted, INFINITY, y);
         reached = fmin(reached, newton(the, y));
         if (reached <= accepted && held_by_spring(the, y, &unused) <= accepted)
             break;
@@ -747,7 +766,8 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
     return reached;
 }
 
-// Says so where gravity pulls the rocket along a direction in which nothing carries it.
+// Says so where gravity, or the air with it, pulls the rocket along a direction in which nothing
+// carries it.
 static ld_status check_carried(const problem *the, const double *y, double accepted,
                                ld_error *error)
 {
@@ -758,9 +778,9 @@ static ld_status check_carried(const problem *the, const double *y, double accep
     if (held_by_spring(the, y, &worst) <= accepted)
         return LD_OK;
     return ld_fail(error, LD_ERR_LAUNCH,
-                   "run.start: no static equilibrium: gravity pulls the rocket %s, and no surface "
-                   "carries it there; \"run.start: undeformed\" starts without it",
-                   names[worst]);
+                   "run.start: no static equilibrium: %s the rocket %s, and no surface carries it "
+                   "there; \"run.start: undeformed\" starts without it",
+                   the->self->air ? "gravity and the air pull" : "gravity pulls", names[worst]);
 }
 
 // Equilibrium of tube and rocket, and of the base with them where that is among the unknowns, which
@@ -768,8 +788,7 @@ static ld_status check_carried(const problem *the, const double *y, double accep
 static double find_rest(const problem *the, const double *start, double accepted, double *y)
 {
     double best = INFINITY;
-    v3 pull = pull_at(the->self, the->t, start);
-    if (hypot(pull.y, pull.z) < 1e-2 * fabs(pull.x))
+    if (is_upright(the, start))
         best = try_upright(the, start, accepted, y);
     // an adaptor that hardly carries is found from where it is pressed in [m]
     for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)

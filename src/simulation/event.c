@@ -1,5 +1,8 @@
 #include "simulation/event.h"
 
+#include <float.h>
+#include <math.h>
+
 static void add(event_list *self, event_kind kind, int count)
 {
     for (int i = 0; i < count; i++)
@@ -29,6 +32,13 @@ int event_find(const event_list *self, event_kind kind, int index)
     return -1;
 }
 
+// Rises through zero at a first touch. Zero itself, where between opposite surfaces without play
+// one touches and the other lets go, counts as touched, else it would be an event of both.
+static double touch_of(double penetration)
+{
+    return penetration < 0 ? penetration / 1e-3 : fmax(penetration / 1e-3, DBL_MIN);
+}
+
 static double value_of(event one, const launch_state *self, const launcher_output *out)
 {
     const launching_phase *phase = &self->phase;
@@ -49,10 +59,11 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
         return phase->passed[one.index] ? away : (length - adaptor[one.index].s) / length;
     }
     case EVENT_TOUCH:
-        return touching && !phase->passed[one.index] ? adaptor[one.index].penetration / 1e-3 : away;
+        return touching && !phase->passed[one.index] ? touch_of(adaptor[one.index].penetration)
+                                                     : away;
     case EVENT_SURFACE: {
         int i = one.index / launching->surfaces.count, k = one.index % launching->surfaces.count;
-        return phase->passed[i] ? away : out->launching.shoe[i].penetration[k] / 1e-3;
+        return phase->passed[i] ? away : touch_of(out->launching.shoe[i].penetration[k]);
     }
     case EVENT_BREECH: // the rear adaptor is at s
         return touching && !phase->locked ? (phase->breech - adaptor[0].s) / 1e-3 : away;

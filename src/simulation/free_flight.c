@@ -78,24 +78,16 @@ static double mach_at(flight_run *run, double t)
     return flight_flow_at(run->job->system, t, y).mach;
 }
 
-// Whether the rocket is getting faster, in a wind that does not change.
-static bool speeds_up(const flight_run *run, const double *y, const double *y_dot)
-{
-    v3 turn = earth_rate(&run->job->system->earth);
-    v3 v = v3_sub(v3_from(y + FLIGHT_V), v3_cross(turn, v3_from(y + FLIGHT_R)));
-    v3 a = v3_sub(v3_from(y_dot + FLIGHT_V), v3_cross(turn, v3_from(y + FLIGHT_V)));
-    return v3_dot(v, a) > 0;
-}
-
 // When the Mach number is greatest within the last step, by golden sections where there is a
 // maximum between its ends.
 static double fastest_instant(flight_run *run, double mach)
 {
     const dormand_prince *steps = &run->steps;
-    double a = steps->step.t0, b = steps->t, share = (sqrt(5) - 1) / 2;
-    if (!speeds_up(run, steps->step.y0, steps->step.k[0]) ||
-        speeds_up(run, steps->step.y, steps->step.k[6]))
-        return mach >= run->fastest ? b : NAN;
+    double a = steps->step.t0, b = steps->step.t, share = (sqrt(5) - 1) / 2;
+    const flight_system *system = run->job->system;
+    if (!flight_speeds_up(system, steps->step.y0, steps->step.k[0]) ||
+        flight_speeds_up(system, steps->step.y, steps->step.k[6]))
+        return mach >= run->extremes.mach ? b : NAN;
     double c = b - share * (b - a), d = a + share * (b - a);
     double at_c = mach_at(run, c), at_d = mach_at(run, d);
     for (int i = 0; i < 25; i++) {
@@ -123,19 +115,23 @@ static double beyond_instant(flight_run *run, double t)
 static void watch(flight_run *run, double t, const double *y)
 {
     const flight_system *system = run->job->system;
+    flight_extremes *most = &run->extremes;
     flight_flow flow = flight_flow_at(system, t, y);
     run->apogee = fmax(run->apogee, flight_height(system, y));
-    if (flow.airspeed > 0 && flow.density > 0)
-        run->tilted = fmax(run->tilted, flow.angle_of_attack);
+    if (flow.airspeed > 0 && flow.density > 0 &&
+        flow.across * most->along > flow.along * most->across) {
+        most->across = flow.across;
+        most->along = flow.along;
+    }
     if (isnan(run->t_tumbling) && system->aerodynamics.present && flow.density > 0 &&
-        flow.airspeed > 10 && flow.angle_of_attack > acos(0))
+        flow.airspeed > 10 && flow.along < 0)
         run->t_tumbling = t;
     double t_fastest = fastest_instant(run, flow.mach);
     if (isnan(t_fastest))
         return;
-    run->fastest = fmax(run->fastest, t_fastest == t ? flow.mach : mach_at(run, t_fastest));
+    most->mach = fmax(most->mach, t_fastest == t ? flow.mach : mach_at(run, t_fastest));
     if (isnan(run->t_beyond) && system->aerodynamics.present &&
-        run->fastest > system->aerodynamics.last_mach)
+        most->mach > system->aerodynamics.last_mach)
         run->t_beyond = beyond_instant(run, t_fastest);
 }
 
@@ -326,8 +322,9 @@ static void measure_step(flight_run *run, double apex)
         measure_now(run, apex, y);
         from = apex;
     }
-    flight_row(run->job->system, &run->columns, &run->phase, run->steps.t, run->steps.step.y, end);
-    measuring_step(&self, from, run->steps.t, end);
+    flight_row(run->job->system, &run->columns, &run->phase, run->steps.step.t, run->steps.step.y,
+               end);
+    measuring_step(&self, from, run->steps.step.t, end);
 }
 
 // ---- events within a step ----
@@ -366,8 +363,8 @@ static double find_apex(flight_run *run)
     const flight_system *system = run->job->system;
     const dormand_prince *steps = &run->steps;
     double before = flight_height_rate(system, &run->phase, steps->step.t0, steps->step.y0);
-    double after = flight_height_rate(system, &run->phase, steps->t, steps->step.y);
-    return before > 0 && after < 0 ? crossing(run, true, steps->step.t0, steps->t) : NAN;
+    double after = flight_height_rate(system, &run->phase, steps->step.t, steps->step.y);
+    return before > 0 && after < 0 ? crossing(run, true, steps->step.t0, steps->step.t) : NAN;
 }
 
 // Ends the last step on the ground if it went through; apex: of the same step.
@@ -377,23 +374,23 @@ static bool land(flight_run *run, double apex)
     dormand_prince *steps = &run->steps;
     double y[DORMAND_PRINCE_STATES];
     if (!system->has_ground || flight_height(system, steps->step.y) > system->ground ||
-        flight_height_rate(system, &run->phase, steps->t, steps->step.y) > 0)
+        flight_height_rate(system, &run->phase, steps->step.t, steps->step.y) > 0)
         return false;
-    double t = crossing(run, false, isnan(apex) ? steps->step.t0 : apex, steps->t);
+    double t = crossing(run, false, isnan(apex) ? steps->step.t0 : apex, steps->step.t);
     dormand_prince_retake(steps, t);
     memcpy(y, steps->step.y, sizeof y);
     t = touch_ground(run, t, y);
     memcpy(steps->step.y, y, sizeof y);
-    steps->t = t;
+    steps->step.t = t;
     return true;
 }
 
 // ---- the loop ----
 
 // The next instant at which a step must end: a corner of the thrust or of a gust, the end.
-double flight_run_stop(const flight_run *run)
+static double next_stop(const flight_run *run)
 {
-    double t = run->steps.t;
+    double t = run->steps.step.t;
     const free_flight *job = run->job;
     const motor *thrust = &job->system->motor;
     double stop = fmin(job->t_end, wind_next_corner(&job->system->wind, t));
@@ -436,60 +433,81 @@ static ld_status after_step(flight_run *run, bool stopped)
     run->landed = land(run, apex);
     measure_step(run, apex);
     if (!status)
-        status = write_rows(run, steps->t);
-    watch(run, steps->t, steps->step.y);
+        status = write_rows(run, steps->step.t);
+    watch(run, steps->step.t, steps->step.y);
     if (!status)
         status = check_table(run);
     if (!status && (run->landed || stopped))
-        status = write_row(run, steps->t, steps->step.y);
+        status = write_row(run, steps->step.t, steps->step.y);
     if (run->landed)
-        record_impact(run, steps->t, steps->step.y);
+        record_impact(run, steps->step.t, steps->step.y);
     else if (!status)
-        status = check_limit(run, steps->t);
-    return status ? status : report_progress(run, steps->t, steps->step.y);
+        status = check_limit(run, steps->step.t);
+    return status ? status : report_progress(run, steps->step.t, steps->step.y);
 }
 
 // A flight whose steps are so short hardly goes on.
 static ld_status check_steps(const flight_run *run)
 {
     const dormand_prince *steps = &run->steps;
-    double spent = steps->t - run->job->t_start;
-    double least = least_step(run->job->model->run.flight_tolerance, 1e-7, 5e-5, steps->steps);
-    if (steps->steps < 1000 || spent >= least * (double)steps->steps)
+    double spent = steps->step.t - run->job->t_start;
+    double least = least_step(run->job->model->run.flight_tolerance, 1e-7, 5e-5, steps->step.steps);
+    if (steps->step.steps < 1000 || spent >= least * steps->step.steps)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_NUMERIC,
                    "the flight's steps are too short to go on: %lld for %.6g s, up to t = %.9g s; "
                    "are the air's forces far too strong for the rocket's inertia?",
-                   (long long)steps->steps, spent, steps->t);
+                   (long long)steps->step.steps, spent, steps->step.t);
 }
 
 bool flight_run_goes_on(const flight_run *run)
 {
-    return !run->landed && run->steps.t < run->job->t_end;
+    return !run->landed && run->steps.step.t < run->job->t_end;
 }
 
-ld_status flight_run_lost(flight_run *run)
+// Where every row is asked for, or something is measured, all steps are looked at.
+static void set_next(flight_run *run)
 {
-    return ld_fail(run->error, LD_ERR_NUMERIC,
-                   "the equations of flight gave no finite result, or the step size fell to "
-                   "nothing, at t = %.9g s",
-                   run->steps.t);
+    enum { UNSEEN = 64 }; // steps between looks without a reason
+    const measuring measured = measuring_of(run);
+    bool all = run->job->row || measuring_is_there(&measured);
+    run->next_look = run->steps.step.steps + (all ? 1 : UNSEEN);
+    run->steps.step.t_stop = next_stop(run);
 }
 
-ld_status flight_run_stepped(flight_run *run)
+ld_status flight_run_look(flight_run *run)
 {
     dormand_prince *steps = &run->steps;
-    bool stopped = steps->t == steps->t_stop;
+    if (steps->step.outcome == DORMAND_PRINCE_LOST)
+        return ld_fail(run->error, LD_ERR_NUMERIC,
+                       "the equations of flight gave no finite result, or the step size fell to "
+                       "nothing, at t = %.9g s",
+                       steps->step.t);
+    bool stopped = steps->step.t == steps->step.t_stop;
     ld_status status = after_step(run, stopped);
     if (!status)
         status = check_steps(run);
     if (status)
         return status;
-    if (stopped && pass_corners(run, steps->t))
-        dormand_prince_start(steps, steps->t, steps->step.y);
+    if (stopped && pass_corners(run, steps->step.t))
+        dormand_prince_start(steps, steps->step.t, steps->step.y);
     if (stopped || run->landed)
-        measure_now(run, steps->t, steps->step.y);
+        measure_now(run, steps->step.t, steps->step.y);
+    set_next(run);
     return LD_OK;
+}
+
+ld_status flight_run_step(flight_run *run)
+{
+    dormand_prince_numbers *step = &run->steps.step;
+    dormand_prince_step(&run->steps, step->t_stop);
+    const flight_step ends = {
+        &step->outcome,          &step->t, step->y0, step->k[0], step->y, step->k[6],
+        (double *)&run->extremes};
+    bool seen = flight_watch(run->job->system, &run->phase.number, &ends);
+    bool due = step->steps >= run->next_look || step->t == step->t_stop ||
+               step->outcome == DORMAND_PRINCE_LOST;
+    return seen || due ? flight_run_look(run) : LD_OK;
 }
 
 static ld_status begin(flight_run *run, const double *y)
@@ -511,6 +529,7 @@ static ld_status begin(flight_run *run, const double *y)
             job->system->earth.flat ? "y =" : "an altitude of", height, job->system->ground);
     measuring_begin(run->window, job->model->measure_count);
     measure_now(run, job->t_start, y);
+    set_next(run);
     ld_status status = check_table(run);
     return status ? status : write_row(run, job->t_start, y);
 }
@@ -523,16 +542,17 @@ static void note(flight_run *run)
         simulation_note(run->summary,
                         "beyond the aerodynamic table (Mach %.4g) from t = %.4f s on, up to Mach "
                         "%.4g: its last values were held",
-                        run->job->system->aerodynamics.last_mach, run->t_beyond, run->fastest);
+                        run->job->system->aerodynamics.last_mach, run->t_beyond,
+                        run->extremes.mach);
     if (!isnan(run->t_tumbling))
         simulation_note(run->summary,
                         "the rocket flies backwards or tumbles: its angle of attack passed 90 deg "
                         "at t = %.4f s and reached %.1f deg",
-                        run->t_tumbling, run->tilted / degree);
+                        run->t_tumbling, run->rocket->flight.max_angle_of_attack / degree);
     if (run->landed && run->phase.burning)
         simulation_note(run->summary,
                         "the rocket hit the ground at t = %.4f s while its motor was burning",
-                        run->steps.t);
+                        run->steps.step.t);
 }
 
 ld_status flight_run_begin(flight_run *run, const free_flight *job, const double *state,
@@ -547,6 +567,7 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
                         .output_index = 1,
                         .next_output = job->t_start + job->model->run.output_step_flight,
                         .next_progress = job->t_start,
+                        .extremes = {.along = 1},
                         .last_row = NAN,
                         .t_beyond = NAN,
                         .t_tumbling = NAN};
@@ -562,18 +583,18 @@ void flight_run_end(flight_run *run, ld_status status, double *state)
 {
     const measuring measured = measuring_of(run);
     if (!status)
-        measuring_end(&measured, run->steps.t);
+        measuring_end(&measured, run->steps.step.t);
     quantity_columns_free(&run->columns);
     memcpy(state, run->steps.step.y, FLIGHT_STATES * sizeof(double));
     ld_flight_summary *flight = &run->rocket->flight;
-    flight->apogee = run->apogee;
-    flight->max_mach = run->fastest;
-    flight->max_angle_of_attack = run->tilted;
-    record_final(run, run->steps.t, state, &run->rocket->final);
+    flight->apogee = fmax(run->apogee, flight_height(run->job->system, state));
+    flight->max_mach = run->extremes.mach;
+    flight->max_angle_of_attack = atan2(run->extremes.across, run->extremes.along);
+    record_final(run, run->steps.step.t, state, &run->rocket->final);
     note(run);
-    run->summary->t_end = run->steps.t;
-    run->summary->statistics.steps += run->steps.steps;
-    run->summary->statistics.rhs_evaluations += run->steps.evaluations;
+    run->summary->t_end = run->steps.step.t;
+    run->summary->statistics.steps += (int64_t)run->steps.step.steps;
+    run->summary->statistics.rhs_evaluations += (int64_t)run->steps.step.evaluations;
 }
 
 ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
@@ -582,8 +603,7 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
     flight_run run;
     ld_status status = flight_run_begin(&run, self, state, rocket, summary, error);
     while (!status && flight_run_goes_on(&run))
-        status = dormand_prince_step(&run.steps, flight_run_stop(&run)) ? flight_run_stepped(&run)
-                                                                        : flight_run_lost(&run);
+        status = flight_run_step(&run);
     flight_run_end(&run, status, state);
     return status;
 }

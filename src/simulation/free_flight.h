@@ -55,11 +55,12 @@ typedef struct flight_run {
     double next_output, last_row, output_from;
     int64_t output_index;
     double next_progress;
+    double next_look; // [steps]
     double apogee;
-    double fastest, tilted; // largest Mach number and angle of attack
-    double t_beyond;        // when the Mach number first went past the table's last; NaN: not
-    double t_tumbling;      // when the angle of attack first passed 90 degrees; NaN: not
-    double last_time;       // the end of the last step
+    flight_extremes extremes;
+    double t_beyond;   // when the Mach number first went past the table's last; NaN: not
+    double t_tumbling; // when the angle of attack first passed 90 degrees; NaN: not
+    double last_time;  // the end of the last step
     double t_limit;
     bool burnt_out, past_apex, landed; // in this flight
     quantity_columns columns;          // where something is measured
@@ -73,14 +74,13 @@ ld_status flight_run_begin(flight_run *self, const free_flight *job, const doubl
 // Whether there are steps to come.
 bool flight_run_goes_on(const flight_run *self);
 
-// Where the next step must end at the latest.
-double flight_run_stop(const flight_run *self);
+// One of them.
+ld_status flight_run_step(flight_run *self);
 
-// After a step of `steps` towards that: what happened in it.
-ld_status flight_run_stepped(flight_run *self);
-
-// Where the step's size has fallen to nothing.
-ld_status flight_run_lost(flight_run *self);
+// After a step of `steps`, or where there was none to be had: what happened in it. It must be asked
+// where the step ended at its stop, or flight_watch says so, or so many steps as `next_look` are
+// done.
+ld_status flight_run_look(flight_run *self);
 
 // Fills what free_flight_run fills; the state at the end.
 void flight_run_end(flight_run *self, ld_status status, double *state);

@@ -24,7 +24,11 @@ typedef enum integrator_method {
     INTEGRATOR_DORMAND_PRINCE,   // order 5(4), 7 stages, the last one serves the next step
     INTEGRATOR_BOGACKI_SHAMPINE, // order 3(2), 4 stages, likewise
     INTEGRATOR_CASH_KARP,        // order 5(4), 6 stages
+    INTEGRATOR_OSCILLATING,      // order 4(3), 6 stages, for oscillations that are hardly damped
 } integrator_method;
+
+// Up to this h omega INTEGRATOR_OSCILLATING is stable, up to a tenth of the critical damping.
+static const double INTEGRATOR_STABLE_TO = 4.8;
 
 typedef struct integrator_settings {
     size_t n; // states

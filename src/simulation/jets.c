@@ -96,19 +96,20 @@ static ld_status find_course(jet *self, course *flown, double reach, const doubl
     bool kept = keep_place(self, flown, t, y);
     while (kept && is_lit(&now) && !is_away(self, reach) && self->count < MOST_PLACES) {
         double next = t + self->count * spacing;
-        while (steps.t < next) {
-            double stop = fmin(corner_of(&now), wind_next_corner(&flown->flight->wind, steps.t));
+        while (steps.step.t < next) {
+            double stop =
+                fmin(corner_of(&now), wind_next_corner(&flown->flight->wind, steps.step.t));
             if (!dormand_prince_step(&steps, fmin(next, stop)))
                 return ld_fail(error, LD_ERR_NUMERIC,
                                "the equations of flight gave no finite result after the exit, at "
                                "t = %.9g s",
-                               steps.t);
-            if (pass_corners(&now, steps.t))
+                               steps.step.t);
+            if (pass_corners(&now, steps.step.t))
                 flight_set_piece(flown->flight, &flown->phase, now.piece);
-            if (steps.t == stop)
-                dormand_prince_start(&steps, steps.t, steps.step.y);
+            if (steps.step.t == stop)
+                dormand_prince_start(&steps, steps.step.t, steps.step.y);
         }
-        kept = keep_place(self, flown, steps.t, steps.step.y);
+        kept = keep_place(self, flown, steps.step.t, steps.step.y);
     }
     return kept ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for a rocket's jet");
 }

@@ -35,7 +35,7 @@ static flight_numbers numbers_of(const flight_system *self)
                 .crossflow_at = body->crossflow_at,
                 .last_mach = body->last_mach},
         .earth = {globe->altitude, globe->gravity, globe->gm, globe->j2, globe->rotation, globe->a,
-                  globe->b, globe->e2},
+                  globe->b, globe->e2, self->has_ground ? self->ground : -INFINITY},
     };
     v3_store(number.air.damping, body->damping);
     v3_store(number.thrust_point, self->thrust_point);

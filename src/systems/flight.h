@@ -55,6 +55,7 @@ typedef struct flight_numbers {
     } air;
     struct {
         double altitude, gravity, gm, j2, rotation, a, b, e2; // as in environment/earth.h
+        double ground;                                        // [m] -infinity: there is none
     } earth;
 } flight_numbers;
 
@@ -115,6 +116,33 @@ void flight_rates_avx2(const flight_lanes *lanes, const double *t, const double 
 void flight_rates_avx512(const flight_lanes *lanes, const double *t, const double *state,
                          double *state_dot);
 
+// What has been greatest at the ends of a flight's steps, all doubles; the angle of attack by the
+// velocity through the air across the rocket's axis and along it.
+typedef struct flight_extremes {
+    double mach, across, along;
+} flight_extremes;
+
+// Steps side by side: arrays of numbers [lanes] and states [FLIGHT_STATES][lanes].
+typedef struct flight_step {
+    const double *done;        // 1; else there is no step
+    const double *t;           // their ends
+    const double *y0, *y0_dot; // at their beginnings
+    const double *y, *y_dot;   // at their ends
+    double *extremes;          // [FLIGHT_EXTREMES][lanes]
+} flight_step;
+enum { FLIGHT_EXTREMES = sizeof(flight_extremes) / sizeof(double) };
+
+// Takes the ends of steps into the extremes, but for those of which more must be known: those that
+// may hold the highest point or the largest Mach number or end on the ground, beyond the
+// aerodynamic table or tail first. These are said: bit i for lane i.
+unsigned flight_watch(const flight_system *self, const flight_numbers *number,
+                      const flight_step *step);
+unsigned flight_watch_avx2(const flight_lanes *lanes, const flight_step *step);
+unsigned flight_watch_avx512(const flight_lanes *lanes, const flight_step *step);
+
+// Whether a flight is getting faster, in a wind that does not change.
+bool flight_speeds_up(const flight_system *self, const double *state, const double *state_dot);
+
 // Velocity of the air against the ground, in C, at the point r of C: without turbulence, and the
 // turbulence, with its scales, where the distances flown through the air have come to xi.
 v3 flight_wind(const flight_system *self, double t, v3 r, double altitude);
@@ -162,7 +190,8 @@ typedef struct flight_flow {
     double density;         // [kg/m3]
     double airspeed;        // [m/s]
     double mach;            // 0 without air
-    double angle_of_attack; // [rad] between x of B and the velocity through the air, 0 to pi
+    double across, along;   // [m/s] velocity through the air across x of B and along it
+    double angle_of_attack; // [rad] between x of B and that velocity, 0 to pi
     v3 wind;                // [m/s] velocity of the air against the ground, in I
 } flight_flow;
 

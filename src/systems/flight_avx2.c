@@ -7,3 +7,8 @@ void flight_rates_avx2(const flight_lanes *lanes, const double *t, const double 
 {
     flight_rates_of(lanes, t, state, state_dot);
 }
+
+unsigned flight_watch_avx2(const flight_lanes *lanes, const flight_step *step)
+{
+    return flight_watch_of(lanes, step);
+}

@@ -7,3 +7,8 @@ void flight_rates_avx512(const flight_lanes *lanes, const double *t, const doubl
 {
     flight_rates_of(lanes, t, state, state_dot);
 }
+
+unsigned flight_watch_avx512(const flight_lanes *lanes, const flight_step *step)
+{
+    return flight_watch_of(lanes, step);
+}

@@ -94,23 +94,42 @@ LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, cons
     return out;
 }
 
+// The coefficients of each lane's table at its Mach number.
+LD_INLINE void look_up(const flight_lanes *lanes, real mach, real k[AERODYNAMICS_COLUMNS + 1])
+{
+    for (int lane = 0; lane < LANES; lane++) {
+        double at = REAL_LANE(mach, lane);
+        const curves *table = &lanes->system[lane]->aerodynamics.table;
+        size_t *interval = &lanes->phase[lane]->interval;
+        *interval = curves_interval(table, at, *interval);
+#if LANES == 1
+        curves_first_values(table, *interval, at, AERODYNAMICS_COLUMNS, k);
+#else
+        // of one lane as many columns at once as there are lanes, then turned
+        const double *c = table->coefficient + *interval * 4 * (size_t)table->count;
+        double t = at - table->x[*interval];
+        for (int first = 0; first < AERODYNAMICS_COLUMNS + 1; first += LANES) {
+            real c0, c1, c2, c3;
+            memcpy(&c0, c + first, sizeof c0);
+            memcpy(&c1, c + first + table->count, sizeof c1);
+            memcpy(&c2, c + first + 2 * table->count, sizeof c2);
+            memcpy(&c3, c + first + 3 * table->count, sizeof c3);
+            k[first + lane] = c0 + t * (c1 + t * (c2 + t * c3));
+        }
+#endif
+    }
+    for (int first = 0; first < AERODYNAMICS_COLUMNS + 1; first += LANES)
+        real_turn(k + first);
+}
+
 LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, const flow *here, real3 v_B,
                                       real speed, real3 w, real3 c)
 {
     if (lanes->system[0]->aerodynamics.model == LD_AERODYNAMICS_BODY)
         return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), v_B, speed, w,
                                     here->density);
-    real coefficient[AERODYNAMICS_COLUMNS], mach = speed / here->speed_of_sound;
-    real held = real_select(mach < OF(air.last_mach), mach, OF(air.last_mach));
-    for (int i = 0; i < LANES; i++) {
-        double k[AERODYNAMICS_COLUMNS], at = REAL_LANE(held, i);
-        const curves *table = &lanes->system[i]->aerodynamics.table;
-        size_t *interval = &lanes->phase[i]->interval;
-        *interval = curves_interval(table, at, *interval);
-        curves_first_values(table, *interval, at, AERODYNAMICS_COLUMNS, k);
-        for (int j = 0; j < AERODYNAMICS_COLUMNS; j++)
-            REAL_LANE(coefficient[j], i) = k[j];
-    }
+    real coefficient[AERODYNAMICS_COLUMNS + 1], mach = speed / here->speed_of_sound;
+    look_up(lanes, real_select(mach < OF(air.last_mach), mach, OF(air.last_mach)), coefficient);
     const real_body body = {OF(air.half_area), OF(air.diameter), OF(air.cant),
                             OF(air.crossflow_drag), OF(air.crossflow_at)};
     real drag = real_select(OF(burn.power) != 0.0, coefficient[1], coefficient[0]);
@@ -188,6 +207,82 @@ LD_INLINE void flight_rates_of(const flight_lanes *lanes, const double *t, const
         rates(lanes, *(const real *)t, (const real *)y, (real *)y_dot, true);
     else
         rates(lanes, *(const real *)t, (const real *)y, (real *)y_dot, false);
+}
+
+// ---- watching
+
+// Whether a flight is getting faster, in a wind that does not change.
+LD_INLINE real_condition speeds_up(real rotation, const real *y, const real *y_dot)
+{
+    real3 v = real3_from(y + FLIGHT_V), a = real3_from(y_dot + FLIGHT_V);
+    real3 v_rel = {v.x + rotation * y[FLIGHT_R + 1], v.y - rotation * y[FLIGHT_R], v.z};
+    real3 a_rel = {a.x + rotation * v.y, a.y - rotation * v.x, a.z};
+    return v_rel.x * a_rel.x + v_rel.y * a_rel.y + v_rel.z * a_rel.z > 0.0;
+}
+
+// How fast a flight rises; on a round Earth against the sphere, within 0.004 of its speed.
+LD_INLINE real rise_of(bool flat, const real *y, const real *y_dot, real *margin)
+{
+    real3 r = real3_from(y + FLIGHT_R), r_dot = real3_from(y_dot + FLIGHT_R);
+    *margin = real_all(0);
+    if (flat)
+        return r_dot.y;
+    *margin = 0.004 * real3_norm(r_dot);
+    return (r.x * r_dot.x + r.y * r_dot.y + r.z * r_dot.z) / real3_norm(r);
+}
+
+// Whether the highest point may lie in the step, or the ground at its end at the height given.
+LD_INLINE real_condition turns_or_lands(const flight_lanes *lanes, const flight_step *step,
+                                        real altitude)
+{
+    bool flat = lanes->system[0]->earth.flat;
+    const real *y = (const real *)step->y;
+    real margin0, margin;
+    real rise0 = rise_of(flat, (const real *)step->y0, (const real *)step->y0_dot, &margin0);
+    real rise = rise_of(flat, y, (const real *)step->y_dot, &margin);
+    real height = altitude - 1e-3;
+    if (flat)
+        height = y[FLIGHT_R + 1];
+    return ((rise0 > -margin0) & (rise < margin)) | (height <= OF(earth.ground));
+}
+
+LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step *step)
+{
+    const flight_system *first = lanes->system[0];
+    const real *y = (const real *)step->y, *q = y + FLIGHT_Q;
+    real *most = (real *)step->extremes;
+    flow here = flow_at(lanes, *(const real *)step->t, real3_from(y + FLIGHT_R),
+                        real3_from(y + FLIGHT_V), y + FLIGHT_XI);
+    real speed = real3_norm(here.v), mach = real_all(0);
+    if (first->atmosphere.kind != LD_ATMOSPHERE_NONE)
+        mach = speed / here.speed_of_sound;
+    // the Mach number is greatest within the step, or so far at its end
+    real rotation = OF(earth.rotation);
+    real_condition slows = real_not(speeds_up(rotation, y, (const real *)step->y_dot));
+    real_condition within =
+        speeds_up(rotation, (const real *)step->y0, (const real *)step->y0_dot) & slows;
+    real_condition faster = mach >= *REALS(most, flight_extremes, mach);
+    // angle of attack
+    real33 A = real33_of_quaternion(q);
+    real3 axis = {A.a[0][0], A.a[1][0], A.a[2][0]};
+    real along = axis.x * here.v.x + axis.y * here.v.y + axis.z * here.v.z;
+    real across = real3_norm(real3_cross(axis, here.v));
+    real_condition in_air = here.density > 0.0;
+    real_condition more = in_air & (speed > 0.0) &
+                          (across * *REALS(most, flight_extremes, along) >
+                           along * *REALS(most, flight_extremes, across));
+    real_condition look = turns_or_lands(lanes, step, here.altitude) | within;
+    if (first->aerodynamics.present)
+        look |= (faster & (mach > OF(air.last_mach))) | (in_air & (speed > 10.0) & (along < 0.0));
+    real_condition done = *(const real *)step->done > 0.0, keep = done & real_not(look);
+#define KEEP(condition, member, value)                                                             \
+    *REALS(most, flight_extremes, member) =                                                        \
+        real_select(condition, value, *REALS(most, flight_extremes, member))
+    KEEP(faster & keep, mach, mach);
+    KEEP(more & keep, across, across);
+    KEEP(more & keep, along, along);
+#undef KEEP
+    return real_lanes(look & done);
 }
 
 #endif

@@ -10,6 +10,18 @@ void flight_rates(const flight_system *self, flight_phase *phase, double t, cons
     flight_rates_of(&one, &t, state, state_dot);
 }
 
+unsigned flight_watch(const flight_system *self, const flight_numbers *number,
+                      const flight_step *step)
+{
+    const flight_lanes one = {{self}, {NULL}, (const double *)number};
+    return flight_watch_of(&one, step);
+}
+
+bool flight_speeds_up(const flight_system *self, const double *state, const double *state_dot)
+{
+    return speeds_up(self->number.earth.rotation, state, state_dot);
+}
+
 flight_flow flight_flow_at(const flight_system *self, double t, const double *state)
 {
     const flight_lanes one = {{self}, {NULL}, (const double *)&self->number};
@@ -17,13 +29,15 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
                         state + FLIGHT_XI);
     v3 r = v3_from(state + FLIGHT_R), v = {here.v.x, here.v.y, here.v.z};
     v3 axis = m3_column(q_matrix(q_from(state + FLIGHT_Q)), 0);
-    double along = v3_dot(axis, v), speed = v3_norm(v);
+    double along = v3_dot(axis, v), across = v3_norm(v3_cross(axis, v)), speed = v3_norm(v);
     bool has_air = self->atmosphere.kind != LD_ATMOSPHERE_NONE;
     flight_flow out = {.altitude = here.altitude,
                        .density = here.density,
                        .airspeed = speed,
                        .mach = has_air ? speed / here.speed_of_sound : 0,
-                       .angle_of_attack = atan2(v3_norm(v3_cross(axis, v)), along)};
+                       .across = across,
+                       .along = along,
+                       .angle_of_attack = atan2(across, along)};
     if (self->wind.present) {
         v3 w = flight_wind(self, t, r, here.altitude);
         turbulence_scales scales;

@@ -32,6 +32,18 @@ static void test_exp(void **state)
     (void)state;
 }
 
+static void test_log(void **state)
+{
+    double worst = 0;
+    for (int i = 0; i < 20000; i++) {
+        double x = i % 2 ? uniform(0.5, 2) : exp(uniform(-690, 690));
+        worst = fmax(worst, units(logl(x), real_log(x)));
+    }
+    CHECK_NEAR("log, units in the last place", worst, 0, 4);
+    assert_true(real_log(1) == 0);
+    (void)state;
+}
+
 // The powers of the standard atmosphere, and any.
 static void test_power(void **state)
 {
@@ -66,7 +78,8 @@ static void test_sine_cosine(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_exp), cmocka_unit_test(test_power),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_exp), cmocka_unit_test(test_log),
+                                       cmocka_unit_test(test_power),
                                        cmocka_unit_test(test_sine_cosine)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,6 +35,8 @@ static const char *const options[][MOST_SETTINGS] = {
      "1 m/s, 2 m/s], [2 km, 9 m/s, 4 m/s]], turbulence: {wind_at_6m: 5 m/s, harmonics: 20}}}"},
     {"flight.velocity=330 1800 0 m/s", "flight.attitude.pitch=80 deg"},
     {"run.end=1 s"},
+    {"flight.rate=32 0 20 rad/s"},
+    {"flight.attitude.pitch=-5 deg", "flight.position=0 500 0 m"},
     {"flight.position=0 -5 0 m"},
     {"run.flight_limit=3 s"},
     {"measures=[{name: fastest, of: airspeed, take: peak, from: start, to: t_apogee}]"},
@@ -116,33 +118,59 @@ static void done(void *self, int lane, lane_flight *flight, ld_status status)
     (void)flight;
 }
 
-static void check_same(const flown *alone, const flown *beside, int lanes)
+static void check_same(const flown *alone, const flown *beside, const char *how)
 {
     const ld_rocket_summary *a = &alone->summary.rocket[0], *b = &beside->summary.rocket[0];
-    bool same =
-        alone->status == beside->status && strcmp(alone->error.text, beside->error.text) == 0 &&
-        memcmp(&a->flight, &b->flight, sizeof a->flight) == 0 &&
-        memcmp(a->measure, b->measure, sizeof a->measure) == 0 &&
-        memcmp(a->final.center, b->final.center, sizeof a->final.center) == 0 &&
-        memcmp(a->final.quaternion, b->final.quaternion, sizeof a->final.quaternion) == 0 &&
-        memcmp(a->final.rate, b->final.rate, sizeof a->final.rate) == 0 &&
-        alone->summary.statistics.steps == beside->summary.statistics.steps &&
-        alone->summary.statistics.rhs_evaluations == beside->summary.statistics.rhs_evaluations;
+    bool same = alone->status == beside->status &&
+                strcmp(alone->error.text, beside->error.text) == 0 &&
+                memcmp(&a->flight, &b->flight, sizeof a->flight) == 0 &&
+                memcmp(a->measure, b->measure, sizeof a->measure) == 0 &&
+                memcmp(a->final.center, b->final.center, sizeof a->final.center) == 0 &&
+                memcmp(a->final.quaternion, b->final.quaternion, sizeof a->final.quaternion) == 0 &&
+                memcmp(a->final.rate, b->final.rate, sizeof a->final.rate) == 0 &&
+                alone->summary.statistics.steps == beside->summary.statistics.steps &&
+                alone->summary.note_count == beside->summary.note_count &&
+                strcmp(alone->summary.note[0], beside->summary.note[0]) == 0;
     if (!same)
-        print_message("%d lanes: range %.17g alone, %.17g beside; \"%s\", \"%s\"\n", lanes,
-                      a->flight.range, b->flight.range, alone->error.text, beside->error.text);
+        print_message("%s: range %.17g alone, %.17g; \"%s\", \"%s\"\n", how, a->flight.range,
+                      b->flight.range, alone->error.text, beside->error.text);
     assert_true(same);
+}
+
+static ld_status take_begin(void *self, const ld_column *columns, size_t count, ld_error *error)
+{
+    (void)self, (void)columns, (void)count, (void)error;
+    return LD_OK;
+}
+
+static ld_status take_row(void *self, const double *values, size_t count, ld_error *error)
+{
+    (void)self, (void)values, (void)count, (void)error;
+    return LD_OK;
+}
+
+// Of a flight with rows every step is looked at, of others those that may hold something.
+static void check_with_rows(const flown *alone, flown *looked)
+{
+    const ld_sink sink = {.begin = take_begin, .row = take_row};
+    const ld_run_options wanted = {.sink = &sink};
+    memset(looked, 0, sizeof *looked);
+    looked->status =
+        ld_simulation_run(alone->simulation, &wanted, &looked->summary, &looked->error);
+    check_same(alone, looked, "with rows");
 }
 
 // Alone by ld_simulation_run, then in each width that there is.
 static void check_fleet(fleet *all)
 {
-    const lane_source source = {next, done, all};
+    const lane_source source = {next, done, all, NULL};
     for (int i = 0; i < FLIGHTS; i++) {
         flown *one = &all->alone[i];
         assert_int_equal(ld_simulation_create(&all->model[i], &one->simulation, NULL), LD_OK);
         one->status = ld_simulation_run(one->simulation, NULL, &one->summary, &one->error);
     }
+    for (int i = 0; i < FLIGHTS; i += 4)
+        check_with_rows(&all->alone[i], &all->beside[0]);
     for (int lanes = flight_lanes_here(); lanes > 0; lanes = lanes == 4 ? 1 : lanes / 2) {
         memset(all->beside, 0, sizeof all->beside);
         all->given = all->done = 0;
@@ -150,8 +178,12 @@ static void check_fleet(fleet *all)
             all->beside[i].simulation = all->alone[i].simulation;
         assert_int_equal(flight_lanes_fly(lanes, &source, NULL), LD_OK);
         assert_int_equal(all->done, FLIGHTS);
-        for (int i = 0; i < FLIGHTS; i++)
-            check_same(&all->alone[i], &all->beside[i], lanes);
+        for (int i = 0; i < FLIGHTS; i++) {
+            const flown *alone = &all->alone[i], *beside = &all->beside[i];
+            check_same(alone, beside, lanes == 1 ? "1 lane" : lanes == 4 ? "4 lanes" : "8 lanes");
+            assert_int_equal(alone->summary.statistics.rhs_evaluations,
+                             beside->summary.statistics.rhs_evaluations);
+        }
     }
     for (int i = 0; i < FLIGHTS; i++) {
         ld_simulation_free(all->alone[i].simulation);

@@ -105,9 +105,12 @@ static bool step_down(double H[FREEDOMS][FREEDOMS], const double gradient[FREEDO
     return LAPACKE_dposv(LAPACK_ROW_MAJOR, 'U', FREEDOMS, 1, damped, FREEDOMS, step, 1) == 0;
 }
 
+// Between round surfaces alone roll does not count.
 static double off_centre(const rest_problem *the, const rigid_pose *pose)
 {
-    return fmax(v3_norm(v3_sub(pose->r, rigid_centre(the->model).r)), v3_norm(rv_log(pose->A)));
+    double way = v3_norm(v3_sub(pose->r, rigid_centre(the->model).r));
+    double tilt = atan2(hypot(pose->A.a[1][0], pose->A.a[2][0]), pose->A.a[0][0]);
+    return fmax(way, guide_is_flat(&the->model->tubes.guide) ? v3_norm(rv_log(pose->A)) : tilt);
 }
 
 rigid_rest rigid_rest_from(const ld_model *model, v3 gravity, bool rolls, const rigid_pose *pose)

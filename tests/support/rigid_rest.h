@@ -16,7 +16,8 @@ typedef struct rigid_pose {
 typedef struct rigid_rest {
     rigid_pose pose;
     double energy; // [J] less that of the centred place without contact
-    double off;    // [m, rad] from the centred place, the larger of way and turn
+    double off;    // [m, rad] from the centred place, the larger of way and turn, which between
+                   // round surfaces alone is that of the axis
     bool found;    // no further off than 0.6
 } rigid_rest;
 

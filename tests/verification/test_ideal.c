@@ -146,12 +146,35 @@ static void run_balances(void **state)
     }
 }
 
+// Held on both sides, adaptors let steps be as long as is stable: 0.69 over the tube's highest
+// frequency, by a method that others would want half as many again of.
+static void steps_are_as_long_as_is_stable(void **state)
+{
+    (void)state;
+    ld_model model;
+    peers_model(&model, 12);
+    model.run.tolerance = 1e-5;
+    model.run.max_step = 6e-5;
+    model.run.start = LD_START_UNDEFORMED;
+    recorded_run run;
+    recorded_run_make(&run, &model);
+    double until = run.summary.rocket[0].t_rear, highest = 0;
+    for (int i = 0; i < run.summary.mode_count; i++)
+        highest = fmax(highest, run.summary.mode[i].frequency);
+    CHECK_BELOW("the longest step, by the highest frequency", model.run.max_step * highest, 0.69);
+    CHECK_BELOW("steps over those of the longest", (double)run.summary.statistics.steps,
+                1.1 * until / model.run.max_step);
+    recorded_run_free(&run);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_the_peers),
         cmocka_unit_test(converges_over_modes),
         cmocka_unit_test(run_balances),
+        cmocka_unit_test(steps_are_as_long_as_is_stable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
