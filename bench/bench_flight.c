@@ -96,7 +96,7 @@ static void bench_flight(ld_model *model, const char *what)
 
 // ---- side by side
 
-enum { FLEET = 64 };
+enum { FLEET = 400, FLEETS = 15 };
 
 typedef struct fleet {
     ld_simulation *simulation[FLEET];
@@ -130,30 +130,35 @@ static void bench_lanes(ld_model *model, double tolerance)
 {
     fleet all = {.given = 0};
     ld_model *drawn = calloc(FLEET, sizeof *drawn);
-    const lane_source source = {next_flight, flight_done, &all};
+    lane_use use;
+    const lane_source source = {next_flight, flight_done, &all, &use};
     model->run.flight_tolerance = tolerance;
     for (int i = 0; drawn && i < FLEET; i++) {
         drawn[i] = *model;
-        drawn[i].flight.pitch += 1e-3 * (i - 0.5 * FLEET);
-        drawn[i].flight.rate[1] += 2e-3 * (i - 0.5 * FLEET);
+        drawn[i].flight.pitch += 2e-4 * (i - 0.5 * FLEET);
+        drawn[i].flight.rate[1] += 4e-4 * (i - 0.5 * FLEET);
         if (ld_simulation_create(&drawn[i], &all.simulation[i], NULL))
             exit(1);
     }
     for (int i = 0; i < FLIGHT_MOST_LANES; i++)
         all.summary[i] = calloc(1, sizeof *all.summary[i]);
     for (int lanes = 1; lanes <= flight_lanes_here(); lanes = lanes == 1 ? 4 : 2 * lanes) {
-        double sample[REPEATS];
+        double sample[FLEETS];
         char what[64];
-        for (int r = 0; r < REPEATS; r++) {
+        for (int r = 0; r < FLEETS; r++) {
             double start = now();
             all.given = 0;
+            use = (lane_use){0};
             if (flight_lanes_fly(lanes, &source, NULL))
                 exit(1);
             sample[r] = (now() - start) / FLEET;
         }
         snprintf(what, sizeof what, "    a flight of many in %d lane%s", lanes,
                  lanes > 1 ? "s" : "");
-        print(what, sample, REPEATS, 1e-6, "us");
+        print(what, sample, FLEETS, 1e-6, "us");
+        if (use.lanes)
+            printf("    of the steps tried in lanes %.1f %% are of flights\n",
+                   100 * (double)use.flying / (double)use.lanes);
     }
     for (int i = 0; i < FLEET; i++)
         ld_simulation_free(all.simulation[i]);

@@ -9,6 +9,7 @@
 #include "bench_sample.h"
 #include "bench_scratch.h"
 #include "launchdyn/study.h"
+#include "simulation/flight_lanes.h"
 #include "simulation/simulation.h"
 #include "studies/worker.h"
 
@@ -170,6 +171,30 @@ static void bench_kind(const char *what, const char *text)
     ld_study_free(study);
 }
 
+// A study's flights in as many lanes as the environment allows: CPU of all of it, records included.
+static void bench_lanes(const char *text)
+{
+    ld_study *study = read_study(text);
+    study->nominal->run.flight_tolerance = 2.5e-4; // 0.1 m rms
+    for (int lanes = 1; lanes <= 8; lanes = lanes == 1 ? 4 : 2 * lanes) {
+        char most[16];
+        double cpu = INFINITY;
+        snprintf(most, sizeof most, "%d", lanes);
+        setenv("LAUNCHDYN_LANES", most, 1);
+        if (flight_lanes_here() < lanes)
+            break;
+        for (int pass = 0; pass < PASSES; pass++) {
+            double start = now();
+            study_wall(study, 1);
+            cpu = fmin(cpu, now() - start);
+        }
+        printf("    in %d lane%s %.0f flights a second and core, records included\n", lanes,
+               lanes > 1 ? "s" : "", (double)study->samples / cpu);
+    }
+    unsetenv("LAUNCHDYN_LANES");
+    ld_study_free(study);
+}
+
 // ---- flight over its tolerance
 
 enum { FLIGHTS = 200 };
@@ -227,6 +252,7 @@ int main(void)
     bench_kind("salvo at 0 km/h", salvo);
     bench_kind("launch at 30 km/h", marching);
     bench_kind("flight alone", flight);
+    bench_lanes(flight);
     bench_tolerance(flight);
     return 0;
 }

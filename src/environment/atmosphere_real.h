@@ -27,14 +27,17 @@ LD_INLINE int atmosphere_layer_number(const atmosphere_layer *layer, double H)
 // The layer of the geopotential height H.
 LD_INLINE real_layer atmosphere_layer_at(const atmosphere_layer *layer, real H)
 {
-    real_layer out;
-    for (int lane = 0; lane < LANES; lane++) {
-        int i = atmosphere_layer_number(layer, REAL_LANE(H, lane));
-        REAL_LANE(out.base, lane) = layer[i].base;
-        REAL_LANE(out.lapse, lane) = layer[i].lapse;
-        REAL_LANE(out.temperature, lane) = layer[i].temperature;
-        REAL_LANE(out.density, lane) = layer[i].density;
-        REAL_LANE(out.exponent, lane) = layer[i].exponent;
+    real_layer out = {real_all(layer->base), real_all(layer->lapse), real_all(layer->temperature),
+                      real_all(layer->density), real_all(layer->exponent)};
+    for (int i = 1; i < ATMOSPHERE_LAYERS; i++) {
+        real_condition above = H >= layer[i].base;
+        if (!real_any(above))
+            break;
+        out.base = real_select(above, real_all(layer[i].base), out.base);
+        out.lapse = real_select(above, real_all(layer[i].lapse), out.lapse);
+        out.temperature = real_select(above, real_all(layer[i].temperature), out.temperature);
+        out.density = real_select(above, real_all(layer[i].density), out.density);
+        out.exponent = real_select(above, real_all(layer[i].exponent), out.exponent);
     }
     return out;
 }

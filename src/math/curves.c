@@ -73,7 +73,7 @@ ld_status curves_build(curves *self, size_t rows, size_t columns, const double *
     size_t n = rows > 1 ? rows : 2;
     *self = (curves){.points = n, .count = (int)columns - 1};
     self->x = malloc(n * sizeof(double));
-    self->coefficient = malloc((n - 1) * 4 * (size_t)self->count * sizeof(double));
+    self->coefficient = calloc((n - 1) * 4 * (size_t)self->count + 1, sizeof(double));
     double *scratch = malloc(6 * n * sizeof(double));
     ld_status status;
     if (self->x && self->coefficient && scratch)
@@ -91,16 +91,6 @@ void curves_free(curves *self)
     free(self->x);
     free(self->coefficient);
     *self = (curves){0};
-}
-
-size_t curves_interval(const curves *self, double x, size_t hint)
-{
-    size_t i = hint < self->points - 1 ? hint : self->points - 2;
-    while (i > 0 && x < self->x[i])
-        i--;
-    while (i + 2 < self->points && x >= self->x[i + 1])
-        i++;
-    return i;
 }
 
 void curves_values(const curves *self, size_t interval, double x, double *values)

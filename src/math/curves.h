@@ -13,7 +13,7 @@ typedef struct curves {
     size_t points;
     int count;           // functions
     double *x;           // [points] increasing, owned
-    double *coefficient; // [points - 1][4][count] of (x - x_i)^k, owned
+    double *coefficient; // [points - 1][4][count] of (x - x_i)^k, and room for one more; owned
 } curves;
 
 // Columns 1 .. of `data` [rows][columns] over column 0, which must increase; at least one row (with
@@ -23,7 +23,15 @@ ld_status curves_build(curves *self, size_t rows, size_t columns, const double *
 void curves_free(curves *self);
 
 // The interval that x lies in, the first or last one outside; `hint` is tried first.
-size_t curves_interval(const curves *self, double x, size_t hint);
+static inline size_t curves_interval(const curves *self, double x, size_t hint)
+{
+    size_t i = hint < self->points - 1 ? hint : self->points - 2;
+    while (i > 0 && x < self->x[i])
+        i--;
+    while (i + 2 < self->points && x >= self->x[i + 1])
+        i++;
+    return i;
+}
 
 // The first `count` values at x by the polynomials of that interval; outside the table they go on.
 static inline void curves_first_values(const curves *self, size_t interval, double x, int count,

@@ -7,23 +7,48 @@
 
 typedef struct model_checker {
     const ld_model *model;
+    bool drawn; // what the study says was checked before it drew
     ld_error *error;
     ld_status status;
 } model_checker;
 
-static void refuse(model_checker *checker, const char *path, const char *text)
+// Where a value stands, written out only where it is refused: many models are checked in a study.
+typedef struct key_path {
+    const struct key_path *above; // NULL: of the whole scenario
+    const char *key;
+    int entry; // of the list of that key, from 1; 0: no list
+} key_path;
+
+static void refuse_rule(void *self, const char *path, const char *text)
 {
+    model_checker *checker = self;
     if (checker->status == LD_OK)
         checker->status = ld_fail(checker->error, LD_ERR_INPUT, "%s: %s", path, text);
 }
 
-static void refuse_rule(void *self, const char *path, const char *text)
+// The path as text; returns its length.
+static size_t write_path(const key_path *path, char *text, size_t size)
 {
-    refuse(self, path, text);
+    if (!path)
+        return 0;
+    size_t at = write_path(path->above, text, size);
+    const char *dot = at ? "." : "";
+    int more = path->entry
+                   ? snprintf(text + at, size - at, "%s%.100s.%d", dot, path->key, path->entry)
+                   : snprintf(text + at, size - at, "%s%.100s", dot, path->key);
+    return at + (size_t)more < size ? at + (size_t)more : size - 1;
+}
+
+static void refuse(model_checker *checker, const key_path *path, const char *text)
+{
+    char written[160] = "";
+    write_path(path, written, sizeof written);
+    refuse_rule(checker, written, text);
 }
 
 // One number of a field; `optional` allows NaN.
-static void check_number(model_checker *checker, const char *path, const field_row *f, double value)
+static void check_number(model_checker *checker, const key_path *path, const field_row *f,
+                         double value)
 {
     char range[96], text[192];
     bool optional = !f->required && isnan(f->initial);
@@ -35,7 +60,7 @@ static void check_number(model_checker *checker, const char *path, const field_r
     refuse(checker, path, text);
 }
 
-static void check_choice(model_checker *checker, const char *path, const field_row *f,
+static void check_choice(model_checker *checker, const key_path *path, const field_row *f,
                          const void *base)
 {
     int value;
@@ -49,7 +74,7 @@ static void check_choice(model_checker *checker, const char *path, const field_r
         check_number(checker, path, f, *(const double *)((const char *)base + f->other));
 }
 
-static void check_integer(model_checker *checker, const char *path, const field_row *f,
+static void check_integer(model_checker *checker, const key_path *path, const field_row *f,
                           const void *base)
 {
     int value;
@@ -57,12 +82,13 @@ static void check_integer(model_checker *checker, const char *path, const field_
     if (f->offset == FIELD_NOWHERE)
         return;
     memcpy(&value, field_at_const(base, f), sizeof value);
+    if (field_in_range(f->range, value))
+        return;
     snprintf(text, sizeof text, "%d is not from %g to %.9g", value, f->range.low, f->range.high);
-    if (!field_in_range(f->range, value))
-        refuse(checker, path, text);
+    refuse(checker, path, text);
 }
 
-static void check_integers(model_checker *checker, const char *path, const field_row *f,
+static void check_integers(model_checker *checker, const key_path *path, const field_row *f,
                            const void *base)
 {
     int count = field_switch(base, f);
@@ -74,14 +100,15 @@ static void check_integers(model_checker *checker, const char *path, const field
     }
     for (int i = 0; i < count; i++) {
         int value = ((const int *)field_at_const(base, f))[i];
+        if (field_in_range(f->range, value))
+            continue;
         snprintf(text, sizeof text, "%d is not from %g to %.9g", value, f->range.low,
                  f->range.high);
-        if (!field_in_range(f->range, value))
-            refuse(checker, path, text);
+        refuse(checker, path, text);
     }
 }
 
-static void check_table(model_checker *checker, const char *path, const field_row *f,
+static void check_table(model_checker *checker, const key_path *path, const field_row *f,
                         const ld_table *table)
 {
     if (f->required && table->rows == 0)
@@ -98,22 +125,22 @@ static void check_table(model_checker *checker, const char *path, const field_ro
             check_number(checker, path, &format->column[k], table->data[i * table->columns + k]);
 }
 
-static void check_block(model_checker *checker, const char *path, const field_block *block,
+static void check_block(model_checker *checker, const key_path *path, const field_block *block,
                         const void *base);
 
-static void check_list(model_checker *checker, const char *path, const field_row *f,
+static void check_list(model_checker *checker, const key_path *path, const field_row *f,
                        const void *base)
 {
     int count = field_switch(base, f);
-    char text[96], entry[160];
+    char text[96];
     if (count < f->least || count > f->count) {
         snprintf(text, sizeof text, "%d entries, not %d to %d", count, f->least, f->count);
         refuse(checker, path, text);
         return;
     }
     for (int i = 0; i < count; i++) {
-        snprintf(entry, sizeof entry, "%.140s.%d", path, i + 1);
-        check_block(checker, entry, f->block, field_entry_const(base, f, i));
+        const key_path entry = {path->above, path->key, i + 1};
+        check_block(checker, &entry, f->block, field_entry_const(base, f, i));
     }
 }
 
@@ -122,9 +149,10 @@ static void check_factors(model_checker *checker, const ld_scatter *scatter)
     char path[LD_MAX_PATH + 24], why[384];
     for (int i = 0; i < scatter->factor_count; i++) {
         const ld_factor *factor = &scatter->factor[i];
+        if (factor_is_possible(checker->model, factor, why, sizeof why))
+            continue;
         snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH - 1, factor->path);
-        if (!factor_is_possible(checker->model, factor, why, sizeof why))
-            refuse(checker, path, why);
+        refuse_rule(checker, path, why);
     }
 }
 
@@ -138,9 +166,9 @@ static void check_correlated(model_checker *checker, const ld_scatter *scatter)
             known = group->factor[k] >= 0 && group->factor[k] < scatter->factor_count;
         snprintf(path, sizeof path, "scatter.correlated.%d", i + 1);
         if (!known)
-            refuse(checker, path, "not from two of the scatter's factors to as many as fit");
+            refuse_rule(checker, path, "not from two of the scatter's factors to as many as fit");
         else if (!correlated_is_possible(scatter, group, why, sizeof why))
-            refuse(checker, path, why);
+            refuse_rule(checker, path, why);
     }
 }
 
@@ -148,7 +176,7 @@ static void check_until(model_checker *checker, const ld_scatter *scatter)
 {
     char path[48];
     if (scatter->until_count < 0 || scatter->until_count > LD_MAX_UNTIL) {
-        refuse(checker, "scatter.until", "more statistics than fit");
+        refuse_rule(checker, "scatter.until", "more statistics than fit");
         return;
     }
     for (int i = 0; i < scatter->until_count; i++) {
@@ -159,7 +187,7 @@ static void check_until(model_checker *checker, const ld_scatter *scatter)
             (until->statistic == LD_STATISTIC_MEAN || until->statistic == LD_STATISTIC_DEVIATION);
         snprintf(path, sizeof path, "scatter.until.%d", i + 1);
         if (!good)
-            refuse(checker, path, "no statistic with a half width > 0");
+            refuse_rule(checker, path, "no statistic with a half width > 0");
     }
 }
 
@@ -171,10 +199,23 @@ static void check_sweep(model_checker *checker, const ld_model *model)
         points *= count > LD_MAX_POINTS ? LD_MAX_POINTS + 1 : count;
     }
     if (points < 1 || points > LD_MAX_POINTS)
-        refuse(checker, "sweep", "has no points, or more than are allowed");
+        refuse_rule(checker, "sweep", "has no points, or more than are allowed");
 }
 
-static void check_field(model_checker *checker, const char *path, const field_row *f,
+// What a study says.
+static void check_study(model_checker *checker, field_kind kind, const void *base)
+{
+    if (kind == FIELD_FACTORS)
+        check_factors(checker, base);
+    else if (kind == FIELD_CORRELATED)
+        check_correlated(checker, base);
+    else if (kind == FIELD_UNTIL)
+        check_until(checker, base);
+    else
+        check_sweep(checker, base);
+}
+
+static void check_field(model_checker *checker, const key_path *path, const field_row *f,
                         const void *base)
 {
     switch (f->kind) {
@@ -223,16 +264,11 @@ static void check_field(model_checker *checker, const char *path, const field_ro
             refuse(checker, path, "not ended by a zero");
         break;
     case FIELD_FACTORS:
-        check_factors(checker, base);
-        break;
     case FIELD_CORRELATED:
-        check_correlated(checker, base);
-        break;
     case FIELD_UNTIL:
-        check_until(checker, base);
-        break;
     case FIELD_SWEEP:
-        check_sweep(checker, base);
+        if (!checker->drawn)
+            check_study(checker, f->kind, base);
         break;
     case FIELD_TEXT:
     case FIELD_SELECTION:
@@ -241,23 +277,17 @@ static void check_field(model_checker *checker, const char *path, const field_ro
     }
 }
 
-static void check_block(model_checker *checker, const char *path, const field_block *block,
+static void check_block(model_checker *checker, const key_path *path, const field_block *block,
                         const void *base)
 {
-    char key_path[160];
     int form = field_form(block, base);
     if (block->form && (form < 0 || !field_word_of(block->form, form))) {
         refuse(checker, path, "no value of this choice");
         return;
     }
-    // many models are checked in a study: the part that the keys share is written once
-    int shared = snprintf(key_path, sizeof key_path, "%.100s%s", path, path[0] ? "." : "");
-    for (const field_row *f = block->fields; f->name; f++) {
-        if (!field_has_form(f, form))
-            continue;
-        memccpy(key_path + shared, f->name, '\0', sizeof key_path - (size_t)shared);
-        check_field(checker, key_path, f, base);
-    }
+    for (const field_row *f = block->fields; f->name; f++)
+        if (field_has_form(f, form))
+            check_field(checker, &(key_path){path, f->name, 0}, f, base);
 }
 
 // What model_complete() computes must be there.
@@ -271,26 +301,36 @@ static void check_complete(model_checker *checker, const ld_model *model)
                      section_stiffness_z(s) + s->torsion_stiffness + s->polar_inertia;
         snprintf(path, sizeof path, "tubes.sections.%d", i + 1);
         if (isnan(sum))
-            refuse(checker, path,
-                   "its stiffnesses and masses are not computed; call model_complete()");
+            refuse_rule(checker, path,
+                        "its stiffnesses and masses are not computed; call model_complete()");
     }
     if (isnan(model->rocket.propellant))
-        refuse(checker, "rocket.propellant", "not computed; call model_complete()");
+        refuse_rule(checker, "rocket.propellant", "not computed; call model_complete()");
     if (launch && isnan(model->run.stuck_time))
-        refuse(checker, "run.stuck_time", "not computed; call model_complete()");
+        refuse_rule(checker, "run.stuck_time", "not computed; call model_complete()");
     if (launch && isnan(model->run.max_step))
-        refuse(checker, "run.max_step", "not computed; call model_complete()");
+        refuse_rule(checker, "run.max_step", "not computed; call model_complete()");
 }
 
-ld_status model_check(const ld_model *model, ld_error *error)
+static ld_status check(const ld_model *model, bool drawn, ld_error *error)
 {
-    model_checker checker = {model, error, LD_OK};
+    model_checker checker = {model, drawn, error, LD_OK};
     if (isnan(model->environment.ground_height))
-        refuse(&checker, "environment.ground", "not computed; call model_complete()");
-    check_block(&checker, "", &scenario_block, model);
+        refuse_rule(&checker, "environment.ground", "not computed; call model_complete()");
+    check_block(&checker, NULL, &scenario_block, model);
     if (checker.status == LD_OK)
         model_check_rules(model, refuse_rule, &checker);
     if (checker.status == LD_OK)
         check_complete(&checker, model);
     return checker.status;
+}
+
+ld_status model_check(const ld_model *model, ld_error *error)
+{
+    return check(model, false, error);
+}
+
+ld_status model_check_drawn(const ld_model *model, ld_error *error)
+{
+    return check(model, true, error);
 }

@@ -1024,4 +1024,8 @@ void model_clear(ld_model *model);
 /// hand (the scenario reader has its own messages with line and column).
 ld_status model_check(const ld_model *model, ld_error *error);
 
+/// The same of a model that a study has drawn from one that was checked, but for the keys of the
+/// study itself.
+ld_status model_check_drawn(const ld_model *model, ld_error *error);
+
 #endif

@@ -115,7 +115,7 @@ LD_INLINE void judge(double *block, real_condition last)
     real log_error = real_log(real_max(real_min(error, real_all(1e40)), real_all(1e-40)));
     real power = -0.17 * log_error + real_select(done, 0.04 * OF_STEP(log_before), real_all(0));
     real grow = 0.9 * real_exp((real_pair){power, real_all(0)});
-    grow = real_select(error - error == 0.0, grow, real_all(0.3));
+    grow = real_select(error < (double)INFINITY, grow, real_all(0.3));
     real shrunk = size * real_max(real_all(0.2), real_min(real_all(1), grow));
     real next = size * real_min(OF_STEP(most), real_max(real_all(0.2), grow));
     // a step cut short by a stop tells nothing against the size before it

@@ -45,11 +45,11 @@ typedef struct lane_group {
 int flight_lanes_here(void)
 {
 #ifdef LD_HAVE_AVX
-    if (getenv("LAUNCHDYN_PLAIN"))
-        return 1;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+    const char *given = getenv("LAUNCHDYN_LANES");
+    long most = getenv("LAUNCHDYN_PLAIN") ? 1 : given ? strtol(given, NULL, 10) : MOST;
+    if (most >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
         return 8;
-    if (__builtin_cpu_supports("avx2"))
+    if (most >= 4 && __builtin_cpu_supports("avx2"))
         return 4;
 #endif
     return 1;
@@ -187,6 +187,15 @@ static void try_steps(lane_group *self, int flying)
     }
 }
 
+static void count_use(const lane_group *self)
+{
+    lane_use *use = self->source->use;
+    for (int i = 0; use && i < self->count; i++) {
+        use->lanes++;
+        use->flying += self->lane[i].flies;
+    }
+}
+
 static void fly(lane_group *self)
 {
     for (;;) {
@@ -197,6 +206,7 @@ static void fly(lane_group *self)
         if (flying < 0)
             return;
         fill_free_lanes(self, flying);
+        count_use(self);
         try_steps(self, flying);
     }
 }

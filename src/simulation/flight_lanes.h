@@ -14,6 +14,11 @@ typedef struct lane_flight {
     ld_error *error;
 } lane_flight;
 
+// How many steps were tried in lanes, and how many of them of flights.
+typedef struct lane_use {
+    int64_t lanes, flying;
+} lane_use;
+
 // Who has flights to be flown.
 typedef struct lane_source {
     // The next flight for this lane; false: there is none now, it is asked for again after the next
@@ -22,10 +27,11 @@ typedef struct lane_source {
     // It has ended as free_flight_run ends.
     void (*done)(void *self, int lane, lane_flight *flight, ld_status status);
     void *self;
+    lane_use *use; // added to; may be NULL
 } lane_source;
 
 // Lanes that this processor has: 4 with AVX2, 8 with AVX-512, else, or where the environment has
-// LAUNCHDYN_PLAIN, 1.
+// LAUNCHDYN_PLAIN, 1. Never more than LAUNCHDYN_LANES in the environment.
 int flight_lanes_here(void);
 
 // Flies until there is none. A flight unlike those in the air (flight_is_like) is flown alone.

@@ -64,25 +64,50 @@ static void release(ld_simulation *self)
     memset(self, 0, sizeof *self);
 }
 
-ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)
+// An empty one.
+static ld_simulation *make(ld_error *error)
 {
-    ld_simulation *self = *simulation;
-    launching_tube kept = {0};
-    if (self) {
-        kept = launching_take_tube(&self->launcher.launching);
-        release(self);
-    } else {
-        // its lanes want their alignment
-        self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
-        if (!self)
-            return ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
+    // its lanes want their alignment
+    ld_simulation *self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);
+    if (self)
         memset(self, 0, sizeof *self);
-        *simulation = self;
+    else
+        ld_fail(error, LD_ERR_MEMORY, "no memory for the simulation");
+    return self;
+}
+
+static ld_status renew_launch(ld_simulation *self, const ld_model *model, ld_error *error)
+{
+    launching_tube kept = launching_take_tube(&self->launcher.launching);
+    release(self);
+    self->model = model;
+    ld_status status = create_launch(self, &kept, error);
+    launching_tube_free(&kept);
+    return status;
+}
+
+static ld_status renew_flight(ld_simulation *self, const ld_model *model, ld_error *error)
+{
+    if (self->flight.rocket) {
+        // after another flight alone there is no launcher to be cleared
+        flight_free(&self->flight);
+        quantity_columns_free(&self->columns);
+    } else {
+        release(self);
     }
     self->model = model;
-    ld_status status = model_has_launcher(model) ? create_launch(self, &kept, error)
-                                                 : flight_alone_create(self, error);
-    launching_tube_free(&kept);
+    return flight_alone_create(self, error);
+}
+
+ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)
+{
+    if (!*simulation)
+        *simulation = make(error);
+    ld_simulation *self = *simulation;
+    if (!self)
+        return LD_ERR_MEMORY;
+    ld_status status = model_has_launcher(model) ? renew_launch(self, model, error)
+                                                 : renew_flight(self, model, error);
     if (status)
         release(self);
     return status;

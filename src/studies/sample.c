@@ -112,7 +112,7 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
         drawn = draw_row(self, sampler, number, i, drawn);
         model_complete(&self->model);
         if (!status)
-            status = model_check(&self->model, error);
+            status = model_check_drawn(&self->model, error);
         self->salvo[i - 1] = self->model.rocket;
         stuck_time = fmax(stuck_time, self->model.run.stuck_time);
     }

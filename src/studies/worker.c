@@ -182,7 +182,7 @@ static ld_status fly_all(study_ledger *ledger, ld_error *error)
     lane_workers *self = calloc(1, sizeof *self);
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for flights side by side");
-    const lane_source source = {next_flight, flight_done, self};
+    const lane_source source = {next_flight, flight_done, self, NULL};
     self->ledger = ledger;
     self->asked = (permission){ledger_goes_on, ledger};
     self->options = (ld_run_options){.self = &self->asked, .progress = may_go_on};

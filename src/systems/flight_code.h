@@ -94,23 +94,42 @@ LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, cons
     return out;
 }
 
+// The coefficients of each lane's table at its Mach number.
+LD_INLINE void look_up(const flight_lanes *lanes, real mach, real k[AERODYNAMICS_COLUMNS + 1])
+{
+    for (int lane = 0; lane < LANES; lane++) {
+        double at = REAL_LANE(mach, lane);
+        const curves *table = &lanes->system[lane]->aerodynamics.table;
+        size_t *interval = &lanes->phase[lane]->interval;
+        *interval = curves_interval(table, at, *interval);
+#if LANES == 1
+        curves_first_values(table, *interval, at, AERODYNAMICS_COLUMNS, k);
+#else
+        // of one lane as many columns at once as there are lanes, then turned
+        const double *c = table->coefficient + *interval * 4 * (size_t)table->count;
+        double t = at - table->x[*interval];
+        for (int first = 0; first < AERODYNAMICS_COLUMNS + 1; first += LANES) {
+            real c0, c1, c2, c3;
+            memcpy(&c0, c + first, sizeof c0);
+            memcpy(&c1, c + first + table->count, sizeof c1);
+            memcpy(&c2, c + first + 2 * table->count, sizeof c2);
+            memcpy(&c3, c + first + 3 * table->count, sizeof c3);
+            k[first + lane] = c0 + t * (c1 + t * (c2 + t * c3));
+        }
+#endif
+    }
+    for (int first = 0; first < AERODYNAMICS_COLUMNS + 1; first += LANES)
+        real_turn(k + first);
+}
+
 LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, const flow *here, real3 v_B,
                                       real speed, real3 w, real3 c)
 {
     if (lanes->system[0]->aerodynamics.model == LD_AERODYNAMICS_BODY)
         return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), v_B, speed, w,
                                     here->density);
-    real coefficient[AERODYNAMICS_COLUMNS], mach = speed / here->speed_of_sound;
-    real held = real_select(mach < OF(air.last_mach), mach, OF(air.last_mach));
-    for (int i = 0; i < LANES; i++) {
-        double k[AERODYNAMICS_COLUMNS], at = REAL_LANE(held, i);
-        const curves *table = &lanes->system[i]->aerodynamics.table;
-        size_t *interval = &lanes->phase[i]->interval;
-        *interval = curves_interval(table, at, *interval);
-        curves_first_values(table, *interval, at, AERODYNAMICS_COLUMNS, k);
-        for (int j = 0; j < AERODYNAMICS_COLUMNS; j++)
-            REAL_LANE(coefficient[j], i) = k[j];
-    }
+    real coefficient[AERODYNAMICS_COLUMNS + 1], mach = speed / here->speed_of_sound;
+    look_up(lanes, real_select(mach < OF(air.last_mach), mach, OF(air.last_mach)), coefficient);
     const real_body body = {OF(air.half_area), OF(air.diameter), OF(air.cant),
                             OF(air.crossflow_drag), OF(air.crossflow_at)};
     real drag = real_select(OF(burn.power) != 0.0, coefficient[1], coefficient[0]);

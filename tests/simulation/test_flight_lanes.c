@@ -163,7 +163,7 @@ static void check_with_rows(const flown *alone, flown *looked)
 // Alone by ld_simulation_run, then in each width that there is.
 static void check_fleet(fleet *all)
 {
-    const lane_source source = {next, done, all};
+    const lane_source source = {next, done, all, NULL};
     for (int i = 0; i < FLIGHTS; i++) {
         flown *one = &all->alone[i];
         assert_int_equal(ld_simulation_create(&all->model[i], &one->simulation, NULL), LD_OK);
