@@ -95,7 +95,7 @@ static void print_series(const ld_model *model, int which)
 // Coarser choices at the default tolerance against everything fine.
 static void print_all_at_once(const ld_model *model)
 {
-    static const int modes[][2] = {{6, 2}, {6, 4}, {8, 4}, {8, 6}, {12, 8}};
+    static const int modes[][2] = {{5, 4}, {6, 2}, {7, 4}, {8, 4}, {12, 8}};
     long long steps;
     ld_model fine = *model;
     set(&fine, 0, 24);

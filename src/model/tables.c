@@ -653,9 +653,9 @@ static const field_word span_words[] = {{"supported", LD_SPAN_SUPPORTED},
                                         {"free-free", LD_SPAN_FREE_FREE},
                                         {NULL, 0}};
 static const field_row modes_fields[] = {
-    {"bending", INTEGER(ld_modes, bending, 1, LD_MAX_BENDING_MODES), DEFAULT(6),
+    {"bending", INTEGER(ld_modes, bending, 1, LD_MAX_BENDING_MODES), DEFAULT(7),
      .doc = "bending modes a plane"},
-    {"torsion", INTEGER(ld_modes, torsion, 0, LD_MAX_TORSION_MODES), DEFAULT(2),
+    {"torsion", INTEGER(ld_modes, torsion, 0, LD_MAX_TORSION_MODES), DEFAULT(4),
      .doc = "torsion modes"},
     {"axial", INTEGER(ld_modes, axial, 0, LD_MAX_AXIAL_MODES), DEFAULT(0), .doc = "axial modes"},
     {"elements", INTEGER(ld_modes, elements, 2, 400), DEFAULT(60),

@@ -150,7 +150,8 @@ const launcher_output *simulation_output(launch_state *self, double t, const dou
 // ---- tolerances ----
 
 // Absolute tolerance per kind of state; positions in I have no relative one: a vehicle may be far
-// from the origin. Works are quadratures: they do not steer the step.
+// from the origin. Works are quadratures: they do not steer the step, with infinity for a
+// tolerance, whose shares of the error are zero and not denormal numbers.
 typedef struct tolerances {
     double atol[LD_MAX_STATES];
     bool absolute[LD_MAX_STATES];
@@ -162,7 +163,7 @@ static void find_tolerances(const launch_state *self, tolerances *all)
     double tolerance = self->model->run.tolerance, *atol = all->atol;
     memset(all->absolute, 0, sizeof all->absolute);
     for (int i = 0; i < LD_MAX_STATES; i++)
-        atol[i] = 1e300;
+        atol[i] = INFINITY;
     for (int i = 0; i < 3; i++) {
         atol[at->r + i] = 1e-2 * tolerance;
         all->absolute[at->r + i] = true;
@@ -503,7 +504,7 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
     double atol[2][LD_MAX_STATES];
     bool absolute[2][LD_MAX_STATES] = {{false}};
     for (int i = 0; i < LD_MAX_STATES; i++)
-        atol[0][i] = atol[1][i] = 1e300;
+        atol[0][i] = atol[1][i] = INFINITY;
     for (int i = 0; i < self->vehicle->marching_at; i++) {
         atol[0][i] = all->atol[launcher->base_at + i];
         absolute[0][i] = all->absolute[launcher->base_at + i];
@@ -651,7 +652,7 @@ static ld_status create_integrators(propagator *self, ld_error *error)
     ld_status status = create_base(self, &settings, &all, error);
     int count = launcher->launching.layout.count, works = launcher->launching.work_count;
     for (int i = 0; i < works; i++) {
-        all.atol[count + i] = 1e300;
+        all.atol[count + i] = INFINITY;
         all.absolute[count + i] = false;
     }
     settings.n = (size_t)(count + works);

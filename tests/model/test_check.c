@@ -133,8 +133,8 @@ static void test_defaults(void **state)
     ld_model m;
     ld_error error;
     model_init(&m);
-    assert_int_equal(m.tubes.modes.bending, 6);
-    assert_int_equal(m.tubes.modes.torsion, 2);
+    assert_int_equal(m.tubes.modes.bending, 7);
+    assert_int_equal(m.tubes.modes.torsion, 4);
     assert_int_equal(m.tubes.modes.elements, 60);
     assert_true(m.run.tolerance == 1e-5 && m.run.output_step_tube == 1e-4);
     assert_true(m.gravity == 9.80665 && m.firing_count == 1 && m.firing[0].tube == 1);
