@@ -150,7 +150,8 @@ const launcher_output *simulation_output(launch_state *self, double t, const dou
 // ---- tolerances ----
 
 // Absolute tolerance per kind of state; positions in I have no relative one: a vehicle may be far
-// from the origin. Works are quadratures: they do not steer the step.
+// from the origin. Works are quadratures: they do not steer the step, with infinity for a
+// tolerance, whose shares of the error are zero and not denormal numbers.
 typedef struct tolerances {
     double atol[LD_MAX_STATES];
     bool absolute[LD_MAX_STATES];
@@ -162,7 +163,7 @@ static void find_tolerances(const launch_state *self, tolerances *all)
     double tolerance = self->model->run.tolerance, *atol = all->atol;
     memset(all->absolute, 0, sizeof all->absolute);
     for (int i = 0; i < LD_MAX_STATES; i++)
-        atol[i] = 1e300;
+        atol[i] = INFINITY;
     for (int i = 0; i < 3; i++) {
         atol[at->r + i] = 1e-2 * tolerance;
         all->absolute[at->r + i] = true;
@@ -503,7 +504,7 @@ static ld_status create_base(propagator *self, const integrator_settings *whole,
     double atol[2][LD_MAX_STATES];
     bool absolute[2][LD_MAX_STATES] = {{false}};
     for (int i = 0; i < LD_MAX_STATES; i++)
-        atol[0][i] = atol[1][i] = 1e300;
+        atol[0][i] = atol[1][i] = INFINITY;
     for (int i = 0; i < self->vehicle->marching_at; i++) {
         atol[0][i] = all->atol[launcher->base_at + i];
         absolute[0][i] = all->absolute[launcher->base_at + i];
@@ -608,10 +609,10 @@ static bool goes_slowly(const propagator *self)
     return self->exponential && !(launch->phase.rocket && launch_is_lit(launch));
 }
 
-// Which tube there is, and what stands in it.
+// What stands in the tube: nothing, a rocket, one that is held.
 static int kind_of_equations(const launch_state *launch)
 {
-    return 4 * launch->current + 2 * launch->phase.rocket + launch->phase.locked;
+    return launch->phase.rocket ? 1 + launch->phase.locked : 0;
 }
 
 // ---- both ----
@@ -651,7 +652,7 @@ static ld_status create_integrators(propagator *self, ld_error *error)
     ld_status status = create_base(self, &settings, &all, error);
     int count = launcher->launching.layout.count, works = launcher->launching.work_count;
     for (int i = 0; i < works; i++) {
-        all.atol[count + i] = 1e300;
+        all.atol[count + i] = INFINITY;
         all.absolute[count + i] = false;
     }
     settings.n = (size_t)(count + works);
@@ -696,6 +697,9 @@ ld_status propagator_start(propagator *self, double t, const double *y, bool ane
             exponential_steps_count_from(self->exponential, t);
         self->t_explicit = -INFINITY;
         self->long_step = false;
+        int kind = kind_of_equations(self->launch);
+        if (goes_slowly(self) && exponential_steps_take(self->exponential, kind, error))
+            return LD_ERR_MEMORY;
         return integrator_start(self->integrator, t, y, error);
     }
     const launcher_system *launcher = &self->launch->launcher;
@@ -740,8 +744,7 @@ static integrator_outcome step_together(propagator *self, double t_stop, ld_erro
     bool slowly = goes_slowly(self);
     if (slowly && t >= self->t_explicit) {
         if (!self->long_step)
-            exponential_steps_start(self->exponential, t, propagator_state(self),
-                                    kind_of_equations(self->launch));
+            exponential_steps_start(self->exponential, t, propagator_state(self));
         self->long_step = true;
         exponential_outcome outcome = exponential_steps_step(self->exponential, t_stop);
         if (outcome != EXPONENTIAL_REFUSED)

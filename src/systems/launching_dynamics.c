@@ -271,19 +271,21 @@ v3 launching_rocket_point(const launching_system *self, const double *state, v3 
 void launching_section_at(const launching_system *self, const double *state, double x,
                           launching_section *out)
 {
-    tube_state tube;
+    const launching_layout *at = &self->layout;
+    v3 v = v3_from(state + at->v), w = v3_from(state + at->w);
+    modal_state modal;
     element_motion motion;
     axis_section s;
     section_rates rates;
-    tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
+    modal_load(self->tube.flexible.nbp / 4, &self->tube, at, state, &modal);
     s.index = flexible_tube_find(&self->tube.flexible, x);
-    element_load(&self->tube, &tube.modal, s.index, &motion);
+    element_load(&self->tube, &modal, s.index, &motion);
     section_load(&self->tube, &motion, x, &s);
     section_rates_load(&motion, &s, &rates);
     out->P = s.P;
     out->A = s.A;
-    out->v = v3_add(v3_add(tube.v, v3_cross(tube.w, s.P)), rates.u_dot);
-    out->w = v3_add(tube.w, rates.w);
+    out->v = v3_add(v3_add(v, v3_cross(w, s.P)), rates.u_dot);
+    out->w = v3_add(w, rates.w);
 }
 
 double launching_offset_rate(const launching_system *self, const double *state, int i)
