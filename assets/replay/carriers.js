@@ -133,7 +133,7 @@ class Ship extends Carrier {
 class Aircraft extends Carrier {
   constructor(motion, scene) {
     super(motion, scene);
-    const length = Math.max(4.4 * motion.length, 6), radius = 0.062 * length, above = motion.mount[3] > 0.26;
+    const length = Math.max(4.4 * motion.length, 6), radius = 0.062 * length, above = !motion.hangs;
     const ys = this.corners().map(([, y]) => y), gap = 0.45 * radius;
     const axis = above ? Math.min(...ys) - gap - radius : Math.max(...ys) + gap + radius;
     const middle = apply(motion.mount, [0.5 * motion.length, 0, 0]);

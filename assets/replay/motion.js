@@ -32,6 +32,7 @@ export class Motion {
     this.guide = guideOf(rows, this.length);
     this.outer = this.guide.outer;
     this.supports = rows("tube.support").map(([x]) => x);
+    this.clamps = this.supports.filter((_, i) => rows("tube.clamped")[i]?.some((held) => held === 1));
     this.places = rows("tubes.rear_end");
     this.empty = rows("tubes.empty").map(([number]) => number);
     this.adaptors = rows("rocket.adaptor").map(([x]) => x);
@@ -43,6 +44,7 @@ export class Motion {
     const mount = single("base.mount");
     this.mount = mount ? multiply(aboutY(mount[0]), aboutZ(mount[1])) : IDENTITY;
     this.looks = single("base.looks")?.[0] ?? 0;
+    this.hangs = this.looks === 2 && this.mount[3] <= 0.26; // below an aircraft
     this.envelope = this.around();
     const named = (head, tail) => [...table.column.keys()].filter((name) => name.startsWith(head) &&
       name.endsWith(tail)).map((name) => name.slice(head.length, name.length - tail.length));

@@ -112,7 +112,7 @@ class Replay {
       element("span", {}, element("i", { className: name }), text);
     const { guide, shoes } = this.motion.guide.words;
     return element("div", { className: "key" }, item("tube", guide), item("rocket", "rocket"),
-      item("adaptor", shoes), item("force", "contact forces"));
+      item("adaptor", shoes), item("force", "contact forces"), ...(this.motion.clamps.length > 0 ? [item("clamp", "clamps")] : []));
   }
   // The key instants below the slider, their names in two lines where the ones before leave room,
   // before the line where there is none behind it.

@@ -3,6 +3,7 @@
 import { AmbientLight, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { carrierOf } from "./carriers.js";
+import { Clamps } from "./clamps.js";
 import { Grid, Horizon, Map, Path, Road, Sea } from "./ground.js";
 import { Vehicle } from "./launcher.js";
 import { Forces, Rocket } from "./rocket.js";
@@ -29,6 +30,7 @@ export class Stage {
     this.horizon = this.base.horizon ? new Horizon(this.scene) : null;
     this.pack = new Pack(motion, this.scene);
     this.tube = new (motion.guide.kind === "bore" ? Tube : Rail)(motion, this.scene);
+    this.clamps = new Clamps(motion, this.scene);
     this.bodies = rockets.map(() => new Rocket(motion, this.scene));
     this.forces = new Forces(motion, this.scene);
     this.paths = flights.map((flight) => flight && new Path(flight, this.scene));
@@ -88,6 +90,7 @@ export class Stage {
     this.road?.show(this.anchor);
     this.grid.show(this.anchor);
     this.pack.show(state, this.anchor, launching, fired, this.view === "tube" || this.view === "rocket");
+    this.clamps.show(state, this.anchor);
     const current = this.bodies[state.number];
     this.forces.show(state, this.anchor, state.rocket && !this.flying[state.number] ? current : null);
     const afar = this.view === "path";

@@ -29,6 +29,8 @@ typedef enum ld_event_kind {
     LD_EVENT_BREECH, ///< the rocket comes to the breech (that law alone)
     LD_EVENT_LIFT,   ///< wheel `part` leaves the road (integrated together alone, as the next)
     LD_EVENT_LAND,   ///< wheel `part` comes back to it
+    LD_EVENT_LEAVE,  ///< the tube leaves stop `part` of its recoil slides
+    LD_EVENT_STOP,   ///< the tube comes to it
     LD_EVENT_EXIT,   ///< adaptor `part` passes the tube's tip
     LD_EVENT_TUBE,   ///< the rocket's tube takes the place of the one before
     LD_EVENT_END,    ///< of the launch; the flights are flown by ld_run_end()
@@ -38,7 +40,8 @@ typedef struct ld_event {
     ld_event_kind kind;
     double t;   ///< [s] on the run's clock
     int rocket; ///< from 1, in the order of firing: the one whose turn it is
-    int part;   ///< adaptor or wheel, from 1, in the model's order; 0: of none
+    int part;   ///< adaptor or wheel, from 1, in the model's order; of each slide first the stop in
+                ///< battery, then the one behind; 0: of none
 } ld_event;
 
 /// Begins a run: finds its start, gives the sink geometry, columns and the first row. What

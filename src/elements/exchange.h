@@ -26,6 +26,8 @@ typedef struct launching_layout {
 // The rocket's coordinates in the tube, from `x` on: travel [m], offsets [m], angles [rad] of A_SB.
 enum { X_S, X_Y, X_Z, X_PSI, X_THETA, X_GAMMA, X_COUNT };
 
+enum { LD_SLIDE_STOPS = 2 }; // of a recoil slide: in battery, behind
+
 // What is switched by events.
 typedef struct launching_phase {
     bool rocket; // in the tube
@@ -35,7 +37,9 @@ typedef struct launching_phase {
     double surface_speed[LD_MAX_ADAPTORS][LD_MAX_SURFACES]; // [m/s] the same of each surface
     double breech;       // [m] its station: it stops a rocket without a lock there
     double breech_speed; // [m/s] at which that one touched it last
-    bool frictionless;   // Coulomb friction off (equilibrium, linearisation)
+    // each stop of the recoil slides: pushes (1), does not (-1), or as it lies and moves (0)
+    int pushing[LD_MAX_SUPPORTS][LD_SLIDE_STOPS];
+    bool frictionless; // Coulomb friction off (equilibrium, linearisation)
     // [1/s2] what constraints hold in place is pulled back there by so much (equilibrium); else 0
     double restoring;
 } launching_phase;

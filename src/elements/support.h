@@ -41,30 +41,57 @@ typedef struct slide_force {
     double stops, losses; // [W]
 } slide_force;
 
-// A one-sided stop at penetration p: it never pulls.
-LD_INLINE double stop_force(const recoil_slide *slide, double p, double p_dot)
+// How far a one-sided stop is pressed in, or less by its damper [m]: positive where it pushes, as
+// it never pulls. The one in battery stands at d = 0, the one behind at d = -stroke.
+LD_INLINE double stop_press(const recoil_slide *slide, int stop, double d, double v)
 {
-    return p > 0 ? fmax(0, slide->K * p + slide->C * p_dot) : 0;
+    double p = stop ? -d - slide->given.stroke : d, p_dot = stop ? -v : v;
+    if (stop && isnan(slide->given.stroke))
+        return -1;
+    return fmin(p, p + slide->C / slide->K * p_dot);
 }
 
-// At displacement d (recoil: d < 0) and speed v: the recuperator F_0 - k min(d, 0), the stops at
-// d = 0 and d = -stroke, damping and friction.
-LD_INLINE slide_force slide_load(const recoil_slide *slide, double d, double v, bool frictionless)
+// Adds one's force; whether it pushes is said by the phase, or else by how it lies.
+LD_INLINE void stop_add(const recoil_slide *slide, int stop, double d, double v, int pushing,
+                        slide_force *to)
+{
+    bool pushes = pushing ? pushing > 0 : stop_press(slide, stop, d, v) > 0;
+    double p = stop ? -d - slide->given.stroke : d, side = stop ? 1 : -1;
+    if (!pushes && !(p > 0))
+        return;
+    double elastic = slide->K * p, damped = pushes ? -side * slide->C * v : -elastic;
+    to->force += side * (elastic + damped);
+    to->stored += 0.5 * elastic * p;
+    to->stops += side * damped * v;
+}
+
+// At displacement d (recoil: d < 0) and speed v: the recuperator F_0 - k min(d, 0), damping and
+// friction, the stops.
+LD_INLINE slide_force slide_load(const recoil_slide *slide, double d, double v, bool frictionless,
+                                 const int pushing[LD_SLIDE_STOPS])
 {
     const ld_recoil *given = &slide->given;
-    double back = fmin(d, 0), front = fmax(d, 0), rear = fmax(-d - given->stroke, 0);
-    double battery = stop_force(slide, front, v), end = stop_force(slide, rear, -v);
-    double friction = frictionless ? 0 : given->friction;
+    double back = fmin(d, 0), friction = frictionless ? 0 : given->friction;
     double drag = given->damping * v + given->quadratic_damping * fabs(v) * v +
                   friction * v / sqrt(v * v + given->friction_speed * given->friction_speed);
-    return (slide_force){
-        .force = given->preload - given->stiffness * back - battery + end - drag,
-        .stored =
-            0.5 * (given->stiffness * back * back + slide->K * (front * front + rear * rear)) -
-            given->preload * d,
-        .stops = (end - slide->K * rear - battery + slide->K * front) * v,
+    slide_force sum = {
+        .force = given->preload - given->stiffness * back - drag,
+        .stored = 0.5 * given->stiffness * back * back - given->preload * d,
         .losses = -drag * v,
     };
+    for (int stop = 0; stop < LD_SLIDE_STOPS; stop++)
+        stop_add(slide, stop, d, v, pushing[stop], &sum);
+    return sum;
+}
+
+// As stop_press, of slide `index` among them as it is reported.
+LD_INLINE double supports_stop_press(const support_set *self, int index, int stop,
+                                     const slide_report *report)
+{
+    int k = 0;
+    for (int slides = self->support[0].slide.given.present; slides <= index;)
+        slides += self->support[++k].slide.given.present;
+    return stop_press(&self->support[k].slide, stop, -report->travel, -report->rate);
 }
 
 // Support springs and dampers (model.md, section 4).
@@ -120,7 +147,8 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
             moment = rv_left_jacobian_inverse_transposed(phi, moment);
         v3 f_T = v3_neg(v3_add(spring, damper)), m_T = v3_neg(v3_add(moment, twister));
         if (__builtin_expect(support->slide.given.present, 0)) {
-            slide_force slide = slide_load(&support->slide, d.x, d_dot.x, now->phase->frictionless);
+            slide_force slide = slide_load(&support->slide, d.x, d_dot.x, now->phase->frictionless,
+                                           now->phase->pushing[slides]);
             f_T.x = slide.force;
             damping += slide.stops;
             stored += 2 * slide.stored;

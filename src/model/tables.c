@@ -1241,7 +1241,7 @@ static const field_row run_fields[] = {
     {"lead_in", NUMBER(ld_run_settings, lead_in, "s"), FROM_TO(0, 10000), DEFAULT(0),
      .doc = "time before t = 0"},
     {"lead_in_method", CHOICE(ld_run_settings, lead_in_method, lead_in_words),
-     DEFAULT(LD_LEAD_IN_EXPLICIT),
+     DEFAULT(LD_LEAD_IN_EXPONENTIAL),
      .doc = "steps while no rocket is driven through its tube: those of the tube, or long ones by "
             "the linearised equations"},
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),

@@ -21,6 +21,7 @@ event_list events_of(const launch_state *self, bool base)
     add(&list, EVENT_SURFACE, by_touch ? adaptors * surfaces : 0);
     add(&list, EVENT_BASE, base ? self->launcher.base.event_count : 0);
     add(&list, EVENT_BREECH, 1);
+    add(&list, EVENT_STOP, LD_SLIDE_STOPS * model_slide_count(self->model));
     return list;
 }
 
@@ -30,6 +31,16 @@ int event_find(const event_list *self, event_kind kind, int index)
         if (self->event[i].kind == kind && self->event[i].index == index)
             return i;
     return -1;
+}
+
+double event_stop_press(const launch_state *self, int index, const launching_output *out)
+{
+    // beyond rounding, which would make a tube that lies on a stop without a force come and go
+    const double least = 1e-13;
+    int slide = index / LD_SLIDE_STOPS, stop = index % LD_SLIDE_STOPS;
+    double press =
+        supports_stop_press(&self->launcher.launching.supports, slide, stop, &out->slide[slide]);
+    return press + self->phase.pushing[slide][stop] * least;
 }
 
 // Rises through zero at a first touch. Zero itself, where between opposite surfaces without play
@@ -48,6 +59,8 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
     bool touching = launching->adaptors.law.by_touch;
     if (one.kind == EVENT_BASE)
         return out->base.event[one.index] / 1e-3;
+    if (one.kind == EVENT_STOP) // the tube still recoils when the rocket has left
+        return event_stop_press(self, one.index, &out->launching) / 1e-3;
     if (!phase->rocket)
         return away;
     switch (one.kind) {

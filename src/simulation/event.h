@@ -11,6 +11,7 @@ typedef enum event_kind {
     EVENT_SURFACE, // an adaptor touches a surface, index = adaptor * surfaces + surface (the same)
     EVENT_BASE,    // number `index` of the base (integrated together alone)
     EVENT_BREECH,  // the rocket touches the breech (law lankarani-nikravesh alone)
+    EVENT_STOP,    // a stop of a recoil slide begins or ends to push, index = 2 slide + stop
 } event_kind;
 
 typedef struct event {
@@ -21,13 +22,17 @@ typedef struct event {
 // In the order in which the integrator has them.
 typedef struct event_list {
     int count;
-    event event[2 + LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + BASE_MOST_EVENTS];
+    event event[2 + LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + BASE_MOST_EVENTS +
+                LD_SLIDE_STOPS * LD_MAX_SUPPORTS];
 } event_list;
 
 // All events that a launch can have; those of the base if asked for.
 event_list events_of(const launch_state *self, bool base);
 // Where an event stands in the list; -1: it is none of them.
 int event_find(const event_list *self, event_kind kind, int index);
+// How far a stop of a recoil slide is pressed in [m]: positive where it pushes (stop_press), and
+// goes on with what it does as far as that may be rounding.
+double event_stop_press(const launch_state *self, int index, const launching_output *out);
 // What goes through zero at each event of the list; one that is not awaited stays away from it.
 // Of `out` the base is read where the list has its events, else the launching subsystem alone.
 void events_evaluate(const event_list *self, const launch_state *launch, const launcher_output *out,

@@ -18,24 +18,31 @@ static const double SHARE = 0.2;
 // counts for 40.
 enum { PATIENCE = 200, MOST_PATIENCE = 100 * PATIENCE, STRETCH = 40 };
 
+// Steps with the Jacobian of equations of one kind.
+typedef struct linear_part {
+    exponential *steps; // NULL: not asked for yet
+    bool prepared;      // there is a Jacobian
+    int rung;           // the next step's, if nothing is in its way
+    int best;           // the longest one since the Jacobian is there
+    int spent, patience;
+} linear_part;
+
 struct exponential_steps {
     exponential_steps_settings settings;
     integrator_settings equations;
-    exponential *steps;
+    linear_part of_kind[EXPONENTIAL_STEPS_KINDS];
+    linear_part *part; // of the equations of now
     size_t n;
     double *memory;
     double *atol, *rtol; // [n]
     double *y, *slope, *y_end, *slope_end, *error, *drift;
     double *g, *g_end; // [event_count]
     double t, t_previous;
-    double first;  // instants of steps count from here
+    double
+        before;   // the next stop, where the equations may become others: the last instant of these
+    double first; // instants of steps count from here
     double resume; // where explicit steps end
     bool known;    // slope and g are those of the present
-    bool prepared; // there is a Jacobian
-    int kind;      // of the equations that have it
-    int rung;      // the next step's, if nothing is in its way
-    int best;      // the longest one since the Jacobian is there
-    int spent, patience;
     int64_t count, evaluations;
 };
 
@@ -45,7 +52,7 @@ static int rates(double t, const double *y, double *y_dot, void *user)
 {
     exponential_steps *self = user;
     self->evaluations++;
-    return self->equations.rhs(t, y, y_dot, self->equations.self);
+    return self->equations.rhs(fmin(t, self->before), y, y_dot, self->equations.self);
 }
 
 static double longest_step(double row)
@@ -54,6 +61,8 @@ static double longest_step(double row)
     frexp(LONGEST / row, &power); // LONGEST / row = m 2^power, m from 1/2 to 1
     return ldexp(row, power - 1);
 }
+
+static const char no_memory[] = "no memory for the integrator";
 
 static int allocate(exponential_steps *self)
 {
@@ -67,6 +76,14 @@ static int allocate(exponential_steps *self)
         *own[i] = self->memory + i * self->n;
     self->g = self->memory + vectors * self->n;
     self->g_end = self->g + events;
+    return 0;
+}
+
+ld_status exponential_steps_take(exponential_steps *self, int kind, ld_error *error)
+{
+    linear_part *part = self->part = &self->of_kind[kind];
+    if (part->steps)
+        return LD_OK;
     exponential_settings settings = {
         .n = (int)self->n,
         .block = self->settings.block,
@@ -76,8 +93,9 @@ static int allocate(exponential_steps *self)
         .f = rates,
         .self = self,
     };
-    self->steps = exponential_new(&settings);
-    return self->steps ? 0 : -1;
+    part->steps = exponential_new(&settings);
+    part->patience = PATIENCE;
+    return part->steps ? LD_OK : ld_fail(error, LD_ERR_MEMORY, no_memory);
 }
 
 ld_status exponential_steps_create(const exponential_steps_settings *settings,
@@ -89,11 +107,10 @@ ld_status exponential_steps_create(const exponential_steps_settings *settings,
         self->settings = *settings;
         self->equations = *equations;
         self->n = equations->n;
-        self->patience = PATIENCE;
     }
     if (!self || allocate(self)) {
         exponential_steps_free(self);
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the integrator");
+        return ld_fail(error, LD_ERR_MEMORY, no_memory);
     }
     for (size_t i = 0; i < self->n; i++) {
         self->atol[i] = equations->atol[i];
@@ -103,11 +120,18 @@ ld_status exponential_steps_create(const exponential_steps_settings *settings,
     return LD_OK;
 }
 
+static void drop_parts(exponential_steps *self)
+{
+    for (int kind = 0; kind < EXPONENTIAL_STEPS_KINDS; kind++)
+        exponential_free(self->of_kind[kind].steps);
+    memset(self->of_kind, 0, sizeof self->of_kind);
+}
+
 void exponential_steps_free(exponential_steps *self)
 {
     if (!self)
         return;
-    exponential_free(self->steps);
+    drop_parts(self);
     free(self->memory);
     free(self);
 }
@@ -117,10 +141,8 @@ void exponential_steps_count_from(exponential_steps *self, double t)
     self->first = t;
 }
 
-void exponential_steps_start(exponential_steps *self, double t, const double *y, int kind)
+void exponential_steps_start(exponential_steps *self, double t, const double *y)
 {
-    self->prepared &= kind == self->kind;
-    self->kind = kind;
     if (y != self->y)
         memcpy(self->y, y, self->n * sizeof *y);
     self->t = self->t_previous = t;
@@ -173,29 +195,30 @@ static int find_jacobian(exponential_steps *self)
             return -1;
         for (int b = 0; b < self->settings.block_count; b++) {
             int count, row = 0;
-            double *L = exponential_block(self->steps, b, &count);
+            double *L = exponential_block(self->part->steps, b, &count);
             for (int i = 0; i < (int)self->n && state[b] < (int)self->n; i++)
                 if (self->settings.block[i] == b)
                     L[row++ + count * column] =
                         (plus[i] - minus[i]) / (2 * change_of(self, state[b]));
         }
     }
-    return exponential_prepare(self->steps);
+    return exponential_prepare(self->part->steps);
 }
 
 static bool refresh(exponential_steps *self)
 {
-    self->prepared = find_jacobian(self) == 0;
-    self->rung = self->best = RUNGS - 1;
-    self->spent = 0;
-    return self->prepared;
+    linear_part *part = self->part;
+    part->prepared = find_jacobian(self) == 0;
+    part->rung = part->best = RUNGS - 1;
+    part->spent = 0;
+    return part->prepared;
 }
 
 // ---- steps
 
 static double finest(const exponential_steps *self)
 {
-    return exponential_size(self->steps, RUNGS - 1);
+    return exponential_size(self->part->steps, RUNGS - 1);
 }
 
 static exponential_outcome refuse(exponential_steps *self, double until)
@@ -232,10 +255,10 @@ static double size_of_error(const exponential_steps *self)
 // the finest steps lie between the first instant and the present.
 static int fitting_rung(const exponential_steps *self, int64_t at, double left)
 {
-    int rung = self->rung;
+    int rung = self->part->rung;
     for (; rung < RUNGS; rung++) {
         int64_t length = (int64_t)1 << (RUNGS - 1 - rung);
-        if (at % length == 0 && exponential_size(self->steps, rung) <= left * (1 + 1e-9))
+        if (at % length == 0 && exponential_size(self->part->steps, rung) <= left * (1 + 1e-9))
             break;
     }
     return rung;
@@ -252,11 +275,12 @@ static bool passes_event(exponential_steps *self)
 // One step is taken; the next one's rung.
 static void control(exponential_steps *self, int rung, double error)
 {
-    bool wanted = rung == self->rung;
-    self->best = rung < self->best ? rung : self->best;
-    self->spent += rung > self->best + 1 && wanted;
+    linear_part *part = self->part;
+    bool wanted = rung == part->rung;
+    part->best = rung < part->best ? rung : part->best;
+    part->spent += rung > part->best + 1 && wanted;
     if (wanted && error < 1.0 / 40 && rung > 0)
-        self->rung--;
+        part->rung--;
 }
 
 // Ends the step at t and makes it the last one.
@@ -269,7 +293,7 @@ static bool arrive(exponential_steps *self, double t)
     self->t_previous = self->t;
     self->t = t;
     self->count++;
-    if (equations->project)
+    if (equations->project || t > self->before)
         self->known = false;
     return !equations->project || equations->project(t, self->y, equations->self) == 0;
 }
@@ -283,10 +307,11 @@ static double end_of(const exponential_steps *self, int64_t at, int rung)
 // A Jacobian where there is none, or where that of before has not served for long.
 static bool renew(exponential_steps *self)
 {
-    if (self->prepared && self->spent <= self->patience)
+    linear_part *part = self->part;
+    if (part->prepared && part->spent <= part->patience)
         return true;
-    if (self->prepared && self->patience < MOST_PATIENCE)
-        self->patience *= 2;
+    if (part->prepared && part->patience < MOST_PATIENCE)
+        part->patience *= 2;
     return refresh(self);
 }
 
@@ -295,12 +320,12 @@ static int try_steps(exponential_steps *self, int64_t at, double left, double *e
 {
     int rung = fitting_rung(self, at, left);
     while (rung < RUNGS) {
-        bool failed = exponential_step(self->steps, rung, self->t, self->y, self->slope,
+        bool failed = exponential_step(self->part->steps, rung, self->t, self->y, self->slope,
                                        self->drift, self->y_end, self->slope_end, self->error);
         *error = failed ? INFINITY : size_of_error(self);
         if (*error <= 1)
             break;
-        self->rung = *error > 16 && rung + 1 < RUNGS ? rung + 2 : rung + 1;
+        self->part->rung = *error > 16 && rung + 1 < RUNGS ? rung + 2 : rung + 1;
         rung = fitting_rung(self, at, left);
     }
     return rung;
@@ -311,6 +336,7 @@ exponential_outcome exponential_steps_step(exponential_steps *self, double t_sto
     const integrator_settings *equations = &self->equations;
     double x = (self->t - self->first) / finest(self), left = t_stop - self->t, error = 0;
     int64_t at = llround(x);
+    self->before = nextafter(t_stop, -INFINITY);
     if (fabs(x - (double)at) > 1e-6)
         return refuse(self, self->first + ceil(x) * finest(self));
     if (finest(self) > left * (1 + 1e-9) || !find_present(self))
@@ -320,8 +346,8 @@ exponential_outcome exponential_steps_step(exponential_steps *self, double t_sto
     self->settings.drift(self->t, self->y, self->slope, self->drift, equations->self);
     int rung = try_steps(self, at, left, &error);
     if (rung == RUNGS) {
-        self->rung = RUNGS - 1;
-        self->spent += STRETCH;
+        self->part->rung = RUNGS - 1;
+        self->part->spent += STRETCH;
         return refuse(self, end_of(self, at, 0));
     }
     double t = end_of(self, at, rung);
@@ -358,13 +384,13 @@ const double *exponential_steps_state(const exponential_steps *self)
 
 const double *exponential_steps_previous(const exponential_steps *self)
 {
-    return exponential_last(self->steps)->y;
+    return exponential_last(self->part->steps)->y;
 }
 
 void exponential_steps_interpolate(exponential_steps *self, double t, double *y)
 {
     if (t < self->t && t >= self->t_previous)
-        exponential_between(self->steps, t - self->t_previous, y);
+        exponential_between(self->part->steps, t - self->t_previous, y);
     else
         memcpy(y, self->y, self->n * sizeof *y);
 }
@@ -381,40 +407,65 @@ int64_t exponential_steps_evaluations(const exponential_steps *self)
 
 // ---- saving and loading ----
 
-static void archive_jacobian(exponential_steps *self, archive *bytes)
+static void archive_course(exponential *steps, size_t n, archive *bytes)
 {
-    archive_bool(bytes, &self->prepared);
-    for (int b = 0; b < self->settings.block_count && self->prepared; b++) {
+    exponential_course *course = exponential_last(steps);
+    double *vectors[] = {course->y, course->y_dot, course->drift, course->linear,
+                         course->quadratic};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        archive_doubles(bytes, vectors[i], n);
+    archive_int(bytes, &course->rung, 0, RUNGS - 1);
+    exponential_forget(steps);
+}
+
+static void archive_part(exponential_steps *self, linear_part *part, archive *bytes)
+{
+    archive_bool(bytes, &part->prepared);
+    archive_int(bytes, &part->rung, 0, RUNGS - 1);
+    archive_int(bytes, &part->best, 0, RUNGS - 1);
+    archive_int(bytes, &part->spent, 0, INT_MAX);
+    archive_int(bytes, &part->patience, PATIENCE, 2 * MOST_PATIENCE);
+    for (int b = 0; b < self->settings.block_count && part->prepared; b++) {
         int count;
-        double *L = exponential_block(self->steps, b, &count);
+        double *L = exponential_block(part->steps, b, &count);
         archive_doubles(bytes, L, (size_t)count * (size_t)count);
     }
-    if (bytes->loading && !bytes->failed && self->prepared && exponential_prepare(self->steps))
+    archive_course(part->steps, self->n, bytes);
+    if (bytes->loading && !bytes->failed && part->prepared && exponential_prepare(part->steps))
         bytes->failed = true;
+}
+
+// Those of the kinds that have been taken, which loading takes; the present one, if there is any.
+static void archive_parts(exponential_steps *self, archive *bytes)
+{
+    int present = self->part ? (int)(self->part - self->of_kind) : -1;
+    archive_int(bytes, &present, -1, EXPONENTIAL_STEPS_KINDS - 1);
+    if (bytes->loading)
+        drop_parts(self);
+    for (int kind = 0; kind < EXPONENTIAL_STEPS_KINDS; kind++) {
+        bool taken = self->of_kind[kind].steps;
+        archive_bool(bytes, &taken);
+        if (taken && exponential_steps_take(self, kind, NULL) == LD_OK)
+            archive_part(self, &self->of_kind[kind], bytes);
+        else
+            bytes->failed |= taken;
+    }
+    self->part = present < 0 ? NULL : &self->of_kind[present];
+    bytes->failed |= self->part && !self->part->steps;
 }
 
 void exponential_steps_archive(exponential_steps *self, archive *bytes)
 {
-    exponential_course *course = exponential_last(self->steps);
     double *instants[] = {&self->t, &self->t_previous, &self->first};
-    double *vectors[] = {self->y,       self->slope,    course->y,        course->y_dot,
-                         course->drift, course->linear, course->quadratic};
     archive_expect(bytes, (int64_t)self->n);
     for (size_t i = 0; i < sizeof instants / sizeof *instants; i++)
         archive_double(bytes, instants[i]);
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-        archive_doubles(bytes, vectors[i], self->n);
+    archive_doubles(bytes, self->y, self->n);
+    archive_doubles(bytes, self->slope, self->n);
     archive_doubles(bytes, self->g, (size_t)self->equations.event_count);
     archive_bool(bytes, &self->known);
-    archive_int(bytes, &course->rung, 0, RUNGS - 1);
-    archive_int(bytes, &self->rung, 0, RUNGS - 1);
-    archive_int(bytes, &self->best, 0, RUNGS - 1);
-    archive_int(bytes, &self->spent, 0, INT_MAX);
-    archive_int(bytes, &self->kind, 0, INT_MAX);
-    archive_int(bytes, &self->patience, PATIENCE, 2 * MOST_PATIENCE);
     archive_count(bytes, &self->count);
     archive_count(bytes, &self->evaluations);
-    archive_jacobian(self, bytes);
+    archive_parts(self, bytes);
     bytes->failed |= !(self->t_previous <= self->t);
-    exponential_forget(self->steps);
 }

@@ -9,6 +9,8 @@
 
 typedef struct exponential_steps exponential_steps;
 
+enum { EXPONENTIAL_STEPS_KINDS = 3 };
+
 typedef struct exponential_steps_settings {
     const integrator_settings *equations; // rhs, project, events and tolerances (copied)
     const int *block; // [n] which states have their Jacobian in common, as in math/exponential.h
@@ -31,9 +33,12 @@ void exponential_steps_free(exponential_steps *self);
 
 // The instants of steps count from t on.
 void exponential_steps_count_from(exponential_steps *self, double t);
-// Goes on from (t, y); the equations may be others than before. They have a Jacobian of their own
-// where `kind` is another one.
-void exponential_steps_start(exponential_steps *self, double t, const double *y, int kind);
+// The equations are those of a kind from now on: each has its Jacobian, kept for when it comes
+// again, though another tube may have taken the place of that of before. LD_ERR_MEMORY, where it is
+// new.
+ld_status exponential_steps_take(exponential_steps *self, int kind, ld_error *error);
+// Goes on from (t, y); the equations may be others than before.
+void exponential_steps_start(exponential_steps *self, double t, const double *y);
 
 // One step, not beyond t_stop.
 exponential_outcome exponential_steps_step(exponential_steps *self, double t_stop);

@@ -78,6 +78,19 @@ static void add_shapes(geometry *all, const flexible_tube *tube)
     }
 }
 
+// None where nothing is clamped.
+static void add_clamps(geometry *all, const ld_tubes *tubes)
+{
+    unsigned clamped = 0;
+    for (int i = 0; i < tubes->support_count; i++)
+        clamped |= tubes->support[i].clamped;
+    double *held =
+        add(all, "tube.clamped", "1", clamped ? (size_t)tubes->support_count : 0, LD_CLAMPS,
+            "1 where a support holds rigidly along x, y, z, about x, y, z; else 0");
+    for (int i = 0; clamped && i < tubes->support_count * LD_CLAMPS; i++)
+        held[i] = support_clamps(&tubes->support[i / LD_CLAMPS], (ld_clamp)(i % LD_CLAMPS));
+}
+
 static void add_tube(geometry *all, const ld_tubes *tubes)
 {
     double *section = add(all, "tube.section", "m", (size_t)tubes->section_count, 3,
@@ -96,6 +109,7 @@ static void add_tube(geometry *all, const ld_tubes *tubes)
         add(all, "tube.support", "m", (size_t)tubes->support_count, 1, "stations of the supports");
     for (int i = 0; i < tubes->support_count; i++)
         support[i] = tubes->support[i].at;
+    add_clamps(all, tubes);
 }
 
 // Half height and half width of the solid rectangle that has a section's polar inertia over its
@@ -203,8 +217,8 @@ static size_t room_for(const ld_simulation *self)
     const flexible_tube *tube = &self->launcher.launching.tube.flexible;
     size_t nodes = (size_t)tube->element_count + 1;
     return nodes * (size_t)(1 + 2 * tube->nb + tube->nt + tube->na) + 3 * LD_MAX_SECTIONS +
-           2 * LD_MAX_SECTIONS + LD_MAX_SUPPORTS + 5 * LD_MAX_SURFACES + 4 * LD_MAX_TUBES +
-           (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS + 20;
+           2 * LD_MAX_SECTIONS + (1 + LD_CLAMPS) * LD_MAX_SUPPORTS + 5 * LD_MAX_SURFACES +
+           4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS + 20;
 }
 
 ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error)

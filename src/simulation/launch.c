@@ -132,6 +132,7 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
         if (igniting)
             launch_restart_output(run, t);
     }
+    changed |= launch_hold_stops(run, t, y, outcome == INTEGRATOR_EVENT);
     if (!status)
         status = launch_check_step(run, t, y);
     if (!status && (changed || outcome == INTEGRATOR_EVENT)) {

@@ -16,6 +16,9 @@ static void archive_phase(archive *bytes, launching_phase *phase)
         archive_doubles(bytes, phase->surface_speed[i], LD_MAX_SURFACES);
     archive_double(bytes, &phase->breech);
     archive_double(bytes, &phase->breech_speed);
+    for (int i = 0; i < LD_MAX_SUPPORTS; i++)
+        for (int k = 0; k < LD_SLIDE_STOPS; k++)
+            archive_int(bytes, &phase->pushing[i][k], -1, 1);
 }
 
 static void archive_launch(archive *bytes, launch_state *self)

@@ -64,6 +64,7 @@ ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *er
         return status;
     memcpy(y, propagator_state(run->propagator), (size_t)launcher->state_count * sizeof *y);
     base->kind->tell(base, run->t, false, &now, y + launcher->base_at);
+    memset(run->launch.phase.pushing, 0, sizeof run->launch.phase.pushing); // the tube is elsewhere
     launch_let_go_at_once(run, run->t, y);
     launch_measure_instant(run, run->t, y);
     run->status = propagator_start(run->propagator, run->t, y, false, &run->error);

@@ -85,6 +85,27 @@ static bool touch_surfaces(ld_run *run, double t, const double *y)
     return touched;
 }
 
+// Whether a stop of a slide pushes is said by its event, where one has been located, else by how it
+// lies, and holds up to the next: so its force goes on smoothly between two of them.
+bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event)
+{
+    launch_state *self = &run->launch;
+    int stops = LD_SLIDE_STOPS * model_slide_count(self->model);
+    const launcher_output *out = stops ? simulation_output(self, t, y) : NULL;
+    bool changed = false;
+    for (int i = 0; out && i < stops; i++) {
+        int *pushing = &self->phase.pushing[i / LD_SLIDE_STOPS][i % LD_SLIDE_STOPS];
+        int before = *pushing;
+        int located = at_event ? propagator_event(run->propagator, EVENT_STOP, i) : 0;
+        *pushing = located ? located : event_stop_press(self, i, &out->launching) > 0 ? 1 : -1;
+        if (*pushing == before || !(before || located))
+            continue;
+        launch_tell(run, *pushing > 0 ? LD_EVENT_STOP : LD_EVENT_LEAVE, t, i);
+        changed = true;
+    }
+    return changed;
+}
+
 // Switches what the events just located say; true where the equations changed.
 bool launch_switch_phase(ld_run *run, double t, const double *y)
 {

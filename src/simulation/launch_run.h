@@ -9,7 +9,10 @@
 #include "systems/flight.h"
 
 // At one instant.
-enum { MOST_EVENTS = LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + LD_MAX_WHEELS + 8 };
+enum {
+    MOST_EVENTS = LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + LD_MAX_WHEELS +
+                  LD_SLIDE_STOPS * LD_MAX_SUPPORTS + 8
+};
 
 // Of a hinge's error, torque and power since the ignition, for its means.
 typedef struct hinge_watch {
@@ -115,6 +118,8 @@ void launch_write_last_row(ld_run *run);
 void launch_tell(ld_run *run, ld_event_kind kind, double t, int part);
 // Switches what the events just located say; true where the equations changed.
 bool launch_switch_phase(ld_run *run, double t, const double *y);
+// The same of the stops of recoil slides, after each step; `at_event`: which ended at one.
+bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event);
 // Opens a lock that carries more than its release force without a crossing to be located.
 void launch_let_go_at_once(ld_run *run, double t, const double *y);
 // When the next tube takes the place of the one that is empty now [s].

@@ -609,10 +609,10 @@ static bool goes_slowly(const propagator *self)
     return self->exponential && !(launch->phase.rocket && launch_is_lit(launch));
 }
 
-// Which tube there is, and what stands in it.
+// What stands in the tube: nothing, a rocket, one that is held.
 static int kind_of_equations(const launch_state *launch)
 {
-    return 4 * launch->current + 2 * launch->phase.rocket + launch->phase.locked;
+    return launch->phase.rocket ? 1 + launch->phase.locked : 0;
 }
 
 // ---- both ----
@@ -697,6 +697,9 @@ ld_status propagator_start(propagator *self, double t, const double *y, bool ane
             exponential_steps_count_from(self->exponential, t);
         self->t_explicit = -INFINITY;
         self->long_step = false;
+        int kind = kind_of_equations(self->launch);
+        if (goes_slowly(self) && exponential_steps_take(self->exponential, kind, error))
+            return LD_ERR_MEMORY;
         return integrator_start(self->integrator, t, y, error);
     }
     const launcher_system *launcher = &self->launch->launcher;
@@ -741,8 +744,7 @@ static integrator_outcome step_together(propagator *self, double t_stop, ld_erro
     bool slowly = goes_slowly(self);
     if (slowly && t >= self->t_explicit) {
         if (!self->long_step)
-            exponential_steps_start(self->exponential, t, propagator_state(self),
-                                    kind_of_equations(self->launch));
+            exponential_steps_start(self->exponential, t, propagator_state(self));
         self->long_step = true;
         exponential_outcome outcome = exponential_steps_step(self->exponential, t_stop);
         if (outcome != EXPONENTIAL_REFUSED)

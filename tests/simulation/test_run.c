@@ -42,6 +42,17 @@ static void touching_model(ld_model *model)
     model->rocket.contact.exponent = 1.5;
 }
 
+// Gas drives the tube back into the stop behind, which throws it forwards again.
+static void recoiling_model(ld_model *model)
+{
+    fixed_model(model);
+    reference_by_pressure(model);
+    reference_recoil(model);
+    model->tubes.support[0].recoil.stroke = 0.02;
+    model->run.end = LD_END_TIME;
+    model->run.end_time = 0.2;
+}
+
 static void free_model(ld_model *model)
 {
     model->salvo = NULL;
@@ -161,6 +172,9 @@ static void pieces_make_the_whole(void **state)
         touching_model(&model);
         check_pieces("contact with touches", &model, saved);
         free_model(&model);
+        recoiling_model(&model);
+        check_pieces("recoil into stops", &model, saved);
+        free_model(&model);
         vehicle_model(&model, rocket, 0);
         check_pieces("two rockets from a vehicle", &model, saved);
         free_model(&model);
@@ -262,6 +276,52 @@ static void events_are_those_of_the_summary(void **state)
     all = events_of_run(&model, &summary);
     CHECK_WITHIN("touches of the law that tells them", number_of(&all, LD_EVENT_TOUCH), 1, MOST);
     free_model(&model);
+}
+
+// The tube is at a stop where it comes to it, and nothing holds it there where it leaves.
+static void stops_are_events(void **state)
+{
+    (void)state;
+    ld_model model;
+    recoiling_model(&model);
+    const ld_support *support = &model.tubes.support[0];
+    ld_simulation *simulation;
+    ld_error error;
+    if (ld_simulation_create(&model, &simulation, &error))
+        fail_msg("%s", error.text);
+    ld_run *run = begin_run(simulation, NULL);
+    ld_event next = {0};
+    double off = 0, press = 0;
+    int came[2] = {0}, left[2] = {0};
+    while (next.kind != LD_EVENT_END) {
+        if (ld_run_advance_to_event(run, INFINITY, &next, &error))
+            fail_msg("%s", error.text);
+        if (next.kind != LD_EVENT_STOP && next.kind != LD_EVENT_LEAVE)
+            continue;
+        double back, rate;
+        assert_true(next.part == 1 || next.part == 2);
+        ld_run_number(run, "recoil.1.travel", &back, &error);
+        ld_run_number(run, "recoil.1.rate", &rate, &error);
+        double in = next.part == 1 ? -back : back - support->recoil.stroke;
+        double in_rate = next.part == 1 ? -rate : rate;
+        if (next.kind == LD_EVENT_STOP) {
+            off = fmax(off, fabs(in));
+            came[next.part - 1]++;
+        } else {
+            press =
+                fmax(press, fabs(support->stiffness[0] * in + support->damping[0] * in_rate) / 1e3);
+            left[next.part - 1]++;
+        }
+    }
+    static ld_summary unused;
+    ld_run_end(run, &unused, &error);
+    ld_simulation_free(simulation);
+    free_model(&model);
+    printf("  in battery: %d times left, %d come to; behind: %d, %d\n", left[0], came[0], left[1],
+           came[1]);
+    assert_true(left[0] > 0 && came[1] > 0 && left[1] > 0);
+    CHECK_BELOW("place of the tube where it comes to a stop [m]", off, 1e-11);
+    CHECK_BELOW("force of a stop that the tube leaves [kN]", press, 1e-6);
 }
 
 // ---- reading
@@ -505,10 +565,15 @@ static void other_bytes_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pieces_make_the_whole),  cmocka_unit_test(events_are_those_of_the_summary),
-        cmocka_unit_test(reading_is_the_row),     cmocka_unit_test(ignition_is_an_input),
-        cmocka_unit_test(the_summary_grows),      cmocka_unit_test(flights_are_flown_at_the_end),
-        cmocka_unit_test(wrong_uses_are_refused), cmocka_unit_test(other_bytes_are_refused),
+        cmocka_unit_test(pieces_make_the_whole),
+        cmocka_unit_test(events_are_those_of_the_summary),
+        cmocka_unit_test(stops_are_events),
+        cmocka_unit_test(reading_is_the_row),
+        cmocka_unit_test(ignition_is_an_input),
+        cmocka_unit_test(the_summary_grows),
+        cmocka_unit_test(flights_are_flown_at_the_end),
+        cmocka_unit_test(wrong_uses_are_refused),
+        cmocka_unit_test(other_bytes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

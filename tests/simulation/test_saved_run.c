@@ -420,7 +420,7 @@ static void loaded_runs_go_on_to_the_bit(void **state)
         course_free(&self);
     }
     CHECK_WITHIN("instants at which runs were saved, loaded, gone on with", all, 1400, 1700);
-    CHECK_WITHIN("bytes of a state", (double)most, 4000, 70000);
+    CHECK_WITHIN("bytes of a state", (double)most, 4000, 131072);
 }
 
 // ---- what is refused

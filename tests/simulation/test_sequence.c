@@ -267,8 +267,9 @@ static void momentum_is_kept(void **state)
 static void second_equals_a_single_launch(void **state)
 {
     (void)state;
-    const char *const sets[] = {"base.speed=0 km/h", "base.road=",      "base.road.flat=true",
-                                "run.end=tip",       "run.lead_in=0 s", "run.tolerance=1e-7"};
+    const char *const sets[] = {
+        "base.speed=0 km/h", "base.road=",         "base.road.flat=true",        "run.end=tip",
+        "run.lead_in=0 s",   "run.tolerance=1e-7", "run.lead_in_method=explicit"};
     ld_model model = read_example("reference.yaml", sets, sizeof sets / sizeof sets[0]);
     model.firing_count = 2;
     model.firing[0] = (ld_firing){.tube = 8, .at = 0};
