@@ -36,7 +36,9 @@ static herr_t see_failure(hid_t stack, void *unused)
     return H5Ewalk2(stack, H5E_WALK_UPWARD, see_entry, unused);
 }
 
-// Whether HDF5, or who uses it, has lacked memory since hdf5_quiet_begin().
+// Whether what has failed since hdf5_quiet_begin() did so for want of memory. Where nothing has
+// failed the error number says nothing: memory may have been refused in one place and found in
+// another.
 static bool lacks_memory(void)
 {
     return why.memory || errno == ENOMEM;
@@ -57,7 +59,7 @@ hdf5_quiet hdf5_quiet_begin(void)
 
 ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *error)
 {
-    const bool memory = lacks_memory();
+    const bool memory = why.memory || (status && lacks_memory());
     H5Eset_auto2(H5E_DEFAULT, quiet->function, quiet->data);
     if (memory && status != LD_ERR_MEMORY)
         return ld_fail(error, LD_ERR_MEMORY, "HDF5 has no memory");

@@ -4,7 +4,9 @@
 //
 // Of all calls that come from the same stack the first one fails. LD_FAILING_CALLS: how many, of
 // all there are, in a command (default 2), drawn by chance; 0: all of them. LD_FAILING_COMMAND:
-// only in this one; LD_FAILING_KIND: only of this kind, or, behind a "-", of all but this one.
+// only in this one; LD_FAILING_KIND: only of this kind, or, behind a "-", of all but this one;
+// LD_FAILING_EXAMPLE: of which example the scenario is made (fixed), LD_FAILING_STEP: with rows how
+// far apart (10 ms).
 #define _GNU_SOURCE
 #include "support/shell.h"
 
@@ -31,8 +33,9 @@ enum {
 // ---- the commands, each in a folder of its own
 
 #define SCENARIO                                                                                   \
-    "ln -s ../examples .; printf 'include: examples/fixed.yaml\nrun: {end: tip, output_step: "     \
-    "10 ms}\nscatter: {samples: 2, factors: {rocket.mass_error: {normal: 0.2 kg}}}\n' >s.yaml; "
+    "ln -s ../examples .; printf 'include: examples/%s.yaml\nrun: {end: tip, output_step: %s}\n"   \
+    "scatter: {samples: 2, factors: {rocket.mass_error: {normal: 0.2 kg}}}\n' "                    \
+    "${LD_FAILING_EXAMPLE:-fixed} \"${LD_FAILING_STEP:-10 ms}\" >s.yaml; "
 #define RUN SCENARIO "../launchdyn run s.yaml --out o --quiet; "
 #define STUDY SCENARIO "../launchdyn study s.yaml --out o --quiet; "
 
