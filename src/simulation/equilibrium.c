@@ -640,12 +640,11 @@ static void find_carried(const problem *the, const double *y, carried_directions
 }
 
 // newton_whole() from the guess in `from`, with finer and finer differences: a surface that carries
-// little is pressed in by little. What is further off than `near` [m/s2] is left to be so.
-static double newton_fine(problem *the, const double *from, double accepted, double near, double *y)
+// little is pressed in by little.
+static double newton_fine(problem *the, const double *from, double accepted, double *y)
 {
-    double reached = near;
-    for (the->h = DIFFERENCE; the->h > 1e-12 && reached > accepted && reached <= near;
-         the->h *= 0.1) {
+    double reached = INFINITY;
+    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= accepted); the->h *= 0.1) {
         memcpy(y, from, (size_t)the->self->launcher.state_count * sizeof(double));
         reached = newton_whole(the, y);
     }
@@ -696,7 +695,7 @@ static bool is_far(const launch_state *self, const double *from, const double *t
 // spring has nothing to hold, or away from the guide. Returns the residual.
 static double let_go(const problem *the, double accepted, double *y)
 {
-    const double softest = 1e-3, hardest = 1e9, near = 1e-2 * the->self->model->gravity;
+    const double softest = 1e-3, hardest = 1e9;
     const rocket_mass *rocket = &the->self->motor->full;
     double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], before[SHOE_FREEDOMS] = {0};
     double best = INFINITY, ease = 0.1;
@@ -706,7 +705,7 @@ static double let_go(const problem *the, double accepted, double *y)
     for (int step = 0; step < 500 && held.spring < hardest; step++) {
         rocket_place place = place_of(the->self, y);
         held.place = &place;
-        double reached = newton_fine(&held, y, accepted, near, trial);
+        double reached = newton_fine(&held, y, accepted, trial);
         off_its_place(&held, trial, off);
         if (reached > accepted || is_far(the->self, y, trial) ||
             in_common(rocket, off, before) < 0) {
@@ -757,7 +756,7 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
         return reached;
     find_carried(the, found, carried);
     for (int i = 0; i < 2; i++) {
-        reached = newton_fine(the, found, accepted, INFINITY, y);
+        reached = newton_fine(the, found, accepted, y);
         reached = fmin(reached, newton(the, y));
         if (reached <= accepted && held_by_spring(the, y, &unused) <= accepted)
             break;
