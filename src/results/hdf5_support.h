@@ -8,8 +8,9 @@
 #include "launchdyn/status.h"
 
 // HDF5 prints its error stack unless told not to; the setting before is put back at the end. What
-// has no memory meanwhile is seen wherever that was, for HDF5 takes what cannot be looked up for
-// what is not there: then the end returns LD_ERR_MEMORY in place of `status`.
+// has no memory meanwhile is seen in that stack wherever it was, for HDF5 takes what cannot be
+// looked up for what is not there, and where `status` is a failure in errno too: then the end
+// returns LD_ERR_MEMORY in place of `status`.
 typedef struct hdf5_quiet {
     H5E_auto2_t function;
     void *data;
