@@ -1,6 +1,5 @@
 #include "simulation/event.h"
 
-#include <float.h>
 #include <math.h>
 
 static void add(event_list *self, event_kind kind, int count)
@@ -44,10 +43,12 @@ double event_stop_press(const launch_state *self, int index, const launching_out
 }
 
 // Rises through zero at a first touch. Zero itself, where between opposite surfaces without play
-// one touches and the other lets go, counts as touched, else it would be an event of both.
+// one touches and the other lets go, counts as touched, else it would be an event of both; by so
+// much that the search for a crossing, which goes by the values, does not stay on the spot.
 static double touch_of(double penetration)
 {
-    return penetration < 0 ? penetration / 1e-3 : fmax(penetration / 1e-3, DBL_MIN);
+    const double least = 1e-15; // [m]
+    return (penetration < 0 ? penetration : fmax(penetration, least)) / 1e-3;
 }
 
 static double value_of(event one, const launch_state *self, const launcher_output *out)
