@@ -132,6 +132,7 @@ static void every_vehicle_ends(void **state)
 {
     (void)state;
     run_random_models(draw_vehicle_model, 30);
+    run_random_model_again(draw_vehicle_model, 144); // touches found again and again
 }
 
 // ---- long steps of the lead-in against short ones

@@ -469,10 +469,13 @@ static void check_balance(const ld_model *model, const ld_energy *energy)
     double largest = 0, lift = model->rocket.full.mass * model->gravity;
     for (int i = 0; i < LD_MAX_WORKS; i++)
         largest = fmax(largest, fabs(energy->work[i]));
-    double missed = fabs(energy->residual) / (largest + lift) / model->run.tolerance;
-    if (!(missed < 10))
+    // subsystems apart hear late of a slide's jumps: of first order in the step
+    double late = model_slide_count(model) > 0 ? 10 * model->run.coupling_step : 0; // [s] * [1/s]
+    double missed = fabs(energy->residual) / (largest + lift);
+    bool much = !(missed < 10 * model->run.tolerance + late);
+    if (much)
         printf("      the energy balance misses %.3g of %.3g J\n", energy->residual, largest);
-    assert_true(missed < 10);
+    assert_false(much);
 }
 
 // Of rockets that have left: measures, and of a vehicle how its hinges were held.
@@ -557,4 +560,12 @@ void run_random_models(void (*draw_one)(uint64_t seed, ld_model *model), int oth
     }
     printf("  %d models: %d refused, %d could not happen, %d happened\n", count, ends[0], ends[1],
            ends[2]);
+}
+
+void run_random_model_again(void (*draw_one)(uint64_t seed, ld_model *model), int number)
+{
+    ld_model model;
+    draw_one((uint64_t)number, &model);
+    run_random_model(number, &model);
+    reference_model_free(&model);
 }

@@ -27,5 +27,7 @@ void draw_random_model(uint64_t seed, ld_model *model);
 
 // Draws and runs models; `otherwise`: how many where LD_RANDOM_MODELS does not say.
 void run_random_models(void (*draw_one)(uint64_t seed, ld_model *model), int otherwise);
+// One of them, by its number.
+void run_random_model_again(void (*draw_one)(uint64_t seed, ld_model *model), int number);
 
 #endif
