@@ -18,11 +18,6 @@ typedef struct component {
     fmu_step last;
 } component;
 
-typedef struct saved_state {
-    unsigned char *bytes;
-    size_t size;
-} saved_state;
-
 static void say(const component *self, fmi2Status status, const char *category, const char *text)
 {
     if (self->call.logger)
@@ -335,10 +330,7 @@ fmi2Status fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t
 fmi2Status fmi2FreeFMUstate(void *c, void **state)
 {
     (void)c;
-    saved_state *saved = *state;
-    if (saved)
-        free(saved->bytes);
-    free(saved);
+    free(*state);
     *state = NULL;
     return fmi2OK;
 }
@@ -347,62 +339,43 @@ fmi2Status fmi2GetFMUstate(void *c, void **state)
 {
     component *self = c;
     ld_error error;
-    if (*state)
-        fmi2FreeFMUstate(c, state);
-    saved_state *saved = calloc(1, sizeof *saved);
-    ld_status status = saved ? fmu_save(self->inside, &saved->bytes, &saved->size, &error)
-                             : ld_fail(&error, LD_ERR_MEMORY, "no memory");
-    if (status)
-        free(saved);
-    else
+    fmu_state *saved;
+    ld_status status = fmu_save(self->inside, &saved, &error);
+    if (!status) {
+        free(*state);
         *state = saved;
+    }
     return answer(self, status, &error);
 }
 
 fmi2Status fmi2SetFMUstate(void *c, void *state)
 {
     component *self = c;
-    const saved_state *saved = state;
     ld_error error;
-    ld_status status = saved ? fmu_load(self->inside, saved->bytes, saved->size, &error)
-                             : ld_fail(&error, LD_ERR_INPUT, "there is no state");
-    return answer(self, status, &error);
+    return answer(self, fmu_load(self->inside, state, &error), &error);
 }
 
 fmi2Status fmi2SerializedFMUstateSize(void *c, void *state, size_t *size)
 {
     (void)c;
-    *size = ((const saved_state *)state)->size;
+    *size = ((const fmu_state *)state)->size;
     return fmi2OK;
 }
 
 fmi2Status fmi2SerializeFMUstate(void *c, void *state, char *bytes, size_t size)
 {
-    const saved_state *saved = state;
     ld_error error;
-    if (size < saved->size)
-        return answer(c,
-                      ld_fail(&error, LD_ERR_INPUT, "%zu bytes have no room for a state of %zu",
-                              size, saved->size),
-                      &error);
-    memcpy(bytes, saved->bytes, saved->size);
-    return fmi2OK;
+    return answer(c, fmu_state_write(state, bytes, size, &error), &error);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void **state)
 {
     ld_error error;
-    saved_state *saved = calloc(1, sizeof *saved);
-    unsigned char *copy = malloc(size ? size : 1);
-    if (!saved || !copy) {
-        free(saved);
-        free(copy);
-        return answer(c, ld_fail(&error, LD_ERR_MEMORY, "no memory"), &error);
-    }
-    memcpy(copy, bytes, size);
-    *saved = (saved_state){copy, size};
-    *state = saved;
-    return fmi2OK;
+    fmu_state *read;
+    ld_status status = fmu_state_read(bytes, size, &read, &error);
+    if (!status)
+        *state = read;
+    return answer(c, status, &error);
 }
 
 // ---- model exchange ----

@@ -16,12 +16,6 @@ typedef struct component {
     bool ended;
 } component;
 
-typedef struct saved_state {
-    unsigned char *bytes;
-    size_t size;
-} saved_state;
-
-// What a call came to: LD_OK, or a line of the log.
 static fmi3Status answer(const component *self, ld_status status, const ld_error *error)
 {
     if (!status)
@@ -382,10 +376,7 @@ fmi3Status fmi3GetAdjointDerivative(void *instance, const uint32_t *unknown, siz
 fmi3Status fmi3FreeFMUState(void *instance, void **state)
 {
     (void)instance;
-    saved_state *saved = *state;
-    if (saved)
-        free(saved->bytes);
-    free(saved);
+    free(*state);
     *state = NULL;
     return fmi3OK;
 }
@@ -394,62 +385,43 @@ fmi3Status fmi3GetFMUState(void *instance, void **state)
 {
     component *self = instance;
     ld_error error;
-    if (*state)
-        fmi3FreeFMUState(instance, state);
-    saved_state *saved = calloc(1, sizeof *saved);
-    ld_status status = saved ? fmu_save(self->inside, &saved->bytes, &saved->size, &error)
-                             : ld_fail(&error, LD_ERR_MEMORY, "no memory");
-    if (status)
-        free(saved);
-    else
+    fmu_state *saved;
+    ld_status status = fmu_save(self->inside, &saved, &error);
+    if (!status) {
+        free(*state);
         *state = saved;
+    }
     return answer(self, status, &error);
 }
 
 fmi3Status fmi3SetFMUState(void *instance, void *state)
 {
     component *self = instance;
-    const saved_state *saved = state;
     ld_error error;
-    ld_status status = saved ? fmu_load(self->inside, saved->bytes, saved->size, &error)
-                             : ld_fail(&error, LD_ERR_INPUT, "there is no state");
-    return answer(self, status, &error);
+    return answer(self, fmu_load(self->inside, state, &error), &error);
 }
 
 fmi3Status fmi3SerializedFMUStateSize(void *instance, void *state, size_t *size)
 {
     (void)instance;
-    *size = ((const saved_state *)state)->size;
+    *size = ((const fmu_state *)state)->size;
     return fmi3OK;
 }
 
 fmi3Status fmi3SerializeFMUState(void *instance, void *state, uint8_t *bytes, size_t size)
 {
-    const saved_state *saved = state;
     ld_error error;
-    if (size < saved->size)
-        return answer(instance,
-                      ld_fail(&error, LD_ERR_INPUT, "%zu bytes have no room for a state of %zu",
-                              size, saved->size),
-                      &error);
-    memcpy(bytes, saved->bytes, saved->size);
-    return fmi3OK;
+    return answer(instance, fmu_state_write(state, bytes, size, &error), &error);
 }
 
 fmi3Status fmi3DeserializeFMUState(void *instance, const uint8_t *bytes, size_t size, void **state)
 {
     ld_error error;
-    saved_state *saved = calloc(1, sizeof *saved);
-    unsigned char *copy = malloc(size ? size : 1);
-    if (!saved || !copy) {
-        free(saved);
-        free(copy);
-        return answer(instance, ld_fail(&error, LD_ERR_MEMORY, "no memory"), &error);
-    }
-    memcpy(copy, bytes, size);
-    *saved = (saved_state){copy, size};
-    *state = saved;
-    return fmi3OK;
+    fmu_state *read;
+    ld_status status = fmu_state_read(bytes, size, &read, &error);
+    if (!status)
+        *state = read;
+    return answer(instance, status, &error);
 }
 
 // ---- clocks: there are none ----

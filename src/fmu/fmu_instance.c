@@ -587,11 +587,10 @@ static void archive_head(fmu_instance *self, archive *state, int64_t *run_size)
     archive_count(state, run_size);
 }
 
-ld_status fmu_save(fmu_instance *self, unsigned char **bytes, size_t *size, ld_error *error)
+ld_status fmu_save(fmu_instance *self, fmu_state **state, ld_error *error)
 {
     size_t run_size = 0;
     archive count = archive_save(NULL, 0);
-    *bytes = NULL;
     if (self->run) {
         ld_run_save(self->run, NULL, 0, &run_size, error);
         if (run_size == 0)
@@ -599,33 +598,55 @@ ld_status fmu_save(fmu_instance *self, unsigned char **bytes, size_t *size, ld_e
     }
     int64_t following = (int64_t)run_size;
     archive_head(self, &count, &following);
-    *size = count.at + run_size;
-    *bytes = malloc(*size);
-    if (!*bytes)
+    fmu_state *made = malloc(sizeof *made + count.at + run_size);
+    if (!made)
         return no_memory(error);
-    archive state = archive_save(*bytes, count.at);
-    archive_head(self, &state, &following);
+    made->size = count.at + run_size;
+    archive head = archive_save(made->bytes, count.at);
+    archive_head(self, &head, &following);
     ld_status status = LD_OK;
     if (self->run)
-        status = ld_run_save(self->run, *bytes + count.at, run_size, &run_size, error);
-    if (status) {
-        free(*bytes);
-        *bytes = NULL;
-    }
+        status = ld_run_save(self->run, made->bytes + count.at, run_size, &run_size, error);
+    if (status)
+        free(made);
+    else
+        *state = made;
     return status;
 }
 
-ld_status fmu_load(fmu_instance *self, const unsigned char *bytes, size_t size, ld_error *error)
+ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error)
 {
     int64_t following = 0;
-    archive state = archive_load(bytes, size);
+    if (!state)
+        return ld_fail(error, LD_ERR_INPUT, "there is no state");
+    archive head = archive_load(state->bytes, state->size);
     end_run(self);
-    archive_head(self, &state, &following);
-    if (state.failed || state.at + (size_t)following != size)
+    archive_head(self, &head, &following);
+    if (head.failed || head.at + (size_t)following != state->size)
         return ld_fail(error, LD_ERR_INPUT, "this is no state of this FMU, or a damaged one");
     ld_status status = build(self, error);
     if (!status && following > 0)
-        status = ld_run_load(self->simulation, NULL, bytes + state.at, (size_t)following,
+        status = ld_run_load(self->simulation, NULL, state->bytes + head.at, (size_t)following,
                              &self->run, error);
     return status;
+}
+
+ld_status fmu_state_read(const void *bytes, size_t size, fmu_state **state, ld_error *error)
+{
+    fmu_state *made = malloc(sizeof *made + size);
+    if (!made)
+        return no_memory(error);
+    made->size = size;
+    memcpy(made->bytes, bytes, size);
+    *state = made;
+    return LD_OK;
+}
+
+ld_status fmu_state_write(const fmu_state *state, void *bytes, size_t size, ld_error *error)
+{
+    if (size < state->size)
+        return ld_fail(error, LD_ERR_INPUT, "%zu bytes have no room for a state of %zu", size,
+                       state->size);
+    memcpy(bytes, state->bytes, state->size);
+    return LD_OK;
 }

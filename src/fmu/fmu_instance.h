@@ -51,9 +51,18 @@ typedef struct fmu_step {
 ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events, fmu_step *step,
                       ld_error *error);
 
-// All that the rest depends on, as bytes to be freed, and back: in this instance or another one of
-// the same FMU, to the bit.
-ld_status fmu_save(fmu_instance *self, unsigned char **bytes, size_t *size, ld_error *error);
-ld_status fmu_load(fmu_instance *self, const unsigned char *bytes, size_t size, ld_error *error);
+// All that the rest depends on, as bytes, for this instance or another one of the same FMU, to the
+// bit.
+typedef struct fmu_state {
+    size_t size;
+    unsigned char bytes[];
+} fmu_state;
+
+// To be freed.
+ld_status fmu_save(fmu_instance *self, fmu_state **state, ld_error *error);
+ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error);
+// From bytes and into them, where there is room for it.
+ld_status fmu_state_read(const void *bytes, size_t size, fmu_state **state, ld_error *error);
+ld_status fmu_state_write(const fmu_state *state, void *bytes, size_t size, ld_error *error);
 
 #endif
