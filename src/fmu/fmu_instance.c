@@ -329,7 +329,8 @@ ld_status fmu_set_experiment(fmu_instance *self, double start, double tolerance,
     double usual = NAN;
     if (self->going)
         return ld_fail(error, LD_ERR_INPUT, "the run has begun");
-    ld_model_number(self->model, "run.tolerance", &usual, NULL);
+    if (self->model) // else its parameters were refused
+        ld_model_number(self->model, "run.tolerance", &usual, NULL);
     if (!isfinite(start))
         return ld_fail(error, LD_ERR_INPUT, "the start time is no number");
     end_run(self);

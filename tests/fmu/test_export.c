@@ -459,6 +459,9 @@ static void refuses_wrong_values(void **state)
     assert_int_equal(FMU_FUNCTION(&fmu, fmi3ExitInitializationMode)(instance), fmi3Error);
     assert_string_equal(
         logged, "rocket.mass: found \"-1 kg\"; expected a number with a unit of kg, > 0 kg");
+    assert_int_equal(
+        FMU_FUNCTION(&fmu, fmi3EnterInitializationMode)(instance, true, 1e-6, 0, false, 0), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3ExitInitializationMode)(instance), fmi3Error);
     assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", NAN), fmi3Error);
     assert_string_equal(logged, "scenario.rocket.mass cannot be nan");
     assert_int_equal(FMU_FUNCTION(&fmu, fmi3Reset)(instance), fmi3OK);
