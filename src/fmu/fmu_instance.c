@@ -33,14 +33,14 @@ struct fmu_instance {
     ld_model *model;
     ld_simulation *simulation;
     uint64_t built_with; // digest of the parameters that these have
-    ld_run *run;         // NULL: not begun with what was set
+    void *run;           // of variables.runner; NULL: not begun with what was set
     bool going;
-    double ahead;       // [s] of the importer's clock against the run's
-    bool base_set;      // since the last step
-    ld_base_frame base; // that the run was told last, and when
-    double base_at;     // [s] on the run's clock
-    bool lit;           // the input of the last step
-    double *row;        // columns at the present
+    double ahead;                  // [s] of the importer's clock against the run's
+    bool told_set;                 // since the last step
+    double told[FMU_MOST_NUMBERS]; // what the run was told last, and when
+    double told_at;                // [s] on the run's clock
+    bool lit;                      // the input of the last step
+    double *row;                   // columns at the present
     bool row_known;
 };
 
@@ -54,7 +54,7 @@ static ld_status no_memory(ld_error *error)
 static void end_run(fmu_instance *self)
 {
     if (self->run)
-        ld_run_end(self->run, NULL, NULL);
+        self->variables.runner->end(self->run);
     self->run = NULL;
     self->row_known = false;
 }
@@ -146,7 +146,7 @@ static ld_status read_model(fmu_instance *self, ld_error *error)
 static ld_status check_columns(const fmu_instance *self, ld_error *error)
 {
     const ld_column *column;
-    size_t columns = ld_simulation_columns(self->simulation, &column), found = 0;
+    size_t columns = self->variables.runner->columns(self->simulation, &column), found = 0;
     for (size_t i = 0; i < self->variables.count; i++) {
         const fmu_variable *v = &self->variables.item[i];
         if (v->group != FMU_COLUMN)
@@ -190,43 +190,31 @@ static double number_of(const fmu_instance *self, fmu_group group, int index)
     return NAN;
 }
 
-// The base as it was told, its quaternion made of length 1.
-static ld_base_frame base_of(const fmu_instance *self)
+// What the inputs are that another FMU tells.
+static void find_told(const fmu_instance *self, double told[FMU_MOST_NUMBERS])
 {
-    ld_base_frame base = fmu_base_at_origin();
-    double *part[FMU_BASE_INPUTS], length = 0;
-    for (int i = 0; i < 3; i++) {
-        part[i] = &base.position[i];
-        part[7 + i] = &base.velocity[i];
-        part[10 + i] = &base.rate[i];
-    }
-    for (int i = 0; i < 4; i++)
-        part[3 + i] = &base.quaternion[i];
+    memset(told, 0, FMU_MOST_NUMBERS * sizeof *told);
     for (size_t i = 0; i < self->variables.count; i++)
-        if (self->variables.item[i].group == FMU_BASE)
-            *part[self->variables.item[i].index] = self->number[i];
-    for (int i = 0; i < 4; i++)
-        length += base.quaternion[i] * base.quaternion[i];
-    for (int i = 0; i < 4 && length != 1; i++)
-        base.quaternion[i] /= sqrt(length);
-    return base;
+        if (self->variables.item[i].group == FMU_TOLD)
+            told[self->variables.item[i].index] = self->number[i];
 }
 
 ld_status fmu_begin(fmu_instance *self, ld_error *error)
 {
+    const fmu_runner *runner = self->variables.runner;
     if (self->run)
         return LD_OK;
     ld_status status = build(self, error);
     if (status)
         return status;
-    self->base = base_of(self);
-    self->run = fmu_run_begin(self->simulation, self->variables.external, &self->base, error);
+    find_told(self, self->told);
+    self->run = runner->begin(self->simulation, self->told, error);
     if (!self->run)
         return error->status;
-    self->base_at = ld_run_time(self->run);
-    self->ahead = isnan(self->start) ? 0 : self->start - self->base_at;
-    self->base_set = false;
-    if (number_of(self, FMU_WAIT, 0) != 0 && ld_run_ignite(self->run, INFINITY, NULL))
+    self->told_at = runner->time(self->run);
+    self->ahead = isnan(self->start) ? 0 : self->start - self->told_at;
+    self->told_set = false;
+    if (number_of(self, FMU_WAIT, 0) != 0 && runner->ignite(self->run, INFINITY, NULL))
         status = ld_fail(error, LD_ERR_INPUT,
                          "ignition_by_input wants a rocket that is not lit at the start: give "
                          "scenario.run.lead_in, or a later firing");
@@ -271,7 +259,8 @@ static ld_status make_room(fmu_instance *self, ld_error *error)
     self->number = malloc(count * sizeof *self->number);
     self->text = calloc(count, sizeof *self->text);
     self->changed = calloc(count, sizeof *self->changed);
-    self->row = calloc(ld_simulation_columns(self->simulation, &column), sizeof *self->row);
+    self->row =
+        calloc(self->variables.runner->columns(self->simulation, &column), sizeof *self->row);
     return self->number && self->text && self->changed && self->row ? LD_OK : no_memory(error);
 }
 
@@ -319,7 +308,7 @@ ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
     }
     self->tolerance = 0;
     self->start = NAN;
-    self->going = self->base_set = self->lit = false;
+    self->going = self->told_set = self->lit = false;
     end_run(self);
     return build(self, error);
 }
@@ -368,27 +357,27 @@ static const fmu_variable *find(const fmu_instance *self, unsigned reference, va
 static ld_status output(fmu_instance *self, const fmu_variable *variable, double *value,
                         ld_error *error)
 {
-    ld_base_wrench wrench;
+    const fmu_runner *runner = self->variables.runner;
+    double tells[FMU_MOST_NUMBERS];
     ld_status status = fmu_begin(self, error);
     if (status)
         return status;
     switch (variable->group) {
     case FMU_TIME:
-        *value = ld_run_time(self->run) + self->ahead;
+        *value = runner->time(self->run) + self->ahead;
         return LD_OK;
-    case FMU_WRENCH:
-        status = ld_run_base_wrench(self->run, &wrench, error);
-        *value = variable->index < 3 ? wrench.force[variable->index]
-                                     : wrench.moment[variable->index - 3];
+    case FMU_TELLS:
+        status = runner->tells(self->run, tells, error);
+        *value = tells[variable->index];
         return status;
     case FMU_COLUMN:
         if (!self->row_known)
-            status = ld_run_row(self->run, self->row, error);
+            status = runner->row(self->run, self->row, error);
         self->row_known = !status;
         *value = self->row[variable->index];
         return status;
     default:
-        return ld_summary_number(ld_run_summary(self->run), variable->name + strlen("summary."),
+        return ld_summary_number(runner->summary(self->run), variable->name + strlen("summary."),
                                  value, error);
     }
 }
@@ -427,7 +416,7 @@ static ld_status take_change(fmu_instance *self, const fmu_variable *variable, u
         return ld_fail(error, LD_ERR_INPUT, "%s is fixed once the run has begun", variable->name);
     if (!self->going)
         end_run(self);
-    self->base_set |= variable->group == FMU_BASE;
+    self->told_set |= variable->group == FMU_TOLD;
     self->changed[reference] = true;
     return LD_OK;
 }
@@ -468,56 +457,40 @@ ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text,
 // ---- steps ----
 
 // Once at an instant, unless it says something else then.
-static ld_status tell_base(fmu_instance *self, ld_error *error)
+static ld_status tell(fmu_instance *self, ld_error *error)
 {
-    ld_base_frame base = base_of(self);
-    double now = ld_run_time(self->run);
-    self->base_set = false;
-    if (now == self->base_at &&
-        memcmp((const char *)&base, (const char *)&self->base, sizeof base) == 0)
+    const fmu_runner *runner = self->variables.runner;
+    double told[FMU_MOST_NUMBERS], now = runner->time(self->run);
+    find_told(self, told);
+    self->told_set = false;
+    if (now == self->told_at &&
+        memcmp((const char *)told, (const char *)self->told, sizeof told) == 0)
         return LD_OK;
-    self->base = base;
-    self->base_at = now;
+    memcpy(self->told, told, sizeof told);
+    self->told_at = now;
     self->row_known = false;
-    return ld_run_tell_base(self->run, &base, error);
+    return runner->tell(self->run, told, error);
 }
 
 // Tells the run what was set since the last step.
 static ld_status apply_inputs(fmu_instance *self, ld_error *error)
 {
+    const fmu_runner *runner = self->variables.runner;
     ld_status status = LD_OK;
     bool lit = number_of(self, FMU_IGNITE, 0) != 0;
-    if (self->base_set)
-        status = tell_base(self, error);
+    if (self->told_set)
+        status = tell(self, error);
     if (!status && lit && !self->lit)
-        status = ld_run_ignite(self->run, ld_run_time(self->run), error);
+        status = runner->ignite(self->run, runner->time(self->run), error);
     self->lit = lit;
-    return status;
-}
-
-// Whether an importer wants to hear of it: not what happens to wheels and walls many times.
-static bool is_told(const ld_event *event)
-{
-    return event->kind == LD_EVENT_IGNITION || event->kind == LD_EVENT_RELEASE ||
-           event->kind == LD_EVENT_EXIT || event->kind == LD_EVENT_TUBE ||
-           event->kind == LD_EVENT_END;
-}
-
-static ld_status go_to_event(fmu_instance *self, double end, bool *found, ld_error *error)
-{
-    ld_event event;
-    ld_status status;
-    do
-        status = ld_run_advance_to_event(self->run, end, &event, error);
-    while (!status && event.kind != LD_EVENT_NONE && !is_told(&event));
-    *found = !status && event.kind != LD_EVENT_NONE;
     return status;
 }
 
 ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events, fmu_step *step,
                       ld_error *error)
 {
-    double now = self->run ? ld_run_time(self->run) + self->ahead : NAN,
+    const fmu_runner *runner = self->variables.runner;
+    double now = self->run ? runner->time(self->run) + self->ahead : NAN,
            end = t + size - self->ahead;
     *step = (fmu_step){.t = now};
     if (!self->going)
@@ -528,17 +501,17 @@ ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events,
     ld_status status = apply_inputs(self, error);
     self->row_known = false;
     if (!status && at_events)
-        status = go_to_event(self, end, &step->event, error);
+        status = runner->advance_to_event(self->run, end, &step->event, error);
     else if (!status)
-        status = ld_run_advance(self->run, end, error);
-    step->t = ld_run_time(self->run) + self->ahead;
-    step->ended = ld_run_is_finished(self->run);
+        status = runner->advance(self->run, end, error);
+    step->t = runner->time(self->run) + self->ahead;
+    step->ended = runner->is_finished(self->run);
     return status;
 }
 
 // ---- states ----
 
-static const int64_t MAGIC = INT64_C(0x554d4664796c31), FORM = 1;
+static const int64_t MAGIC = INT64_C(0x554d4664796c31), FORM = 2;
 
 static void archive_set_text(fmu_instance *self, archive *state, size_t i)
 {
@@ -572,12 +545,9 @@ static void archive_head(fmu_instance *self, archive *state, int64_t *run_size)
     archive_double(state, &self->start);
     archive_double(state, &self->ahead);
     archive_bool(state, &self->going);
-    archive_bool(state, &self->base_set);
-    archive_doubles(state, self->base.position, 3);
-    archive_doubles(state, self->base.quaternion, 4);
-    archive_doubles(state, self->base.velocity, 3);
-    archive_doubles(state, self->base.rate, 3);
-    archive_double(state, &self->base_at);
+    archive_bool(state, &self->told_set);
+    archive_doubles(state, self->told, FMU_MOST_NUMBERS);
+    archive_double(state, &self->told_at);
     archive_bool(state, &self->lit);
     for (size_t i = 0; i < self->variables.count; i++)
         if (fmu_is_input(&self->variables.item[i]) || fmu_is_parameter(&self->variables.item[i])) {
@@ -593,7 +563,7 @@ ld_status fmu_save(fmu_instance *self, fmu_state **state, ld_error *error)
     size_t run_size = 0;
     archive count = archive_save(NULL, 0);
     if (self->run) {
-        ld_run_save(self->run, NULL, 0, &run_size, error);
+        self->variables.runner->save(self->run, NULL, 0, &run_size, error);
         if (run_size == 0)
             return error->status;
     }
@@ -607,7 +577,8 @@ ld_status fmu_save(fmu_instance *self, fmu_state **state, ld_error *error)
     archive_head(self, &head, &following);
     ld_status status = LD_OK;
     if (self->run)
-        status = ld_run_save(self->run, made->bytes + count.at, run_size, &run_size, error);
+        status = self->variables.runner->save(self->run, made->bytes + count.at, run_size,
+                                              &run_size, error);
     if (status)
         free(made);
     else
@@ -626,10 +597,11 @@ ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error)
     if (head.failed || head.at + (size_t)following != state->size)
         return ld_fail(error, LD_ERR_INPUT, "this is no state of this FMU, or a damaged one");
     ld_status status = build(self, error);
-    if (!status && following > 0)
-        status = ld_run_load(self->simulation, NULL, state->bytes + head.at, (size_t)following,
-                             &self->run, error);
-    return status;
+    if (status || following == 0)
+        return status;
+    self->run = self->variables.runner->load(self->simulation, state->bytes + head.at,
+                                             (size_t)following, error);
+    return self->run ? LD_OK : error->status;
 }
 
 ld_status fmu_state_read(const void *bytes, size_t size, fmu_state **state, ld_error *error)

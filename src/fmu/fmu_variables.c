@@ -40,7 +40,7 @@ bool fmu_is_text(const fmu_variable *variable)
 
 bool fmu_is_input(const fmu_variable *variable)
 {
-    return variable->group == FMU_BASE || variable->group == FMU_IGNITE;
+    return variable->group == FMU_TOLD || variable->group == FMU_IGNITE;
 }
 
 bool fmu_is_parameter(const fmu_variable *variable)
@@ -50,7 +50,7 @@ bool fmu_is_parameter(const fmu_variable *variable)
 
 bool fmu_is_output(const fmu_variable *variable)
 {
-    return variable->group >= FMU_WRENCH;
+    return variable->group >= FMU_TELLS;
 }
 
 const char *fmu_key_of(const fmu_variable *variable)
@@ -63,23 +63,6 @@ void fmu_token(const char *scenario, size_t length, char token[FMU_TOKEN_SIZE])
     uint64_t digest = digest_bytes(DIGEST_BEGIN, ld_version(), strlen(ld_version()));
     snprintf(token, FMU_TOKEN_SIZE, "{launchdyn-%016" PRIx64 "}",
              digest_bytes(digest, scenario, length));
-}
-
-ld_run *fmu_run_begin(const ld_simulation *simulation, bool external, const ld_base_frame *base,
-                      ld_error *error)
-{
-    ld_run *run;
-    ld_run_options options = {.base = external ? base : NULL};
-    if (!ld_run_begin(simulation, &options, &run, error))
-        return run;
-    if (run)
-        ld_run_end(run, NULL, NULL);
-    return NULL;
-}
-
-ld_base_frame fmu_base_at_origin(void)
-{
-    return (ld_base_frame){.quaternion = {1, 0, 0, 0}};
 }
 
 // ---- gathering ----
@@ -128,36 +111,49 @@ static void begin_group(gathering *self)
     self->index = 0;
 }
 
-static void add_base(gathering *self)
+// Groups of the numbers that FMUs tell each other, and what they are.
+typedef struct exchanged {
+    const char *name, *unit, *description;
+    int count; // 3: x, y, z; 4: 0 to 3
+} exchanged;
+
+static const exchanged frame_parts[] = {
+    {"position", "m", "Rear end of the undeformed tube, in I", 3},
+    {"quaternion", "", "Axes of the undeformed tube against I, scalar first", 4},
+    {"velocity", "m/s", "Velocity of that rear end, in I", 3},
+    {"rate", "rad/s", "Angular velocity of the base, in I", 3},
+};
+static const exchanged wrench_parts[] = {
+    {"force", "N", "Force of the tube on its base, in I", 3},
+    {"moment", "N.m", "Moment of the tube on its base about the undeformed tube's rear end, in I",
+     3},
+};
+
+// `start`: of each number; NULL: they are calculated.
+static void add_exchanged(gathering *self, fmu_group group, const char *prefix,
+                          const exchanged *part, int parts, const double *start)
 {
-    static const char *const part[FMU_BASE_INPUTS] = {
-        "position.x",   "position.y",   "position.z", "quaternion.0", "quaternion.1",
-        "quaternion.2", "quaternion.3", "velocity.x", "velocity.y",   "velocity.z",
-        "rate.x",       "rate.y",       "rate.z"};
-    static const char *const unit[] = {"m", "", "m/s", "rad/s"};
-    static const char *const about[] = {"Rear end of the undeformed tube, in I",
-                                        "Axes of the undeformed tube against I, scalar first",
-                                        "Velocity of that rear end, in I",
-                                        "Angular velocity of the base, in I"};
-    for (int i = 0; i < FMU_BASE_INPUTS; i++) {
-        char name[NAME_SIZE];
-        int kind = i < 3 ? 0 : i < 7 ? 1 : i < 10 ? 2 : 3;
-        snprintf(name, sizeof name, "input.base.%s", part[i]);
-        add(self, FMU_BASE, name, unit[kind], about[kind], i == 3, NULL);
-    }
+    begin_group(self);
+    for (int i = 0; i < parts; i++)
+        for (int k = 0; k < part[i].count; k++) {
+            char name[NAME_SIZE];
+            snprintf(name, sizeof name, "%s.%s.%c", prefix, part[i].name,
+                     (part[i].count == 3 ? "xyz" : "0123")[k]);
+            add(self, group, name, part[i].unit, part[i].description,
+                start ? start[self->index] : NAN, NULL);
+        }
 }
 
-static void add_wrench(gathering *self)
+static void add_frame(gathering *self, fmu_group group, const char *prefix, const double *start)
 {
-    static const char axis[] = "xyz";
-    for (int i = 0; i < FMU_WRENCH_OUTPUTS; i++) {
-        char name[NAME_SIZE];
-        snprintf(name, sizeof name, "wrench.%s.%c", i < 3 ? "force" : "moment", axis[i % 3]);
-        add(self, FMU_WRENCH, name, i < 3 ? "N" : "N.m",
-            i < 3 ? "Force of the tube on its base, in I"
-                  : "Moment of the tube on its base about the undeformed tube's rear end, in I",
-            NAN, NULL);
-    }
+    add_exchanged(self, group, prefix, frame_parts, sizeof frame_parts / sizeof *frame_parts,
+                  start);
+}
+
+static void add_wrench(gathering *self, fmu_group group, const char *prefix, const double *start)
+{
+    add_exchanged(self, group, prefix, wrench_parts, sizeof wrench_parts / sizeof *wrench_parts,
+                  start);
 }
 
 // The key at `path`, if the model has it and it is of the group that is taken.
@@ -210,15 +206,16 @@ static void take_result(void *data, const ld_quantity *quantity)
 }
 
 // Numbers of the summary are told by one of a run that has begun.
-static ld_status add_results(gathering *self, const ld_simulation *simulation, ld_error *error)
+static ld_status add_results(gathering *self, const ld_simulation *simulation, const double *told,
+                             ld_error *error)
 {
-    ld_base_frame base = fmu_base_at_origin();
-    ld_run *run = fmu_run_begin(simulation, self->into->external, &base, error);
+    const fmu_runner *runner = self->into->runner;
+    void *run = runner->begin(simulation, told, error);
     if (!run)
         return error->status;
-    self->into->start = ld_run_time(run);
-    ld_summary_each(ld_run_summary(run), take_result, self);
-    ld_run_end(run, NULL, NULL);
+    self->into->start = runner->time(run);
+    ld_summary_each(runner->summary(run), take_result, self);
+    runner->end(run);
     return LD_OK;
 }
 
@@ -229,41 +226,52 @@ static bool is_external(const ld_model *model)
            strcmp(kind, "external") == 0;
 }
 
+static void add_keys(gathering *self)
+{
+    for (fmu_group keys = FMU_NUMBER; keys <= FMU_TEXT; keys++) {
+        begin_group(self);
+        self->keys = keys;
+        ld_scenario_keys(take_key, self);
+    }
+}
+
+static void add_columns(gathering *self, const ld_simulation *simulation)
+{
+    const ld_column *column;
+    size_t columns = self->into->runner->columns(simulation, &column);
+    begin_group(self);
+    for (size_t i = 0; i < columns; i++)
+        if (strcmp(column[i].name, "t") != 0)
+            add(self, FMU_COLUMN, column[i].name, column[i].unit, column[i].description, NAN, NULL);
+        else
+            self->index++;
+}
+
+// A base that rests at the origin, its tube along x: where it is until it is told otherwise.
+static const double at_origin[FMU_MOST_NUMBERS] = {[3] = 1};
+
 ld_status fmu_variables_make(const ld_model *model, const ld_simulation *simulation,
                              fmu_variables *self, ld_error *error)
 {
-    const ld_column *column;
-    *self = (fmu_variables){0};
+    bool external = is_external(model);
+    *self = (fmu_variables){.runner = external ? &fmu_launch_outside : &fmu_launch};
     gathering all = {.into = self, .model = model};
     if (!ld_model_has_launcher(model))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher that could be stepped");
 
     add(&all, FMU_TIME, "time", "s", "Time", NAN, NULL);
-    begin_group(&all);
-    self->external = is_external(model);
-    if (self->external)
-        add_base(&all);
+    if (external)
+        add_frame(&all, FMU_TOLD, "input.base", at_origin);
     begin_group(&all);
     add(&all, FMU_IGNITE, "input.ignition", "", "Lights the waiting rocket when it becomes true", 0,
         NULL);
     begin_group(&all);
     add(&all, FMU_WAIT, "ignition_by_input", "",
         "No rocket is lit at its time in the scenario, but by input.ignition alone", 0, NULL);
-    for (fmu_group keys = FMU_NUMBER; keys <= FMU_TEXT; keys++) {
-        begin_group(&all);
-        all.keys = keys;
-        ld_scenario_keys(take_key, &all);
-    }
+    add_keys(&all);
+    add_wrench(&all, FMU_TELLS, "wrench", NULL);
+    add_columns(&all, simulation);
     begin_group(&all);
-    add_wrench(&all);
-    begin_group(&all);
-    size_t columns = ld_simulation_columns(simulation, &column);
-    for (size_t i = 0; i < columns; i++)
-        if (strcmp(column[i].name, "t") != 0)
-            add(&all, FMU_COLUMN, column[i].name, column[i].unit, column[i].description, NAN, NULL);
-        else
-            all.index++;
-    begin_group(&all);
-    ld_status status = add_results(&all, simulation, error);
+    ld_status status = add_results(&all, simulation, at_origin, error);
     return status || !all.full ? status : ld_fail(error, LD_ERR_MEMORY, "no memory");
 }

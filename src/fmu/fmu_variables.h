@@ -6,22 +6,20 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "launchdyn/run.h"
+#include "fmu/fmu_runner.h"
 
 // In the order in which they are counted.
 typedef enum fmu_group {
     FMU_TIME,   // independent
-    FMU_BASE,   // inputs: where an external base is and how it moves, as ld_base_frame
+    FMU_TOLD,   // inputs: what it is told by another FMU (fmu_runner.h)
     FMU_IGNITE, // input: becomes true, and the waiting rocket is lit
     FMU_WAIT,   // parameter: no rocket is lit but by the input
     FMU_NUMBER, // parameters: keys of the scenario
     FMU_TEXT,
-    FMU_WRENCH, // outputs: what the tube does to its base, as ld_base_wrench
+    FMU_TELLS,  // outputs: what it tells another FMU
     FMU_COLUMN, // columns of the history
     FMU_RESULT, // numbers of the rockets' summary, NaN until they are known
 } fmu_group;
-
-enum { FMU_BASE_INPUTS = 13, FMU_WRENCH_OUTPUTS = 6 };
 
 typedef struct fmu_variable {
     fmu_group group;
@@ -36,8 +34,8 @@ typedef struct fmu_variable {
 typedef struct fmu_variables {
     size_t count, capacity;
     fmu_variable *item;
-    double start;  // [s] of the run's clock
-    bool external; // the base is told where it is
+    double start; // [s] of the run's clock
+    const fmu_runner *runner;
 } fmu_variables;
 
 // Those of a simulation of `model`. fmu_variables_free() is due in any case.
@@ -62,13 +60,5 @@ enum { FMU_TOKEN_SIZE = 48 };
 
 // The token of the FMU of a scenario's text: that of this version of the program and of that text.
 void fmu_token(const char *scenario, size_t length, char token[FMU_TOKEN_SIZE]);
-
-// Begins a run of a simulation whose base, where it is external, is at `base`; NULL after a
-// failure.
-ld_run *fmu_run_begin(const ld_simulation *simulation, bool external, const ld_base_frame *base,
-                      ld_error *error);
-
-// A base that rests at the origin, its tube along x: what holds until it is told otherwise.
-ld_base_frame fmu_base_at_origin(void);
 
 #endif

@@ -1,0 +1,51 @@
+// What an instance of an FMU runs over the simulation of its scenario, whatever it is: begun, told,
+// taken forward, asked, saved, loaded.
+#ifndef LD_FMU_FMU_RUNNER_H
+#define LD_FMU_FMU_RUNNER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "launchdyn/run.h"
+
+enum {
+    FMU_FRAME_NUMBERS = 13, // of a ld_base_frame: position, quaternion, velocity, rate
+    FMU_WRENCH_NUMBERS = 6, // of a ld_base_wrench: force, moment
+    FMU_MOST_NUMBERS = FMU_FRAME_NUMBERS,
+};
+
+// Functions return what the library's do.
+typedef struct fmu_runner {
+    int told_count;  // numbers that it is told by another FMU: a frame's, or none
+    int tells_count; // that it tells another one: a wrench's
+
+    // Columns of its rows; the first one is the time.
+    size_t (*columns)(const ld_simulation *simulation, const ld_column **columns);
+    // NULL after a failure. `told` holds at the start.
+    void *(*begin)(const ld_simulation *simulation, const double *told, ld_error *error);
+    void (*end)(void *run);
+    double (*time)(const void *run); // [s] on its own clock
+    bool (*is_finished)(const void *run);
+
+    // At the present: what it is told; the waiting rocket lit at t (infinity: not until then).
+    ld_status (*tell)(void *run, const double *told, ld_error *error);
+    ld_status (*ignite)(void *run, double t, ld_error *error);
+
+    ld_status (*tells)(void *run, double *numbers, ld_error *error);
+    ld_status (*row)(void *run, double *values, ld_error *error);
+    const ld_summary *(*summary)(const void *run); // so far
+
+    // To time t [s]; or to the next event that an importer wants to hear of, where one comes
+    // before.
+    ld_status (*advance)(void *run, double t, ld_error *error);
+    ld_status (*advance_to_event)(void *run, double t, bool *found, ld_error *error);
+
+    // As ld_run_save() and ld_run_load().
+    ld_status (*save)(void *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
+    void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
+} fmu_runner;
+
+// A launch on a base that goes by itself, and on one that is told where it is.
+extern const fmu_runner fmu_launch, fmu_launch_outside;
+
+#endif
