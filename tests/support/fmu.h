@@ -56,21 +56,15 @@ static inline void attribute_after(const char *at, const char *name, char *value
     snprintf(value, size, "%.*s", (int)strcspn(from, "\""), from);
 }
 
-// Exports a scenario with the command and unpacks what came, in the shell's folder.
-static inline unpacked_fmu fmu_open(const char *scenario, int version)
+// Unpacks an FMU in the shell's folder and loads its binary.
+static inline unpacked_fmu fmu_unpack(const char *packed, int version, const char *identifier)
 {
     unpacked_fmu self = {0};
     static int number;
-    char line[512], file[256];
-    number++;
-    snprintf(line, sizeof line, "launchdyn fmu export %s --fmi %d --out %d.fmu", scenario, version,
-             number);
-    assert_int_equal(run(line), 0);
-    assert_string_equal(shell.out, "");
-    snprintf(self.folder, sizeof self.folder, "%s/unpacked-%d", shell.folder, number);
+    char file[256];
+    snprintf(self.folder, sizeof self.folder, "%s/unpacked-%d", shell.folder, ++number);
     snprintf(self.resources, sizeof self.resources, "%s/resources", self.folder);
-    snprintf(file, sizeof file, "%s/%d.fmu", shell.folder, number);
-    unzFile zip = unzOpen64(file);
+    unzFile zip = unzOpen64(packed);
     assert_non_null(zip);
     for (int next = unzGoToFirstFile(zip); next == UNZ_OK; next = unzGoToNextFile(zip))
         unpack_entry(zip, self.folder);
@@ -85,12 +79,26 @@ static inline unpacked_fmu fmu_open(const char *scenario, int version)
     attribute_after(self.description, version == 2 ? "guid" : "instantiationToken", self.token,
                     sizeof self.token);
 
-    snprintf(file, sizeof file, "%s/binaries/%s/launchdyn.so", self.folder,
-             version == 2 ? "linux64" : "x86_64-linux");
+    snprintf(file, sizeof file, "%s/binaries/%s/%s.so", self.folder,
+             version == 2 ? "linux64" : "x86_64-linux", identifier);
     self.binary = dlopen(file, RTLD_NOW | RTLD_LOCAL);
     if (!self.binary)
         fail_msg("%s", dlerror());
     return self;
+}
+
+// Exports a scenario with the command and opens what came.
+static inline unpacked_fmu fmu_open(const char *scenario, int version)
+{
+    static int number;
+    char line[512], file[256];
+    number++;
+    snprintf(line, sizeof line, "launchdyn fmu export %s --fmi %d --out %d.fmu", scenario, version,
+             number);
+    assert_int_equal(run(line), 0);
+    assert_string_equal(shell.out, "");
+    snprintf(file, sizeof file, "%s/%d.fmu", shell.folder, number);
+    return fmu_unpack(file, version, "launchdyn");
 }
 
 static inline void fmu_close(unpacked_fmu *self)
