@@ -492,6 +492,5 @@ void vehicle_load(vehicle *self, const double *state)
     self->started = state[0] != 0;
     self->stale = state[1] != 0;
     walk(self, load_part, (double *)state + 2);
-    take_values(self);
     mj_forward(self->model, self->data);
 }

@@ -368,6 +368,40 @@ static void sags_by_its_weight(void **state)
     fmu_close(&fmu);
 }
 
+// What pushes along the ground, its moment about the wheels' contacts cancelled.
+static wrench push_along_ground(void *c, double force)
+{
+    return (wrench){.force = {force, 0, 0}, .moment = {0, 0, force * get(c, "base.position.y")}};
+}
+
+static void stands_as_far_as_tyres_hold(void **state)
+{
+    (void)state;
+    if (!opened())
+        return;
+    void *c = begin();
+    load(c, &(wrench){.force = {9e3, -2e3, -5e3}, .moment = {500, 6e3, 3e3}});
+    start(c);
+    double z = get(c, "base.position.z");
+    step(c, 0, 1);
+    CHECK_BELOW("stays at rest under a wrench [m]", get(c, "base.position.z") - z, 1e-11);
+    end(c);
+
+    // friction 0.8
+    double held, limit = 0.8 * 4 * TYRE_UP * tyre_sag();
+    unsigned reference = reference_of(&fmu, "base.position.x");
+    for (int beyond = 0; beyond < 2; beyond++) {
+        c = begin();
+        wrench push = push_along_ground(c, limit * (beyond ? 1.01 : 0.99));
+        load(c, &push);
+        fmi2Status status = FMU_FUNCTION(&fmu, fmi2GetReal)(c, &reference, 1, &held);
+        assert_int_equal(status, beyond ? fmi2Error : fmi2OK);
+        end(c);
+    }
+    assert_non_null(strstr(logged, "finds no equilibrium"));
+    fmu_close(&fmu);
+}
+
 // What is watched of a plane's coordinate: its place and its speed.
 typedef struct watched {
     int coordinate;
@@ -769,9 +803,10 @@ static void carries_our_launcher(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sags_by_its_weight),    cmocka_unit_test(moves_as_a_plane_vehicle),
-        cmocka_unit_test(keeps_its_energy),      cmocka_unit_test(comes_back_to_the_bit),
-        cmocka_unit_test(refuses_what_is_wrong), cmocka_unit_test(carries_our_launcher),
+        cmocka_unit_test(sags_by_its_weight),       cmocka_unit_test(stands_as_far_as_tyres_hold),
+        cmocka_unit_test(moves_as_a_plane_vehicle), cmocka_unit_test(keeps_its_energy),
+        cmocka_unit_test(comes_back_to_the_bit),    cmocka_unit_test(refuses_what_is_wrong),
+        cmocka_unit_test(carries_our_launcher),
     };
     return cmocka_run_group_tests(tests, shell_make, shell_remove);
 }
