@@ -21,7 +21,7 @@ const PARTS = [
   ["Measures of the scenario", /^measure\./],
   ["Attitude and rates at the exit", /^(pitch|yaw)/],
   ["Speeds at the exit", /speed$|^spin/],
-  ["Flight", /^(apogee|downrange|drift|range|t_impact|time_of_flight|impact|max_mach|max_angle)/],
+  ["Flight", /^(apogee|t_apogee|t_max|stability|downrange|drift|range|t_impact|time_of_flight|impact|max_mach|max_dynamic|max_acceleration|max_angle)/],
   ["Against the launcher at the exit", /^(tip_off|aim)\./],
   ["Tip of the tube", /^tip\./],
   ["Place and velocity at the exit", /^exit\./],

@@ -92,3 +92,13 @@ air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 
     real_wrench out = wrench_of(self, v, speed, w, c, rho, mach, power, interval);
     return (air_wrench){{out.f.x, out.f.y, out.f.z}, {out.m.x, out.m.y, out.m.z}};
 }
+
+double aerodynamics_center(const aerodynamics *self, double mach)
+{
+    if (!self->present || self->model == LD_AERODYNAMICS_BODY)
+        return NAN;
+    double k[AERODYNAMICS_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
+    curves_first_values(&self->table, curves_interval(&self->table, held, 0), held,
+                        AERODYNAMICS_COLUMNS, k);
+    return k[3];
+}

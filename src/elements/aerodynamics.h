@@ -48,4 +48,7 @@ typedef struct air_wrench {
 air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
                                double mach, bool power, size_t *interval);
 
+// Station [m from O1] of the centre of pressure at a Mach number; NaN without coefficients.
+double aerodynamics_center(const aerodynamics *self, double mach);
+
 #endif

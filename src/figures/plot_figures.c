@@ -13,6 +13,7 @@
 #define MM {"mm", 1e3}
 #define M_S {"m/s", 1}
 #define MM_S {"mm/s", 1e3}
+#define M_S2 {"m/s2", 1}
 #define DEG {"deg", 57.29577951308232}
 #define MRAD {"mrad", 1e3}
 #define RAD_S {"rad/s", 1}
@@ -21,6 +22,7 @@
 #define KN {"kN", 1e-3}
 #define N_M {"N m", 1}
 #define KN_M {"kN m", 1e-3}
+#define KPA {"kPa", 1e-3}
 #define MPA {"MPa", 1e-6}
 #define J {"J", 1}
 #define KJ {"kJ", 1e-3}
@@ -195,6 +197,11 @@ static const plot_figure figures[] = {
            WIDE("Along x", M_S, {"wind.x", ""}),
            HALF("Upwards", M_S, {"wind.y", ""}),
            HALF("To the right", M_S, {"wind.z", ""})),
+    FLIGHT("flight-loads", "Dynamic pressure, acceleration, stability",
+           HALF("Dynamic pressure", KPA, {"dynamic_pressure", ""}),
+           HALF("Acceleration of the mass centre", M_S2, {"acceleration", ""}),
+           WIDE("Mass centre ahead of the centre of pressure [reference diameters]", PLAIN,
+                {"stability_margin", ""})),
     FLIGHT("flight-motor", "Motor and air",
            HALF("Thrust", KN, {"thrust", ""}),
            HALF("Mass", KG, {"rocket.mass", ""}),

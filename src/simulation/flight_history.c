@@ -10,6 +10,7 @@ typedef struct flight_instant {
     earth_motion center;
     double mass, thrust;
     flight_flow flow;
+    double acceleration, margin;
     flight_place place; // on a round or WGS 84 Earth
 } flight_instant;
 
@@ -48,6 +49,9 @@ static const quantity flight[] = {
     {"density", "kg/m3", "density of the air there", AT(flow.density)},
     {"airspeed", "m/s", "speed of the mass centre through the air", AT(flow.airspeed)},
     {"mach", "1", "Mach number", AT(flow.mach)},
+    {"dynamic_pressure", "Pa", "half the density times the square of the airspeed", AT(flow.pressure)},
+    {"acceleration", "m/s2", "magnitude of the mass centre's acceleration against inertial axes", AT(acceleration)},
+    {"stability_margin", "1", "mass centre ahead of the centre of pressure, in reference diameters", AT(margin)},
     {"angle_of_attack", "rad", "between the rocket's axis and its velocity through the air", AT(flow.angle_of_attack)},
     {"wind.x", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.x)},
     {"wind.y", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.y)},
@@ -92,6 +96,11 @@ void flight_row(const flight_system *system, const quantity_columns *columns,
     now.flow = flight_flow_at(system, t, state);
     now.mass = flight_mass(system, phase, t).m;
     now.thrust = flight_thrust(system, phase, t);
+    now.margin = flight_stability_margin(system, phase, t, now.flow.mach);
+    flight_phase rated = *phase;
+    double rates[FLIGHT_STATES];
+    flight_rates(system, &rated, t, state, rates);
+    now.acceleration = v3_norm(v3_from(rates + FLIGHT_V));
     m3 A_IB = q_matrix(now.pose.q_IB);
     v3 turn = m3_apply_transposed(system->earth.A_EI, earth_rate(&system->earth));
     v3 w = v3_sub(m3_apply(A_IB, now.pose.w), turn), axis = m3_column(A_IB, 0);

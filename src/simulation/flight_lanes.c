@@ -219,6 +219,7 @@ static void lay_out(lane_group *self, double *block)
     self->extremes = self->step + DORMAND_PRINCE_NUMBERS * self->count;
     self->ends = (flight_step){
         .done = &OF_STEP(self, 0, outcome),
+        .t0 = &OF_STEP(self, 0, t0),
         .t = &OF_STEP(self, 0, t),
         .y0 = &OF_STEP(self, 0, y0),
         .y0_dot = &OF_STEP(self, 0, k[0]),

@@ -70,35 +70,95 @@ static ld_status write_rows(flight_run *run, double t)
 
 // ---- watching ----
 
-// Mach number at t within the last step.
-static double mach_at(flight_run *run, double t)
+// The last step as its watch sees it.
+static flight_step ends_of(flight_run *run)
+{
+    dormand_prince_numbers *step = &run->steps.step;
+    return (flight_step){.done = &step->outcome,
+                         .t0 = &step->t0,
+                         .t = &step->t,
+                         .y0 = step->y0,
+                         .y0_dot = step->k[0],
+                         .y = step->y,
+                         .y_dot = step->k[DORMAND_PRINCE_STAGES - 1],
+                         .extremes = (double *)&run->extremes};
+}
+
+static flight_flow flow_at(flight_run *run, double t)
 {
     double y[DORMAND_PRINCE_STATES];
     dormand_prince_between(&run->steps, t, y);
-    return flight_flow_at(run->job->system, t, y).mach;
+    return flight_flow_at(run->job->system, t, y);
 }
 
-// When the Mach number is greatest within the last step, by golden sections where there is a
-// maximum between its ends.
-static double fastest_instant(flight_run *run, double mach)
+// At t within the last step.
+static double mach_at(flight_run *run, double t)
 {
-    const dormand_prince *steps = &run->steps;
-    double a = steps->step.t0, b = steps->step.t, share = (sqrt(5) - 1) / 2;
-    const flight_system *system = run->job->system;
-    if (!flight_speeds_up(system, steps->step.y0, steps->step.k[0]) ||
-        flight_speeds_up(system, steps->step.y, steps->step.k[6]))
-        return mach >= run->extremes.mach ? b : NAN;
+    return flow_at(run, t).mach;
+}
+
+static double dynamic_pressure_at(flight_run *run, double t)
+{
+    return flow_at(run, t).pressure;
+}
+
+// When something is greatest within the last step, by golden sections.
+static double greatest_instant(flight_run *run, double (*value_at)(flight_run *run, double t))
+{
+    double a = run->steps.step.t0, b = run->steps.step.t, share = (sqrt(5) - 1) / 2;
     double c = b - share * (b - a), d = a + share * (b - a);
-    double at_c = mach_at(run, c), at_d = mach_at(run, d);
+    double at_c = value_at(run, c), at_d = value_at(run, d);
     for (int i = 0; i < 25; i++) {
         bool left = at_c > at_d;
         *(left ? &b : &a) = left ? d : c;
         *(left ? &d : &c) = left ? c : d;
         *(left ? &at_d : &at_c) = left ? at_c : at_d;
         *(left ? &c : &d) = left ? b - share * (b - a) : a + share * (b - a);
-        *(left ? &at_c : &at_d) = mach_at(run, left ? c : d);
+        *(left ? &at_c : &at_d) = value_at(run, left ? c : d);
     }
     return c;
+}
+
+// When the Mach number is greatest within the last step; NaN: it has been greater.
+static double fastest_instant(flight_run *run, double mach)
+{
+    const dormand_prince_numbers *step = &run->steps.step;
+    const flight_system *system = run->job->system;
+    if (flight_speeds_up(system, step->y0, step->k[0]) &&
+        !flight_speeds_up(system, step->y, step->k[6]))
+        return greatest_instant(run, mach_at);
+    return mach >= run->extremes.mach ? step->t : NAN;
+}
+
+static void watch_pressure(flight_run *run, const flight_flow *flow)
+{
+    flight_extremes *most = &run->extremes;
+    const dormand_prince_numbers *step = &run->steps.step;
+    const flight_step ends = ends_of(run);
+    double pressure = flow->pressure, t = step->t;
+    // anew: what the extremes have of it may be of the end already
+    const double density[] = {flight_flow_at(run->job->system, step->t0, step->y0).density,
+                              flow->density};
+    if (flight_pressure_turns(run->job->system, &ends, density, pressure)) {
+        t = greatest_instant(run, dynamic_pressure_at);
+        pressure = dynamic_pressure_at(run, t);
+    }
+    if (pressure > most->pressure) {
+        most->pressure = pressure;
+        most->t_pressure = t;
+    }
+    most->density = flow->density;
+}
+
+static void watch_acceleration(flight_run *run)
+{
+    const dormand_prince_numbers *step = &run->steps.step;
+    flight_extremes *most = &run->extremes;
+    v3 a = v3_from(step->k[DORMAND_PRINCE_STAGES - 1] + FLIGHT_V);
+    if (v3_dot(a, a) > most->acceleration) {
+        most->acceleration = v3_dot(a, a);
+        most->t_acceleration = step->t;
+    }
 }
 
 // When the Mach number went past the table's last, between the step's begin and t.
@@ -112,12 +172,23 @@ static double beyond_instant(flight_run *run, double t)
     return b;
 }
 
+static void take_height(flight_run *run, double t, const double *y)
+{
+    double height = flight_height(run->job->system, y);
+    if (height > run->apogee) {
+        run->apogee = height;
+        run->t_apogee = t;
+    }
+}
+
 static void watch(flight_run *run, double t, const double *y)
 {
     const flight_system *system = run->job->system;
     flight_extremes *most = &run->extremes;
     flight_flow flow = flight_flow_at(system, t, y);
-    run->apogee = fmax(run->apogee, flight_height(system, y));
+    take_height(run, t, y);
+    watch_pressure(run, &flow);
+    watch_acceleration(run);
     if (flow.airspeed > 0 && flow.density > 0 &&
         flow.across * most->along > flow.along * most->across) {
         most->across = flow.across;
@@ -425,7 +496,7 @@ static ld_status after_step(flight_run *run, bool stopped)
     if (!isnan(apex)) {
         double y[DORMAND_PRINCE_STATES];
         dormand_prince_between(&run->steps, apex, y);
-        run->apogee = fmax(run->apogee, flight_height(run->job->system, y));
+        take_height(run, apex, y);
         status = write_rows(run, apex);
         if (!status)
             status = write_row(run, apex, y);
@@ -489,8 +560,10 @@ ld_status flight_run_look(flight_run *run)
         status = check_steps(run);
     if (status)
         return status;
-    if (stopped && pass_corners(run, steps->step.t))
+    if (stopped && pass_corners(run, steps->step.t)) {
         dormand_prince_start(steps, steps->step.t, steps->step.y);
+        watch_acceleration(run); // beyond the corner, too
+    }
     if (stopped || run->landed)
         measure_now(run, steps->step.t, steps->step.y);
     set_next(run);
@@ -501,9 +574,7 @@ ld_status flight_run_step(flight_run *run)
 {
     dormand_prince_numbers *step = &run->steps.step;
     dormand_prince_step(&run->steps, step->t_stop);
-    const flight_step ends = {
-        &step->outcome,          &step->t, step->y0, step->k[0], step->y, step->k[6],
-        (double *)&run->extremes};
+    const flight_step ends = ends_of(run);
     bool seen = flight_watch(run->job->system, &run->phase.number, &ends);
     bool due = step->steps >= run->next_look || step->t == step->t_stop ||
                step->outcome == DORMAND_PRINCE_LOST;
@@ -518,7 +589,6 @@ static ld_status begin(flight_run *run, const double *y)
     set_tolerances(run);
     dormand_prince_start(&run->steps, job->t_start, start);
     double height = flight_height(job->system, y);
-    run->apogee = height;
     run->t_limit = job->t_start + job->model->run.flight_limit;
     watch(run, job->t_start, y);
     if (job->system->has_ground && height < job->system->ground)
@@ -567,11 +637,15 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
                         .output_index = 1,
                         .next_output = job->t_start + job->model->run.output_step_flight,
                         .next_progress = job->t_start,
+                        .apogee = -INFINITY,
                         .extremes = {.along = 1},
                         .last_row = NAN,
                         .t_beyond = NAN,
                         .t_tumbling = NAN};
     rocket->flown = true;
+    flight_flow about = flight_flow_at(job->system, job->t_start, state);
+    rocket->flight.stability_margin =
+        flight_stability_margin(job->system, &run->phase, job->t_start, about.mach);
     const measuring measured = measuring_of(run);
     ld_status status = LD_OK;
     if (measuring_is_there(&measured))
@@ -587,8 +661,15 @@ void flight_run_end(flight_run *run, ld_status status, double *state)
     quantity_columns_free(&run->columns);
     memcpy(state, run->steps.step.y, FLIGHT_STATES * sizeof(double));
     ld_flight_summary *flight = &run->rocket->flight;
-    flight->apogee = fmax(run->apogee, flight_height(run->job->system, state));
+    take_height(run, run->steps.step.t, state);
+    double t_ignition = run->job->t_ignition;
+    flight->apogee = run->apogee;
+    flight->t_apogee = run->t_apogee - t_ignition;
     flight->max_mach = run->extremes.mach;
+    flight->max_dynamic_pressure = run->extremes.pressure;
+    flight->t_max_dynamic_pressure = run->extremes.t_pressure - t_ignition;
+    flight->max_acceleration = sqrt(run->extremes.acceleration);
+    flight->t_max_acceleration = run->extremes.t_acceleration - t_ignition;
     flight->max_angle_of_attack = atan2(run->extremes.across, run->extremes.along);
     record_final(run, run->steps.step.t, state, &run->rocket->final);
     note(run);

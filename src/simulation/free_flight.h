@@ -56,7 +56,7 @@ typedef struct flight_run {
     int64_t output_index;
     double next_progress;
     double next_look; // [steps]
-    double apogee;
+    double apogee, t_apogee;
     flight_extremes extremes;
     double t_beyond;   // when the Mach number first went past the table's last; NaN: not
     double t_tumbling; // when the angle of attack first passed 90 degrees; NaN: not

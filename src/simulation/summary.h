@@ -15,15 +15,21 @@ enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_A
 /// landed, or has not flown. The launch point has x and z of the rear adaptor at ignition (of a
 /// flight alone: at its start). A height is y on a flat Earth, else above sphere or ellipsoid.
 typedef struct ld_flight_summary {
-    double apogee;              ///< [m] greatest height
-    double downrange, drift;    ///< [m] x and z of the impact from the launch point
-    double range;               ///< [m] distance of the two
-    double t_impact;            ///< [s] from ignition
-    double time_of_flight;      ///< [s] from t_rear, or from the start of a flight alone
-    double impact_speed;        ///< [m/s]
-    double impact_angle;        ///< [rad] of the velocity below the horizontal there
-    double max_mach;            ///< [-]
-    double max_angle_of_attack; ///< [rad] at the ends of the steps
+    double stability_margin;       ///< [reference diameters] at its start
+    double apogee;                 ///< [m] greatest height
+    double t_apogee;               ///< [s] from ignition
+    double downrange, drift;       ///< [m] x and z of the impact from the launch point
+    double range;                  ///< [m] distance of the two
+    double t_impact;               ///< [s] from ignition
+    double time_of_flight;         ///< [s] from t_rear, or from the start of a flight alone
+    double impact_speed;           ///< [m/s]
+    double impact_angle;           ///< [rad] of the velocity below the horizontal there
+    double max_mach;               ///< [-]
+    double max_dynamic_pressure;   ///< [Pa]
+    double t_max_dynamic_pressure; ///< [s] from ignition
+    double max_acceleration;       ///< [m/s2] against inertial axes, at the ends of the steps
+    double t_max_acceleration;     ///< [s] from ignition
+    double max_angle_of_attack;    ///< [rad] at the ends of the steps
 } ld_flight_summary;
 
 /// State at the end of a free flight, of the rear adaptor's centre in I against the ground.

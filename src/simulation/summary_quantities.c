@@ -141,7 +141,9 @@ static const quantity change[] = {
     {"energy_dropped", "J", "kinetic energy that went when its tube took the place of the one before; 0 of the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
 };
 static const quantity flight[] = {
+    {"stability_margin", "1", "at the flight's start (the exit): mass centre ahead of the centre of pressure, in reference diameters", ROCKET(flight.stability_margin), "flight.stability_margin", KEPT, LINE("stability margin", "calibres", 1, 3)},
     {"apogee", "m", "greatest height of the mass centre: y, on a round or WGS 84 Earth above sphere or ellipsoid", ROCKET(flight.apogee), "flight.apogee", KEPT, LINE("apogee", "m", 1, 3)},
+    {"t_apogee", "s", "when the mass centre is there", ROCKET(flight.t_apogee), "flight.t_apogee", KEPT, LINE("apogee from ignition", "s", 1, 4)},
     {"downrange", "m", "x of the impact in I from the launch point", ROCKET(flight.downrange), "flight.downrange", KEPT, LINE("downrange, drift", "m", 1, 3)},
     {"drift", "m", "z of the impact in I from the launch point", ROCKET(flight.drift), "flight.drift", KEPT, BESIDE(1)},
     {"range", "m", "distance of the impact from the launch point", ROCKET(flight.range), "flight.range", KEPT, LINE("range", "m", 1, 3)},
@@ -150,6 +152,10 @@ static const quantity flight[] = {
     {"impact_speed", "m/s", "speed at the impact, against the ground", ROCKET(flight.impact_speed), "flight.impact_speed", KEPT, LINE("impact speed", "m/s", 1, 3)},
     {"impact_angle", "rad", "of that velocity below the horizontal there", ROCKET(flight.impact_angle), "flight.impact_angle", KEPT, LINE("impact angle", "deg", DEGREES, 3)},
     {"max_mach", "", "largest Mach number", ROCKET(flight.max_mach), "flight.max_mach", KEPT, LINE("largest Mach number", "", 1, 4)},
+    {"max_dynamic_pressure", "Pa", "largest dynamic pressure", ROCKET(flight.max_dynamic_pressure), "flight.max_dynamic_pressure", KEPT, LINE("dynamic pressure, peak", "kPa", 1e-3, 4)},
+    {"t_max_dynamic_pressure", "s", "when that was", ROCKET(flight.t_max_dynamic_pressure), "flight.t_max_dynamic_pressure", KEPT},
+    {"max_acceleration", "m/s2", "largest acceleration of the mass centre against inertial axes, at the ends of the steps", ROCKET(flight.max_acceleration), "flight.max_acceleration", KEPT, LINE("largest acceleration", "m/s2", 1, 3)},
+    {"t_max_acceleration", "s", "when that was", ROCKET(flight.t_max_acceleration), "flight.t_max_acceleration", KEPT},
     {"max_angle_of_attack", "rad", "largest angle of attack at the ends of the steps", ROCKET(flight.max_angle_of_attack), "flight.max_angle_of_attack", KEPT, LINE("largest angle of attack", "deg", DEGREES, 3)},
 };
 static const quantity final[] = {

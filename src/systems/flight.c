@@ -117,6 +117,13 @@ rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, do
     return mass;
 }
 
+double flight_stability_margin(const flight_system *self, const flight_phase *phase, double t,
+                               double mach)
+{
+    const aerodynamics *body = &self->aerodynamics;
+    return (flight_mass(self, phase, t).c.x - aerodynamics_center(body, mach)) / body->diameter;
+}
+
 double flight_thrust(const flight_system *self, const flight_phase *phase, double t)
 {
     return motor_thrust(&self->motor, phase->piece, t - phase->t_ignition);

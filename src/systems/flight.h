@@ -116,16 +116,19 @@ void flight_rates_avx2(const flight_lanes *lanes, const double *t, const double 
 void flight_rates_avx512(const flight_lanes *lanes, const double *t, const double *state,
                          double *state_dot);
 
-// What has been greatest at the ends of a flight's steps, all doubles; the angle of attack by the
-// velocity through the air across the rocket's axis and along it.
+// What has been greatest at the ends of a flight's steps, and when [s], all doubles; the angle of
+// attack by the velocity through the air across the rocket's axis and along it.
 typedef struct flight_extremes {
     double mach, across, along;
+    double pressure, t_pressure;         // [Pa] dynamic
+    double acceleration, t_acceleration; // [m2/s4] v_dot . v_dot
+    double density;                      // [kg/m3] at the last end
 } flight_extremes;
 
 // Steps side by side: arrays of numbers [lanes] and states [FLIGHT_STATES][lanes].
 typedef struct flight_step {
     const double *done;        // 1; else there is no step
-    const double *t;           // their ends
+    const double *t0, *t;      // their beginnings and ends
     const double *y0, *y0_dot; // at their beginnings
     const double *y, *y_dot;   // at their ends
     double *extremes;          // [FLIGHT_EXTREMES][lanes]
@@ -133,8 +136,8 @@ typedef struct flight_step {
 enum { FLIGHT_EXTREMES = sizeof(flight_extremes) / sizeof(double) };
 
 // Takes the ends of steps into the extremes, but for those of which more must be known: those that
-// may hold the highest point or the largest Mach number or end on the ground, beyond the
-// aerodynamic table or tail first. These are said: bit i for lane i.
+// may hold the highest point, the largest Mach number or dynamic pressure, or end on the ground,
+// beyond the aerodynamic table or tail first. These are said: bit i for lane i.
 unsigned flight_watch(const flight_system *self, const flight_numbers *number,
                       const flight_step *step);
 unsigned flight_watch_avx2(const flight_lanes *lanes, const flight_step *step);
@@ -142,6 +145,11 @@ unsigned flight_watch_avx512(const flight_lanes *lanes, const flight_step *step)
 
 // Whether a flight is getting faster, in a wind that does not change.
 bool flight_speeds_up(const flight_system *self, const double *state, const double *state_dot);
+
+// Whether the dynamic pressure may be greatest within a step, one lane: `pressure` at its end,
+// density at its beginning and its end.
+bool flight_pressure_turns(const flight_system *self, const flight_step *step,
+                           const double density[2], double pressure);
 
 // Velocity of the air against the ground, in C, at the point r of C: without turbulence, and the
 // turbulence, with its scales, where the distances flown through the air have come to xi.
@@ -189,6 +197,7 @@ typedef struct flight_flow {
     double altitude;        // [m] of the mass centre
     double density;         // [kg/m3]
     double airspeed;        // [m/s]
+    double pressure;        // [Pa] dynamic, half the density times the square of that
     double mach;            // 0 without air
     double across, along;   // [m/s] velocity through the air across x of B and along it
     double angle_of_attack; // [rad] between x of B and that velocity, 0 to pi
@@ -200,6 +209,11 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
 // The air where a rocket in its tube has its mass centre r [m] of I: as it will be when the flight
 // begins, its turbulence that of `left` [m] before the mouth, the way that the rocket has to go.
 moving_air flight_air_at(const flight_system *self, double t, v3 r, double left);
+
+// By how many reference diameters the mass centre lies ahead of the centre of pressure at a Mach
+// number; NaN where the air's forces have none.
+double flight_stability_margin(const flight_system *self, const flight_phase *phase, double t,
+                               double mach);
 
 // Mass data and thrust now.
 rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t);

@@ -211,13 +211,37 @@ LD_INLINE void flight_rates_of(const flight_lanes *lanes, const double *t, const
 
 // ---- watching
 
-// Whether a flight is getting faster, in a wind that does not change.
-LD_INLINE real_condition speeds_up(real rotation, const real *y, const real *y_dot)
+// Square of the velocity against the air, and half its rate, in air that goes with the Earth.
+typedef struct pace {
+    real square, rate;
+} pace;
+
+LD_INLINE pace pace_of(real rotation, const real *y, const real *y_dot)
 {
     real3 v = real3_from(y + FLIGHT_V), a = real3_from(y_dot + FLIGHT_V);
     real3 v_rel = {v.x + rotation * y[FLIGHT_R + 1], v.y - rotation * y[FLIGHT_R], v.z};
     real3 a_rel = {a.x + rotation * v.y, a.y - rotation * v.x, a.z};
-    return v_rel.x * a_rel.x + v_rel.y * a_rel.y + v_rel.z * a_rel.z > 0.0;
+    return (pace){v_rel.x * v_rel.x + v_rel.y * v_rel.y + v_rel.z * v_rel.z,
+                  v_rel.x * a_rel.x + v_rel.y * a_rel.y + v_rel.z * a_rel.z};
+}
+
+// Whether a flight is getting faster, in a wind that does not change.
+LD_INLINE real_condition speeds_up(real rotation, const real *y, const real *y_dot)
+{
+    return pace_of(rotation, y, y_dot).rate > 0.0;
+}
+
+// Whether the dynamic pressure grows at the beginning of a step and falls at its end, the density
+// changing evenly between them, where it may be the greatest so far.
+LD_INLINE real_condition pressure_turns(real rotation, const flight_step *step, real before,
+                                        real density, real pressure)
+{
+    real size = 2.0 * (*(const real *)step->t - *(const real *)step->t0), more = density - before;
+    pace first = pace_of(rotation, (const real *)step->y0, (const real *)step->y0_dot);
+    pace last = pace_of(rotation, (const real *)step->y, (const real *)step->y_dot);
+    real_condition grows = size * before * first.rate + more * first.square > 0.0;
+    real_condition falls = size * density * last.rate + more * last.square < 0.0;
+    return grows & falls & (2.0 * pressure > *REALS(step->extremes, flight_extremes, pressure));
 }
 
 // How fast a flight rises; on a round Earth against the sphere, within 0.004 of its speed.
@@ -271,7 +295,15 @@ LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step 
     real_condition more = in_air & (speed > 0.0) &
                           (across * *REALS(most, flight_extremes, along) >
                            along * *REALS(most, flight_extremes, across));
-    real_condition look = turns_or_lands(lanes, step, here.altitude) | within;
+    // dynamic pressure, acceleration
+    real pressure = 0.5 * here.density * speed * speed;
+    real_condition denser = pressure > *REALS(most, flight_extremes, pressure);
+    real3 a = real3_from((const real *)step->y_dot + FLIGHT_V);
+    real square = a.x * a.x + a.y * a.y + a.z * a.z;
+    real_condition harder = square > *REALS(most, flight_extremes, acceleration);
+    real_condition look = turns_or_lands(lanes, step, here.altitude) | within |
+                          pressure_turns(rotation, step, *REALS(most, flight_extremes, density),
+                                         here.density, pressure);
     if (first->aerodynamics.present)
         look |= (faster & (mach > OF(air.last_mach))) | (in_air & (speed > 10.0) & (along < 0.0));
     real_condition done = *(const real *)step->done > 0.0, keep = done & real_not(look);
@@ -281,6 +313,11 @@ LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step 
     KEEP(faster & keep, mach, mach);
     KEEP(more & keep, across, across);
     KEEP(more & keep, along, along);
+    KEEP(denser & keep, pressure, pressure);
+    KEEP(denser & keep, t_pressure, *(const real *)step->t);
+    KEEP(harder & keep, acceleration, square);
+    KEEP(harder & keep, t_acceleration, *(const real *)step->t);
+    KEEP(keep, density, here.density);
 #undef KEEP
     return real_lanes(look & done);
 }

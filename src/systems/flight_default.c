@@ -22,6 +22,12 @@ bool flight_speeds_up(const flight_system *self, const double *state, const doub
     return speeds_up(self->number.earth.rotation, state, state_dot);
 }
 
+bool flight_pressure_turns(const flight_system *self, const flight_step *step,
+                           const double density[2], double pressure)
+{
+    return pressure_turns(self->number.earth.rotation, step, density[0], density[1], pressure);
+}
+
 flight_flow flight_flow_at(const flight_system *self, double t, const double *state)
 {
     const flight_lanes one = {{self}, {NULL}, (const double *)&self->number};
@@ -34,6 +40,7 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
     flight_flow out = {.altitude = here.altitude,
                        .density = here.density,
                        .airspeed = speed,
+                       .pressure = 0.5 * here.density * speed * speed,
                        .mach = has_air ? speed / here.speed_of_sound : 0,
                        .across = across,
                        .along = along,

@@ -300,7 +300,37 @@ static void say_flight(const finished_run *run, column_book *book, const char *a
                                       named(tube, "rocket.z")[lit])));
     v3 hit = triple(flight, "center.", xyz, last), v = triple(flight, "center.v", xyz, last);
     double t = named(flight, "t")[last];
+    size_t top = 0, pressed = 0, pushed = 1;
+    const double *time = named(flight, "t"), *density = named(flight, "density"),
+                 *speed = named(flight, "airspeed"), *height = named(flight, "altitude");
+    double q = 0, a = 0;
+    for (size_t i = 0; i < flight->rows; i++) {
+        top = height[i] > height[top] ? i : top;
+        pressed = density[i] * speed[i] * speed[i] > q ? i : pressed;
+        q = fmax(q, density[i] * speed[i] * speed[i]);
+    }
+    // mean from row to row, against the ground
+    for (size_t i = 1; i < flight->rows; i++) {
+        v3 gained =
+            v3_sub(triple(flight, "center.v", xyz, i), triple(flight, "center.v", xyz, i - 1));
+        double mean = v3_norm(gained) / (time[i] - time[i - 1]);
+        pushed = mean > a ? i : pushed;
+        a = fmax(a, mean);
+    }
+    double t0 = run->model.firing[0].at;
+    const ld_rocket *rocket = &run->model.rocket;
+    double burnt = (rocket->full.mass - first_of(flight, "rocket.mass")) /
+                   (rocket->full.mass - rocket->empty.mass);
+    double center =
+        rocket->full.center[0] + burnt * (rocket->empty.center[0] - rocket->full.center[0]);
+    // the table's centre of pressure below Mach 0.4
+    expect_at(book, at, "stability_margin", (center - 0.838) / 0.164);
     expect_at(book, at, "apogee", largest_of(flight, "altitude"));
+    expect_at(book, at, "t_apogee", time[top] - t0);
+    expect_at(book, at, "max_dynamic_pressure", q / 2);
+    expect_at(book, at, "t_max_dynamic_pressure", time[pressed] - t0);
+    expect_at(book, at, "max_acceleration", a);
+    expect_at(book, at, "t_max_acceleration", time[pushed] - t0);
     expect_at(book, at, "downrange", hit.x - from.x);
     expect_at(book, at, "drift", hit.z - from.z);
     expect_at(book, at, "range", hypot(hit.x - from.x, hit.z - from.z));
@@ -575,6 +605,10 @@ static const column_bound bounds[] = {
     {"*drift", 1e-8, false},
     {"*range", 1e-8, false},
     {"*max_mach", 5e-6, false},
+    {"*t_max_*", 5e-4, false},
+    {"*max_dynamic_pressure", 1e-5, false},
+    {"*max_acceleration", 1e-4, false}, // the Earth turns, the thrust changes within a row
+
     {"*max_angle_of_attack", 1e-3, false},
     {"energy.residual*", 1e-9, false},
     {"modes.*.real", 1e-12, false},
@@ -687,7 +721,9 @@ static const struct {
     {"elevation torque, peak",
      {"rockets.0.elevation.torque_rms", "rockets.0.elevation.torque_peak"}},
     {"elevation power, peak", {"rockets.0.elevation.power_mean", "rockets.0.elevation.power_peak"}},
+    {"stability margin", {"rockets.0.flight.stability_margin"}},
     {"apogee", {"rockets.0.flight.apogee"}},
+    {"apogee from ignition", {"rockets.0.flight.t_apogee"}},
     {"downrange, drift", {"rockets.0.flight.downrange", "rockets.0.flight.drift"}},
     {"range", {"rockets.0.flight.range"}},
     {"impact from ignition", {"rockets.0.flight.t_impact"}},
@@ -695,6 +731,8 @@ static const struct {
     {"impact speed", {"rockets.0.flight.impact_speed"}},
     {"impact angle", {"rockets.0.flight.impact_angle"}},
     {"largest Mach number", {"rockets.0.flight.max_mach"}},
+    {"dynamic pressure, peak", {"rockets.0.flight.max_dynamic_pressure"}},
+    {"largest acceleration", {"rockets.0.flight.max_acceleration"}},
     {"largest angle of attack", {"rockets.0.flight.max_angle_of_attack"}},
     {"energy balance misses", {"energy.residual"}},
     {"steps", {"statistics.steps"}},
@@ -706,11 +744,8 @@ static double unit_of(const char *text)
     static const struct {
         const char *name;
         double factor;
-    } units[] = {{"mm", 1e-3},
-                 {"ms", 1e-3},
-                 {"mrad", 1e-3},
-                 {"mrad/s", 1e-3},
-                 {"deg", 3.14159265358979323846 / 180}};
+    } units[] = {{"mm", 1e-3}, {"ms", 1e-3},     {"mrad", 1e-3},
+                 {"kPa", 1e3}, {"mrad/s", 1e-3}, {"deg", 3.14159265358979323846 / 180}};
     for (size_t i = 0; i < COUNT(units); i++)
         if (strcmp(text, units[i].name) == 0)
             return units[i].factor;
