@@ -952,6 +952,25 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
     return LD_OK;
 }
 
+double simulation_start_time(const ld_model *model)
+{
+    return fmin(model->firing[0].at, 0 - model->run.lead_in);
+}
+
+ld_status simulation_start(launch_state *self, double t, double *y, ld_equilibrium_summary *summary,
+                           ld_error *error)
+{
+    const ld_simulation *system = self->system;
+    if (system->stability)
+        return ld_fail(error, system->stability, "%s", system->unstable.text);
+    ld_status status = self->model->run.start == LD_START_EQUILIBRIUM
+                           ? simulation_equilibrium(self, t, y, summary, error)
+                           : simulation_undeformed(self, t, y, error);
+    if (!status)
+        simulation_move_with_base(self, t, y);
+    return status;
+}
+
 // ---- another tube ----
 
 // Adds u to the speeds of the base, and to tube and rocket what that changes of the motion of a

@@ -32,23 +32,11 @@ static void take_start(launch_state *self, const launch_start *start, double *y)
 static ld_status find_start(ld_run *run, double *y)
 {
     launch_state *self = &run->launch;
-    const ld_simulation *system = self->system;
     if (run->start) {
         take_start(self, run->start, y);
         return LD_OK;
     }
-    if (system->stability)
-        return ld_fail(&run->error, system->stability, "%s", system->unstable.text);
-    ld_status status = LD_OK;
-    if (self->model->run.start == LD_START_EQUILIBRIUM)
-        status =
-            simulation_equilibrium(self, run->t_start, y, &run->summary.equilibrium, &run->error);
-    else
-        status = simulation_undeformed(self, run->t_start, y, &run->error);
-    if (status)
-        return status;
-    simulation_move_with_base(self, run->t_start, y);
-    return status;
+    return simulation_start(self, run->t_start, y, &run->summary.equilibrium, &run->error);
 }
 
 bool launch_is_finished(const ld_run *run)
@@ -229,7 +217,7 @@ ld_status launch_begin(ld_run *run)
     double y[LD_MAX_STATES];
     const ld_model *model = self->model;
     double last = model->firing[model->firing_count - 1].at;
-    run->t_start = fmin(model->firing[0].at, 0 - model->run.lead_in);
+    run->t_start = simulation_start_time(model);
     run->t_end = model->run.end == LD_END_TIME ? last + model->run.end_time : INFINITY;
     run->t = run->t_start;
     run->t_input = INFINITY;

@@ -75,6 +75,12 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
 // Gives tube and rocket the base's velocity at t, as one rigid body with it; a vehicle its speed.
 void simulation_move_with_base(const launch_state *self, double t, double *y);
 
+// When a launch begins [s]; how it does at that t: straight or in equilibrium as the scenario wants
+// it, moving with its base.
+double simulation_start_time(const ld_model *model);
+ld_status simulation_start(launch_state *self, double t, double *y, ld_equilibrium_summary *summary,
+                           ld_error *error);
+
 // Puts the tube of firing `next` and its rocket in place of the one before, which becomes rigid
 // with the platform: static equilibrium on the base held still in its pose, at rest relative to it;
 // the vehicle's speeds by conservation of the generalised momentum of the orientating coordinates,

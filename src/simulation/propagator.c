@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/held_frame.h"
+#include "elements/held_wrench.h"
 #include "math/exponential.h"
 #include "simulation/exponential_steps.h"
 
@@ -184,11 +185,6 @@ static void find_tolerances(const launch_state *self, tolerances *all)
         base->tolerances(&self->launcher.base, tolerance, atol + base_at, all->absolute + base_at);
 }
 
-// A force and a moment as they were exchanged, going on as the last two tell.
-typedef struct held_wrench {
-    v3 force, moment, force_rate, moment_rate;
-} held_wrench;
-
 enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS + 1 };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
@@ -261,16 +257,6 @@ static int events(double t, const double *y, double *g, void *user)
 
 // ---- subsystems apart ----
 
-static void take_wrench(held_wrench *held, v3 force, v3 moment, double since)
-{
-    if (since > 0) {
-        held->force_rate = v3_scale(1 / since, v3_sub(force, held->force));
-        held->moment_rate = v3_scale(1 / since, v3_sub(moment, held->moment));
-    }
-    held->force = force;
-    held->moment = moment;
-}
-
 static void launching_input_apart(const propagator *self, double t, const double *y,
                                   launching_input *input)
 {
@@ -322,18 +308,15 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
 {
     propagator *self = user;
     const launch_state *launch = self->launch;
-    const held_wrench *chassis = &self->on_chassis, *tube = &self->on_tube;
     double tau = t - self->t;
     orientating_motion motion;
     orientating_output out;
     orientating_input input = {
-        .chassis_force = v3_add(chassis->force, v3_scale(tau, chassis->force_rate)),
-        .chassis_moment = v3_add(chassis->moment, v3_scale(tau, chassis->moment_rate)),
-        .tube_force = v3_add(tube->force, v3_scale(tau, tube->force_rate)),
-        .tube_moment = v3_add(tube->moment, v3_scale(tau, tube->moment_rate)),
         .rest = {launch->rest.hinge[0], launch->rest.hinge[1]},
         .linear = launch->phase.frictionless,
     };
+    held_wrench_at(&self->on_chassis, tau, &input.chassis_force, &input.chassis_moment);
+    held_wrench_at(&self->on_tube, tau, &input.tube_force, &input.tube_moment);
     const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
     orientating_motion_at(orientating, t, y, &motion);
     jet_wrench back = jets_now(launch, t, &motion.tube);
@@ -461,8 +444,8 @@ static ld_status exchange(propagator *self, double t, const double *y, double t_
     held_frame_take(&self->chassis, &input.found.vehicle.chassis, since);
     held_frame_take(&self->tube, &input.found.vehicle.tube, since);
     const marching_output *wheels = &out->base.report.vehicle.marching;
-    take_wrench(&self->on_chassis, wheels->force, wheels->moment, since);
-    take_wrench(&self->on_tube, out->launching.base_force, out->launching.base_moment, since);
+    held_wrench_take(&self->on_chassis, wheels->force, wheels->moment, since);
+    held_wrench_take(&self->on_tube, out->launching.base_force, out->launching.base_moment, since);
     self->t = t;
     double step = launch->model->run.coupling_step;
     while (self->t_first + (double)self->exchanges * step <= t + 1e-9 * step)

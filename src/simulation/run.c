@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/digest.h"
 #include "simulation/launch_run.h"
+#include "simulation/saved_state.h"
 
 static bool has_launch(const ld_run *run)
 {
@@ -204,25 +204,9 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
     return told(run, error);
 }
 
-// ---- as bytes: five numbers, the state, a checksum
+// ---- as bytes
 
-static const int64_t MAGIC = 0x6e7572206e796c6e; // "nlyn run"
-enum { FORM = 3 };                               // of the bytes: goes up when they change
-
-// What tells a run of this model in this form; `length` is that of all, in bytes.
-static void archive_head(const ld_run *run, archive *bytes, int64_t length)
-{
-    archive_expect(bytes, MAGIC);
-    archive_expect(bytes, FORM);
-    archive_expect(bytes, (int64_t)model_digest(run->launch.model));
-    archive_expect(bytes, length);
-}
-
-static void archive_sum(archive *bytes)
-{
-    uint64_t sum = bytes->failed ? 0 : digest_bytes(DIGEST_BEGIN, bytes->bytes, bytes->at);
-    archive_expect(bytes, (int64_t)sum);
-}
+static const saved_state saved_run = {0x6e7572206e796c6e, 3, "run"}; // "nlyn run"
 
 ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, ld_error *error)
 {
@@ -232,52 +216,30 @@ ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, l
     if (!has_launch(run))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone cannot be saved");
     archive count = archive_save(NULL, 0), saved = archive_save(bytes, capacity);
-    archive_head(run, &count, 0);
+    saved_state_head(&saved_run, run->launch.model, &count, 0);
     launch_archive(run, &count);
-    archive_sum(&count);
+    saved_state_sum(&count);
     *size = count.at;
     if (capacity < *size)
         return ld_fail(error, LD_ERR_INPUT,
                        "the run's state takes %zu bytes, there is room for %zu", *size, capacity);
-    archive_head(run, &saved, (int64_t)*size);
+    saved_state_head(&saved_run, run->launch.model, &saved, (int64_t)*size);
     launch_archive(run, &saved);
-    archive_sum(&saved);
+    saved_state_sum(&saved);
     return LD_OK;
-}
-
-// Whether the bytes are those of a run of this model, whole.
-static ld_status check_bytes(const ld_run *run, const void *bytes, size_t size, ld_error *error)
-{
-    archive loaded = archive_load(bytes, size);
-    archive_expect(&loaded, MAGIC);
-    if (loaded.failed)
-        return ld_fail(error, LD_ERR_INPUT, "this is no saved run");
-    archive_expect(&loaded, FORM);
-    if (loaded.failed)
-        return ld_fail(error, LD_ERR_INPUT, "the run was saved by another version of launchdyn");
-    archive_expect(&loaded, (int64_t)model_digest(run->launch.model));
-    if (loaded.failed)
-        return ld_fail(error, LD_ERR_INPUT, "the run that was saved is one of another model");
-    archive_expect(&loaded, (int64_t)size);
-    if (!loaded.failed) {
-        loaded.at = size - 8;
-        archive_sum(&loaded);
-    }
-    return loaded.failed ? ld_fail(error, LD_ERR_INPUT, "the saved run is cut off or damaged")
-                         : LD_OK;
 }
 
 static ld_status load(ld_run *run, const void *bytes, size_t size)
 {
     if (!has_launch(run))
         return ld_fail(&run->error, LD_ERR_INPUT, "a flight alone cannot be saved");
-    ld_status status = check_bytes(run, bytes, size, &run->error);
+    ld_status status = saved_state_check(&saved_run, run->launch.model, bytes, size, &run->error);
     if (!status)
         status = propagator_create(&run->launch, &run->propagator, &run->error);
     if (status)
         return status;
     archive loaded = archive_load(bytes, size);
-    archive_head(run, &loaded, (int64_t)size);
+    saved_state_head(&saved_run, run->launch.model, &loaded, (int64_t)size);
     launch_archive(run, &loaded);
     run->t_input = INFINITY;
     if (loaded.failed || loaded.at + 8 != size)
