@@ -12,6 +12,7 @@ static void marching_model(ld_model *model)
 {
     reference_vehicle(model, 30 / 3.6);
     ld_road *road = &model->base.vehicle.road;
+    road->form = LD_ROAD_SUM;
     road->sine_count = 1;
     road->sine[0] = (ld_road_sine){.amplitude = 5e-3, .wavelength = 2.5};
     model->run.lead_in = 0.1;
