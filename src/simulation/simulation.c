@@ -61,6 +61,7 @@ static void release(ld_simulation *self)
     for (int i = 0; i < self->motor_count; i++)
         motor_free(&self->motor_of[i]);
     quantity_columns_free(&self->columns);
+    quantity_columns_free(&self->vehicle_columns);
     memset(self, 0, sizeof *self);
 }
 
@@ -121,6 +122,8 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
     if (!status)
         status =
             simulation_tube_modes(self, self->mode, 6 + LD_MAX_MODES, &self->mode_count, error);
+    if (!status)
+        status = vehicle_run_name_columns(self, error);
     if (status) {
         ld_simulation_free(self);
         return status;

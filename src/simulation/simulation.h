@@ -35,6 +35,7 @@ struct ld_simulation {
     ld_mode mode[6 + LD_MAX_MODES]; // tube and tail on their supports
 
     quantity_columns columns;              // of the history; of a flight alone: of its flight
+    quantity_columns vehicle_columns;      // of its vehicle alone, where it has one
     measure_plan measure[LD_MAX_MEASURES]; // of the model's measures
 };
 
@@ -68,6 +69,9 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
 
 // Names the columns of the history, once.
 ld_status history_build(ld_simulation *self, ld_error *error);
+
+// Those of its vehicle alone.
+ld_status vehicle_run_name_columns(ld_simulation *self, ld_error *error);
 
 // ld_simulation_tube_modes(), found: LD_ERR_MEMORY, LD_ERR_NUMERIC.
 ld_status simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity, int *count,

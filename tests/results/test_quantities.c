@@ -336,6 +336,9 @@ static void write_document(FILE *stream)
     write_table(stream, NULL, base_vehicle.quantities, false);
     write_table(stream, NULL, &balance_quantities, false);
     write_table(stream, "Columns of a flight", &flight_quantities, false);
+    write_table(stream, "Columns of a vehicle alone", &vehicle_clock_quantities, false);
+    fputs("\nThen chassis, hinges, drive and wheels as of a launch.\n", stream);
+    write_table(stream, NULL, &vehicle_balance_quantities, false);
 }
 
 static void test_document(void **state)
