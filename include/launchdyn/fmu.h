@@ -1,4 +1,4 @@
-/// Functional Mock-up Units: a launcher for other people's simulators.
+/// Functional Mock-up Units: launchers and vehicles for other people's simulators.
 #ifndef LAUNCHDYN_FMU_H
 #define LAUNCHDYN_FMU_H
 
@@ -10,12 +10,20 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/// Writes an FMU of the launch for co-simulation (docs/fmi.md), under a temporary name that then
-/// becomes its own.
+/// What of a launch an FMU is.
+typedef enum ld_fmu_part {
+    LD_FMU_ALL,     ///< the launch as the model has it
+    LD_FMU_VEHICLE, ///< its vehicle alone, which is told what the tube does to it
+    LD_FMU_LAUNCHER ///< the launcher of its vehicle, which is told where that holds it
+} ld_fmu_part;
+
+/// Writes an FMU for co-simulation (docs/fmi.md), under a temporary name that then becomes its own.
 /// @param version of FMI: 2 (2.0) or 3 (3.0)
-/// @return LD_OK; LD_ERR_INPUT (another version, a flight alone), what ld_run_begin() returns where
-///         no run of it begins, LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_MISSING (built without)
-ld_status ld_fmu_export(const ld_model *model, int version, const char *file, ld_error *error);
+/// @return LD_OK; LD_ERR_INPUT (another version, a flight alone, no such part), what ld_run_begin()
+///         or ld_vehicle_run_begin() returns where no run of it begins, LD_ERR_FILE, LD_ERR_MEMORY,
+///         LD_ERR_MISSING (built without)
+ld_status ld_fmu_export(const ld_model *model, ld_fmu_part part, int version, const char *file,
+                        ld_error *error);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -89,7 +89,8 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error);
 /// An input: where the base is at the present time and how it moves (base.kind: external). Until it
 /// is told again it goes on with its velocity, and with the acceleration that its last two
 /// velocities tell unless base.extrapolation says without. A step ends at every time to which such
-/// a run is taken: tell the base there, then go on.
+/// a run is taken: tell the base there, then go on. Told again at the same time, what it was told
+/// before at that time counts no more.
 /// @return LD_OK; LD_ERR_INPUT (another kind of base, a number that is not finite, a quaternion
 ///         whose length is not 1; the launch is over); what ended the run
 ld_status ld_run_tell_base(ld_run *run, const ld_base_frame *base, ld_error *error);

@@ -35,7 +35,8 @@ double ld_vehicle_run_time(const ld_vehicle_run *run);
 
 /// What the tube does to the vehicle at the present time. Until it is told again it goes on, in the
 /// axes of the undeformed tube, with the rate that the last two wrenches tell; at the start, until
-/// it is told another one, it is that of tube and rocket at rest.
+/// it is told another one, it is that of tube and rocket at rest. Told again at the same time, what
+/// it was told before at that time counts no more.
 /// @return LD_OK; LD_ERR_INPUT (a number that is not finite); what ended the run
 ld_status ld_vehicle_run_tell_wrench(ld_vehicle_run *run, const ld_base_wrench *wrench,
                                      ld_error *error);

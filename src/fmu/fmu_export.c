@@ -46,8 +46,8 @@ static void put(package *self, const char *name, const void *bytes, size_t size)
 // ---- what goes in ----
 
 typedef struct contents {
-    char *scenario, *description, *list;
-    size_t scenario_length, description_length, list_length;
+    char *scenario, *description, *list, *part;
+    size_t scenario_length, description_length, list_length, part_length;
 } contents;
 
 static ld_status print_scenario(const ld_model *model, contents *self, ld_error *error)
@@ -64,17 +64,35 @@ static ld_status print_scenario(const ld_model *model, contents *self, ld_error 
     return LD_OK;
 }
 
-static ld_status print_description(const ld_model *model, const ld_simulation *simulation,
-                                   int version, contents *self, ld_error *error)
+static ld_status print_part(const fmu_part *part, contents *self, ld_error *error)
+{
+    FILE *stream = memory_stream(&self->part, &self->part_length);
+    if (stream)
+        fmu_part_write(part, stream);
+    return stream && fclose(stream) == 0 ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
+}
+
+// "Reference launcher: vehicle".
+static void name_part(const ld_model *model, ld_fmu_part part, char title[NAME_SIZE])
+{
+    char whole[NAME_SIZE - 16];
+    ld_model_text(model, "title", whole, sizeof whole, NULL);
+    bool all = part == LD_FMU_ALL;
+    snprintf(title, NAME_SIZE, "%s%s%s", whole, all ? "" : ": ", all ? "" : fmu_part_name(part));
+}
+
+static ld_status print_description(const fmu_part *part, const ld_model *model,
+                                   const ld_simulation *simulation, int version, contents *self,
+                                   ld_error *error)
 {
     char token[FMU_TOKEN_SIZE], title[NAME_SIZE];
     fmu_variables variables;
     fmu_description description = {
         .version = version, .title = title, .token = token, .variables = &variables};
-    fmu_token(self->scenario, self->scenario_length, token);
-    ld_model_text(model, "title", title, sizeof title, NULL);
+    fmu_token(self->scenario, self->scenario_length, part->which, token);
+    name_part(model, part->which, title);
     ld_model_number(model, "run.tolerance", &description.tolerance, NULL);
-    ld_status status = fmu_variables_make(model, simulation, &variables, error);
+    ld_status status = fmu_variables_make(part, model, simulation, &variables, error);
     if (!status) {
         description.start = variables.start;
         FILE *stream = memory_stream(&self->description, &self->description_length);
@@ -84,6 +102,28 @@ static ld_status print_description(const ld_model *model, const ld_simulation *s
             status = ld_fail(error, LD_ERR_MEMORY, "no memory");
     }
     fmu_variables_free(&variables);
+    return status;
+}
+
+// Part and description of the FMU; the launcher of a vehicle is simulated by itself.
+static ld_status describe(const ld_model *model, ld_fmu_part which, int version, contents *self,
+                          ld_error *error)
+{
+    ld_model of_part = *model; // shares what the model holds
+    ld_simulation *whole = NULL, *alone = NULL;
+    fmu_part part;
+    ld_status status = ld_simulation_create(model, &whole, error);
+    if (!status)
+        status = fmu_part_find(which, whole, &part, error);
+    if (!status)
+        status = print_part(&part, self, error);
+    fmu_part_take(which, &of_part);
+    if (!status && which == LD_FMU_LAUNCHER)
+        status = ld_simulation_create(&of_part, &alone, error);
+    if (!status)
+        status = print_description(&part, &of_part, alone ? alone : whole, version, self, error);
+    ld_simulation_free(alone);
+    ld_simulation_free(whole);
     return status;
 }
 
@@ -107,6 +147,7 @@ static void put_all(package *self, const ld_model *model, int version, const con
                      : "binaries/x86_64-linux/" FMU_MODEL_IDENTIFIER ".so",
         fmu_binary, (size_t)(fmu_binary_end - fmu_binary));
     put(self, "resources/" FMU_SCENARIO_FILE, from->scenario, from->scenario_length);
+    put(self, "resources/" FMU_PART_FILE, from->part, from->part_length);
     put_sources(self, from, ld_model_source(model));
     put(self, "documentation/licenses/license.txt", fmu_notices,
         (size_t)(fmu_notices_end - fmu_notices));
@@ -144,9 +185,9 @@ static ld_status write_package(const ld_model *model, int version, const content
     return LD_OK;
 }
 
-ld_status ld_fmu_export(const ld_model *model, int version, const char *file, ld_error *error)
+ld_status ld_fmu_export(const ld_model *model, ld_fmu_part part, int version, const char *file,
+                        ld_error *error)
 {
-    ld_simulation *simulation = NULL;
     contents from = {0};
     if (version != 2 && version != 3)
         return ld_fail(error, LD_ERR_INPUT, "there is no FMI %d here, but 2 and 3", version);
@@ -155,15 +196,13 @@ ld_status ld_fmu_export(const ld_model *model, int version, const char *file, ld
     locale_t before = numeric_locale_enter();
     ld_status status = print_scenario(model, &from, error);
     if (!status)
-        status = ld_simulation_create(model, &simulation, error);
-    if (!status)
-        status = print_description(model, simulation, version, &from, error);
+        status = describe(model, part, version, &from, error);
     numeric_locale_leave(before);
     if (!status)
         status = write_package(model, version, &from, file, error);
-    ld_simulation_free(simulation);
     free(from.scenario);
     free(from.list);
+    free(from.part);
     free(from.description);
     return status;
 }

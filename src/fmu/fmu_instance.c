@@ -21,6 +21,7 @@ enum { PATH_SIZE = 4096, SET_SIZE = 2048, SAVED_TEXT = 1024, SCENARIO_BYTES = 64
 struct fmu_instance {
     ld_source *source; // the scenario's texts
     uint64_t scenario; // digest of what was understood
+    fmu_part part;
     fmu_variables variables;
 
     // what was set: [variables.count], by value reference
@@ -136,6 +137,8 @@ static ld_status read_model(fmu_instance *self, ld_error *error)
         status = ld_scenario_read_source(source, 0, &self->model, &messages);
         if (status)
             told(&messages, status, error);
+        else
+            fmu_part_take(self->part.which, self->model);
         ld_messages_free(&messages);
     }
     source_free(source);
@@ -187,16 +190,25 @@ static double number_of(const fmu_instance *self, fmu_group group, int index)
     for (size_t i = 0; i < self->variables.count; i++)
         if (self->variables.item[i].group == group && self->variables.item[i].index == index)
             return self->number[i];
-    return NAN;
+    return 0;
 }
 
-// What the inputs are that another FMU tells.
-static void find_told(const fmu_instance *self, double told[FMU_MOST_NUMBERS])
+// What the inputs are that another FMU tells. At the start (`first`) what nobody has set is what
+// the run finds.
+static void find_told(const fmu_instance *self, bool first, double told[FMU_MOST_NUMBERS])
 {
-    memset(told, 0, FMU_MOST_NUMBERS * sizeof *told);
+    memcpy(told, self->part.start, FMU_MOST_NUMBERS * sizeof *told);
+    for (size_t i = 0; i < self->variables.count; i++)
+        if (self->variables.item[i].group == FMU_TOLD && (self->changed[i] || !first))
+            told[self->variables.item[i].index] = self->number[i];
+}
+
+// The inputs are what the run has begun with.
+static void keep_told(fmu_instance *self)
+{
     for (size_t i = 0; i < self->variables.count; i++)
         if (self->variables.item[i].group == FMU_TOLD)
-            told[self->variables.item[i].index] = self->number[i];
+            self->number[i] = self->told[self->variables.item[i].index];
 }
 
 ld_status fmu_begin(fmu_instance *self, ld_error *error)
@@ -207,10 +219,11 @@ ld_status fmu_begin(fmu_instance *self, ld_error *error)
     ld_status status = build(self, error);
     if (status)
         return status;
-    find_told(self, self->told);
+    find_told(self, true, self->told);
     self->run = runner->begin(self->simulation, self->told, error);
     if (!self->run)
         return error->status;
+    keep_told(self);
     self->told_at = runner->time(self->run);
     self->ahead = isnan(self->start) ? 0 : self->start - self->told_at;
     self->told_set = false;
@@ -242,9 +255,13 @@ static ld_status read_scenario(fmu_instance *self, const char *resources, const 
     ld_status status = text_file_read(path, SCENARIO_BYTES, &text, &length, &why);
     if (status)
         return ld_fail(error, status, "%.300s %s", path, why.text);
-    fmu_token(text, length, own);
+    status = fmu_part_read(resources, &self->part, error);
+    if (!status)
+        fmu_token(text, length, self->part.which, own);
     self->scenario = digest_bytes(DIGEST_BEGIN, text, length);
     free(text);
+    if (status)
+        return status;
     if (strcmp(token, own) != 0)
         return ld_fail(error, LD_ERR_INPUT, "the token is %.100s, that of this FMU is %s", token,
                        own);
@@ -271,7 +288,8 @@ fmu_instance *fmu_instance_new(const char *resources, const char *token, ld_erro
     if (!status)
         status = build(self, error);
     if (!status)
-        status = fmu_variables_make(self->model, self->simulation, &self->variables, error);
+        status =
+            fmu_variables_make(&self->part, self->model, self->simulation, &self->variables, error);
     if (!status)
         status = make_room(self, error);
     if (!status)
@@ -354,12 +372,17 @@ static const fmu_variable *find(const fmu_instance *self, unsigned reference, va
     return NULL;
 }
 
+static ld_status tell(fmu_instance *self, ld_error *error);
+
+// Outputs follow inputs at once.
 static ld_status output(fmu_instance *self, const fmu_variable *variable, double *value,
                         ld_error *error)
 {
     const fmu_runner *runner = self->variables.runner;
     double tells[FMU_MOST_NUMBERS];
     ld_status status = fmu_begin(self, error);
+    if (!status && self->told_set)
+        status = tell(self, error);
     if (status)
         return status;
     switch (variable->group) {
@@ -461,7 +484,7 @@ static ld_status tell(fmu_instance *self, ld_error *error)
 {
     const fmu_runner *runner = self->variables.runner;
     double told[FMU_MOST_NUMBERS], now = runner->time(self->run);
-    find_told(self, told);
+    find_told(self, false, told);
     self->told_set = false;
     if (now == self->told_at &&
         memcmp((const char *)told, (const char *)self->told, sizeof told) == 0)

@@ -47,7 +47,8 @@ typedef struct fmu_step {
 } fmu_step;
 
 // A step from t, which must be where the last one ended, on by `size`, or where `at_events` to the
-// next event on the way. Inputs that were set since the last step hold from its start on.
+// next event on the way. Inputs that were set since the last step hold from its start on; outputs
+// that are asked for before it follow them.
 ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events, fmu_step *step,
                       ld_error *error);
 

@@ -15,7 +15,7 @@ static void *begun(const ld_simulation *simulation, const ld_base_frame *base, l
     return NULL;
 }
 
-static void *begin(const ld_simulation *simulation, const double *told, ld_error *error)
+static void *begin(const ld_simulation *simulation, double *told, ld_error *error)
 {
     (void)told;
     return begun(simulation, NULL, error);
@@ -122,7 +122,7 @@ static ld_base_frame frame_of(const double *told)
     return base;
 }
 
-static void *begin_outside(const ld_simulation *simulation, const double *told, ld_error *error)
+static void *begin_outside(const ld_simulation *simulation, double *told, ld_error *error)
 {
     const ld_base_frame base = frame_of(told);
     return begun(simulation, &base, error);

@@ -21,19 +21,21 @@ typedef struct fmu_runner {
 
     // Columns of its rows; the first one is the time.
     size_t (*columns)(const ld_simulation *simulation, const ld_column **columns);
-    // NULL after a failure. `told` holds at the start.
-    void *(*begin)(const ld_simulation *simulation, const double *told, ld_error *error);
+    // NULL after a failure. `told` holds at the start; a number in it that is NaN becomes what it
+    // is then by itself.
+    void *(*begin)(const ld_simulation *simulation, double *told, ld_error *error);
     void (*end)(void *run);
     double (*time)(const void *run); // [s] on its own clock
     bool (*is_finished)(const void *run);
 
-    // At the present: what it is told; the waiting rocket lit at t (infinity: not until then).
+    // At the present: what it is told; the waiting rocket lit at t (infinity: not until then; NULL:
+    // it has none).
     ld_status (*tell)(void *run, const double *told, ld_error *error);
     ld_status (*ignite)(void *run, double t, ld_error *error);
 
     ld_status (*tells)(void *run, double *numbers, ld_error *error);
     ld_status (*row)(void *run, double *values, ld_error *error);
-    const ld_summary *(*summary)(const void *run); // so far
+    const ld_summary *(*summary)(const void *run); // so far; NULL: it has none
 
     // To time t [s]; or to the next event that an importer wants to hear of, where one comes
     // before.
@@ -45,7 +47,7 @@ typedef struct fmu_runner {
     void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
 } fmu_runner;
 
-// A launch on a base that goes by itself, and on one that is told where it is.
-extern const fmu_runner fmu_launch, fmu_launch_outside;
+// A launch on a base that goes by itself, and on one that is told where it is; a vehicle alone.
+extern const fmu_runner fmu_launch, fmu_launch_outside, fmu_vehicle;
 
 #endif

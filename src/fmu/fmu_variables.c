@@ -58,9 +58,12 @@ const char *fmu_key_of(const fmu_variable *variable)
     return variable->name + strlen(KEY_PREFIX);
 }
 
-void fmu_token(const char *scenario, size_t length, char token[FMU_TOKEN_SIZE])
+void fmu_token(const char *scenario, size_t length, ld_fmu_part part, char token[FMU_TOKEN_SIZE])
 {
+    const char *name = fmu_part_name(part);
     uint64_t digest = digest_bytes(DIGEST_BEGIN, ld_version(), strlen(ld_version()));
+    if (part != LD_FMU_ALL)
+        digest = digest_bytes(digest, name, strlen(name));
     snprintf(token, FMU_TOKEN_SIZE, "{launchdyn-%016" PRIx64 "}",
              digest_bytes(digest, scenario, length));
 }
@@ -206,24 +209,12 @@ static void take_result(void *data, const ld_quantity *quantity)
 }
 
 // Numbers of the summary are told by one of a run that has begun.
-static ld_status add_results(gathering *self, const ld_simulation *simulation, const double *told,
-                             ld_error *error)
+static void add_results(gathering *self, const void *run)
 {
     const fmu_runner *runner = self->into->runner;
-    void *run = runner->begin(simulation, told, error);
-    if (!run)
-        return error->status;
-    self->into->start = runner->time(run);
-    ld_summary_each(runner->summary(run), take_result, self);
-    runner->end(run);
-    return LD_OK;
-}
-
-static bool is_external(const ld_model *model)
-{
-    char kind[32];
-    return !ld_model_text(model, "base.kind", kind, sizeof kind, NULL) &&
-           strcmp(kind, "external") == 0;
+    begin_group(self);
+    if (runner->summary)
+        ld_summary_each(runner->summary(run), take_result, self);
 }
 
 static void add_keys(gathering *self)
@@ -247,31 +238,55 @@ static void add_columns(gathering *self, const ld_simulation *simulation)
             self->index++;
 }
 
-// A base that rests at the origin, its tube along x: where it is until it is told otherwise.
-static const double at_origin[FMU_MOST_NUMBERS] = {[3] = 1};
-
-ld_status fmu_variables_make(const ld_model *model, const ld_simulation *simulation,
-                             fmu_variables *self, ld_error *error)
+static void add_told(gathering *self, const double *start)
 {
-    bool external = is_external(model);
-    *self = (fmu_variables){.runner = external ? &fmu_launch_outside : &fmu_launch};
+    if (self->into->runner == &fmu_vehicle)
+        add_wrench(self, FMU_TOLD, "input.wrench", start);
+    else if (self->into->runner->told_count > 0)
+        add_frame(self, FMU_TOLD, "input.base", start);
+}
+
+static void add_tells(gathering *self)
+{
+    if (self->into->runner == &fmu_vehicle)
+        add_frame(self, FMU_TELLS, "base", NULL);
+    else
+        add_wrench(self, FMU_TELLS, "wrench", NULL);
+}
+
+static void add_ignition(gathering *self)
+{
+    if (!self->into->runner->ignite)
+        return;
+    begin_group(self);
+    add(self, FMU_IGNITE, "input.ignition", "", "Lights the waiting rocket when it becomes true", 0,
+        NULL);
+    begin_group(self);
+    add(self, FMU_WAIT, "ignition_by_input", "",
+        "No rocket is lit at its time in the scenario, but by input.ignition alone", 0, NULL);
+}
+
+ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
+                             const ld_simulation *simulation, fmu_variables *self, ld_error *error)
+{
+    const fmu_runner *runner = fmu_part_runner(part->which, model);
+    *self = (fmu_variables){.runner = runner};
     gathering all = {.into = self, .model = model};
+    double told[FMU_MOST_NUMBERS];
     if (!ld_model_has_launcher(model))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher that could be stepped");
-
+    memcpy(told, part->start, sizeof told);
+    void *run = runner->begin(simulation, told, error);
+    if (!run)
+        return error->status;
+    self->start = runner->time(run);
     add(&all, FMU_TIME, "time", "s", "Time", NAN, NULL);
-    if (external)
-        add_frame(&all, FMU_TOLD, "input.base", at_origin);
-    begin_group(&all);
-    add(&all, FMU_IGNITE, "input.ignition", "", "Lights the waiting rocket when it becomes true", 0,
-        NULL);
-    begin_group(&all);
-    add(&all, FMU_WAIT, "ignition_by_input", "",
-        "No rocket is lit at its time in the scenario, but by input.ignition alone", 0, NULL);
+    add_told(&all, told);
+    add_ignition(&all);
     add_keys(&all);
-    add_wrench(&all, FMU_TELLS, "wrench", NULL);
+    add_tells(&all);
     add_columns(&all, simulation);
-    begin_group(&all);
-    ld_status status = add_results(&all, simulation, at_origin, error);
-    return status || !all.full ? status : ld_fail(error, LD_ERR_MEMORY, "no memory");
+    add_results(&all, run);
+    runner->end(run);
+    return all.full ? ld_fail(error, LD_ERR_MEMORY, "no memory") : LD_OK;
 }

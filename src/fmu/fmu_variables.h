@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "fmu/fmu_runner.h"
+#include "fmu/fmu_part.h"
 
 // In the order in which they are counted.
 typedef enum fmu_group {
@@ -38,10 +38,10 @@ typedef struct fmu_variables {
     const fmu_runner *runner;
 } fmu_variables;
 
-// Those of a simulation of `model`. fmu_variables_free() is due in any case.
-// Returns LD_OK, LD_ERR_MEMORY, LD_ERR_INPUT (a flight alone), or why no run of it begins.
-ld_status fmu_variables_make(const ld_model *model, const ld_simulation *simulation,
-                             fmu_variables *self, ld_error *error);
+// Those of a part, and of a simulation of the model that is its. fmu_variables_free() is due in any
+// case. Returns LD_OK, LD_ERR_MEMORY, LD_ERR_INPUT (a flight alone), or why no run of it begins.
+ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
+                             const ld_simulation *simulation, fmu_variables *self, ld_error *error);
 void fmu_variables_free(fmu_variables *self);
 
 bool fmu_is_boolean(const fmu_variable *variable);
@@ -58,7 +58,8 @@ const char *fmu_key_of(const fmu_variable *variable);
 
 enum { FMU_TOKEN_SIZE = 48 };
 
-// The token of the FMU of a scenario's text: that of this version of the program and of that text.
-void fmu_token(const char *scenario, size_t length, char token[FMU_TOKEN_SIZE]);
+// The token of the FMU of a part of a scenario: that of this version of the program, of the
+// scenario's text and of the part.
+void fmu_token(const char *scenario, size_t length, ld_fmu_part part, char token[FMU_TOKEN_SIZE]);
 
 #endif

@@ -221,7 +221,7 @@ ld_status launch_begin(ld_run *run)
     run->t_end = model->run.end == LD_END_TIME ? last + model->run.end_time : INFINITY;
     run->t = run->t_start;
     run->t_input = INFINITY;
-    run->last_row = NAN;
+    run->last_row = run->told_at = NAN;
     run->summary.t_end = run->t_start;
     set_up_rocket(run, 0, run->t_start);
     ld_status status = launch_check_base(run, run->t_start);

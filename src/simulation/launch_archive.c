@@ -154,6 +154,16 @@ static void archive_present(archive *bytes, ld_run *run)
     }
 }
 
+// What a base that is told would go back to where it is told again.
+static void archive_told(archive *bytes, ld_run *run)
+{
+    const base_system *base = &run->launch.launcher.base;
+    if (!base->kind->tell)
+        return;
+    archive_double(bytes, &run->told_at);
+    archive_doubles(bytes, run->before_told, (size_t)base->state_count);
+}
+
 // The present lies in the last step, or at its end; rows come after what has been gone through.
 static void check_instants(const ld_run *run, archive *bytes)
 {
@@ -173,6 +183,7 @@ void launch_archive(ld_run *run, archive *bytes)
     archive_summary(bytes, run);
     archive_jets(bytes, run);
     archive_measures(bytes, run);
+    archive_told(bytes, run);
     propagator_archive(run->propagator, bytes);
     check_instants(run, bytes);
 }

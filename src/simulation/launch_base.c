@@ -51,19 +51,31 @@ ld_status launch_begin_base(ld_run *run)
     return status ? status : read_frame(run->options.base, &run->told, &run->error);
 }
 
+// What the base was told before at the present counts no more.
+static void tell_anew(ld_run *run, const base_frame *now, double *state)
+{
+    const base_system *base = &run->launch.launcher.base;
+    size_t size = (size_t)base->state_count * sizeof *state;
+    if (run->told_at == run->t)
+        memcpy(state, run->before_told, size);
+    else
+        memcpy(run->before_told, state, size);
+    run->told_at = run->t;
+    base->kind->tell(base, run->t, false, now, state);
+}
+
 ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *error)
 {
     const launcher_system *launcher = &run->launch.launcher;
-    const base_system *base = &launcher->base;
     double y[LD_MAX_STATES];
     base_frame now;
-    ld_status status = nobody_tells(base, error);
+    ld_status status = nobody_tells(&launcher->base, error);
     if (!status)
         status = read_frame(given, &now, error);
     if (status || launch_stand(run))
         return status;
     memcpy(y, propagator_state(run->propagator), (size_t)launcher->state_count * sizeof *y);
-    base->kind->tell(base, run->t, false, &now, y + launcher->base_at);
+    tell_anew(run, &now, y + launcher->base_at);
     memset(run->launch.phase.pushing, 0, sizeof run->launch.phase.pushing); // the tube is elsewhere
     launch_let_go_at_once(run, run->t, y);
     launch_measure_instant(run, run->t, y);

@@ -38,6 +38,9 @@ struct ld_run {
     ld_error error;
     propagator *propagator;
     base_frame told; // frame T at the start, of a base that is told
+    // where it was told last [s], and its state before that: told again there it was not told
+    // before
+    double told_at, before_told[BASE_MOST_STATES];
 
     double t;   // [s] the present
     bool ahead; // a step ends later than the present: what happens at its end has not

@@ -23,6 +23,8 @@ struct ld_vehicle_run {
     int work_at, tube_work_at, state_count;
     held_wrench wrench; // of the tube, about T's origin, in T
     double t_told;      // [s]
+    held_wrench before; // what it was before it was told there, and when it was told then
+    double t_before;
     double energy_start;
     integrator *integrator;
     ld_status status; // what ended it, with its sentence
@@ -217,7 +219,8 @@ static ld_status begin(ld_vehicle_run *self, ld_error *error)
     free(launch);
     if (status)
         return status;
-    self->t_told = t;
+    self->before = self->wrench;
+    self->t_told = self->t_before = t;
     if (evaluate(self, t, y))
         return ld_fail(error, LD_ERR_NUMERIC, "the start at t = %.9g s has no solution", t);
     self->energy_start = mechanical_energy(self, y);
@@ -323,8 +326,15 @@ ld_status ld_vehicle_run_tell_wrench(ld_vehicle_run *self, const ld_base_wrench 
     base_frame tube;
     base_found unused;
     self->base.kind->place(&self->base, t, integrator_state(self->integrator), &tube, &unused);
+    // told again at the same time, it was not told before
+    if (t == self->t_told) {
+        self->wrench = self->before;
+    } else {
+        self->before = self->wrench;
+        self->t_before = self->t_told;
+    }
     held_wrench_take(&self->wrench, m3_apply_transposed(tube.A, v3_from(wrench->force)),
-                     m3_apply_transposed(tube.A, v3_from(wrench->moment)), t - self->t_told);
+                     m3_apply_transposed(tube.A, v3_from(wrench->moment)), t - self->t_before);
     self->t_told = t;
     self->latest.known = false;
     return LD_OK;
@@ -458,11 +468,15 @@ static void archive_vector(archive *bytes, v3 *v)
 
 static void archive_all(ld_vehicle_run *self, archive *bytes)
 {
-    v3 *vectors[] = {&self->wrench.force, &self->wrench.moment, &self->wrench.force_rate,
-                     &self->wrench.moment_rate};
-    for (int i = 0; i < 4; i++)
-        archive_vector(bytes, vectors[i]);
+    held_wrench *wrenches[] = {&self->wrench, &self->before};
+    for (int i = 0; i < 2; i++) {
+        archive_vector(bytes, &wrenches[i]->force);
+        archive_vector(bytes, &wrenches[i]->moment);
+        archive_vector(bytes, &wrenches[i]->force_rate);
+        archive_vector(bytes, &wrenches[i]->moment_rate);
+    }
     archive_double(bytes, &self->t_told);
+    archive_double(bytes, &self->t_before);
     archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_double(bytes, &self->energy_start);
     integrator_archive(self->integrator, bytes);

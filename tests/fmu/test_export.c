@@ -527,8 +527,9 @@ static void check_description(const char *scenario, int version)
     printf("    %zu variables, %zu outputs\n", count, outputs_there);
     assert_non_null(strstr(units, "<Unit name=\"m/s2\"><BaseUnit m=\"1\" s=\"-2\"/></Unit>"));
     assert_non_null(strstr(units, "<Unit name=\"N.s/m\"><BaseUnit kg=\"1\" s=\"-1\"/></Unit>"));
-    assert_non_null(strstr(units, "<Unit name=\"kg0.5.m/s\"></Unit>")); // no whole powers
-    assert_true(count > 250 && outputs_there > 150);
+    if (strstr(fmu.description, "name=\"q1_dot\"")) // no whole powers
+        assert_non_null(strstr(units, "<Unit name=\"kg0.5.m/s\"></Unit>"));
+    assert_true(count > 250 && outputs_there > 100);
     qsort(name, count, sizeof *name, compare_names);
     for (size_t i = 1; i < count; i++)
         assert_true(strcmp(name[i - 1], name[i]) < 0);
@@ -543,6 +544,8 @@ static void is_described(void **state)
     for (int version = 2; version <= 3; version++) {
         check_description("examples/reference.yaml", version);
         check_description("examples/test-barrel.yaml", version);
+        check_description("examples/reference.yaml --part vehicle", version);
+        check_description("examples/reference.yaml --part launcher", version);
     }
 }
 

@@ -242,12 +242,19 @@ static void saved_and_loaded(void **state)
     wrench.force[1] -= 500;
     assert_int_equal(ld_vehicle_run_tell_wrench(run, &wrench, &error), LD_OK);
     assert_int_equal(ld_vehicle_run_advance(run, -0.06, &error), LD_OK);
+    const ld_base_wrench now = {{90, -9700, 30}, {5, 20, -9100}},
+                         wrong = {{0, 1e4, 0}, {0, 0, 100}};
+    assert_int_equal(ld_vehicle_run_tell_wrench(run, &now, &error), LD_OK);
     assert_int_equal(ld_vehicle_run_save(run, bytes, sizeof bytes, &size, &error), LD_OK);
     printf("    %zu bytes\n", size);
     if (ld_vehicle_run_load(simulation, bytes, size, &again, &error))
         fail_msg("%s", error.text);
     for (int i = 0; i < 2; i++) {
         ld_vehicle_run *one = i ? again : run;
+        if (i == 1) { // told again at the same time, it was not told before
+            assert_int_equal(ld_vehicle_run_tell_wrench(one, &wrong, &error), LD_OK);
+            assert_int_equal(ld_vehicle_run_tell_wrench(one, &now, &error), LD_OK);
+        }
         assert_int_equal(ld_vehicle_run_advance(one, -0.05, &error), LD_OK);
         wrench.force[1] = -8000;
         assert_int_equal(ld_vehicle_run_tell_wrench(one, &wrench, &error), LD_OK);
