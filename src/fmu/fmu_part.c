@@ -19,7 +19,7 @@ const char *fmu_part_name(ld_fmu_part which)
 void fmu_part_take(ld_fmu_part which, ld_model *model)
 {
     if (which == LD_FMU_LAUNCHER)
-        model->base.kind = LD_BASE_EXTERNAL;
+        model_tell_base(model);
 }
 
 // A base that is told rests at the origin, its tube along x, until it is told otherwise.
@@ -45,9 +45,9 @@ static ld_status stand_on_vehicle(const ld_simulation *whole, fmu_part *part, ld
 
 const fmu_runner *fmu_part_runner(ld_fmu_part which, const ld_model *model)
 {
-    return which == LD_FMU_VEHICLE                ? &fmu_vehicle
-           : model->base.kind == LD_BASE_EXTERNAL ? &fmu_launch_outside
-                                                  : &fmu_launch;
+    return which == LD_FMU_VEHICLE     ? &fmu_vehicle
+           : model_base_is_told(model) ? &fmu_launch_outside
+                                       : &fmu_launch;
 }
 
 ld_status fmu_part_find(ld_fmu_part which, const ld_simulation *whole, fmu_part *part,

@@ -934,6 +934,15 @@ static inline bool model_has_launcher(const ld_model *model)
 {
     return model->base.kind != LD_BASE_NONE;
 }
+/// Whether the base is told where it is; makes it one that is.
+static inline bool model_base_is_told(const ld_model *model)
+{
+    return model->base.kind == LD_BASE_EXTERNAL;
+}
+static inline void model_tell_base(ld_model *model)
+{
+    model->base.kind = LD_BASE_EXTERNAL;
+}
 /// Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
 static inline bool model_has_vehicle(const ld_model *model)
 {

@@ -274,12 +274,12 @@ static ld_status go_to(ld_vehicle_run *self, double t)
 // What acts by itself at the present, as a digital loop does.
 static ld_status sample(ld_vehicle_run *self)
 {
-    const base_interface *kind = self->base.kind;
+    const base_system *base = &self->base;
     double t = integrator_time(self->integrator), y[MOST_STATES];
-    if (!kind->next_sample || kind->next_sample(&self->base, nextafter(t, -INFINITY)) != t)
+    if (!base->kind->next_sample || base->kind->next_sample(base, nextafter(t, -INFINITY)) != t)
         return LD_OK;
     memcpy(y, integrator_state(self->integrator), (size_t)self->state_count * sizeof *y);
-    kind->sample(&self->base, t, y);
+    base->kind->sample(base, t, y);
     self->latest.known = false;
     return integrator_start(self->integrator, t, y, &self->error);
 }
@@ -287,10 +287,10 @@ static ld_status sample(ld_vehicle_run *self)
 // The first instant after t at which a step must end, not beyond `end`.
 static double next_stop(const ld_vehicle_run *self, double t, double end)
 {
-    const base_interface *kind = self->base.kind;
-    if (kind->next_corner)
-        end = fmin(end, kind->next_corner(&self->base, t));
-    return kind->next_sample ? fmin(end, kind->next_sample(&self->base, t)) : end;
+    const base_system *base = &self->base;
+    if (base->kind->next_corner)
+        end = fmin(end, base->kind->next_corner(base, t));
+    return base->kind->next_sample ? fmin(end, base->kind->next_sample(base, t)) : end;
 }
 
 ld_status ld_vehicle_run_advance(ld_vehicle_run *self, double t, ld_error *error)
