@@ -25,6 +25,10 @@ typedef enum ld_fmu_part {
 ld_status ld_fmu_export(const ld_model *model, ld_fmu_part part, int version, const char *file,
                         ld_error *error);
 
+/// Writes an archive of System Structure and Parameterization 1.0: vehicle and launcher of the
+/// model as FMUs, connected with each other. Arguments and what it returns as of ld_fmu_export().
+ld_status ld_ssp_export(const ld_model *model, int version, const char *file, ld_error *error);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

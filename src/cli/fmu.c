@@ -1,4 +1,5 @@
-// launchdyn fmu export: a Functional Mock-up Unit of a launch.
+// launchdyn fmu export: a Functional Mock-up Unit of a launch or of a part of it, or both parts in
+// an archive.
 #include <stdio.h>
 #include <string.h>
 
@@ -8,7 +9,8 @@
 
 typedef struct wishes {
     ld_fmu_part part;
-    int version;
+    int version; // of FMI; 0: the usual one
+    bool system; // vehicle and launcher in an archive of SSP
     const char *out;
 } wishes;
 
@@ -16,7 +18,10 @@ static int export(const ld_model *model, void *data)
 {
     const wishes *self = data;
     ld_error error;
-    ld_status status = ld_fmu_export(model, self->part, self->version, self->out, &error);
+    // tools for SSP 1.0 know FMI 2 alone
+    int version = self->version ? self->version : self->system ? 2 : 3;
+    ld_status status = self->system ? ld_ssp_export(model, version, self->out, &error)
+                                    : ld_fmu_export(model, self->part, version, self->out, &error);
     return status ? command_fail_on(model, status, &error) : 0;
 }
 
@@ -39,22 +44,29 @@ static bool find_part(const char *name, ld_fmu_part *part)
 
 int command_fmu(const command *self, int argc, char **argv)
 {
-    char **sets = NULL, *out = NULL, *part = NULL;
-    wishes what = {.version = 3};
+    char **sets = NULL, *out = NULL, *part = NULL, *archive = NULL;
+    wishes what = {0};
     const command_option options[] = {
         COMMAND_SETS(&sets),
         {"part", '\0', OPTION_TEXT, &part, "all, the vehicle alone, or the launcher alone (all)",
          "PART"},
-        {"fmi", '\0', OPTION_INTEGER, &what.version, "Version of FMI: 2 or 3 (3)", "N"},
+        {"fmi", '\0', OPTION_INTEGER, &what.version, "Version of FMI: 2 or 3 (3; in an archive 2)",
+         "N"},
         {"out", 'o', OPTION_TEXT, &out, "The FMU", "FILE"},
+        {"ssp", '\0', OPTION_TEXT, &archive, "Instead: an archive of SSP of vehicle and launcher",
+         "FILE"},
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
-        what.out = out;
-        if (line.count != 2 || strcmp(line.word[0], "export") != 0 || !out) {
+        what.out = archive ? archive : out;
+        what.system = archive != NULL;
+        if (line.count != 2 || strcmp(line.word[0], "export") != 0 || !what.out) {
             command_complain("fmu wants export FILE and --out FILE; see launchdyn fmu --help");
+            code = EXIT_INPUT;
+        } else if (archive && (out || part)) {
+            command_complain("--ssp is an archive of both parts: without --out and --part");
             code = EXIT_INPUT;
         } else if (part && !find_part(part, &what.part)) {
             code = EXIT_INPUT;

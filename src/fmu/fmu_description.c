@@ -100,7 +100,7 @@ static void write_units(FILE *stream, const fmu_variables *variables)
     fputs("  </UnitDefinitions>\n", stream);
 }
 
-static void write_text(FILE *stream, const char *text)
+void fmu_write_text(FILE *stream, const char *text)
 {
     for (; *text; text++)
         switch (*text) {
@@ -141,9 +141,9 @@ static const char *variability_of(const fmu_variable *v)
 static void write_head(FILE *stream, const fmu_variable *v, size_t reference)
 {
     fprintf(stream, " name=\"");
-    write_text(stream, v->name);
+    fmu_write_text(stream, v->name);
     fprintf(stream, "\" valueReference=\"%zu\" description=\"", reference);
-    write_text(stream, v->description);
+    fmu_write_text(stream, v->description);
     fprintf(stream, "\" causality=\"%s\" variability=\"%s\"", causality_of(v), variability_of(v));
 }
 
@@ -167,7 +167,7 @@ static void write_variable_2(FILE *stream, const fmu_variable *v, size_t referen
     write_head(stream, v, reference);
     if (fmu_is_text(v)) {
         fputs("><String start=\"", stream);
-        write_text(stream, v->text);
+        fmu_write_text(stream, v->text);
         fputs("\"/>", stream);
     } else {
         fputs(fmu_is_boolean(v) ? "><Boolean" : "><Real", stream);
@@ -185,7 +185,7 @@ static void write_variable_3(FILE *stream, const fmu_variable *v, size_t referen
     write_head(stream, v, reference);
     if (fmu_is_text(v)) {
         fputs("><Start value=\"", stream);
-        write_text(stream, v->text);
+        fmu_write_text(stream, v->text);
         fputs("\"/></String>\n", stream);
         return;
     }
@@ -225,7 +225,7 @@ static void write_root(FILE *stream, const fmu_description *self)
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
     fprintf(stream, "<fmiModelDescription fmiVersion=\"%s\" modelName=\"",
             self->version == 2 ? "2.0" : "3.0");
-    write_text(stream, self->title);
+    fmu_write_text(stream, self->title);
     fprintf(
         stream,
         "\"\n    %s=\"%s\"\n    generationTool=\"launchdyn %s\" variableNamingConvention=\"flat\"",

@@ -19,4 +19,7 @@ typedef struct fmu_description {
 // Writes it; what fails shows in the stream's error.
 void fmu_description_write(const fmu_description *self, FILE *stream);
 
+// A text as it stands in XML.
+void fmu_write_text(FILE *stream, const char *text);
+
 #endif

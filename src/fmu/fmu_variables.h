@@ -44,6 +44,10 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
                              const ld_simulation *simulation, fmu_variables *self, ld_error *error);
 void fmu_variables_free(fmu_variables *self);
 
+// The same of a part of a model, and the part (fmu_export.c).
+ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part *part,
+                             fmu_variables *variables, ld_error *error);
+
 bool fmu_is_boolean(const fmu_variable *variable);
 bool fmu_is_text(const fmu_variable *variable);
 bool fmu_is_input(const fmu_variable *variable);

@@ -398,6 +398,26 @@ static void speaks_version_2(void **state)
     side_close(&three);
 }
 
+// The archive of both: the structure connects every number, the FMUs are those of the parts.
+static void archive_holds_both(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("launchdyn fmu export examples/reference.yaml --ssp both.ssp && "
+            "launchdyn fmu export examples/reference.yaml --part vehicle --fmi 2 --out "
+            "v.fmu && mkdir x && cd x && unzip -q ../both.ssp && "
+            "cmp resources/vehicle.fmu ../v.fmu && ls . resources && "
+            "grep -c '<ssd:Connection start' SystemStructure.ssd && "
+            "grep -o 'startConnector=\"base.position.y\".*' SystemStructure.ssd"),
+        0);
+    assert_string_equal(
+        shell.out, ".:\nSystemStructure.ssd\nresources\n\nresources:\nlauncher.fmu\n"
+                   "vehicle.fmu\n19\nstartConnector=\"base.position.y\" endElement=\"launcher\" "
+                   "endConnector=\"input.base.position.y\"/>\n");
+    assert_int_equal(run("ls | grep both"), 0);
+    assert_string_equal(shell.out, "both.ssp\n");
+}
+
 static void refused(const char *line, const char *why)
 {
     assert_int_equal(run(line), 2);
@@ -417,7 +437,11 @@ static void refuses(void **state)
     refused("launchdyn fmu export examples/reference.yaml --part vehicel --out x.fmu",
             "launchdyn: --part is all, vehicle or launcher, not \"vehicel\"; did you mean "
             "\"vehicle\"?");
-    assert_int_equal(run("ls | grep -c fmu"), 1);
+    refused("launchdyn fmu export examples/fixed.yaml --ssp x.ssp",
+            "base.kind: there is no vehicle");
+    refused("launchdyn fmu export examples/reference.yaml --ssp x.ssp --part vehicle",
+            "--ssp is an archive of both parts: without --out and --part");
+    assert_int_equal(run("ls | grep -c x[.]"), 1);
 }
 
 int main(void)
@@ -428,6 +452,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(begins_under_its_load, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(states_come_back, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(speaks_version_2, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(archive_holds_both, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(refuses, shell_make, shell_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

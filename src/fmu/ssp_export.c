@@ -1,0 +1,160 @@
+// Packs vehicle and launcher of a scenario, connected with each other, as an archive of SSP 1.0.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory_stream.h"
+#include "base/numeric_locale.h"
+#include "base/text_file.h"
+#include "fmu/fmu_description.h"
+#include "fmu/package.h"
+#include "launchdyn/fmu.h"
+#include "launchdyn/scenario.h"
+#include "launchdyn/version.h"
+
+enum { PATH_SIZE = 4096, NAME_SIZE = 512, FMU_BYTES = 64 << 20, PARTS = 2 };
+
+static const ld_fmu_part parts[PARTS] = {LD_FMU_VEHICLE, LD_FMU_LAUNCHER};
+
+// What the archive holds, of each part.
+typedef struct system_structure {
+    const ld_model *model;
+    fmu_variables variables[PARTS];
+    char *fmu[PARTS];
+    size_t fmu_length[PARTS];
+    char *structure;
+    size_t structure_length;
+} system_structure;
+
+// ---- SystemStructure.ssd ----
+
+// What one part tells is an output, what it is told an input.
+static void write_component(FILE *stream, const system_structure *self, int k)
+{
+    const char *name = fmu_part_name(parts[k]);
+    fprintf(stream,
+            "      <ssd:Component name=\"%s\" type=\"application/x-fmu-sharedlibrary\" "
+            "source=\"resources/%s.fmu\" implementation=\"CoSimulation\">\n"
+            "        <ssd:Connectors>\n",
+            name, name);
+    for (size_t i = 0; i < self->variables[k].count; i++) {
+        const fmu_variable *v = &self->variables[k].item[i];
+        bool is_told = v->group == FMU_TOLD;
+        if (is_told || v->group == FMU_TELLS || v->group == FMU_COLUMN)
+            fprintf(
+                stream,
+                "          <ssd:Connector name=\"%s\" kind=\"%s\"><ssc:Real/></ssd:Connector>\n",
+                v->name, is_told ? "input" : "output");
+    }
+    fputs("        </ssd:Connectors>\n      </ssd:Component>\n", stream);
+}
+
+// The variable of a group by its number in it.
+static const char *name_of(const fmu_variables *variables, fmu_group group, int index)
+{
+    for (size_t i = 0; i < variables->count; i++)
+        if (variables->item[i].group == group && variables->item[i].index == index)
+            return variables->item[i].name;
+    return NULL;
+}
+
+// What part k tells, the other one is told.
+static void write_connections(FILE *stream, const system_structure *self, int k)
+{
+    const fmu_variables *from = &self->variables[k], *to = &self->variables[1 - k];
+    for (int i = 0; i < from->runner->tells_count; i++)
+        fprintf(stream,
+                "      <ssd:Connection startElement=\"%s\" startConnector=\"%s\" "
+                "endElement=\"%s\" endConnector=\"%s\"/>\n",
+                fmu_part_name(parts[k]), name_of(from, FMU_TELLS, i), fmu_part_name(parts[1 - k]),
+                name_of(to, FMU_TOLD, i));
+}
+
+static void write_structure(FILE *stream, const system_structure *self)
+{
+    char title[NAME_SIZE];
+    ld_model_text(self->model, "title", title, sizeof title, NULL);
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+          "<ssd:SystemStructureDescription version=\"1.0\" name=\"",
+          stream);
+    fmu_write_text(stream, title);
+    fprintf(stream,
+            "\" generationTool=\"launchdyn %s\"\n"
+            "    xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\"\n"
+            "    xmlns:ssd=\"http://ssp-standard.org/SSP1/SystemStructureDescription\">\n"
+            "  <ssd:System name=\"launch\">\n    <ssd:Elements>\n",
+            ld_version());
+    for (int k = 0; k < PARTS; k++)
+        write_component(stream, self, k);
+    fputs("    </ssd:Elements>\n    <ssd:Connections>\n", stream);
+    for (int k = 0; k < PARTS; k++)
+        write_connections(stream, self, k);
+    fprintf(stream,
+            "    </ssd:Connections>\n  </ssd:System>\n"
+            "  <ssd:DefaultExperiment startTime=\"%.17g\"/>\n</ssd:SystemStructureDescription>\n",
+            self->variables[0].start);
+}
+
+// ---- the archive ----
+
+// The FMU of a part, by way of a file beside the archive.
+static ld_status make_fmu(system_structure *self, int k, int version, const char *file,
+                          ld_error *error)
+{
+    char path[PATH_SIZE];
+    ld_error why;
+    snprintf(path, sizeof path, "%.4000s.%s", file, fmu_part_name(parts[k]));
+    ld_status status = ld_fmu_export(self->model, parts[k], version, path, error);
+    if (status)
+        return status;
+    status = text_file_read(path, FMU_BYTES, &self->fmu[k], &self->fmu_length[k], &why);
+    unlink(path);
+    return status ? ld_fail(error, status, "%.400s %s", path, why.text) : LD_OK;
+}
+
+static ld_status describe(system_structure *self, ld_error *error)
+{
+    fmu_part unused;
+    for (int k = 0; k < PARTS; k++) {
+        ld_status status =
+            fmu_part_variables(parts[k], self->model, &unused, &self->variables[k], error);
+        if (status)
+            return status;
+    }
+    FILE *stream = memory_stream(&self->structure, &self->structure_length);
+    if (stream)
+        write_structure(stream, self);
+    return stream && fclose(stream) == 0 ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
+}
+
+static void put_all(package *self, const void *data)
+{
+    const system_structure *from = data;
+    char name[NAME_SIZE];
+    package_put(self, "SystemStructure.ssd", from->structure, from->structure_length);
+    for (int k = 0; k < PARTS; k++) {
+        snprintf(name, sizeof name, "resources/%s.fmu", fmu_part_name(parts[k]));
+        package_put(self, name, from->fmu[k], from->fmu_length[k]);
+    }
+}
+
+ld_status ld_ssp_export(const ld_model *model, int version, const char *file, ld_error *error)
+{
+    system_structure self = {.model = model};
+    ld_status status = LD_OK;
+    for (int k = 0; k < PARTS && !status; k++)
+        status = make_fmu(&self, k, version, file, error);
+    locale_t before = numeric_locale_enter();
+    if (!status)
+        status = describe(&self, error);
+    numeric_locale_leave(before);
+    if (!status)
+        status = package_write(file, put_all, &self, error);
+    for (int k = 0; k < PARTS; k++) {
+        fmu_variables_free(&self.variables[k]);
+        free(self.fmu[k]);
+    }
+    free(self.structure);
+    return status;
+}
