@@ -207,6 +207,9 @@ void field_release(const field_block *block, void *base)
             field_release(f->block, field_at(base, f));
         } else if (f->kind == FIELD_TEXT) {
             free(*(char **)field_at(base, f));
+        } else if (f->kind == FIELD_LIST) {
+            for (int i = 0; i < field_switch(base, f); i++)
+                field_release(f->block, (char *)field_at(base, f) + (size_t)i * f->stride);
         } else if (f->kind == FIELD_TABLE) {
             free(((ld_table *)field_at(base, f))->data);
         } else if (f->kind == FIELD_FACTORS) {

@@ -160,6 +160,7 @@ typedef enum ld_base_kind {
     LD_BASE_VEHICLE,
     LD_BASE_NONE,     ///< no launcher: a flight alone
     LD_BASE_EXTERNAL, ///< told where it is by whoever runs the launch, step by step
+    LD_BASE_FMU,      ///< an FMU of other people's, stepped beside the launch
 } ld_base_kind;
 
 /// What a base without wheels is drawn as; nothing of its mechanics.
@@ -338,6 +339,50 @@ typedef struct ld_platform {
     ld_turret elevation;
 } ld_platform;
 
+/// What of its motion and of the wrench on it a base says and hears by variables of an FMU.
+typedef enum ld_fmu_quantity {
+    LD_FMU_POSITION,                         ///< [m] x, y, z
+    LD_FMU_QUATERNION = LD_FMU_POSITION + 3, ///< scalar first
+    LD_FMU_ANGLES = LD_FMU_QUATERNION + 4,   ///< [rad] yaw, pitch, roll, in place of it
+    LD_FMU_VELOCITY = LD_FMU_ANGLES + 3,     ///< [m/s]
+    LD_FMU_RATE = LD_FMU_VELOCITY + 3,       ///< [rad/s]
+    LD_FMU_FORCE = LD_FMU_RATE + 3,          ///< [N]
+    LD_FMU_MOMENT = LD_FMU_FORCE + 3,        ///< [N m]
+    LD_FMU_QUANTITIES = LD_FMU_MOMENT + 3
+} ld_fmu_quantity;
+
+typedef struct ld_fmu_parameter {
+    char *name; ///< of the FMU's variable, owned by the model
+    double value;
+} ld_fmu_parameter;
+
+/// How an FMU takes inputs between the instants at which they are set.
+typedef enum ld_fmu_inputs {
+    LD_FMU_HELD,         ///< it holds them
+    LD_FMU_EXTRAPOLATED, ///< it goes on with them as the last ones tell
+} ld_fmu_inputs;
+
+/// In which axes an FMU tells its angular velocity.
+typedef enum ld_fmu_axes { LD_FMU_AXES_OF_I, LD_FMU_AXES_OF_BODY } ld_fmu_axes;
+
+enum { LD_MAX_FMU_PARAMETERS = 64 };
+
+/// An FMU that carries the tube: fmi.md.
+typedef struct ld_fmu_base {
+    char *file;        ///< owned by the model
+    double step;       ///< [s] between two instants at which pose and wrench are exchanged
+    double start_time; ///< [s] of its own clock when the run begins
+    double time_limit; ///< [s] longest that a call of one of its functions may take
+    double at[3];      ///< [m] T's origin in the frame that the FMU tells
+    ld_fmu_inputs inputs;
+    ld_fmu_axes rate_axes;
+    struct { ///< names of variables with blanks between, owned by the model; NULL: as our vehicle's
+        char *position, *quaternion, *angles, *velocity, *angular_rate, *force, *moment;
+    } connect;
+    int parameter_count;
+    ld_fmu_parameter parameter[LD_MAX_FMU_PARAMETERS];
+} ld_fmu_base;
+
 /// The base that carries the tube: model.md, section 2.
 typedef struct ld_base {
     ld_base_kind kind;
@@ -349,7 +394,8 @@ typedef struct ld_base {
     ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
     ld_vehicle vehicle;
     ld_extrapolation extrapolation; ///< (external)
-    ld_looks looks;                 ///< (not of a vehicle)
+    ld_fmu_base fmu;
+    ld_looks looks; ///< (not of a vehicle)
 } ld_base;
 
 /// Isotropic material of the tube; NaN: not given.

@@ -365,11 +365,10 @@ static const field_block tyre_block = {.fields = tyre_fields};
 
 // ---- base
 
-static const field_word base_words[] = {{"fixed", LD_BASE_FIXED},
-                                        {"prescribed", LD_BASE_PRESCRIBED},
-                                        {"vehicle", LD_BASE_VEHICLE},
-                                        {"external", LD_BASE_EXTERNAL},
-                                        {NULL, 0}};
+static const field_word base_words[] = {
+    {"fixed", LD_BASE_FIXED},     {"prescribed", LD_BASE_PRESCRIBED},
+    {"vehicle", LD_BASE_VEHICLE}, {"external", LD_BASE_EXTERNAL},
+    {"fmu", LD_BASE_FMU},         {NULL, 0}};
 static const field_word extrapolation_words[] = {{"acceleration", LD_EXTRAPOLATION_ACCELERATION},
                                                  {"velocity", LD_EXTRAPOLATION_VELOCITY},
                                                  {NULL, 0}};
@@ -378,13 +377,44 @@ static const field_word looks_words[] = {
 #define FIXED_OR_PRESCRIBED (FORM(LD_BASE_FIXED) | FORM(LD_BASE_PRESCRIBED))
 #define VEHICLE FORM(LD_BASE_VEHICLE)
 #define EXTERNAL FORM(LD_BASE_EXTERNAL)
+#define FMU FORM(LD_BASE_FMU)
+
+#define NAMES(member) .kind = FIELD_TEXT, .offset = offsetof(ld_base, fmu.connect.member)
+static const field_row connect_fields[] = {
+    {"position", NAMES(position), .initial_doc = "base.position.x base.position.y base.position.z",
+     .doc = "outputs for x, y, z in I of the origin of the frame that the FMU tells"},
+    {"quaternion", NAMES(quaternion), .initial_doc = "base.quaternion.0 to .3",
+     .doc = "outputs for that frame's axes against I, scalar first"},
+    {"angles", NAMES(angles), .initial_doc = "none",
+     .doc = "in place of them outputs for yaw, pitch, roll, of Ry(yaw) Rz(pitch) Rx(roll)"},
+    {"velocity", NAMES(velocity), .initial_doc = "base.velocity.x to .z",
+     .doc = "outputs for the origin's velocity in I"},
+    {"angular_rate", NAMES(angular_rate), .initial_doc = "base.rate.x to .z",
+     .doc = "outputs for the angular velocity"},
+    {"force", NAMES(force), .initial_doc = "input.wrench.force.x to .z",
+     .doc = "inputs for the force in I at the frame's origin"},
+    {"moment", NAMES(moment), .initial_doc = "input.wrench.moment.x to .z",
+     .doc = "inputs for the moment in I about it"},
+    {0}};
+static const field_block connect_block = {.fields = connect_fields};
+static const field_row fmu_parameter_fields[] = {
+    {"name", .kind = FIELD_TEXT, .offset = offsetof(ld_fmu_parameter, name), .required = true,
+     .doc = "of the FMU's variable"},
+    {"value", NUMBER(ld_fmu_parameter, value, ""), ANY, REQUIRED,
+     .doc = "in the unit that the FMU has for it"},
+    {0}};
+static const field_block fmu_parameter_block = {.fields = fmu_parameter_fields};
+static const field_word inputs_words[] = {
+    {"held", LD_FMU_HELD}, {"extrapolated", LD_FMU_EXTRAPOLATED}, {NULL, 0}};
+static const field_word axes_words[] = {
+    {"inertial", LD_FMU_AXES_OF_I}, {"body", LD_FMU_AXES_OF_BODY}, {NULL, 0}};
 static const field_row base_fields[] = {
     {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "what carries the tube"},
     {"azimuth", NUMBER(ld_base, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
-     .forms = FIXED_OR_PRESCRIBED,
+     .forms = FIXED_OR_PRESCRIBED | FMU,
      .doc = "of the tube against the base, about +y: positive to the left"},
     {"elevation", NUMBER(ld_base, elevation, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
-     .forms = FIXED_OR_PRESCRIBED,
+     .forms = FIXED_OR_PRESCRIBED | FMU,
      .doc = "of the tube against the base, positive up, on top of the base's own motion"},
     {"velocity", VECTOR(ld_base, velocity, "m/s", 3), ANY, DEFAULT(0),
      .forms = FORM(LD_BASE_PRESCRIBED), .doc = "constant velocity along I, added to the sines"},
@@ -407,8 +437,30 @@ static const field_row base_fields[] = {
      DEFAULT(LD_EXTRAPOLATION_ACCELERATION), .forms = EXTERNAL,
      .doc = "how it goes on between two instants at which it is told: with the acceleration of its "
             "last two velocities, or with the last velocity"},
+    {"file", .kind = FIELD_TEXT, .offset = offsetof(ld_base, fmu.file), .required = true,
+     .forms = FMU, .doc = "the FMU, for co-simulation by FMI 2.0 or 3.0"},
+    {"step", NUMBER(ld_base, fmu.step, "s"), ABOVE_TO(0, 1), REQUIRED, .forms = FMU,
+     .doc = "time between two exchanges of pose and wrench, counted from the run's start"},
+    {"inputs", CHOICE(ld_base, fmu.inputs, inputs_words), DEFAULT(LD_FMU_HELD), .forms = FMU,
+     .doc = "what it does with them between: `held`, then it is given the mean over the step to "
+            "come as the last two wrenches tell it; `extrapolated` by itself, then the wrench"},
+    {"connect", SAME_STRUCT(connect_block), .forms = FMU, .initial_doc = "as below",
+     .doc = "names of the FMU's variables, with blanks between"},
+    {"rate_axes", CHOICE(ld_base, fmu.rate_axes, axes_words), DEFAULT(LD_FMU_AXES_OF_I),
+     .forms = FMU, .doc = "in which it tells its angular velocity: those of I, or its own"},
+    {"at", VECTOR(ld_base, fmu.at, "m", 3), ANY, DEFAULT(0), .forms = FMU,
+     .doc = "rear end of the undeformed tube in the frame that the FMU tells"},
+    {"parameters",
+     LIST(ld_base, fmu.parameter, fmu.parameter_count, fmu_parameter_block, 0,
+          LD_MAX_FMU_PARAMETERS),
+     .silent = true, .forms = FMU, .initial_doc = "none",
+     .doc = "of the FMU, and start values, set before it initializes"},
+    {"start_time", NUMBER(ld_base, fmu.start_time, "s"), FROM_TO(-1e6, 1e6), DEFAULT(0),
+     .forms = FMU, .doc = "of the FMU's own clock when the run begins, with its lead-in"},
+    {"time_limit", NUMBER(ld_base, fmu.time_limit, "s"), ABOVE_TO(0, 1e5), DEFAULT(60),
+     .forms = FMU, .doc = "longest that one call of it may take"},
     {"looks", CHOICE(ld_base, looks, looks_words), DEFAULT(LD_LOOKS_PLAIN),
-     .forms = FIXED_OR_PRESCRIBED | EXTERNAL,
+     .forms = FIXED_OR_PRESCRIBED | EXTERNAL | FMU,
      .doc = "what the replay draws it as: a plate with posts, a ship, an aircraft; no mechanics"},
     {0}};
 static const field_block base_block = {.fields = base_fields,
@@ -1064,9 +1116,10 @@ static const field_word kind_words[] = {{"base.kind: fixed", LD_BASE_FIXED},
                                         {"base.kind: prescribed", LD_BASE_PRESCRIBED},
                                         {"base.kind: vehicle", LD_BASE_VEHICLE},
                                         {"base.kind: external", LD_BASE_EXTERNAL},
+                                        {"base.kind: fmu", LD_BASE_FMU},
                                         {"flight", LD_BASE_NONE},
                                         {NULL, 0}};
-#define IN_TUBE .forms = FIXED_OR_PRESCRIBED | VEHICLE | EXTERNAL
+#define IN_TUBE .forms = FIXED_OR_PRESCRIBED | VEHICLE | EXTERNAL | FMU
 #define IN_FLIGHT FORM(LD_BASE_NONE)
 #define NOT_IN_FLIGHT(text) .optional = IN_FLIGHT, .initial_doc = (text)
 static const field_word motor_words[] = {{"", 0}, {"none", 1}, {NULL, 0}};

@@ -835,24 +835,26 @@ static double find_start(launch_state *self, problem *the, launching_phase *phas
     return best;
 }
 
-// A base with a motion of its own in equilibrium under a tube that is a dead load; others need
-// nothing.
+// A base with a motion of its own in equilibrium under a tube that is a dead load; one that is
+// stepped where it `stands`; others need nothing.
 static ld_status settle_base(const launch_state *self, double t, const launching_phase *phase,
-                             double accepted, double *y, ld_error *error)
+                             const double *stands, double accepted, double *y, ld_error *error)
 {
     memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
     const base_system *base = &self->launcher.base;
     const base_dynamics *dynamics = base->kind->dynamics;
+    double *of_base = y + self->launcher.base_at;
+    if (stands)
+        memcpy(of_base, stands, (size_t)base->state_count * sizeof *of_base);
     if (base->kind->tell && !self->told)
         return ld_fail(error, LD_ERR_INPUT,
                        "base.kind: external: nobody tells where the base is; a program does that, "
                        "from the start on and step by step");
     if (base->kind->tell)
-        base->kind->tell(base, t, true, self->told, y + self->launcher.base_at);
+        base->kind->tell(base, t, true, self->told, of_base);
     if (!dynamics)
         return LD_OK;
-    dynamics->guess(base, self->launcher.launching.tube.m, self->motor->full.m,
-                    y + self->launcher.base_at);
+    dynamics->guess(base, self->launcher.launching.tube.m, self->motor->full.m, of_base);
     int first = launching_freedoms(self);
     problem dead = {
         .self = self, .t = t, .phase = phase, .first = first, .dead = true, .h = DIFFERENCE};
@@ -895,10 +897,62 @@ static double accepted_residual(const launch_state *self)
     return 1e-6 * (1 + self->model->gravity);
 }
 
-ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_error *error)
+// The wrench of tube and rocket at rest on their base.
+static ld_status resting_wrench(const launch_state *self, double t, const double *y,
+                                base_wrench *wrench, ld_error *error)
 {
     launching_phase phase = resting_phase(self);
-    ld_status status = settle_base(self, t, &phase, accepted_residual(self), y, error);
+    launcher_input input;
+    launcher_output out;
+    simulation_input(self, t, y, &input);
+    if (launcher_evaluate(&self->launcher, &input, &phase, y, &out))
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "run.start: the equations of motion gave no finite result");
+    const m3 *A = &input.launching.base.A;
+    wrench->force = m3_apply(*A, out.launching.base_force);
+    wrench->moment = m3_apply(*A, out.launching.base_moment);
+    return LD_OK;
+}
+
+// A start on a base that stands, and is looked for where it does.
+typedef ld_status find_on_base(launch_state *self, double t, const double *stands, double *y,
+                               ld_equilibrium_summary *summary, ld_error *error);
+
+// A base that is stepped stands where its motion says under the wrench of a tube that rests where
+// the base stands: in turns, until both agree. Others stand at once.
+static ld_status find_with_base(launch_state *self, double t, find_on_base *find, double *y,
+                                ld_equilibrium_summary *summary, ld_error *error)
+{
+    enum { MOST_TURNS = 50 };
+    const double agreed = 1e-12, near = 1e-7; // [m], [rad]
+    const base_system *base = &self->launcher.base;
+    const base_stepping *stepping = base->kind->stepping;
+    double state[BASE_MOST_STATES], moved = INFINITY;
+    base_wrench on = {.force = v3_zero()};
+    ld_status status = LD_OK;
+    if (!stepping)
+        return find(self, t, NULL, y, summary, error);
+    for (int i = 0; i < MOST_TURNS && !status && moved > agreed; i++) {
+        status = stepping->stand(base, t, &on, state, &moved, error);
+        if (!status)
+            status = find(self, t, state, y, summary, error);
+        if (!status)
+            status = resting_wrench(self, t, y, &on, error);
+    }
+    return status || moved <= near
+               ? status
+               : ld_fail(error, LD_ERR_NUMERIC,
+                         "run.start: base and tube find no common rest: %d times the base was told "
+                         "the tube's wrench, and it still moves by %.3g m or rad",
+                         MOST_TURNS, moved);
+}
+
+static ld_status undeformed_on(launch_state *self, double t, const double *stands, double *y,
+                               ld_equilibrium_summary *summary, ld_error *error)
+{
+    (void)summary;
+    launching_phase phase = resting_phase(self);
+    ld_status status = settle_base(self, t, &phase, stands, accepted_residual(self), y, error);
     if (!status)
         status = keep_rest(self, t, y, error);
     if (status)
@@ -909,8 +963,13 @@ ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_erro
     return LD_OK;
 }
 
-ld_status simulation_equilibrium(launch_state *self, double t, double *y,
-                                 ld_equilibrium_summary *summary, ld_error *error)
+ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_error *error)
+{
+    return find_with_base(self, t, undeformed_on, y, NULL, error);
+}
+
+static ld_status equilibrium_on(launch_state *self, double t, const double *stands, double *y,
+                                ld_equilibrium_summary *summary, ld_error *error)
 {
     launching_phase phase = resting_phase(self);
     const char *why = held_by_one(&phase, self->launcher.launching.adaptors.count);
@@ -921,7 +980,7 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
                        why);
     double accepted = accepted_residual(self), start[LD_MAX_STATES];
     self->on_breech = false;
-    ld_status status = settle_base(self, t, &phase, accepted, start, error);
+    ld_status status = settle_base(self, t, &phase, stands, accepted, start, error);
     if (status)
         return status;
     base_frame going = setting_off(self, t, start);
@@ -950,6 +1009,12 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
         return status;
     report(&whole, y, summary);
     return LD_OK;
+}
+
+ld_status simulation_equilibrium(launch_state *self, double t, double *y,
+                                 ld_equilibrium_summary *summary, ld_error *error)
+{
+    return find_with_base(self, t, equilibrium_on, y, summary, error);
 }
 
 double simulation_start_time(const ld_model *model)

@@ -245,7 +245,9 @@ ld_status launch_begin(ld_run *run)
     launch_measure_instant(run, run->t_start, y);
     launch_restart_output(run, run->t_start);
     run->next_progress = run->t_start;
-    status = propagator_create(&run->launch, &run->propagator, &run->error);
+    status = launch_step_base(run, run->t_start, y);
+    if (!status)
+        status = propagator_create(&run->launch, &run->propagator, &run->error);
     if (!status)
         status = propagator_start(run->propagator, run->t_start, y, true, &run->error);
     return status ? status : launch_write_row(run, run->t_start, y);

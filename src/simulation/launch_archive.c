@@ -175,6 +175,18 @@ static void check_instants(const ld_run *run, archive *bytes)
     bytes->failed |= !present || !rows;
 }
 
+// What a base that is stepped has besides its state.
+static void archive_base(archive *bytes, ld_run *run)
+{
+    const base_system *base = &run->launch.launcher.base;
+    const base_stepping *stepping = base->kind->stepping;
+    run->archived = (ld_error){0};
+    if (!stepping || (bytes->loading && bytes->failed))
+        return;
+    double t = propagator_time(run->propagator);
+    bytes->failed |= stepping->archive(base, t, bytes, &run->archived) != LD_OK;
+}
+
 void launch_archive(ld_run *run, archive *bytes)
 {
     archive_launch(bytes, &run->launch);
@@ -185,5 +197,6 @@ void launch_archive(ld_run *run, archive *bytes)
     archive_measures(bytes, run);
     archive_told(bytes, run);
     propagator_archive(run->propagator, bytes);
+    archive_base(bytes, run);
     check_instants(run, bytes);
 }

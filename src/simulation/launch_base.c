@@ -89,27 +89,55 @@ double launch_next_sample(const ld_run *run, double t)
     return base->kind->next_sample ? base->kind->next_sample(base, t) : INFINITY;
 }
 
+static ld_status wrench_at(ld_run *run, double t, const double *y, base_wrench *wrench,
+                           ld_error *error)
+{
+    launcher_input input;
+    const launcher_output *out = simulation_output(&run->launch, t, y);
+    if (!out)
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "the equations of motion gave no finite result at t = %.9g s", t);
+    launcher_place(&run->launch.launcher, t, y, &input);
+    const m3 *A = &input.launching.base.A;
+    wrench->force = m3_apply(*A, out->launching.base_force);
+    wrench->moment = m3_apply(*A, out->launching.base_moment);
+    return LD_OK;
+}
+
+ld_status launch_step_base(ld_run *run, double t, double *y)
+{
+    const launcher_system *launcher = &run->launch.launcher;
+    const base_system *base = &launcher->base;
+    base_wrench on;
+    if (!base->kind->stepping)
+        return LD_OK;
+    ld_status status = wrench_at(run, t, y, &on, &run->error);
+    return status ? status
+                  : base->kind->stepping->go(base, t, &on, y + launcher->base_at, &run->error);
+}
+
 ld_status launch_sample_base(ld_run *run)
 {
     const launcher_system *launcher = &run->launch.launcher;
     double t = propagator_time(run->propagator), y[LD_MAX_STATES];
-    if (launch_next_sample(run, nextafter(t, -INFINITY)) != t)
+    bool stepped = launcher->base.kind->stepping != NULL;
+    if (launch_next_sample(run, nextafter(t, -INFINITY)) != t ||
+        (stepped && launch_is_finished(run)))
         return LD_OK;
     memcpy(y, propagator_state(run->propagator), (size_t)launcher->state_count * sizeof *y);
-    launcher->base.kind->sample(&launcher->base, t, y + launcher->base_at);
-    return propagator_start(run->propagator, t, y, false, &run->error);
+    ld_status status = launch_step_base(run, t, y);
+    if (!stepped)
+        launcher->base.kind->sample(&launcher->base, t, y + launcher->base_at);
+    return status ? status : propagator_start(run->propagator, t, y, false, &run->error);
 }
 
 ld_status launch_wrench(ld_run *run, const double *y, ld_base_wrench *wrench, ld_error *error)
 {
-    launcher_input input;
-    const launcher_output *out = simulation_output(&run->launch, run->t, y);
-    if (!out)
-        return ld_fail(error, LD_ERR_NUMERIC,
-                       "the equations of motion gave no finite result at t = %.9g s", run->t);
-    launcher_place(&run->launch.launcher, run->t, y, &input);
-    const m3 *A = &input.launching.base.A;
-    v3_store(wrench->force, m3_apply(*A, out->launching.base_force));
-    v3_store(wrench->moment, m3_apply(*A, out->launching.base_moment));
+    base_wrench found;
+    ld_status status = wrench_at(run, run->t, y, &found, error);
+    if (status)
+        return status;
+    v3_store(wrench->force, found.force);
+    v3_store(wrench->moment, found.moment);
     return LD_OK;
 }

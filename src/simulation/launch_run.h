@@ -36,6 +36,7 @@ struct ld_run {
     ld_summary summary;        // so far
     ld_status status;          // what ended the run early, with its sentence
     ld_error error;
+    ld_error archived; // why what the base has besides its state could not be saved or loaded
     propagator *propagator;
     base_frame told; // frame T at the start, of a base that is told
     // where it was told last [s], and its state before that: told again there it was not told
@@ -99,6 +100,9 @@ ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *er
 // present is one.
 double launch_next_sample(const ld_run *run, double t);
 ld_status launch_sample_base(ld_run *run);
+// Takes a base that is stepped from the instant t, where all is in the state y, to its next; others
+// nowhere.
+ld_status launch_step_base(ld_run *run, double t, double *y);
 // On any base, in the state y of the present.
 ld_status launch_wrench(ld_run *run, const double *y, ld_base_wrench *wrench, ld_error *error);
 

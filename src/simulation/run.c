@@ -219,6 +219,8 @@ ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, l
     saved_state_head(&saved_run, run->launch.model, &count, 0);
     launch_archive(run, &count);
     saved_state_sum(&count);
+    if (run->archived.status)
+        return ld_fail(error, run->archived.status, "%s", run->archived.text);
     *size = count.at;
     if (capacity < *size)
         return ld_fail(error, LD_ERR_INPUT,
@@ -242,6 +244,8 @@ static ld_status load(ld_run *run, const void *bytes, size_t size)
     saved_state_head(&saved_run, run->launch.model, &loaded, (int64_t)size);
     launch_archive(run, &loaded);
     run->t_input = INFINITY;
+    if (run->archived.status)
+        return ld_fail(&run->error, run->archived.status, "%s", run->archived.text);
     if (loaded.failed || loaded.at + 8 != size)
         return ld_fail(&run->error, LD_ERR_INPUT, "the saved run is damaged");
     return launch_open_output(run);

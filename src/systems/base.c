@@ -4,7 +4,7 @@
 #include <math.h>
 
 static const base_interface *const kinds[] = {&base_fixed, &base_prescribed, &base_vehicle,
-                                              &base_external};
+                                              &base_external, &base_fmu};
 
 // NULL: there is none.
 static const base_interface *base_of_kind(ld_base_kind kind)

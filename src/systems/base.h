@@ -8,6 +8,7 @@
 #ifndef LD_SYSTEMS_BASE_H
 #define LD_SYSTEMS_BASE_H
 
+#include "base/archive.h"
 #include "elements/exchange.h"
 #include "model/quantity.h"
 #include "systems/vehicle.h"
@@ -55,6 +56,7 @@ typedef struct base_system {
 // What a kind finds when it places the tube, and wants again in the same evaluation.
 typedef union base_found {
     orientating_motion vehicle;
+    base_frame fmu; // that it tells
 } base_found;
 
 // What a kind tells besides rates and works.
@@ -62,10 +64,21 @@ typedef union base_report {
     vehicle_report vehicle;
 } base_report;
 
+// Of a base that an FMU moves.
+typedef struct fmu_instant {
+    double work; // [J] that the wrench did on it
+} fmu_instant;
+
 // What its quantities stand in.
 typedef union base_instant {
     vehicle_instant vehicle;
+    fmu_instant fmu;
 } base_instant;
+
+// What the tube does to its base, in I, the moment about T's origin.
+typedef struct base_wrench {
+    v3 force, moment; // [N], [N m]
+} base_wrench;
 
 // What keeps what it was in the equilibrium.
 typedef union base_rest {
@@ -128,6 +141,21 @@ typedef struct base_dynamics {
     double (*held_by)(const base_output *output, int displacement);
 } base_dynamics;
 
+// Bases whose motion is found outside of the equations, from one instant to the next and no
+// further; between two it is known from its state.
+typedef struct base_stepping {
+    // Where it stands at the run's start t [s] under this wrench, of a tube at rest on it, into the
+    // state. It may be asked again with another wrench, before it goes; `moved`: by how much it
+    // then stands elsewhere than before [m], [rad], infinity at first.
+    ld_status (*stand)(const base_system *self, double t, const base_wrench *on, double *state,
+                       double *moved, ld_error *error);
+    // Goes from the instant t on to the next one, the wrench at t being this.
+    ld_status (*go)(const base_system *self, double t, const base_wrench *on, double *state,
+                    ld_error *error);
+    // What it has besides its state, at t, as bytes, or from them into one that has not begun.
+    ld_status (*archive)(const base_system *self, double t, archive *bytes, ld_error *error);
+} base_stepping;
+
 struct base_interface {
     ld_base_kind kind;
     // Fills self->own and the counts.
@@ -146,9 +174,11 @@ struct base_interface {
     // The first instant [s] after t at which a step must end, and the equations change; NULL: none.
     double (*next_corner)(const base_system *self, double t);
     // The first instant [s] after t at which it changes its state by itself, as a digital loop
-    // does, infinity: none; what it makes of the state at such an instant. NULL: there are none.
+    // does, infinity: none; what it makes of the state at such an instant. NULL: there are none. A
+    // base that is stepped goes on at them instead.
     double (*next_sample)(const base_system *self, double t);
     void (*sample)(const base_system *self, double t, double *state);
+    const base_stepping *stepping; // NULL: its motion is part of the equations, or told
     // Takes frame T of the instant t [s], the present one, into the state; `first`: nothing of
     // before goes on. NULL: nobody tells it.
     void (*tell)(const base_system *self, double t, bool first, const base_frame *now,
@@ -164,7 +194,7 @@ struct base_interface {
 // Those of a base that goes where it is told.
 extern const quantity_table base_motion_inputs;
 
-extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external;
+extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external, base_fmu;
 
 // Columns of the bases of that kind; NULL: they have none of their own.
 const quantity_table *base_quantities(ld_base_kind kind);

@@ -334,6 +334,7 @@ static void write_document(FILE *stream)
     write_table(stream, "Of a natural mode (`modes` of summary.json)", &mode_quantities, true);
     write_table(stream, "Columns of a launch", &launch_quantities, false);
     write_table(stream, NULL, base_vehicle.quantities, false);
+    write_table(stream, NULL, base_fmu.quantities, false);
     write_table(stream, NULL, &balance_quantities, false);
     write_table(stream, "Columns of a flight", &flight_quantities, false);
     write_table(stream, "Columns of a vehicle alone", &vehicle_clock_quantities, false);

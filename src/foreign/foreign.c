@@ -1,0 +1,250 @@
+#include "foreign/foreign.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "foreign/folder.h"
+#include "foreign/process.h"
+#include "foreign/unpack.h"
+
+struct foreign_instance {
+    const foreign_package *package;
+    foreign_process *process;
+};
+
+enum { MOST_STATE = 1 << 28 }; // [byte] of an FMU as bytes
+
+// ---- packages
+
+static ld_status make_folder(foreign_package *self, ld_error *error)
+{
+    const char *temporary = getenv("TMPDIR");
+    char folder[FOREIGN_LONGEST_PATH / 2];
+    int length = snprintf(folder, sizeof folder, "%s/launchdyn-fmu-XXXXXX",
+                          temporary && temporary[0] == '/' ? temporary : "/tmp");
+    if (length >= (int)sizeof folder || !mkdtemp(folder))
+        return ld_fail(error, LD_ERR_FILE, "%.300s: no folder can be made to unpack it: %s",
+                       self->path, strerror(errno));
+    self->folder = strdup(folder);
+    if (!self->folder)
+        rmdir(folder);
+    return self->folder ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for an FMU");
+}
+
+static void library_path(const foreign_package *self, char path[FOREIGN_LONGEST_PATH])
+{
+    const foreign_description *of = &self->description;
+    snprintf(path, FOREIGN_LONGEST_PATH, "%s/binaries/%s/%s.so", self->folder,
+             of->version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3, of->identifier);
+}
+
+static ld_status look_at(foreign_package *self, ld_error *error)
+{
+    char path[FOREIGN_LONGEST_PATH];
+    snprintf(path, sizeof path, "%s/modelDescription.xml", self->folder);
+    ld_status status = foreign_unpack(self->path, self->folder, error);
+    if (!status && access(path, R_OK))
+        status = ld_fail(error, LD_ERR_INPUT, "%.300s: has no modelDescription.xml", self->path);
+    if (!status)
+        status = foreign_describe(path, self->path, &self->description, error);
+    if (status)
+        return status;
+    library_path(self, path);
+    if (access(path, R_OK))
+        return ld_fail(error, LD_ERR_INPUT, "%.200s: has no binary for this machine, %.200s",
+                       self->path, path + strlen(self->folder) + 1);
+    return LD_OK;
+}
+
+ld_status foreign_open(const char *path, foreign_package **out, ld_error *error)
+{
+    foreign_package *self = *out = calloc(1, sizeof *self);
+    if (self)
+        self->path = strdup(path);
+    if (!self || !self->path) {
+        free(self);
+        *out = NULL;
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for an FMU");
+    }
+    ld_status status = make_folder(self, error);
+    if (!status)
+        status = look_at(self, error);
+    if (!status)
+        return LD_OK;
+    foreign_close(self);
+    *out = NULL;
+    return status;
+}
+
+void foreign_close(foreign_package *self)
+{
+    if (!self)
+        return;
+    if (self->folder)
+        foreign_folder_remove(self->folder);
+    foreign_description_free(&self->description);
+    free(self->folder);
+    free(self->path);
+    free(self);
+}
+
+// ---- instances
+
+// Asks for something with a body and an answer of known sizes.
+static ld_status ask(foreign_instance *self, foreign_kind kind, double t, const void *body,
+                     size_t size, void *answer, size_t expected, ld_error *error)
+{
+    size_t got;
+    ld_status status = foreign_process_ask(self->process, kind, t, body, size, NULL, 0, answer,
+                                           expected, &got, error);
+    return status || got == expected
+               ? status
+               : ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process answers amiss",
+                         self->package->path);
+}
+
+static ld_status instantiate(foreign_instance *self, ld_error *error)
+{
+    const foreign_description *of = &self->package->description;
+    foreign_opening *opening = calloc(1, sizeof *opening);
+    if (!opening)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for an FMU");
+    opening->version = of->version;
+    opening->keeps_state = of->keeps_state;
+    library_path(self->package, opening->library);
+    snprintf(opening->folder, sizeof opening->folder, "%s", self->package->folder);
+    // FMI 3: ends with a separator
+    snprintf(opening->resources, sizeof opening->resources, "%.4000s/resources%s",
+             self->package->folder, of->version == 3 ? "/" : "");
+    snprintf(opening->token, sizeof opening->token, "%s", of->token);
+    snprintf(opening->identifier, sizeof opening->identifier, "%s", of->identifier);
+    ld_status status = ask(self, FOREIGN_OPEN, NAN, opening, sizeof *opening, NULL, 0, error);
+    free(opening);
+    return status;
+}
+
+ld_status foreign_begin(const foreign_package *package, double limit, foreign_instance **out,
+                        ld_error *error)
+{
+    foreign_instance *self = *out = calloc(1, sizeof *self);
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for an FMU");
+    self->package = package;
+    ld_status status = foreign_process_start(package->path, limit, &self->process, error);
+    if (!status)
+        status = instantiate(self, error);
+    if (!status)
+        return LD_OK;
+    foreign_end(self);
+    *out = NULL;
+    return status;
+}
+
+void foreign_end(foreign_instance *self)
+{
+    if (self)
+        foreign_process_end(self->process);
+    free(self);
+}
+
+ld_status foreign_set(foreign_instance *self, double t, const foreign_value *values, size_t count,
+                      ld_error *error)
+{
+    return ask(self, FOREIGN_SET, t, values, count * sizeof *values, NULL, 0, error);
+}
+
+ld_status foreign_get(foreign_instance *self, double t, const foreign_value *values, size_t count,
+                      double *numbers, ld_error *error)
+{
+    return ask(self, FOREIGN_GET, t, values, count * sizeof *values, numbers,
+               count * sizeof *numbers, error);
+}
+
+ld_status foreign_enter(foreign_instance *self, double t, double start, ld_error *error)
+{
+    return ask(self, FOREIGN_ENTER, t, &start, sizeof start, NULL, 0, error);
+}
+
+ld_status foreign_leave(foreign_instance *self, double t, ld_error *error)
+{
+    return ask(self, FOREIGN_LEAVE, t, NULL, 0, NULL, 0, error);
+}
+
+ld_status foreign_step(foreign_instance *self, double t, const foreign_stepping *step,
+                       const foreign_value *values, double *numbers, int *pieces, ld_error *error)
+{
+    foreign_step_answer answer;
+    size_t got, count = step->inputs + step->outputs;
+    size_t expected = offsetof(foreign_step_answer, number) + step->outputs * sizeof(double);
+    ld_status status =
+        foreign_process_ask(self->process, FOREIGN_STEP, t, step, sizeof *step, values,
+                            count * sizeof *values, &answer, sizeof answer, &got, error);
+    if (status)
+        return status;
+    if (got != expected)
+        return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process answers amiss",
+                       self->package->path);
+    memcpy(numbers, answer.number, step->outputs * sizeof *numbers);
+    *pieces = (int)answer.pieces;
+    return LD_OK;
+}
+
+// ---- states
+
+// Bytes in words of 8, the last filled up with zeros.
+static void archive_bytes(archive *to, unsigned char *bytes, size_t size)
+{
+    for (size_t at = 0; at < size; at += 8) {
+        int64_t word = 0;
+        size_t length = size - at < 8 ? size - at : 8;
+        memcpy(&word, bytes + at, length);
+        archive_int64(to, &word);
+        memcpy(bytes + at, &word, length);
+    }
+}
+
+static ld_status save(foreign_instance *self, double t, archive *to, unsigned char *bytes,
+                      ld_error *error)
+{
+    size_t size = 0;
+    ld_status status = foreign_process_ask(self->process, FOREIGN_SAVE, t, NULL, 0, NULL, 0, bytes,
+                                           MOST_STATE, &size, error);
+    int64_t count = (int64_t)size;
+    archive_count(to, &count);
+    if (!status)
+        archive_bytes(to, bytes, size);
+    return status;
+}
+
+static ld_status load(foreign_instance *self, double t, archive *from, unsigned char *bytes,
+                      ld_error *error)
+{
+    int64_t count = 0;
+    size_t none;
+    archive_count(from, &count);
+    from->failed |= count > MOST_STATE || (size_t)count > from->size;
+    if (from->failed)
+        return LD_OK;
+    archive_bytes(from, bytes, (size_t)count);
+    return foreign_process_ask(self->process, FOREIGN_LOAD, t, bytes, (size_t)count, NULL, 0, NULL,
+                               0, &none, error);
+}
+
+ld_status foreign_archive(foreign_instance *self, double t, archive *bytes, ld_error *error)
+{
+    if (!self->package->description.saves_state)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "%.300s: the state cannot be saved: the FMU does not give its own as bytes",
+                       self->package->path);
+    unsigned char *room = malloc(MOST_STATE);
+    if (!room)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the FMU's state");
+    ld_status status =
+        bytes->loading ? load(self, t, bytes, room, error) : save(self, t, bytes, room, error);
+    free(room);
+    return status;
+}

@@ -1,0 +1,331 @@
+#define _GNU_SOURCE // memfd_create; NOLINT(bugprone-reserved-identifier)
+#include "foreign/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "foreign/host_inside.h"
+
+struct foreign_process {
+    const char *name;
+    double limit; // [s]
+    pid_t pid;
+    int socket;
+    bool lost; // it has failed, or ended
+    foreign_shared *shared;
+};
+
+// ---- start
+
+// The host program as a file that has no name. -1: it cannot be.
+static int host_file(void)
+{
+    int file = memfd_create("launchdyn-fmu-host", MFD_CLOEXEC);
+    size_t size = (size_t)(host_binary_end - host_binary);
+    if (file >= 0 && write(file, host_binary, size) == (ssize_t)size)
+        return file;
+    if (file >= 0)
+        close(file);
+    return -1;
+}
+
+// In the child: nothing to read, nowhere to print, the socket and the shared memory in their
+// places, other files not there.
+static int set_files(posix_spawn_file_actions_t *actions, int socket, int shared)
+{
+    int wrong = posix_spawn_file_actions_addopen(actions, 0, "/dev/null", O_RDONLY, 0);
+    wrong |= posix_spawn_file_actions_addopen(actions, 1, "/dev/null", O_WRONLY, 0);
+    wrong |= posix_spawn_file_actions_addopen(actions, 2, "/dev/null", O_WRONLY, 0);
+    wrong |= posix_spawn_file_actions_adddup2(actions, socket, FOREIGN_SOCKET);
+    wrong |= posix_spawn_file_actions_adddup2(actions, shared, FOREIGN_SHARED);
+    return wrong;
+}
+
+// A group of its own: what a terminal sends does not reach it; it ends with this process.
+static int set_signals(posix_spawnattr_t *attributes)
+{
+    sigset_t none, all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    int wrong = posix_spawnattr_setflags(
+        attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    wrong |= posix_spawnattr_setpgroup(attributes, 0);
+    wrong |= posix_spawnattr_setsigmask(attributes, &none);
+    wrong |= posix_spawnattr_setsigdefault(attributes, &all);
+    return wrong;
+}
+
+static int spawn(foreign_process *self, int host, int socket, int shared)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    char path[64], *const arguments[] = {"launchdyn-fmu-host", NULL};
+    snprintf(path, sizeof path, "/proc/self/fd/%d", host);
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    int wrong = set_files(&actions, socket, shared);
+    wrong = wrong ? wrong : set_signals(&attributes);
+    wrong =
+        wrong ? wrong : posix_spawn(&self->pid, path, &actions, &attributes, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    return wrong;
+}
+
+// A descriptor beyond those that the child wants in their places.
+static int beyond(int file)
+{
+    int moved = file >= 0 ? fcntl(file, F_DUPFD_CLOEXEC, 10) : -1;
+    if (file >= 0)
+        close(file);
+    return moved;
+}
+
+static bool start(foreign_process *self)
+{
+    int pair[2] = {-1, -1};
+    int host = beyond(host_file()), shared = beyond(memfd_create("launchdyn-fmu", MFD_CLOEXEC));
+    bool good = host >= 0 && shared >= 0 && ftruncate(shared, sizeof *self->shared) == 0 &&
+                socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0;
+    pair[1] = beyond(pair[1]);
+    self->socket = pair[0];
+    void *memory = MAP_FAILED;
+    if (good)
+        memory = mmap(NULL, sizeof *self->shared, PROT_READ | PROT_WRITE, MAP_SHARED, shared, 0);
+    self->shared = memory == MAP_FAILED ? NULL : memory;
+    if (good && self->shared) {
+        int wrong = spawn(self, host, pair[1], shared);
+        good = wrong == 0;
+        errno = wrong;
+    }
+    int number = errno, open[] = {host, shared, pair[1]};
+    for (int i = 0; i < 3; i++)
+        if (open[i] >= 0)
+            close(open[i]);
+    errno = number;
+    return good && self->shared;
+}
+
+ld_status foreign_process_start(const char *name, double limit, foreign_process **out,
+                                ld_error *error)
+{
+    foreign_process *self = calloc(1, sizeof *self);
+    *out = NULL;
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for an FMU");
+    *self = (foreign_process){.name = name, .limit = limit, .socket = -1};
+    if (start(self)) {
+        *out = self;
+        return LD_OK;
+    }
+    ld_status status =
+        ld_fail(error, LD_ERR_MISSING, "%.300s: no process can be started for the FMU: %s", name,
+                strerror(errno));
+    self->pid = 0;
+    foreign_process_end(self);
+    return status;
+}
+
+// ---- what went wrong
+
+// " in FUNCTION at t = T s"
+static const char *where(const foreign_process *self, double t, char text[128])
+{
+    char function[sizeof self->shared->function];
+    memcpy(function, self->shared->function, sizeof function);
+    function[sizeof function - 1] = '\0';
+    int length = snprintf(text, 128, " in %s", function);
+    if (!isnan(t))
+        snprintf(text + length, 128 - (size_t)length, " at t = %.9g s", t);
+    return text;
+}
+
+// ": what it said last", or nothing.
+static const char *said(const foreign_process *self, char text[FOREIGN_LONGEST_SAID + 4])
+{
+    char message[FOREIGN_LONGEST_SAID];
+    memcpy(message, self->shared->said, sizeof message);
+    message[sizeof message - 1] = '\0';
+    size_t length = strlen(message);
+    while (length && strchr(" \n\r\t.", message[length - 1]))
+        message[--length] = '\0';
+    snprintf(text, FOREIGN_LONGEST_SAID + 4, "%s%s", length ? ": " : "", message);
+    return text;
+}
+
+static ld_status died(foreign_process *self, double t, ld_error *error)
+{
+    char at[128], last[FOREIGN_LONGEST_SAID + 4];
+    int status = 0;
+    bool known = waitpid(self->pid, &status, 0) == self->pid;
+    self->pid = 0;
+    where(self, t, at);
+    said(self, last);
+    if (known && WIFSIGNALED(status))
+        return ld_fail(error, LD_ERR_NUMERIC, "%.200s: the FMU ended with signal %d (%s)%s%s",
+                       self->name, WTERMSIG(status), strsignal(WTERMSIG(status)), at, last);
+    if (known && WIFEXITED(status))
+        return ld_fail(error, LD_ERR_NUMERIC, "%.200s: the FMU ended itself (exit code %d)%s%s",
+                       self->name, WEXITSTATUS(status), at, last);
+    return ld_fail(error, LD_ERR_NUMERIC, "%.200s: the FMU ended%s%s", self->name, at, last);
+}
+
+static ld_status hangs(foreign_process *self, double t, ld_error *error)
+{
+    char at[128];
+    return ld_fail(error, LD_ERR_NUMERIC,
+                   "%.300s: the FMU did not come back within %g s%s (base.time_limit)", self->name,
+                   self->limit, where(self, t, at));
+}
+
+static ld_status refused(foreign_process *self, foreign_result result, double t, ld_error *error)
+{
+    char at[128], last[FOREIGN_LONGEST_SAID + 4];
+    where(self, t, at);
+    said(self, last);
+    if (result == FOREIGN_MISSING)
+        return ld_fail(error, LD_ERR_INPUT, "%.200s: its binary cannot be loaded%s", self->name,
+                       last);
+    const char *what = result == FOREIGN_ENDS      ? "the FMU asks for the end of the simulation"
+                       : result == FOREIGN_NO_STEP ? "the FMU takes no step, however short,"
+                                                   : "the FMU reports an error";
+    return ld_fail(error, LD_ERR_NUMERIC, "%.200s: %s%s%s", self->name, what, at, last);
+}
+
+// ---- questions
+
+static double now(void)
+{
+    struct timespec at;
+    clock_gettime(CLOCK_MONOTONIC, &at);
+    return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
+}
+
+typedef enum moved { MOVED, MOVED_LATE, MOVED_NOT } moved;
+
+// Waits until the socket is ready. MOVED: it is.
+static moved wait_for(const foreign_process *self, short events, double until)
+{
+    for (;;) {
+        struct pollfd wait = {.fd = self->socket, .events = events};
+        double left = fmin(until - now(), 1e6);
+        int ready = left > 0 ? poll(&wait, 1, (int)ceil(1e3 * left)) : 0;
+        if (ready == 0)
+            return MOVED_LATE;
+        if (ready > 0)
+            return MOVED;
+        if (errno != EINTR)
+            return MOVED_NOT;
+    }
+}
+
+// Whether it is to be tried again; else `count` of bytes have gone, or none ever will.
+static bool again(ssize_t count)
+{
+    return count < 0 && (errno == EAGAIN || errno == EINTR);
+}
+
+static moved send_all(const foreign_process *self, const char *bytes, size_t size, double until)
+{
+    for (size_t at = 0; at < size;) {
+        moved ready = wait_for(self, POLLOUT, until);
+        if (ready != MOVED)
+            return ready;
+        ssize_t count = send(self->socket, bytes + at, size - at, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (count <= 0 && !again(count))
+            return MOVED_NOT;
+        at += count > 0 ? (size_t)count : 0;
+    }
+    return MOVED;
+}
+
+static moved receive_all(const foreign_process *self, char *bytes, size_t size, double until)
+{
+    for (size_t at = 0; at < size;) {
+        moved ready = wait_for(self, POLLIN, until);
+        if (ready != MOVED)
+            return ready;
+        ssize_t count = recv(self->socket, bytes + at, size - at, MSG_DONTWAIT);
+        if (count <= 0 && !again(count))
+            return MOVED_NOT;
+        at += count > 0 ? (size_t)count : 0;
+    }
+    return MOVED;
+}
+
+static moved ask(const foreign_process *self, foreign_kind kind, const void *const body[2],
+                 const size_t size[2], foreign_answer *head)
+{
+    foreign_request request = {.kind = kind, .size = size[0] + size[1]};
+    double until = now() + self->limit;
+    moved result = send_all(self, (const char *)&request, sizeof request, until);
+    for (int i = 0; i < 2 && result == MOVED; i++)
+        result = send_all(self, body[i], size[i], until);
+    return result == MOVED ? receive_all(self, (char *)head, sizeof *head, until) : result;
+}
+
+ld_status foreign_process_ask(foreign_process *self, foreign_kind kind, double t, const void *body,
+                              size_t size, const void *more, size_t more_size, void *answer,
+                              size_t room, size_t *answered, ld_error *error)
+{
+    foreign_answer head = {0};
+    if (self->lost)
+        return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU has ended", self->name);
+    moved result = ask(self, kind, (const void *const[]){body, more},
+                       (const size_t[]){size, more_size}, &head);
+    if (result == MOVED && head.result == FOREIGN_DONE && head.size <= room)
+        result = receive_all(self, answer, head.size, now() + self->limit);
+    self->lost = result != MOVED || head.result != FOREIGN_DONE || head.size > room;
+    *answered = head.size;
+    if (result == MOVED_NOT)
+        return died(self, t, error);
+    if (result == MOVED_LATE)
+        return hangs(self, t, error);
+    if (head.result != FOREIGN_DONE)
+        return refused(self, (foreign_result)head.result, t, error);
+    return self->lost ? ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's state takes %zu bytes",
+                                self->name, head.size)
+                      : LD_OK;
+}
+
+// ---- end
+
+// Whether it has ended by itself in good time.
+static bool said_goodbye(foreign_process *self)
+{
+    foreign_answer head;
+    const double limit = self->limit;
+    self->limit = fmin(limit, 2);
+    moved result =
+        ask(self, FOREIGN_END, (const void *const[]){NULL, NULL}, (const size_t[]){0, 0}, &head);
+    self->limit = limit;
+    return result == MOVED;
+}
+
+void foreign_process_end(foreign_process *self)
+{
+    if (!self)
+        return;
+    if (self->pid > 0) {
+        if (self->lost || !said_goodbye(self))
+            kill(self->pid, SIGKILL);
+        waitpid(self->pid, NULL, 0);
+    }
+    if (self->socket >= 0)
+        close(self->socket);
+    if (self->shared)
+        munmap(self->shared, sizeof *self->shared);
+    free(self);
+}

@@ -1,0 +1,419 @@
+// An FMU for the tests of base.kind fmu, for FMI 2 or 3 as FMI says: a rigid platform whose place
+// and rotation vector are held by linear springs and dampers against where they would be without
+// load, m r'' = -k r - c r' + F + m g, J p'' = -kr p - cr p' + M. Its equations are solved exactly
+// for a wrench that is held. It misbehaves where it is asked to.
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "fmu/fmi2_interface.h"
+#include "fmu/fmi3_interface.h"
+#include "math/rotation_vector.h"
+
+enum { // value references
+    FORCE = 0,
+    MOMENT = 3,
+    POSITION = 10,
+    QUATERNION = 13,
+    VELOCITY = 17,
+    RATE = 20,
+    ANGLES = 23,    // yaw, pitch, roll
+    BODY_RATE = 26, // in its own axes
+    MASS = 30,
+    STIFFNESS = 31,
+    DAMPING = 32,
+    INERTIA = 33,
+    TURNING_STIFFNESS = 34,
+    TURNING_DAMPING = 35,
+    GRAVITY = 36,
+    MISHAP = 40, // whole number
+    MISHAP_AT = 41,
+    VALUES = 42
+};
+
+enum { NOTHING, CRASH, HANG, LEAVE, DISCARD, STUCK, NOT_A_NUMBER, REFUSE, NOISE, ENDS, LONG };
+
+typedef struct platform {
+    double value[VALUES], t;
+    double x[6], u[6]; // place, rotation vector; their rates
+    bool begun;
+    fmi2CallbackFunctions call;
+    fmi3Logger log;
+    void *environment;
+} platform;
+
+static void say(const platform *self, const char *text)
+{
+    if (self->log)
+        self->log(self->environment, fmi3Error, "error", text);
+    else if (self->call.logger)
+        self->call.logger(self->call.componentEnvironment, "base", fmi2Error, "error", "%s", text);
+}
+
+static void begin_values(platform *self)
+{
+    const double start[] = {1000, 1e6, 2e3, 1000, 1e6, 2e3, 9.81};
+    memcpy(self->value + MASS, start, sizeof start);
+}
+
+// Force or moment i and what holds it.
+static double load(const platform *self, int i, double *m, double *k, double *c)
+{
+    int at = i < 3 ? MASS : INERTIA;
+    *m = self->value[at];
+    *k = self->value[at + 1];
+    *c = self->value[at + 2];
+    return self->value[FORCE + i] - (i == 1 ? *m * self->value[GRAVITY] : 0);
+}
+
+// In equilibrium under the wrench that it is given before it begins.
+static void settle(platform *self)
+{
+    double m, k, c;
+    for (int i = 0; i < 6; i++) {
+        self->x[i] = load(self, i, &m, &k, &c) / k;
+        self->u[i] = 0;
+    }
+}
+
+// m x'' + c x' + k x = f over h, f held: the damped oscillation about f/k.
+static void swing(double m, double k, double c, double f, double h, double *x, double *u)
+{
+    double decay = c / (2 * m), omega = sqrt(k / m - decay * decay), a = *x - f / k;
+    double b = (*u + decay * a) / omega, e = exp(-decay * h), co = cos(omega * h),
+           si = sin(omega * h);
+    *x = f / k + e * (a * co + b * si);
+    *u = e * ((b * omega - decay * a) * co - (a * omega + decay * b) * si);
+}
+
+static void advance(platform *self, double h)
+{
+    for (int i = 0; i < 6; i++) {
+        double m, k, c, f = load(self, i, &m, &k, &c);
+        swing(m, k, c, f, h, &self->x[i], &self->u[i]);
+    }
+    self->t += h;
+}
+
+static double get(platform *self, unsigned reference)
+{
+    if (!self->begun)
+        settle(self);
+    v3 turn = v3_from(self->x + 3);
+    m3 A = rv_exp(turn);
+    quat q = q_from_matrix(A);
+    v3 w = m3_apply(rv_left_jacobian(turn), v3_from(self->u + 3));
+    double *at = self->value;
+    memcpy(at + POSITION, self->x, 3 * sizeof *at);
+    memcpy(at + QUATERNION, &q, sizeof q);
+    memcpy(at + VELOCITY, self->u, 3 * sizeof *at);
+    v3_store(at + RATE, w);
+    v3_store(at + BODY_RATE, m3_apply_transposed(A, w));
+    m3_yaw_pitch_roll(&A, at + ANGLES);
+    return self->value[reference];
+}
+
+// Whatever goes wrong in the step from t; fmi2OK: nothing.
+static int mishap(platform *self, double t, double h)
+{
+    int what = t + h > self->value[MISHAP_AT] ? (int)self->value[MISHAP] : NOTHING;
+    switch (what) {
+    case CRASH:
+        raise(SIGSEGV);
+        break;
+    case HANG:
+        for (;;)
+            pause();
+    case LEAVE:
+        exit(3);
+    case NOT_A_NUMBER:
+        self->x[1] = NAN;
+        break;
+    case REFUSE:
+        say(self, "the platform has had enough.\n");
+        return fmi2Error;
+    case NOISE:
+        printf("noise\n");
+        fflush(stdout);
+        fprintf(stderr, "noise\n");
+        break;
+    default:
+        break;
+    }
+    return fmi2OK;
+}
+
+// Where the step ends; before t + h it is discarded.
+static double reach(const platform *self, double t, double h)
+{
+    switch ((int)self->value[MISHAP]) {
+    case DISCARD: // at most a quarter of a millisecond in one go
+        return t + fmin(h, 0.25e-3);
+    case STUCK: // all of a step or nothing
+        return h > 0.3e-3 ? t : t + h;
+    case ENDS:
+        return t + h > self->value[MISHAP_AT] ? t : t + h;
+    default:
+        return t + h;
+    }
+}
+
+#if FMI == 2
+
+#define EXPORTED __attribute__((visibility("default")))
+
+EXPORTED void *fmi2Instantiate(const char *name, fmi2Type type, const char *guid,
+                               const char *resources, const fmi2CallbackFunctions *call,
+                               int visible, int logging)
+{
+    (void)name, (void)type, (void)resources, (void)visible, (void)logging;
+    platform *self = strcmp(guid, "platform") == 0 ? calloc(1, sizeof *self) : NULL;
+    if (self) {
+        self->call = *call;
+        begin_values(self);
+    }
+    return self;
+}
+
+EXPORTED void fmi2FreeInstance(void *c)
+{
+    free(c);
+}
+
+EXPORTED fmi2Status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance,
+                                        double start, int stop_defined, double stop)
+{
+    (void)tolerance_defined, (void)tolerance, (void)stop_defined, (void)stop;
+    ((platform *)c)->t = start;
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2EnterInitializationMode(void *c)
+{
+    (void)c;
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2ExitInitializationMode(void *c)
+{
+    settle(c);
+    ((platform *)c)->begun = true;
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2Terminate(void *c)
+{
+    (void)c;
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2GetReal(void *c, const unsigned *reference, size_t count, double *value)
+{
+    for (size_t i = 0; i < count; i++)
+        value[i] = get(c, reference[i]);
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2SetReal(void *c, const unsigned *reference, size_t count,
+                                const double *value)
+{
+    for (size_t i = 0; i < count; i++)
+        ((platform *)c)->value[reference[i]] = value[i];
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2SetInteger(void *c, const unsigned *reference, size_t count,
+                                   const int *value)
+{
+    for (size_t i = 0; i < count; i++)
+        ((platform *)c)->value[reference[i]] = value[i];
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2DoStep(void *c, double t, double size, int no_return)
+{
+    platform *self = c;
+    double end = reach(self, t, size);
+    (void)no_return;
+    int wrong = mishap(self, t, size);
+    if (wrong)
+        return (fmi2Status)wrong;
+    advance(self, end - t);
+    return end < t + size ? fmi2Discard : fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2GetRealStatus(void *c, fmi2StatusKind kind, double *value)
+{
+    (void)kind;
+    *value = ((platform *)c)->t;
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2GetBooleanStatus(void *c, fmi2StatusKind kind, int *value)
+{
+    (void)kind;
+    *value = (int)((platform *)c)->value[MISHAP] == ENDS;
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2GetFMUstate(void *c, void **state)
+{
+    *state = *state ? *state : malloc(sizeof(platform));
+    memcpy(*state, c, sizeof(platform));
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2SetFMUstate(void *c, void *state)
+{
+    memcpy(c, state, sizeof(platform));
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2FreeFMUstate(void *c, void **state)
+{
+    (void)c;
+    free(*state);
+    *state = NULL;
+    return fmi2OK;
+}
+
+#else
+
+#define EXPORTED __attribute__((visibility("default")))
+
+EXPORTED void *fmi3InstantiateCoSimulation(const char *name, const char *token,
+                                           const char *resources, bool visible, bool logging,
+                                           bool event_mode, bool early_return,
+                                           const uint32_t *intermediate, size_t intermediates,
+                                           void *environment, fmi3Logger log,
+                                           fmi3IntermediateUpdate update)
+{
+    (void)name, (void)resources, (void)visible, (void)logging, (void)event_mode;
+    (void)early_return, (void)intermediate, (void)intermediates, (void)update;
+    platform *self = strcmp(token, "platform") == 0 ? calloc(1, sizeof *self) : NULL;
+    if (self) {
+        self->log = log;
+        self->environment = environment;
+        begin_values(self);
+    }
+    return self;
+}
+
+EXPORTED void fmi3FreeInstance(void *c)
+{
+    free(c);
+}
+
+EXPORTED fmi3Status fmi3EnterInitializationMode(void *c, bool tolerance_defined, double tolerance,
+                                                double start, bool stop_defined, double stop)
+{
+    (void)tolerance_defined, (void)tolerance, (void)stop_defined, (void)stop;
+    ((platform *)c)->t = start;
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3ExitInitializationMode(void *c)
+{
+    settle(c);
+    ((platform *)c)->begun = true;
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3Terminate(void *c)
+{
+    (void)c;
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3GetFloat64(void *c, const uint32_t *reference, size_t references,
+                                   double *value, size_t values)
+{
+    (void)values;
+    for (size_t i = 0; i < references; i++)
+        value[i] = get(c, reference[i]);
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3SetFloat64(void *c, const uint32_t *reference, size_t references,
+                                   const double *value, size_t values)
+{
+    (void)values;
+    for (size_t i = 0; i < references; i++)
+        ((platform *)c)->value[reference[i]] = value[i];
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3SetInt32(void *c, const uint32_t *reference, size_t references,
+                                 const int32_t *value, size_t values)
+{
+    (void)values;
+    for (size_t i = 0; i < references; i++)
+        ((platform *)c)->value[reference[i]] = value[i];
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3DoStep(void *c, double t, double size, bool no_return, bool *event,
+                               bool *terminate, bool *early, double *reached)
+{
+    platform *self = c;
+    (void)no_return;
+    *event = *early = false;
+    *reached = reach(self, t, size);
+    *terminate = (int)self->value[MISHAP] == ENDS && *reached == t;
+    int wrong = mishap(self, t, size);
+    if (wrong)
+        return (fmi3Status)wrong;
+    advance(self, *reached - t);
+    return *reached < t + size ? fmi3Discard : fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3GetFMUState(void *c, void **state)
+{
+    *state = *state ? *state : malloc(sizeof(platform));
+    memcpy(*state, c, sizeof(platform));
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3SetFMUState(void *c, void *state)
+{
+    memcpy(c, state, sizeof(platform));
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3FreeFMUState(void *c, void **state)
+{
+    (void)c;
+    free(*state);
+    *state = NULL;
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3SerializedFMUStateSize(void *c, void *state, size_t *size)
+{
+    (void)c, (void)state;
+    *size = sizeof(platform);
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3SerializeFMUState(void *c, void *state, uint8_t *bytes, size_t size)
+{
+    (void)c;
+    memcpy(bytes, state, size);
+    return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3DeserializeFMUState(void *c, const uint8_t *bytes, size_t size,
+                                            void **state)
+{
+    platform *read = malloc(sizeof *read);
+    memcpy(read, bytes, size);
+    read->log = ((platform *)c)->log;
+    read->environment = ((platform *)c)->environment;
+    *state = read;
+    return fmi3OK;
+}
+
+#endif
