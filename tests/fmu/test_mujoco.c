@@ -597,15 +597,15 @@ typedef struct launch {
     ld_run *run;
 } launch;
 
-static launch launch_of(const char *scenario)
+static launch launch_of(const char *scenario, const char *another)
 {
-    static const char *const set[] = {"run.tolerance=1e-8"};
+    const char *const set[] = {"run.tolerance=1e-8", another};
     launch self = {0};
     char path[128];
     ld_messages messages;
     ld_error error;
     snprintf(path, sizeof path, "%s/%s", shell.folder, scenario);
-    if (ld_scenario_read(path, set, 1, &self.model, &messages) != LD_OK) {
+    if (ld_scenario_read(path, set, 1 + (another != NULL), &self.model, &messages) != LD_OK) {
         ld_messages_print(&messages, stdout);
         fail();
     }
@@ -744,7 +744,8 @@ static wrench exchange(const launch *told, void *c, const wrench *before, int k,
 // A launch from both vehicles, exchanges each h [s].
 static void launch_both(double h, motion *of, int motions, exit_figure *figure, int figures)
 {
-    launch told = launch_of("external.yaml"), own = launch_of("examples/mujoco/own-vehicle.yaml");
+    launch told = launch_of("external.yaml", NULL),
+           own = launch_of("examples/mujoco/own-vehicle.yaml", NULL);
     void *c = begin();
     launch_begin(&own, NULL);
     wrench w = begin_together(&told, c, 19.8 * PI / 180);
@@ -800,13 +801,61 @@ static void carries_our_launcher(void **state)
     fmu_close(&fmu);
 }
 
+// Takes both on each millisecond; the largest difference of a column, of its largest motion.
+static void advance_both(const launch *own, const launch *foreign, int columns,
+                         const char *const *column)
+{
+    double rest[8], worst[8] = {0}, largest[8] = {0};
+    for (int i = 0; i < columns; i++)
+        rest[i] = number(own, column[i]);
+    for (int k = -20; k < 159; k++) {
+        assert_int_equal(ld_run_advance(own->run, 1e-3 * k, NULL), LD_OK);
+        assert_int_equal(ld_run_advance(foreign->run, 1e-3 * k, NULL), LD_OK);
+        for (int i = 0; i < columns; i++) {
+            double ours = number(own, column[i]);
+            worst[i] = fmax(worst[i], fabs(number(foreign, column[i]) - ours));
+            largest[i] = fmax(largest[i], fabs(ours - rest[i]));
+        }
+    }
+    for (int i = 0; i < columns; i++)
+        CHECK_BELOW(column[i], worst[i] / largest[i], 1e-4);
+}
+
+// The same as a scenario: the base is the FMU.
+static void carries_it_as_a_base(void **state)
+{
+    (void)state;
+    if (!opened())
+        return;
+    static const exit_figure figure[] = {{.name = "rocket.1.yaw_rate", .bound = 1e-3},
+                                         {.name = "rocket.1.pitch_rate", .bound = 2e-5},
+                                         {.name = "rocket.1.tip_off.pitch", .bound = 1e-7},
+                                         {.name = "rocket.1.tip_off.yaw", .bound = 2e-4},
+                                         {.name = "rocket.1.muzzle_speed", .bound = 2e-8}};
+    static const char *const column[] = {"base.x", "base.y", "base.z", "base.pitch"};
+    launch foreign = launch_of("examples/mujoco/launch.yaml", "base.file=" PACKED),
+           own = launch_of("examples/mujoco/own-vehicle.yaml", NULL);
+    launch_begin(&own, NULL);
+    launch_begin(&foreign, NULL);
+    advance_both(&own, &foreign, 4, column);
+    assert_int_equal(ld_run_advance(own.run, INFINITY, NULL), LD_OK);
+    assert_int_equal(ld_run_advance(foreign.run, INFINITY, NULL), LD_OK);
+    for (size_t i = 0; i < sizeof figure / sizeof *figure; i++)
+        CHECK_BELOW(figure[i].name,
+                    exit_number(&foreign, figure[i].name) / exit_number(&own, figure[i].name) - 1,
+                    figure[i].bound);
+    launch_end(&foreign);
+    launch_end(&own);
+    fmu_close(&fmu);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sags_by_its_weight),       cmocka_unit_test(stands_as_far_as_tyres_hold),
         cmocka_unit_test(moves_as_a_plane_vehicle), cmocka_unit_test(keeps_its_energy),
         cmocka_unit_test(comes_back_to_the_bit),    cmocka_unit_test(refuses_what_is_wrong),
-        cmocka_unit_test(carries_our_launcher),
+        cmocka_unit_test(carries_our_launcher),     cmocka_unit_test(carries_it_as_a_base),
     };
     return cmocka_run_group_tests(tests, shell_make, shell_remove);
 }
