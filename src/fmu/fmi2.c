@@ -1,12 +1,13 @@
-// FMI 2.0 for co-simulation over fmu_instance: every function of the standard; those of what this
-// FMU does not offer answer with an error and a line of the log.
+// FMI 2.0 for co-simulation and model exchange over fmu_instance: every function of the standard;
+// those of what this FMU does not offer answer with an error and a line of the log.
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fmu/fmi2_interface.h"
-#include "fmu/fmu_instance.h"
+#include "fmu/fmu_exchange.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -92,12 +93,12 @@ static ld_status open_instance(component *self, fmi2Type type, const char *guid,
                                const char *resources, ld_error *error)
 {
     char path[PATH_SIZE];
-    if (type != fmi2CoSimulation)
-        return ld_fail(error, LD_ERR_MISSING, "this FMU is one for co-simulation");
+    if (type != fmi2CoSimulation && type != fmi2ModelExchange)
+        return ld_fail(error, LD_ERR_INPUT, "there is no type %d of an FMU", (int)type);
     if (!guid || !resources || !path_of(resources, path))
         return ld_fail(error, LD_ERR_INPUT,
                        "GUID or place of the resources is missing or too long");
-    self->inside = fmu_instance_new(path, guid, error);
+    self->inside = fmu_instance_new(path, guid, type == fmi2ModelExchange, error);
     return self->inside ? LD_OK : error->status;
 }
 
@@ -380,60 +381,93 @@ fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void
 
 // ---- model exchange ----
 
+// Of what is asked for at a point that is tried: where the equations have no solution, a shorter
+// step may find one.
+static fmi2Status answer_trial(const component *self, ld_status status, const ld_error *error)
+{
+    if (status != LD_ERR_NUMERIC)
+        return answer(self, status, error);
+    say(self, fmi2Discard, "logStatusDiscard", error->text);
+    return fmi2Discard;
+}
+
 fmi2Status fmi2EnterEventMode(void *c)
 {
-    return not_offered(c, "fmi2EnterEventMode");
+    component *self = c;
+    ld_error error;
+    return answer(self, fmu_enter_event_mode(self->inside, &error), &error);
 }
 
 fmi2Status fmi2NewDiscreteStates(void *c, fmi2EventInfo *info)
 {
-    (void)info;
-    return not_offered(c, "fmi2NewDiscreteStates");
+    component *self = c;
+    ld_error error;
+    fmu_update update;
+    ld_status status = fmu_update_states(self->inside, &update, &error);
+    *info = (fmi2EventInfo){
+        .terminateSimulation = update.ended,
+        .valuesOfContinuousStatesChanged = update.changed,
+        .nextEventTimeDefined = update.next < INFINITY,
+        .nextEventTime = update.next,
+    };
+    return answer(self, status, &error);
 }
 
 fmi2Status fmi2EnterContinuousTimeMode(void *c)
 {
-    return not_offered(c, "fmi2EnterContinuousTimeMode");
+    component *self = c;
+    ld_error error;
+    return answer(self, fmu_enter_continuous_time(self->inside, &error), &error);
 }
 
 fmi2Status fmi2CompletedIntegratorStep(void *c, int no_return, int *enter_event, int *terminate)
 {
-    (void)no_return, (void)enter_event, (void)terminate;
-    return not_offered(c, "fmi2CompletedIntegratorStep");
+    component *self = c;
+    ld_error error;
+    bool at_event, ended;
+    (void)no_return;
+    ld_status status = fmu_complete_step(self->inside, &at_event, &ended, &error);
+    *enter_event = at_event;
+    *terminate = ended;
+    return answer(self, status, &error);
 }
 
 fmi2Status fmi2SetTime(void *c, double t)
 {
-    (void)t;
-    return not_offered(c, "fmi2SetTime");
+    component *self = c;
+    ld_error error;
+    return answer(self, fmu_set_time(self->inside, t, &error), &error);
 }
 
 fmi2Status fmi2SetContinuousStates(void *c, const double *x, size_t count)
 {
-    (void)x, (void)count;
-    return not_offered(c, "fmi2SetContinuousStates");
+    component *self = c;
+    ld_error error;
+    return answer_trial(self, fmu_set_states(self->inside, x, count, &error), &error);
+}
+
+static fmi2Status get_vector(component *self, fmu_vector which, double *value, size_t count)
+{
+    ld_error error;
+    return answer_trial(self, fmu_get_vector(self->inside, which, value, count, &error), &error);
 }
 
 fmi2Status fmi2GetDerivatives(void *c, double *rate, size_t count)
 {
-    (void)rate, (void)count;
-    return not_offered(c, "fmi2GetDerivatives");
+    return get_vector(c, FMU_RATES, rate, count);
 }
 
 fmi2Status fmi2GetEventIndicators(void *c, double *indicator, size_t count)
 {
-    (void)indicator, (void)count;
-    return not_offered(c, "fmi2GetEventIndicators");
+    return get_vector(c, FMU_INDICATORS, indicator, count);
 }
 
 fmi2Status fmi2GetContinuousStates(void *c, double *x, size_t count)
 {
-    (void)x, (void)count;
-    return not_offered(c, "fmi2GetContinuousStates");
+    return get_vector(c, FMU_STATES, x, count);
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(void *c, double *nominal, size_t count)
 {
-    (void)nominal, (void)count;
-    return not_offered(c, "fmi2GetNominalsOfContinuousStates");
+    return get_vector(c, FMU_NOMINALS, nominal, count);
 }

@@ -1,11 +1,12 @@
-// FMI 3.0 for co-simulation over fmu_instance: every function of the standard; those of what this
-// FMU does not offer answer with an error and a line of the log.
+// FMI 3.0 for co-simulation and model exchange over fmu_instance: every function of the standard;
+// those of what this FMU does not offer answer with an error and a line of the log.
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fmu/fmi3_interface.h"
-#include "fmu/fmu_instance.h"
+#include "fmu/fmu_exchange.h"
 
 // An instance and its importer.
 typedef struct component {
@@ -14,6 +15,7 @@ typedef struct component {
     void *environment;
     bool at_events; // steps end at events, where the importer is ready for them
     bool ended;
+    bool exchange; // for model exchange
 } component;
 
 static fmi3Status answer(const component *self, ld_status status, const ld_error *error)
@@ -54,11 +56,31 @@ static void *refuse(fmi3Logger log, void *environment, const char *text)
     return NULL;
 }
 
+// As `kind` says.
+static void *open_instance(const char *token, const char *resources, const component *kind,
+                           void *environment, fmi3Logger log)
+{
+    ld_error error;
+    if (!token || !resources)
+        return refuse(log, environment, "token or place of the resources is missing");
+    component *self = calloc(1, sizeof *self);
+    if (!self)
+        return refuse(log, environment, "no memory");
+    *self = *kind;
+    self->log = log;
+    self->environment = environment;
+    self->inside = fmu_instance_new(resources, token, kind->exchange, &error);
+    if (self->inside)
+        return self;
+    free(self);
+    return refuse(log, environment, error.text);
+}
+
 void *fmi3InstantiateModelExchange(const char *name, const char *token, const char *resources,
                                    bool visible, bool logging, void *environment, fmi3Logger log)
 {
-    (void)name, (void)token, (void)resources, (void)visible, (void)logging;
-    return refuse(log, environment, "this FMU is one for co-simulation");
+    (void)name, (void)visible, (void)logging;
+    return open_instance(token, resources, &(component){.exchange = true}, environment, log);
 }
 
 void *fmi3InstantiateCoSimulation(const char *name, const char *token, const char *resources,
@@ -66,23 +88,11 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
                                   const uint32_t *intermediate, size_t intermediates,
                                   void *environment, fmi3Logger log, fmi3IntermediateUpdate update)
 {
-    ld_error error;
     (void)name, (void)visible, (void)logging, (void)intermediate, (void)update;
     if (intermediates > 0)
         return refuse(log, environment, "there are no variables between communication points");
-    if (!token || !resources)
-        return refuse(log, environment, "token or place of the resources is missing");
-    component *self = calloc(1, sizeof *self);
-    if (!self)
-        return refuse(log, environment, "no memory");
-    *self = (component){.log = log,
-                        .environment = environment,
-                        .at_events = event_mode && early_return,
-                        .inside = fmu_instance_new(resources, token, &error)};
-    if (self->inside)
-        return self;
-    free(self);
-    return refuse(log, environment, error.text);
+    return open_instance(token, resources, &(component){.at_events = event_mode && early_return},
+                         environment, log);
 }
 
 void *fmi3InstantiateScheduledExecution(const char *name, const char *token, const char *resources,
@@ -92,7 +102,7 @@ void *fmi3InstantiateScheduledExecution(const char *name, const char *token, con
 {
     (void)name, (void)token, (void)resources, (void)visible, (void)logging;
     (void)clock, (void)lock, (void)unlock;
-    return refuse(log, environment, "this FMU is one for co-simulation");
+    return refuse(log, environment, "this FMU is one for co-simulation and model exchange");
 }
 
 void fmi3FreeInstance(void *instance)
@@ -320,8 +330,10 @@ fmi3Status fmi3DoStep(void *instance, double t, double size, bool no_return, boo
 
 fmi3Status fmi3EnterEventMode(void *instance)
 {
-    (void)instance;
-    return fmi3OK;
+    component *self = instance;
+    ld_error error;
+    return self->exchange ? answer(self, fmu_enter_event_mode(self->inside, &error), &error)
+                          : fmi3OK;
 }
 
 fmi3Status fmi3EnterStepMode(void *instance)
@@ -330,15 +342,20 @@ fmi3Status fmi3EnterStepMode(void *instance)
     return fmi3OK;
 }
 
-// What happened has happened within the step; inputs act on the next one.
+// In co-simulation what happened has happened within the step; inputs act on the next one.
 fmi3Status fmi3UpdateDiscreteStates(void *instance, bool *again, bool *terminate, bool *nominals,
                                     bool *values, bool *next_defined, double *next)
 {
-    const component *self = instance;
-    *again = *nominals = *values = *next_defined = false;
-    *terminate = self->ended;
-    *next = 0;
-    return fmi3OK;
+    component *self = instance;
+    ld_error error;
+    fmu_update update = {.ended = self->ended, .next = INFINITY};
+    ld_status status = self->exchange ? fmu_update_states(self->inside, &update, &error) : LD_OK;
+    *again = *nominals = false;
+    *terminate = update.ended;
+    *values = update.changed;
+    *next_defined = update.next < INFINITY;
+    *next = update.next;
+    return answer(self, status, &error);
 }
 
 fmi3Status fmi3EvaluateDiscreteStates(void *instance)
@@ -497,61 +514,82 @@ fmi3Status fmi3ActivateModelPartition(void *instance, uint32_t clock, double t)
 
 // ---- model exchange ----
 
+// Of what is asked for at a point that is tried: where the equations have no solution, a shorter
+// step may find one.
+static fmi3Status answer_trial(const component *self, ld_status status, const ld_error *error)
+{
+    if (status != LD_ERR_NUMERIC)
+        return answer(self, status, error);
+    if (self->log)
+        self->log(self->environment, fmi3Discard, "logStatusDiscard", error->text);
+    return fmi3Discard;
+}
+
 fmi3Status fmi3EnterContinuousTimeMode(void *instance)
 {
-    return not_offered(instance, "fmi3EnterContinuousTimeMode");
+    component *self = instance;
+    ld_error error;
+    return answer(self, fmu_enter_continuous_time(self->inside, &error), &error);
 }
 
 fmi3Status fmi3CompletedIntegratorStep(void *instance, bool no_return, bool *event, bool *terminate)
 {
-    (void)no_return, (void)event, (void)terminate;
-    return not_offered(instance, "fmi3CompletedIntegratorStep");
+    component *self = instance;
+    ld_error error;
+    (void)no_return;
+    return answer(self, fmu_complete_step(self->inside, event, terminate, &error), &error);
 }
 
 fmi3Status fmi3SetTime(void *instance, double t)
 {
-    (void)t;
-    return not_offered(instance, "fmi3SetTime");
+    component *self = instance;
+    ld_error error;
+    return answer(self, fmu_set_time(self->inside, t, &error), &error);
 }
 
 fmi3Status fmi3SetContinuousStates(void *instance, const double *x, size_t count)
 {
-    (void)x, (void)count;
-    return not_offered(instance, "fmi3SetContinuousStates");
+    component *self = instance;
+    ld_error error;
+    return answer_trial(self, fmu_set_states(self->inside, x, count, &error), &error);
+}
+
+static fmi3Status get_vector(component *self, fmu_vector which, double *value, size_t count)
+{
+    ld_error error;
+    return answer_trial(self, fmu_get_vector(self->inside, which, value, count, &error), &error);
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(void *instance, double *rate, size_t count)
 {
-    (void)rate, (void)count;
-    return not_offered(instance, "fmi3GetContinuousStateDerivatives");
+    return get_vector(instance, FMU_RATES, rate, count);
 }
 
 fmi3Status fmi3GetEventIndicators(void *instance, double *indicator, size_t count)
 {
-    (void)indicator, (void)count;
-    return not_offered(instance, "fmi3GetEventIndicators");
+    return get_vector(instance, FMU_INDICATORS, indicator, count);
 }
 
 fmi3Status fmi3GetContinuousStates(void *instance, double *x, size_t count)
 {
-    (void)x, (void)count;
-    return not_offered(instance, "fmi3GetContinuousStates");
+    return get_vector(instance, FMU_STATES, x, count);
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(void *instance, double *nominal, size_t count)
 {
-    (void)nominal, (void)count;
-    return not_offered(instance, "fmi3GetNominalsOfContinuousStates");
+    return get_vector(instance, FMU_NOMINALS, nominal, count);
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(void *instance, size_t *count)
 {
-    (void)count;
-    return not_offered(instance, "fmi3GetNumberOfEventIndicators");
+    component *self = instance;
+    ld_error error;
+    return answer(self, fmu_count_vector(self->inside, FMU_INDICATORS, count, &error), &error);
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(void *instance, size_t *count)
 {
-    (void)count;
-    return not_offered(instance, "fmi3GetNumberOfContinuousStates");
+    component *self = instance;
+    ld_error error;
+    return answer(self, fmu_count_vector(self->inside, FMU_STATES, count, &error), &error);
 }

@@ -128,6 +128,7 @@ static const char *causality_of(const fmu_variable *v)
     return v->group == FMU_TIME  ? "independent"
            : fmu_is_input(v)     ? "input"
            : fmu_is_parameter(v) ? "parameter"
+           : fmu_is_local(v)     ? "local"
                                  : "output";
 }
 
@@ -155,14 +156,26 @@ static void write_start(FILE *stream, const fmu_variable *v)
         fprintf(stream, " start=\"%.17g\"", v->start);
 }
 
-static void write_unit_name(FILE *stream, const fmu_variable *v)
+static void write_sizes(FILE *stream, const fmu_variable *v)
 {
     if (has_unit(v))
         fprintf(stream, " unit=\"%s\"", v->unit);
+    if (v->nominal > 0)
+        fprintf(stream, " nominal=\"%.17g\"", v->nominal);
 }
 
-static void write_variable_2(FILE *stream, const fmu_variable *v, size_t reference)
+// Of which state it is the rate; references are counted from `first` there.
+static void write_derivative(FILE *stream, const fmu_variables *all, const fmu_variable *v,
+                             size_t first)
 {
+    if (v->group == FMU_RATE)
+        fprintf(stream, " derivative=\"%zu\"",
+                fmu_group_begin(all, FMU_STATE) + (size_t)v->index + first);
+}
+
+static void write_variable_2(FILE *stream, const fmu_variables *all, size_t reference)
+{
+    const fmu_variable *v = &all->item[reference];
     fputs("    <ScalarVariable", stream);
     write_head(stream, v, reference);
     if (fmu_is_text(v)) {
@@ -171,15 +184,17 @@ static void write_variable_2(FILE *stream, const fmu_variable *v, size_t referen
         fputs("\"/>", stream);
     } else {
         fputs(fmu_is_boolean(v) ? "><Boolean" : "><Real", stream);
-        write_unit_name(stream, v);
+        write_sizes(stream, v);
+        write_derivative(stream, all, v, 1);
         write_start(stream, v);
         fputs("/>", stream);
     }
     fputs("</ScalarVariable>\n", stream);
 }
 
-static void write_variable_3(FILE *stream, const fmu_variable *v, size_t reference)
+static void write_variable_3(FILE *stream, const fmu_variables *all, size_t reference)
 {
+    const fmu_variable *v = &all->item[reference];
     const char *type = fmu_is_text(v) ? "String" : fmu_is_boolean(v) ? "Boolean" : "Float64";
     fprintf(stream, "    <%s", type);
     write_head(stream, v, reference);
@@ -189,32 +204,55 @@ static void write_variable_3(FILE *stream, const fmu_variable *v, size_t referen
         fputs("\"/></String>\n", stream);
         return;
     }
-    write_unit_name(stream, v);
+    write_sizes(stream, v);
+    write_derivative(stream, all, v, 0);
     write_start(stream, v);
     fputs("/>\n", stream);
 }
 
-// ---- structure: outputs, and what is unknown at the start, which are the same ----
+// ---- structure ----
+
+// An element for each of the variables that are asked for.
+static void write_unknowns(FILE *stream, const fmu_description *self, const char *element,
+                           bool asked(const fmu_variable *))
+{
+    const fmu_variables *variables = self->variables;
+    if (self->version == 2)
+        fprintf(stream, "    <%s>\n", element);
+    for (size_t i = 0; i < variables->count; i++)
+        if (asked(&variables->item[i]) && self->version == 2) // there counted from 1
+            fprintf(stream, "      <Unknown index=\"%zu\"/>\n", i + 1);
+        else if (asked(&variables->item[i]))
+            fprintf(stream, "    <%s valueReference=\"%zu\"/>\n", element, i);
+    if (self->version == 2)
+        fprintf(stream, "    </%s>\n", element);
+}
+
+static bool is_rate(const fmu_variable *v)
+{
+    return v->group == FMU_RATE;
+}
+
+static bool is_indicator(const fmu_variable *v)
+{
+    return v->group == FMU_INDICATOR;
+}
+
+static bool is_found_at_start(const fmu_variable *v)
+{
+    return fmu_is_output(v) || v->group == FMU_STATE || is_rate(v);
+}
 
 static void write_structure(FILE *stream, const fmu_description *self)
 {
-    const fmu_variables *variables = self->variables;
+    bool old = self->version == 2;
     fputs("  <ModelStructure>\n", stream);
-    for (int initial = 0; initial < 2; initial++) {
-        if (self->version == 2)
-            fputs(initial ? "    <InitialUnknowns>\n" : "    <Outputs>\n", stream);
-        for (size_t i = 0; i < variables->count; i++) {
-            if (!fmu_is_output(&variables->item[i]))
-                continue;
-            if (self->version == 2) // there counted from 1
-                fprintf(stream, "      <Unknown index=\"%zu\"/>\n", i + 1);
-            else
-                fprintf(stream, "    <%s valueReference=\"%zu\"/>\n",
-                        initial ? "InitialUnknown" : "Output", i);
-        }
-        if (self->version == 2)
-            fputs(initial ? "    </InitialUnknowns>\n" : "    </Outputs>\n", stream);
-    }
+    write_unknowns(stream, self, old ? "Outputs" : "Output", fmu_is_output);
+    if (self->variables->exchange)
+        write_unknowns(stream, self, old ? "Derivatives" : "ContinuousStateDerivative", is_rate);
+    write_unknowns(stream, self, old ? "InitialUnknowns" : "InitialUnknown", is_found_at_start);
+    if (!old)
+        write_unknowns(stream, self, "EventIndicator", is_indicator);
     fputs("  </ModelStructure>\n", stream);
 }
 
@@ -230,7 +268,19 @@ static void write_root(FILE *stream, const fmu_description *self)
         stream,
         "\"\n    %s=\"%s\"\n    generationTool=\"launchdyn %s\" variableNamingConvention=\"flat\"",
         self->version == 2 ? "guid" : "instantiationToken", self->token, ld_version());
-    fprintf(stream, "%s>\n", self->version == 2 ? " numberOfEventIndicators=\"0\"" : "");
+    if (self->version == 2)
+        fprintf(stream, " numberOfEventIndicators=\"%zu\"",
+                fmu_group_count(self->variables, FMU_INDICATOR));
+    fputs(">\n", stream);
+}
+
+static void write_model_exchange(FILE *stream, int version)
+{
+    fputs("  <ModelExchange modelIdentifier=\"" FMU_MODEL_IDENTIFIER "\"\n", stream);
+    fputs(version == 2 ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
+                       : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
+                         "needsCompletedIntegratorStep=\"true\"/>\n",
+          stream);
 }
 
 static void write_co_simulation(FILE *stream, int version)
@@ -247,6 +297,8 @@ static void write_co_simulation(FILE *stream, int version)
 void fmu_description_write(const fmu_description *self, FILE *stream)
 {
     write_root(stream, self);
+    if (self->variables->exchange)
+        write_model_exchange(stream, self->version);
     write_co_simulation(stream, self->version);
     write_units(stream, self->variables);
     fputs("  <LogCategories><Category name=\"logStatusError\"/></LogCategories>\n", stream);
@@ -254,8 +306,7 @@ void fmu_description_write(const fmu_description *self, FILE *stream)
             self->tolerance);
     fputs("  <ModelVariables>\n", stream);
     for (size_t i = 0; i < self->variables->count; i++)
-        (self->version == 2 ? write_variable_2 : write_variable_3)(stream,
-                                                                   &self->variables->item[i], i);
+        (self->version == 2 ? write_variable_2 : write_variable_3)(stream, self->variables, i);
     fputs("  </ModelVariables>\n", stream);
     write_structure(stream, self);
     fputs("</fmiModelDescription>\n", stream);

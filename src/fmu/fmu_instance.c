@@ -9,41 +9,13 @@
 #include "base/archive.h"
 #include "base/numeric_locale.h"
 #include "base/text_file.h"
+#include "fmu/fmu_instance_own.h"
 #include "fmu/fmu_source.h"
-#include "fmu/fmu_variables.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
 #include "model/digest.h"
-#include "model/source.h"
 
 enum { PATH_SIZE = 4096, SET_SIZE = 2048, SAVED_TEXT = 1024, SCENARIO_BYTES = 64 << 20 };
-
-struct fmu_instance {
-    ld_source *source; // the scenario's texts
-    uint64_t scenario; // digest of what was understood
-    fmu_part part;
-    fmu_variables variables;
-
-    // what was set: [variables.count], by value reference
-    double *number; // NaN of what is calculated
-    char **text;    // NULL: as at the start
-    bool *changed;
-    double tolerance; // that the importer wants; 0: the scenario's
-    double start;     // [s] on the importer's clock; NaN: that of the run
-
-    ld_model *model;
-    ld_simulation *simulation;
-    uint64_t built_with; // digest of the parameters that these have
-    void *run;           // of variables.runner; NULL: not begun with what was set
-    bool going;
-    double ahead;                  // [s] of the importer's clock against the run's
-    bool told_set;                 // since the last step
-    double told[FMU_MOST_NUMBERS]; // what the run was told last, and when
-    double told_at;                // [s] on the run's clock
-    bool lit;                      // the input of the last step
-    double *row;                   // columns at the present
-    bool row_known;
-};
 
 static ld_status no_memory(ld_error *error)
 {
@@ -211,6 +183,27 @@ static void keep_told(fmu_instance *self)
             self->number[i] = self->told[self->variables.item[i].index];
 }
 
+// An importer that takes the steps is where the run is, which has just begun or come back.
+static void take_place(fmu_instance *self)
+{
+    self->exchange.moved = false;
+    if (!self->exchange.is)
+        return;
+    self->exchange.t = self->variables.runner->time(self->run) + self->ahead;
+    launch_outside_get(self->run, self->exchange.x);
+}
+
+ld_status fmu_place(fmu_instance *self, ld_error *error)
+{
+    double told[FMU_MOST_NUMBERS];
+    if (!self->exchange.is || !self->exchange.moved)
+        return LD_OK;
+    find_told(self, false, told);
+    self->exchange.moved = self->row_known = false;
+    return self->variables.runner->exchanging->place(self->run, self->exchange.t - self->ahead,
+                                                     self->exchange.x, told, error);
+}
+
 ld_status fmu_begin(fmu_instance *self, ld_error *error)
 {
     const fmu_runner *runner = self->variables.runner;
@@ -220,12 +213,14 @@ ld_status fmu_begin(fmu_instance *self, ld_error *error)
     if (status)
         return status;
     find_told(self, true, self->told);
-    self->run = runner->begin(self->simulation, self->told, error);
+    self->run = (self->exchange.is ? runner->exchanging->begin : runner->begin)(self->simulation,
+                                                                                self->told, error);
     if (!self->run)
         return error->status;
     keep_told(self);
     self->told_at = runner->time(self->run);
     self->ahead = isnan(self->start) ? 0 : self->start - self->told_at;
+    take_place(self);
     self->told_set = false;
     if (number_of(self, FMU_WAIT, 0) != 0 && runner->ignite(self->run, INFINITY, NULL))
         status = ld_fail(error, LD_ERR_INPUT,
@@ -281,7 +276,16 @@ static ld_status make_room(fmu_instance *self, ld_error *error)
     return self->number && self->text && self->changed && self->row ? LD_OK : no_memory(error);
 }
 
-fmu_instance *fmu_instance_new(const char *resources, const char *token, ld_error *error)
+// Whether the instance can be one for model exchange; else why not.
+static ld_status check_exchange(const fmu_instance *self, ld_error *error)
+{
+    if (!self->variables.runner->exchanging)
+        return ld_fail(error, LD_ERR_MISSING, "this FMU is one for co-simulation");
+    return launch_outside_check(self->simulation, error);
+}
+
+fmu_instance *fmu_instance_new(const char *resources, const char *token, bool exchange,
+                               ld_error *error)
 {
     fmu_instance *self = calloc(1, sizeof *self);
     ld_status status = self ? read_scenario(self, resources, token, error) : no_memory(error);
@@ -290,12 +294,16 @@ fmu_instance *fmu_instance_new(const char *resources, const char *token, ld_erro
     if (!status)
         status =
             fmu_variables_make(&self->part, self->model, self->simulation, &self->variables, error);
+    if (!status && exchange)
+        status = check_exchange(self, error);
     if (!status)
         status = make_room(self, error);
     if (!status)
         status = fmu_instance_reset(self, error);
-    if (!status)
+    if (!status) {
+        self->exchange.is = exchange;
         return self;
+    }
     fmu_instance_free(self);
     return NULL;
 }
@@ -327,6 +335,7 @@ ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
     self->tolerance = 0;
     self->start = NAN;
     self->going = self->told_set = self->lit = false;
+    self->exchange.continuous = self->exchange.moved = false;
     end_run(self);
     return build(self, error);
 }
@@ -372,6 +381,22 @@ static const fmu_variable *find(const fmu_instance *self, unsigned reference, va
     return NULL;
 }
 
+// States and what goes with them, which importers that take the steps seldom ask for one by one.
+static ld_status exchanged(fmu_instance *self, const fmu_variable *variable, double *value,
+                           ld_error *error)
+{
+    double all[LD_MAX_STATES];
+    ld_status status = LD_OK;
+    if (variable->group == FMU_STATE)
+        launch_outside_get(self->run, all);
+    else if (variable->group == FMU_RATE)
+        status = launch_outside_rates(self->run, all, error);
+    else
+        status = launch_outside_values(self->run, all, error);
+    *value = status ? NAN : all[variable->index];
+    return status;
+}
+
 static ld_status tell(fmu_instance *self, ld_error *error);
 
 // Outputs follow inputs at once.
@@ -381,8 +406,10 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
     const fmu_runner *runner = self->variables.runner;
     double tells[FMU_MOST_NUMBERS];
     ld_status status = fmu_begin(self, error);
-    if (!status && self->told_set)
+    if (!status && self->told_set && !self->exchange.is)
         status = tell(self, error);
+    if (!status)
+        status = fmu_place(self, error);
     if (status)
         return status;
     switch (variable->group) {
@@ -399,9 +426,14 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
         self->row_known = !status;
         *value = self->row[variable->index];
         return status;
-    default:
-        return ld_summary_number(runner->summary(self->run), variable->name + strlen("summary."),
-                                 value, error);
+    case FMU_STATE:
+    case FMU_RATE:
+    case FMU_INDICATOR:
+        return exchanged(self, variable, value, error);
+    default: // of a rocket that is still to come there is none
+        ld_summary_number(runner->summary(self->run), variable->name + strlen("summary."), value,
+                          error);
+        return LD_OK;
     }
 }
 
@@ -413,7 +445,7 @@ ld_status fmu_get_number(fmu_instance *self, unsigned reference, bool boolean, d
     *value = NAN;
     if (!variable)
         return LD_ERR_INPUT;
-    if (variable->group == FMU_TIME || fmu_is_output(variable))
+    if (variable->group == FMU_TIME || fmu_is_output(variable) || fmu_is_local(variable))
         return output(self, variable, value, error);
     *value = self->number[reference];
     return LD_OK;
@@ -440,6 +472,7 @@ static ld_status take_change(fmu_instance *self, const fmu_variable *variable, u
     if (!self->going)
         end_run(self);
     self->told_set |= variable->group == FMU_TOLD;
+    self->exchange.moved |= variable->group == FMU_TOLD;
     self->changed[reference] = true;
     return LD_OK;
 }
@@ -495,18 +528,24 @@ static ld_status tell(fmu_instance *self, ld_error *error)
     return runner->tell(self->run, told, error);
 }
 
+ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error)
+{
+    const fmu_runner *runner = self->variables.runner;
+    bool is = number_of(self, FMU_IGNITE, 0) != 0, was = self->lit;
+    self->lit = is;
+    if (!is || was)
+        return LD_OK;
+    *lit = true;
+    self->row_known = false;
+    return runner->ignite(self->run, runner->time(self->run), error);
+}
+
 // Tells the run what was set since the last step.
 static ld_status apply_inputs(fmu_instance *self, ld_error *error)
 {
-    const fmu_runner *runner = self->variables.runner;
-    ld_status status = LD_OK;
-    bool lit = number_of(self, FMU_IGNITE, 0) != 0;
-    if (self->told_set)
-        status = tell(self, error);
-    if (!status && lit && !self->lit)
-        status = runner->ignite(self->run, runner->time(self->run), error);
-    self->lit = lit;
-    return status;
+    bool lit;
+    ld_status status = self->told_set ? tell(self, error) : LD_OK;
+    return status ? status : fmu_light(self, &lit, error);
 }
 
 ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events, fmu_step *step,
@@ -516,6 +555,9 @@ ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events,
     double now = self->run ? runner->time(self->run) + self->ahead : NAN,
            end = t + size - self->ahead;
     *step = (fmu_step){.t = now};
+    if (self->exchange.is)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "this instance is one for model exchange: its importer takes the steps");
     if (!self->going)
         return ld_fail(error, LD_ERR_INPUT, "the run has not begun");
     if (!(fabs(t - now) <= 1e-9 * fmax(1, fabs(t))) || !(size >= 0) || !isfinite(t + size))
@@ -534,7 +576,7 @@ ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events,
 
 // ---- states ----
 
-static const int64_t MAGIC = INT64_C(0x554d4664796c31), FORM = 2;
+static const int64_t MAGIC = INT64_C(0x554d4664796c31), FORM = 3;
 
 static void archive_set_text(fmu_instance *self, archive *state, size_t i)
 {
@@ -572,6 +614,8 @@ static void archive_head(fmu_instance *self, archive *state, int64_t *run_size)
     archive_doubles(state, self->told, FMU_MOST_NUMBERS);
     archive_double(state, &self->told_at);
     archive_bool(state, &self->lit);
+    archive_expect(state, self->exchange.is);
+    archive_bool(state, &self->exchange.continuous);
     for (size_t i = 0; i < self->variables.count; i++)
         if (fmu_is_input(&self->variables.item[i]) || fmu_is_parameter(&self->variables.item[i])) {
             archive_double(state, &self->number[i]);
@@ -585,6 +629,8 @@ ld_status fmu_save(fmu_instance *self, fmu_state **state, ld_error *error)
 {
     size_t run_size = 0;
     archive count = archive_save(NULL, 0);
+    if (self->run && fmu_place(self, error))
+        return error->status;
     if (self->run) {
         self->variables.runner->save(self->run, NULL, 0, &run_size, error);
         if (run_size == 0)
@@ -622,9 +668,13 @@ ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error)
     ld_status status = build(self, error);
     if (status || following == 0)
         return status;
-    self->run = self->variables.runner->load(self->simulation, state->bytes + head.at,
-                                             (size_t)following, error);
-    return self->run ? LD_OK : error->status;
+    const fmu_runner *runner = self->variables.runner;
+    self->run = (self->exchange.is ? runner->exchanging->load : runner->load)(
+        self->simulation, state->bytes + head.at, (size_t)following, error);
+    if (!self->run)
+        return error->status;
+    take_place(self);
+    return LD_OK;
 }
 
 ld_status fmu_state_read(const void *bytes, size_t size, fmu_state **state, ld_error *error)

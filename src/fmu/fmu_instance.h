@@ -1,6 +1,6 @@
 // One instance of an FMU, whatever the version of the interface around it (fmi2.c, fmi3.c): a
 // scenario in its folder of resources, whose numbers are set and told by value reference, and a run
-// of it that is stepped.
+// of it that is stepped, or whose steps the importer takes (fmu_exchange.h).
 #ifndef LD_FMU_FMU_INSTANCE_H
 #define LD_FMU_FMU_INSTANCE_H
 
@@ -11,8 +11,10 @@
 
 typedef struct fmu_instance fmu_instance;
 
-// Reads the scenario in the folder `resources`. NULL: why stands in `error`.
-fmu_instance *fmu_instance_new(const char *resources, const char *token, ld_error *error);
+// Reads the scenario in the folder `resources`; `exchange`: for model exchange. NULL: why stands in
+// `error`.
+fmu_instance *fmu_instance_new(const char *resources, const char *token, bool exchange,
+                               ld_error *error);
 // May be NULL.
 void fmu_instance_free(fmu_instance *self);
 // As it was when it was new.

@@ -3,12 +3,17 @@
 #include <string.h>
 
 #include "fmu/fmu_runner.h"
+#include "simulation/launch_outside.h"
 
-static void *begun(const ld_simulation *simulation, const ld_base_frame *base, ld_error *error)
+typedef ld_status beginning(const ld_simulation *simulation, const ld_run_options *options,
+                            ld_run **run, ld_error *error);
+
+static void *begun(beginning *how, const ld_simulation *simulation, const ld_base_frame *base,
+                   ld_error *error)
 {
     ld_run *run;
     ld_run_options options = {.base = base};
-    if (!ld_run_begin(simulation, &options, &run, error))
+    if (!how(simulation, &options, &run, error))
         return run;
     if (run)
         ld_run_end(run, NULL, NULL);
@@ -18,7 +23,7 @@ static void *begun(const ld_simulation *simulation, const ld_base_frame *base, l
 static void *begin(const ld_simulation *simulation, double *told, ld_error *error)
 {
     (void)told;
-    return begun(simulation, NULL, error);
+    return begun(ld_run_begin, simulation, NULL, error);
 }
 
 static void end(void *run)
@@ -102,7 +107,28 @@ static void *load(const ld_simulation *simulation, const void *bytes, size_t siz
     .summary = summary, .advance = advance, .advance_to_event = advance_to_event, .save = save,    \
     .load = load
 
-const fmu_runner fmu_launch = {ANY_BASE, .begin = begin};
+static void *begin_exchange(const ld_simulation *simulation, double *told, ld_error *error)
+{
+    (void)told;
+    return begun(run_begin_outside, simulation, NULL, error);
+}
+
+static void *load_exchange(const ld_simulation *simulation, const void *bytes, size_t size,
+                           ld_error *error)
+{
+    ld_run *run;
+    run_load_outside(simulation, bytes, size, &run, error);
+    return run;
+}
+
+static ld_status place(void *run, double t, const double *x, const double *told, ld_error *error)
+{
+    (void)told;
+    return launch_outside_place(run, t, x, NULL, error);
+}
+
+static const fmu_exchanging exchanging = {begin_exchange, load_exchange, place};
+const fmu_runner fmu_launch = {ANY_BASE, .begin = begin, .exchanging = &exchanging};
 
 // ---- on a base that is told where it is ----
 
@@ -125,7 +151,7 @@ static ld_base_frame frame_of(const double *told)
 static void *begin_outside(const ld_simulation *simulation, double *told, ld_error *error)
 {
     const ld_base_frame base = frame_of(told);
-    return begun(simulation, &base, error);
+    return begun(ld_run_begin, simulation, &base, error);
 }
 
 static ld_status tell(void *run, const double *told, ld_error *error)
@@ -134,5 +160,21 @@ static ld_status tell(void *run, const double *told, ld_error *error)
     return ld_run_tell_base(run, &base, error);
 }
 
+static void *begin_exchange_outside(const ld_simulation *simulation, double *told, ld_error *error)
+{
+    const ld_base_frame base = frame_of(told);
+    return begun(run_begin_outside, simulation, &base, error);
+}
+
+static ld_status place_outside(void *run, double t, const double *x, const double *told,
+                               ld_error *error)
+{
+    const ld_base_frame base = frame_of(told);
+    return launch_outside_place(run, t, x, &base, error);
+}
+
+static const fmu_exchanging exchanging_outside = {begin_exchange_outside, load_exchange,
+                                                  place_outside};
 const fmu_runner fmu_launch_outside = {ANY_BASE, .told_count = FMU_FRAME_NUMBERS,
-                                       .begin = begin_outside, .tell = tell};
+                                       .begin = begin_outside, .tell = tell,
+                                       .exchanging = &exchanging_outside};

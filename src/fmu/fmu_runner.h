@@ -45,7 +45,17 @@ typedef struct fmu_runner {
     // As ld_run_save() and ld_run_load().
     ld_status (*save)(void *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
     void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
+
+    // Model exchange, of what is an ld_run, by simulation/launch_outside.h; NULL: there is none.
+    const struct fmu_exchanging *exchanging;
 } fmu_runner;
+
+// As those above, of a run whose steps an importer takes; then where it is.
+typedef struct fmu_exchanging {
+    void *(*begin)(const ld_simulation *simulation, double *told, ld_error *error);
+    void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
+    ld_status (*place)(void *run, double t, const double *x, const double *told, ld_error *error);
+} fmu_exchanging;
 
 // A launch on a base that goes by itself, and on one that is told where it is; a vehicle alone.
 extern const fmu_runner fmu_launch, fmu_launch_outside, fmu_vehicle;

@@ -10,6 +10,9 @@
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"
 #include "model/digest.h"
+#include "simulation/launch_outside.h"
+#include "simulation/summary.h"
+#include "simulation/summary_quantities.h"
 
 #define KEY_PREFIX "scenario."
 
@@ -50,7 +53,28 @@ bool fmu_is_parameter(const fmu_variable *variable)
 
 bool fmu_is_output(const fmu_variable *variable)
 {
-    return variable->group >= FMU_TELLS;
+    return variable->group >= FMU_TELLS && !fmu_is_local(variable);
+}
+
+bool fmu_is_local(const fmu_variable *variable)
+{
+    return variable->group >= FMU_STATE;
+}
+
+size_t fmu_group_begin(const fmu_variables *self, fmu_group group)
+{
+    size_t i = 0;
+    while (i < self->count && self->item[i].group != group)
+        i++;
+    return i;
+}
+
+size_t fmu_group_count(const fmu_variables *self, fmu_group group)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < self->count; i++)
+        count += self->item[i].group == group;
+    return count;
 }
 
 const char *fmu_key_of(const fmu_variable *variable)
@@ -198,23 +222,58 @@ static void take_key(void *data, const ld_key *key)
     }
 }
 
-static void take_result(void *data, const ld_quantity *quantity)
+static void take_result(void *data, const ld_quantity *result)
 {
     gathering *self = data;
     char name[NAME_SIZE];
-    if (strncmp(quantity->name, "rocket.", 7) != 0)
+    if (strncmp(result->name, "rocket.", 7) != 0)
         return;
-    snprintf(name, sizeof name, "summary.%s", quantity->name);
-    add(self, FMU_RESULT, name, quantity->unit, quantity->description, NAN, NULL);
+    snprintf(name, sizeof name, "summary.%s", result->name);
+    add(self, FMU_RESULT, name, result->unit, result->description, NAN, NULL);
 }
 
-// Numbers of the summary are told by one of a run that has begun.
-static void add_results(gathering *self, const void *run)
+static void add_states(gathering *self, const ld_run *run)
 {
-    const fmu_runner *runner = self->into->runner;
+    double nominal[LD_MAX_STATES];
+    char name[NAME_SIZE];
+    int count = launch_outside_states(run);
+    launch_outside_nominals(run, nominal);
     begin_group(self);
-    if (runner->summary)
-        ld_summary_each(runner->summary(run), take_result, self);
+    for (int i = 0; i < count && !self->full; i++) {
+        const outside_quantity state = launch_outside_state(run, i);
+        snprintf(name, sizeof name, "state.%s", state.name);
+        add(self, FMU_STATE, name, state.unit, state.description, NAN, NULL);
+        if (!self->full)
+            self->into->item[self->into->count - 1].nominal = nominal[i];
+    }
+    begin_group(self);
+    for (int i = 0; i < count; i++) {
+        const outside_quantity state = launch_outside_state(run, i);
+        snprintf(name, sizeof name, "der(state.%s)", state.name);
+        add(self, FMU_RATE, name, state.rate_unit, "Its rate", NAN, NULL);
+    }
+    begin_group(self);
+    for (int i = 0; i < launch_outside_indicators(run); i++) {
+        const outside_quantity indicator = launch_outside_indicator(run, i);
+        snprintf(name, sizeof name, "indicator.%s", indicator.name);
+        add(self, FMU_INDICATOR, name, indicator.unit, indicator.description, NAN, NULL);
+    }
+}
+
+// Of all rockets, of which those that come later have no numbers yet.
+static void add_results(gathering *self, const ld_summary *started)
+{
+    ld_summary *summary = malloc(sizeof *summary);
+    if (!summary) {
+        self->full = true;
+        return;
+    }
+    *summary = *started;
+    for (; summary->rocket_count < self->model->firing_count; summary->rocket_count++)
+        rocket_clear(&summary->rocket[summary->rocket_count], true);
+    begin_group(self);
+    ld_summary_each(summary, take_result, self);
+    free(summary);
 }
 
 static void add_keys(gathering *self)
@@ -286,7 +345,11 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
     add_keys(&all);
     add_tells(&all);
     add_columns(&all, simulation);
-    add_results(&all, run);
+    if (runner->summary)
+        add_results(&all, runner->summary(run));
+    self->exchange = runner->exchanging && !launch_outside_check(simulation, error);
+    if (self->exchange)
+        add_states(&all, run);
     runner->end(run);
     return all.full ? ld_fail(error, LD_ERR_MEMORY, "no memory") : LD_OK;
 }

@@ -19,6 +19,9 @@ typedef enum fmu_group {
     FMU_TELLS,  // outputs: what it tells another FMU
     FMU_COLUMN, // columns of the history
     FMU_RESULT, // numbers of the rockets' summary, NaN until they are known
+    FMU_STATE,  // of model exchange: the continuous states, their rates in the same order
+    FMU_RATE,
+    FMU_INDICATOR, // what goes through zero at events
 } fmu_group;
 
 typedef struct fmu_variable {
@@ -27,6 +30,7 @@ typedef struct fmu_variable {
     char *name;        // "input.base.position.x", "scenario.rocket.mass", "tip.y"
     char *unit;        // SI; "" without
     char *description; // one line
+    double nominal;    // of states
     double start;      // of numbers and of what is true (1) or false (0); NaN: calculated
     char *text;        // start of texts; NULL
 } fmu_variable;
@@ -36,6 +40,7 @@ typedef struct fmu_variables {
     fmu_variable *item;
     double start; // [s] of the run's clock
     const fmu_runner *runner;
+    bool exchange; // it is one for model exchange, too
 } fmu_variables;
 
 // Those of a part, and of a simulation of the model that is its. fmu_variables_free() is due in any
@@ -53,6 +58,11 @@ bool fmu_is_text(const fmu_variable *variable);
 bool fmu_is_input(const fmu_variable *variable);
 bool fmu_is_parameter(const fmu_variable *variable);
 bool fmu_is_output(const fmu_variable *variable);
+// Seen from outside alone, of model exchange.
+bool fmu_is_local(const fmu_variable *variable);
+// The value reference of a group's first variable; how many it has.
+size_t fmu_group_begin(const fmu_variables *self, fmu_group group);
+size_t fmu_group_count(const fmu_variables *self, fmu_group group);
 
 // The key's path of a parameter that is one.
 const char *fmu_key_of(const fmu_variable *variable);

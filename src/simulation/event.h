@@ -19,11 +19,15 @@ typedef struct event {
     int index; // 0 where there is one alone
 } event;
 
+enum {
+    EVENTS_MOST = 2 + LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + BASE_MOST_EVENTS +
+                  LD_SLIDE_STOPS * LD_MAX_SUPPORTS
+};
+
 // In the order in which the integrator has them.
 typedef struct event_list {
     int count;
-    event event[2 + LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + BASE_MOST_EVENTS +
-                LD_SLIDE_STOPS * LD_MAX_SUPPORTS];
+    event event[EVENTS_MOST];
 } event_list;
 
 // All events that a launch can have; those of the base if asked for.

@@ -82,7 +82,7 @@ static ld_status change_tube(ld_run *run, double t)
     return status ? status : launch_write_row(run, t, y);
 }
 
-static ld_status step_failed(ld_run *run)
+ld_status launch_step_failed(ld_run *run)
 {
     double t = propagator_time(run->propagator);
     if (run->error.status == LD_ERR_MEMORY)
@@ -142,7 +142,7 @@ static ld_status step(ld_run *run)
         return status;
     run->outcome = propagator_step(run->propagator, fmin(stop, input), &run->error);
     if (run->outcome == INTEGRATOR_FAILED)
-        return step_failed(run);
+        return launch_step_failed(run);
     if (run->outcome == INTEGRATOR_STOPPED && propagator_time(run->propagator) < stop)
         run->outcome = INTEGRATOR_STEPPED; // an input's or a sample's instant is none of the launch
     run->ahead = true;
@@ -150,8 +150,7 @@ static ld_status step(ld_run *run)
     return LD_OK;
 }
 
-// What happens at the end of the step.
-static ld_status arrive(ld_run *run)
+ld_status launch_arrive(ld_run *run)
 {
     run->ahead = false;
     ld_status status = after_step(run, run->outcome);
@@ -174,7 +173,7 @@ ld_status launch_advance(ld_run *run, double t, bool to_event)
         double reached = propagator_time(run->propagator);
         if (run->ahead ? t < reached : t <= reached || launch_is_finished(run))
             break;
-        run->status = run->ahead ? arrive(run) : step(run);
+        run->status = run->ahead ? launch_arrive(run) : step(run);
         if (run->status)
             launch_write_last_row(run);
     }
@@ -247,7 +246,7 @@ ld_status launch_begin(ld_run *run)
     run->next_progress = run->t_start;
     status = launch_step_base(run, run->t_start, y);
     if (!status)
-        status = propagator_create(&run->launch, &run->propagator, &run->error);
+        status = propagator_create(&run->launch, run->outside, &run->propagator, &run->error);
     if (!status)
         status = propagator_start(run->propagator, run->t_start, y, true, &run->error);
     return status ? status : launch_write_row(run, run->t_start, y);

@@ -171,7 +171,8 @@ static void check_instants(const ld_run *run, archive *bytes)
     double ends = propagator_time(run->propagator);
     bool present = run->ahead ? begins <= run->t && run->t <= ends : run->t == ends;
     double next_row = run->output_from + (double)run->output_index * run->output_step;
-    bool rows = run->next_output == next_row && next_row > (run->ahead ? begins : ends);
+    bool under_way = run->ahead || run->outside;
+    bool rows = run->next_output == next_row && next_row > (under_way ? begins : ends);
     bytes->failed |= !present || !rows;
 }
 

@@ -12,8 +12,8 @@ static bool are_finite(const double *values, int count)
     return sum == 0;
 }
 
-// The frame as it is told; a quaternion's last digits are put right.
-static ld_status read_frame(const ld_base_frame *given, base_frame *frame, ld_error *error)
+// A quaternion's last digits are put right.
+ld_status launch_read_frame(const ld_base_frame *given, base_frame *frame, ld_error *error)
 {
     if (!are_finite(given->position, 3) || !are_finite(given->quaternion, 4) ||
         !are_finite(given->velocity, 3) || !are_finite(given->rate, 3))
@@ -48,7 +48,7 @@ ld_status launch_begin_base(ld_run *run)
         return LD_OK;
     run->launch.told = &run->told;
     ld_status status = nobody_tells(&run->launch.launcher.base, &run->error);
-    return status ? status : read_frame(run->options.base, &run->told, &run->error);
+    return status ? status : launch_read_frame(run->options.base, &run->told, &run->error);
 }
 
 // What the base was told before at the present counts no more.
@@ -71,7 +71,7 @@ ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *er
     base_frame now;
     ld_status status = nobody_tells(&launcher->base, error);
     if (!status)
-        status = read_frame(given, &now, error);
+        status = launch_read_frame(given, &now, error);
     if (status || launch_stand(run))
         return status;
     memcpy(y, propagator_state(run->propagator), (size_t)launcher->state_count * sizeof *y);

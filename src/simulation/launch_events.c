@@ -174,8 +174,9 @@ double launch_change_instant(const launch_state *self)
     return self->model->firing[self->current + 1].at - 0.2;
 }
 
-// The next instant at which the step must end: ignition, a corner of the thrust, the end.
-double launch_next_stop(const ld_run *run, double t)
+// The next instant at which the step must end: ignition, a corner of the thrust, the end; `none`
+// where nobody has said when.
+static double next_stop(const ld_run *run, double t, double none)
 {
     const launch_state *self = &run->launch;
     const base_system *base = &self->launcher.base;
@@ -187,9 +188,8 @@ double launch_next_stop(const ld_run *run, double t)
     if (self->air) // a gust's
         stop = fmin(stop, wind_next_corner(&self->air->wind, t));
     stop = fmin(stop, jets_next_corner(&self->jets));
-    // where nobody has said when, a step still wants a finite end
     if (t < self->t_ignition)
-        return fmin(stop, isinf(self->t_ignition) ? t + 1 : self->t_ignition);
+        return fmin(stop, isinf(self->t_ignition) ? none : self->t_ignition);
     if (self->current + 1 < self->model->firing_count)
         stop = fmin(stop, self->phase.rocket ? self->model->firing[self->current + 1].at
                                              : launch_change_instant(self));
@@ -199,7 +199,18 @@ double launch_next_stop(const ld_run *run, double t)
     if (model_has_pressure(self->model))
         stop = fmin(stop, self->t_ignition + pressure_next_corner(&self->model->tubes.pressure,
                                                                   self->pressure_piece));
-    return isinf(stop) ? t + 1 : stop;
+    return isinf(stop) ? none : stop;
+}
+
+// A step wants a finite end.
+double launch_next_stop(const ld_run *run, double t)
+{
+    return next_stop(run, t, t + 1);
+}
+
+double launch_next_instant(const ld_run *run, double t)
+{
+    return fmin(next_stop(run, t, INFINITY), launch_next_sample(run, t));
 }
 
 // The piece of the pressure that t has reached.

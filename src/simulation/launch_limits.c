@@ -154,7 +154,7 @@ ld_status launch_check_step(ld_run *run, double t, const double *y)
     ld_status status = check_progress(run, t, y);
     if (!status)
         status = check_next(run, t);
-    if (!status)
+    if (!status && !run->outside) // whose steps are another one's business
         status = check_steps(run, t);
     return status ? status : report_progress(run, t);
 }

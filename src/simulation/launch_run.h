@@ -43,8 +43,9 @@ struct ld_run {
     // before
     double told_at, before_told[BASE_MOST_STATES];
 
-    double t;   // [s] the present
-    bool ahead; // a step ends later than the present: what happens at its end has not
+    bool outside; // whoever asks takes the steps (launch_outside.h)
+    double t;     // [s] the present
+    bool ahead;   // a step ends later than the present: what happens at its end has not
     integrator_outcome outcome;  // of that step
     double t_input;              // [s] a step ends there, for an input; infinity: none comes
     int event_count, event_told; // at the present
@@ -73,6 +74,9 @@ struct ld_run {
     double cpu, cpu_output;                  // [s] spent in all; of it on rows and their sink
 };
 
+// The state at the present, in which no step need end.
+const double *run_present_state(ld_run *run);
+
 // Runs from a given start to the end; one that ends early says why.
 ld_status run_from(const ld_simulation *simulation, const launch_start *start, ld_summary *summary,
                    ld_error *error);
@@ -85,6 +89,9 @@ bool launch_is_finished(const ld_run *run);
 // Goes on until the integrator's time has reached t, or the launch is finished, or (`to_event`)
 // something happens. The present is then t, or where that was.
 ld_status launch_advance(ld_run *run, double t, bool to_event);
+// What happens at the end of the step; what to say of one that failed.
+ld_status launch_arrive(ld_run *run);
+ld_status launch_step_failed(ld_run *run);
 // Takes the step under way anew so that it ends at the present.
 ld_status launch_stand(ld_run *run);
 // Lights the rocket at the present, at which a step ends.
@@ -94,6 +101,8 @@ ld_status launch_ignite(ld_run *run);
 
 // Takes what the options say of it at the start.
 ld_status launch_begin_base(ld_run *run);
+// The frame as it is told.
+ld_status launch_read_frame(const ld_base_frame *given, base_frame *frame, ld_error *error);
 // At the present, of which a step then ends. Only what was told is to blame for what it returns.
 ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *error);
 // The first instant after t at which the base changes its state by itself [s]; it does so where the
@@ -132,8 +141,9 @@ void launch_let_go_at_once(ld_run *run, double t, const double *y);
 // When the next tube takes the place of the one that is empty now [s].
 double launch_change_instant(const launch_state *self);
 // The next instant at which a step must end [s]; at one: what begins there, true where the
-// equations change.
+// equations change. The first one is finite where nothing is to come, the other one not.
 double launch_next_stop(const ld_run *run, double t);
+double launch_next_instant(const ld_run *run, double t);
 bool launch_pass_stop(ld_run *run, double t);
 
 // ---- what ends a run early (launch_limits.c)

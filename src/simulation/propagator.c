@@ -8,6 +8,7 @@
 #include "elements/held_wrench.h"
 #include "math/exponential.h"
 #include "simulation/exponential_steps.h"
+#include "simulation/outside_steps.h"
 
 // ---- the equations ----
 
@@ -193,6 +194,7 @@ struct propagator {
     event_list events;
     integrator *integrator; // of all, or of the launching subsystem
     bool stopped;           // its last step landed on a stop
+    outside_steps *outside; // in its place; NULL: it takes the steps
     double state[LD_MAX_STATES];
 
     // together alone
@@ -253,6 +255,92 @@ static int events(double t, const double *y, double *g, void *user)
         return -1;
     events_evaluate(&self->events, self->launch, out, g);
     return 0;
+}
+
+// ---- steps taken outside ----
+
+void propagator_place(propagator *self, double t, const double *y)
+{
+    outside_steps_place(self->outside, t, y);
+}
+
+// Rates [states] and values of the events there.
+static ld_status find_there(propagator *self, double *value, ld_error *error)
+{
+    launch_state *launch = self->launch;
+    outside_point *now = &self->outside->now;
+    bool known = is_latest(launch, now->t, now->y);
+    if (known)
+        launcher_rates(&launch->launcher, now->y, &launch->latest.out, launch->phase.rocket,
+                       now->rate);
+    self->outside->evaluations += !known;
+    if (known ? !all_finite(self->outside->states, now->rate)
+              : rhs(now->t, now->y, now->rate, self))
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "the equations of motion gave no finite result at t = %.9g s", now->t);
+    events_evaluate(&self->events, launch, &launch->latest.out, value);
+    return LD_OK;
+}
+
+const event_list *propagator_events(const propagator *self)
+{
+    return &self->events;
+}
+
+bool propagator_has_accepted(const propagator *self)
+{
+    return self->outside->accepted;
+}
+
+ld_status propagator_accept(propagator *self, bool *crossed, ld_error *error)
+{
+    double value[EVENTS_MOST];
+    ld_status status = find_there(self, value, error);
+    *crossed = !status && outside_steps_accept(self->outside, value);
+    return status;
+}
+
+ld_status propagator_go_on(propagator *self, ld_error *error)
+{
+    double value[EVENTS_MOST];
+    ld_status status = find_there(self, value, error);
+    if (!status)
+        outside_steps_begin(self->outside, value);
+    return status;
+}
+
+bool propagator_project(propagator *self, double *y)
+{
+    const launch_state *launch = self->launch;
+    const outside_point *now = &self->outside->now;
+    tolerances all;
+    memcpy(y, now->y, (size_t)self->outside->states * sizeof *y);
+    if (!launching_holds_places(&launch->launcher.launching))
+        return false;
+    project(now->t, y, self);
+    find_tolerances(launch, &all);
+    for (int i = 0; i < self->outside->states; i++)
+        if (fabs(y[i] - now->y[i]) > all.atol[i])
+            return true;
+    return false;
+}
+
+void propagator_sizes(const propagator *self, double *size)
+{
+    tolerances all;
+    find_tolerances(self->launch, &all);
+    for (int i = 0; i < self->launch->launcher.state_count; i++)
+        size[i] = isinf(all.atol[i]) ? 0 : all.atol[i] / self->launch->model->run.tolerance;
+}
+
+static ld_status create_outside(propagator *self, ld_error *error)
+{
+    self->outside = calloc(1, sizeof *self->outside);
+    if (!self->outside)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the integration");
+    self->outside->states = self->launch->launcher.state_count;
+    self->outside->events = self->events.count;
+    return LD_OK;
 }
 
 // ---- subsystems apart ----
@@ -645,7 +733,7 @@ static ld_status create_integrators(propagator *self, ld_error *error)
     return status ? status : integrator_create(&settings, &self->integrator, error);
 }
 
-ld_status propagator_create(launch_state *launch, propagator **out, ld_error *error)
+ld_status propagator_create(launch_state *launch, bool outside, propagator **out, ld_error *error)
 {
     propagator *self = calloc(1, sizeof *self);
     if (!self)
@@ -654,7 +742,7 @@ ld_status propagator_create(launch_state *launch, propagator **out, ld_error *er
     self->vehicle = base_as_vehicle(&launch->launcher.base);
     self->apart = self->vehicle && launch->model->run.coupling_step > 0;
     self->events = events_of(launch, !self->apart);
-    ld_status status = create_integrators(self, error);
+    ld_status status = outside ? create_outside(self, error) : create_integrators(self, error);
     if (status)
         propagator_free(self);
     else
@@ -667,6 +755,7 @@ void propagator_free(propagator *self)
     if (!self)
         return;
     exponential_steps_free(self->exponential);
+    free(self->outside);
     integrator_free(self->integrator);
     integrator_free(self->orientating);
     integrator_free(self->marching);
@@ -675,6 +764,10 @@ void propagator_free(propagator *self)
 
 ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error)
 {
+    if (self->outside) {
+        outside_steps_place(self->outside, t, y);
+        return propagator_go_on(self, error);
+    }
     if (!self->apart) {
         if (self->exponential && anew)
             exponential_steps_count_from(self->exponential, t);
@@ -786,25 +879,32 @@ integrator_outcome propagator_return(propagator *self, double t, ld_error *error
 
 double propagator_time(const propagator *self)
 {
-    return self->long_step ? exponential_steps_time(self->exponential)
-                           : integrator_time(self->integrator);
+    return self->outside     ? self->outside->now.t
+           : self->long_step ? exponential_steps_time(self->exponential)
+                             : integrator_time(self->integrator);
 }
 
 double propagator_previous_time(const propagator *self)
 {
-    return self->long_step ? exponential_steps_previous_time(self->exponential)
-                           : integrator_previous_time(self->integrator);
+    return self->outside     ? self->outside->last.t
+           : self->long_step ? exponential_steps_previous_time(self->exponential)
+                             : integrator_previous_time(self->integrator);
 }
 
 const double *propagator_state(const propagator *self)
 {
     return self->apart       ? self->state
+           : self->outside   ? self->outside->now.y
            : self->long_step ? exponential_steps_state(self->exponential)
                              : integrator_state(self->integrator);
 }
 
 void propagator_interpolate(propagator *self, double t, double *y)
 {
+    if (self->outside) {
+        outside_steps_interpolate(self->outside, t, y);
+        return;
+    }
     if (self->long_step) {
         exponential_steps_interpolate(self->exponential, t, y);
         return;
@@ -821,11 +921,15 @@ void propagator_interpolate(propagator *self, double t, double *y)
 int propagator_event(const propagator *self, event_kind kind, int index)
 {
     int i = event_find(&self->events, kind, index);
+    if (self->outside)
+        return i < 0 ? 0 : self->outside->direction[i];
     return i < 0 || self->long_step ? 0 : integrator_event(self->integrator, i);
 }
 
 int64_t propagator_steps(const propagator *self)
 {
+    if (self->outside)
+        return self->outside->steps;
     int64_t longer = self->exponential ? exponential_steps_count(self->exponential) : 0;
     return longer + integrator_steps(self->integrator);
 }
@@ -842,6 +946,8 @@ int64_t propagator_most_steps(const propagator *self)
 
 int64_t propagator_evaluations(const propagator *self)
 {
+    if (self->outside)
+        return self->outside->evaluations;
     int64_t sum = integrator_evaluations(self->integrator);
     if (self->exponential)
         sum += exponential_steps_evaluations(self->exponential);
@@ -891,6 +997,10 @@ static void archive_long_steps(propagator *self, archive *bytes)
 
 void propagator_archive(propagator *self, archive *bytes)
 {
+    if (self->outside) {
+        outside_steps_archive(self->outside, bytes);
+        return;
+    }
     integrator_archive(self->integrator, bytes);
     archive_expect(bytes, self->exponential != NULL);
     if (self->exponential)

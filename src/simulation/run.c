@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "simulation/launch_outside.h"
 #include "simulation/launch_run.h"
 #include "simulation/saved_state.h"
 
@@ -14,7 +15,8 @@ static bool has_launch(const ld_run *run)
 }
 
 // A run whose rocket stands in its tube; NULL: no memory.
-static ld_run *run_create(const ld_simulation *simulation, const ld_run_options *options)
+static ld_run *run_create(const ld_simulation *simulation, const ld_run_options *options,
+                          bool outside)
 {
     // the lanes of its state want their alignment
     ld_run *run = aligned_alloc(64, (sizeof *run + 63) / 64 * 64);
@@ -23,6 +25,7 @@ static ld_run *run_create(const ld_simulation *simulation, const ld_run_options 
     memset(run, 0, sizeof *run);
     if (options)
         run->options = *options;
+    run->outside = outside;
     run->launch.system = simulation;
     run->launch.model = simulation->model;
     run->summary.model = simulation->model;
@@ -48,11 +51,11 @@ static ld_status told(const ld_run *run, ld_error *error)
 
 // ---- forward
 
-static ld_status begin(const ld_simulation *simulation, const ld_run_options *options,
+static ld_status begin(const ld_simulation *simulation, const ld_run_options *options, bool outside,
                        const launch_start *given, ld_run **out, ld_error *error)
 {
     double start = simulation_cpu_now();
-    ld_run *run = *out = run_create(simulation, options);
+    ld_run *run = *out = run_create(simulation, options, outside);
     if (!run)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
     run->start = given;
@@ -66,7 +69,13 @@ static ld_status begin(const ld_simulation *simulation, const ld_run_options *op
 ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *options, ld_run **out,
                        ld_error *error)
 {
-    return begin(simulation, options, NULL, out, error);
+    return begin(simulation, options, false, NULL, out, error);
+}
+
+ld_status run_begin_outside(const ld_simulation *simulation, const ld_run_options *options,
+                            ld_run **out, ld_error *error)
+{
+    return begin(simulation, options, true, NULL, out, error);
 }
 
 static ld_status advance(ld_run *run, double t, bool to_event, ld_error *error)
@@ -127,8 +136,7 @@ ld_status ld_run_tell_base(ld_run *run, const ld_base_frame *base, ld_error *err
 
 // ---- what it tells
 
-// The state at the present, in which no step need end.
-static const double *present_state(ld_run *run)
+const double *run_present_state(ld_run *run)
 {
     if (!run->ahead)
         return propagator_state(run->propagator);
@@ -142,7 +150,7 @@ ld_status ld_run_row(ld_run *run, double *values, ld_error *error)
         return told(run, error);
     if (!has_launch(run))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone cannot be stepped");
-    history_row(&run->launch, run->t, present_state(run), run->energy_start, values);
+    history_row(&run->launch, run->t, run_present_state(run), run->energy_start, values);
     return LD_OK;
 }
 
@@ -165,7 +173,7 @@ ld_status ld_run_base_wrench(ld_run *run, ld_base_wrench *wrench, ld_error *erro
         return told(run, error);
     if (!has_launch(run))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no base");
-    return launch_wrench(run, present_state(run), wrench, error);
+    return launch_wrench(run, run_present_state(run), wrench, error);
 }
 
 const ld_summary *ld_run_summary(const ld_run *run)
@@ -237,7 +245,7 @@ static ld_status load(ld_run *run, const void *bytes, size_t size)
         return ld_fail(&run->error, LD_ERR_INPUT, "a flight alone cannot be saved");
     ld_status status = saved_state_check(&saved_run, run->launch.model, bytes, size, &run->error);
     if (!status)
-        status = propagator_create(&run->launch, &run->propagator, &run->error);
+        status = propagator_create(&run->launch, run->outside, &run->propagator, &run->error);
     if (status)
         return status;
     archive loaded = archive_load(bytes, size);
@@ -251,10 +259,11 @@ static ld_status load(ld_run *run, const void *bytes, size_t size)
     return launch_open_output(run);
 }
 
-ld_status ld_run_load(const ld_simulation *simulation, const ld_run_options *options,
-                      const void *bytes, size_t size, ld_run **out, ld_error *error)
+static ld_status load_as(const ld_simulation *simulation, const ld_run_options *options,
+                         bool outside, const void *bytes, size_t size, ld_run **out,
+                         ld_error *error)
 {
-    ld_run *run = *out = run_create(simulation, options);
+    ld_run *run = *out = run_create(simulation, options, outside);
     if (!run)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
     if (!run->status)
@@ -265,6 +274,18 @@ ld_status ld_run_load(const ld_simulation *simulation, const ld_run_options *opt
         *out = NULL;
     }
     return status;
+}
+
+ld_status ld_run_load(const ld_simulation *simulation, const ld_run_options *options,
+                      const void *bytes, size_t size, ld_run **out, ld_error *error)
+{
+    return load_as(simulation, options, false, bytes, size, out, error);
+}
+
+ld_status run_load_outside(const ld_simulation *simulation, const void *bytes, size_t size,
+                           ld_run **out, ld_error *error)
+{
+    return load_as(simulation, NULL, true, bytes, size, out, error);
 }
 
 // ---- the end
@@ -302,7 +323,7 @@ static ld_status run_whole(const ld_simulation *simulation, const ld_run_options
                            const launch_start *start, ld_summary *summary, ld_error *error)
 {
     ld_run *run;
-    ld_status status = begin(simulation, options, start, &run, error);
+    ld_status status = begin(simulation, options, false, start, &run, error);
     if (!run) {
         *summary = (ld_summary){0};
         return status;

@@ -114,7 +114,7 @@ static inline void fmu_close(unpacked_fmu *self)
 static inline unsigned reference_of(const unpacked_fmu *self, const char *name)
 {
     char wanted[256], value[32];
-    snprintf(wanted, sizeof wanted, " name=\"%s\"", name);
+    snprintf(wanted, sizeof wanted, " name=\"%.200s\"", name);
     const char *at = strstr(self->description, wanted);
     if (!at)
         fail_msg("no variable %s", name);

@@ -177,7 +177,8 @@ static void impulse_on_a_free_vehicle(void **state)
             (jet_place){1e-3 * i, course_at(from, along, 1e-3 * i), v3_scale(60, along)};
     self->jets.count = 1;
     propagator *stepper = NULL;
-    if (propagator_create(self, &stepper, &error) || propagator_start(stepper, 0, y, true, &error))
+    if (propagator_create(self, false, &stepper, &error) ||
+        propagator_start(stepper, 0, y, true, &error))
         fail_msg("%s", error.text);
     double before = momentum_of(self, 0, y), impulse = 0, worst = 0, t = 0;
     while (t < end) {

@@ -1,0 +1,55 @@
+// What an instance holds: for fmu_instance.c and fmu_exchange.c alone.
+#ifndef LD_FMU_FMU_INSTANCE_OWN_H
+#define LD_FMU_FMU_INSTANCE_OWN_H
+
+#include "fmu/fmu_variables.h"
+#include "model/source.h"
+#include "simulation/launch_outside.h"
+
+// Where an importer that takes the steps is.
+typedef struct fmu_exchange {
+    bool is;         // the instance is one for model exchange
+    bool continuous; // it is in continuous-time mode, not in event mode
+    bool moved;      // the run has not been told what follows, or the base
+    double t;        // [s] on the importer's clock
+    double x[LD_MAX_STATES];
+} fmu_exchange;
+
+struct fmu_instance {
+    ld_source *source; // the scenario's texts
+    uint64_t scenario; // digest of what was understood
+    fmu_part part;
+    fmu_variables variables;
+
+    // what was set: [variables.count], by value reference
+    double *number; // NaN of what is calculated
+    char **text;    // NULL: as at the start
+    bool *changed;
+    double tolerance; // that the importer wants; 0: the scenario's
+    double start;     // [s] on the importer's clock; NaN: that of the run
+
+    ld_model *model;
+    ld_simulation *simulation;
+    uint64_t built_with; // digest of the parameters that these have
+    void *run;           // of variables.runner; NULL: not begun with what was set
+    bool going;
+    double ahead;                  // [s] of the importer's clock against the run's
+    bool told_set;                 // since the last step
+    double told[FMU_MOST_NUMBERS]; // what the run was told last, and when
+    double told_at;                // [s] on the run's clock
+    bool lit;                      // the input of the last step
+    double *row;                   // columns at the present
+    bool row_known;
+
+    fmu_exchange exchange; // of an instance for model exchange
+};
+
+typedef struct fmu_instance fmu_instance;
+
+// Lights the rocket where the input has become true since the last step; then `*lit` becomes true.
+ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error);
+
+// The run is where an importer is that takes the steps: time, states and inputs.
+ld_status fmu_place(fmu_instance *self, ld_error *error);
+
+#endif
