@@ -205,6 +205,9 @@ void field_release(const field_block *block, void *base)
     for (const field_row *f = block->fields; f->name; f++) {
         if (f->kind == FIELD_BLOCK) {
             field_release(f->block, field_at(base, f));
+        } else if (f->kind == FIELD_LIST) {
+            for (int i = 0; i < field_switch(base, f); i++)
+                field_release(f->block, field_entry(base, f, i));
         } else if (f->kind == FIELD_TEXT) {
             free(*(char **)field_at(base, f));
         } else if (f->kind == FIELD_LIST) {

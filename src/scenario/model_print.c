@@ -163,6 +163,21 @@ static const char *word_in_place(const field_row *f, const void *base)
     return f->words ? field_word_of(f->words, field_switch(base, f))->name : "";
 }
 
+// Rows of a table on one line: "[[0, 1], [2, 3]]".
+static void print_rows(FILE *stream, const field_row *f, const ld_table *table)
+{
+    const table_format *format = field_table_format(f->table, table->columns);
+    for (size_t i = 0; i < table->rows; i++) {
+        fputs(i ? ", [" : "[[", stream);
+        for (size_t k = 0; k < table->columns; k++) {
+            fputs(k ? ", " : "", stream);
+            print_number(stream, &table->data[i * table->columns + k], 1, format->column[k].unit);
+        }
+        fputs("]", stream);
+    }
+    fputs("]", stream);
+}
+
 // An entry of a list on one line, without the blocks that it does not have.
 static void print_entry(FILE *stream, const field_block *block, const void *base)
 {
@@ -175,6 +190,8 @@ static void print_entry(FILE *stream, const field_block *block, const void *base
         fprintf(stream, inner ? "%s%s: {" : "%s%s: ", between, f->name);
         if (inner)
             print_entry(stream, f->block, field_at_const(base, f));
+        else if (f->kind == FIELD_TABLE)
+            print_rows(stream, f, field_at_const(base, f));
         else
             print_scalar(stream, f, base);
         fputs(inner ? "}" : "", stream);
