@@ -167,6 +167,29 @@ static void bench_lanes(ld_model *model, double tolerance)
     free(drawn);
 }
 
+// The reference rocket with its air by surface: nose, tail, fins.
+static void bench_surfaces(void)
+{
+    static const char *const set[] = {
+        "rocket.aerodynamics.table=", "rocket.aerodynamics.fin_cant=",
+        "rocket.aerodynamics={model: surfaces, reference_diameter: 164 mm, axial: [[0, 0.35], "
+        "[0.7, "
+        "0.34], [1.1, 0.55], [3, 0.4]], beyond_table: hold, surfaces: [{name: nose, kind: nose, "
+        "shape: ogive, at: 2.4 m, length: 0.5 m, radius: 82 mm}, {name: tail, kind: tail, at: 0.1 "
+        "m, "
+        "length: 0.1 m, front_radius: 82 mm, rear_radius: 70 mm}, {name: fins, kind: fins, at: 0.3 "
+        "m, fin_count: 4, root_chord: 0.2 m, tip_chord: 0.1 m, span: 0.1 m, sweep_length: 0.1 m, "
+        "radius: 82 mm, cant: 1 deg}]}"};
+    ld_model model;
+    ld_messages messages = {0};
+    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", set, 3, &model, &messages))
+        exit(1);
+    bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, air by surface");
+    bench_flight(&model, "the same with the air by surface");
+    bench_lanes(&model, 6.3e-4);
+    model_clear(&model);
+}
+
 int main(void)
 {
     ld_model model;
@@ -178,6 +201,7 @@ int main(void)
     bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out");
     bench_flight(&model, "reference flight to the ground");
     bench_lanes(&model, 6.3e-4);
+    bench_surfaces();
     model.rocket.eccentricity[0] = 0.5e-3;
     model.rocket.motor.misalignment[1] = 0.5e-3;
     bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, not balanced");

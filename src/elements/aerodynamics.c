@@ -34,7 +34,16 @@ static ld_status build_table(aerodynamics *self, const ld_aerodynamics *model, l
     ld_status status = curves_build(&self->table, scaled.rows, columns, scaled.data,
                                     kind[model->interpolation], error);
     self->last_mach = scaled.data[(scaled.rows - 1) * columns];
+    strcpy(self->last_of, "rocket.aerodynamics.table");
     free(scaled.data);
+    return status;
+}
+
+static ld_status build_surfaces(aerodynamics *self, const ld_aerodynamics *model, ld_error *error)
+{
+    ld_status status = air_surfaces_build(&self->surfaces, model, &self->table, error);
+    self->last_mach = self->surfaces.last_mach;
+    memcpy(self->last_of, self->surfaces.last_of, sizeof self->last_of);
     return status;
 }
 
@@ -53,6 +62,8 @@ ld_status aerodynamics_build(aerodynamics *self, const ld_aerodynamics *model, l
     }
     self->diameter = model->reference_diameter;
     self->half_area = pi * self->diameter * self->diameter / 8;
+    if (model->model == LD_AERODYNAMICS_SURFACES)
+        return build_surfaces(self, model, error);
     self->cant = model->fin_cant;
     if (model->crossflow.present) {
         self->crossflow_drag = model->crossflow.drag;
@@ -77,9 +88,16 @@ static real_wrench wrench_of(const aerodynamics *self, v3 v, double speed, v3 w,
     if (self->model == LD_AERODYNAMICS_BODY)
         return aerodynamics_of_body(self->drag, real3_of(self->damping), real3_of(v), speed,
                                     real3_of(w), rho);
-    double k[AERODYNAMICS_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
+    double k[SURFACES_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
     *interval = curves_interval(&self->table, held, *interval);
-    curves_first_values(&self->table, *interval, held, AERODYNAMICS_COLUMNS, k);
+    curves_values(&self->table, *interval, held, k);
+    if (self->model == LD_AERODYNAMICS_SURFACES) {
+        const air_surfaces *of = &self->surfaces;
+        const real_surfaces all = {self->half_area, self->diameter, of->slopes, of->acrosses,
+                                   of->slope_at,    of->across_at,  of->across};
+        return aerodynamics_of_surfaces(&all, k, k[power], real3_of(v), speed, NULL, real3_of(w),
+                                        real3_of(c), rho);
+    }
     const real_body body = {self->half_area, self->diameter, self->cant, self->crossflow_drag,
                             self->crossflow_at};
     return aerodynamics_of_coefficients(&body, k, k[power], real3_of(v), speed, real3_of(w),
@@ -93,12 +111,18 @@ air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 
     return (air_wrench){{out.f.x, out.f.y, out.f.z}, {out.m.x, out.m.y, out.m.z}};
 }
 
-double aerodynamics_center(const aerodynamics *self, double mach)
+air_center aerodynamics_center(const aerodynamics *self, double mach)
 {
+    double k[SURFACES_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
     if (!self->present || self->model == LD_AERODYNAMICS_BODY)
-        return NAN;
-    double k[AERODYNAMICS_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
-    curves_first_values(&self->table, curves_interval(&self->table, held, 0), held,
-                        AERODYNAMICS_COLUMNS, k);
-    return k[3];
+        return (air_center){0, NAN};
+    curves_values(&self->table, curves_interval(&self->table, held, 0), held, k);
+    if (self->model == LD_AERODYNAMICS_TABLE)
+        return (air_center){k[2], k[2] != 0 ? k[3] : NAN};
+    double slope = 0, first = 0;
+    for (int i = 0; i < self->surfaces.slopes; i++) {
+        slope += k[SURFACES_FIRST + i];
+        first += k[SURFACES_FIRST + i] * self->surfaces.slope_at[i];
+    }
+    return (air_center){slope, slope != 0 ? first / slope : NAN};
 }

@@ -25,6 +25,7 @@ enum {
     LD_MAX_STATIONS = 16,
     LD_MAX_ADAPTORS = 8,
     LD_MAX_SURFACES = 12,
+    LD_MAX_AIR_SURFACES = 8, ///< nose, body, tail, fins
     LD_MAX_SINES = 16,
     LD_MAX_WHEELS = 32,
     LD_MAX_BUMPS = 16,
@@ -663,8 +664,48 @@ typedef struct ld_motor {
 
 typedef enum ld_aerodynamic_model {
     LD_AERODYNAMICS_TABLE,
-    LD_AERODYNAMICS_BODY
+    LD_AERODYNAMICS_BODY,
+    LD_AERODYNAMICS_SURFACES
 } ld_aerodynamic_model;
+
+typedef enum ld_air_surface_kind {
+    LD_AIR_COEFFICIENTS, ///< slope and roll given
+    LD_AIR_NOSE,         ///< the others by their shape
+    LD_AIR_BODY,
+    LD_AIR_TAIL,
+    LD_AIR_FINS
+} ld_air_surface_kind;
+
+typedef enum ld_nose_shape {
+    LD_NOSE_CONE,
+    LD_NOSE_OGIVE, ///< tangent
+    LD_NOSE_VON_KARMAN,
+    LD_NOSE_HAACK, ///< of least drag for length and volume
+    LD_NOSE_ELLIPSOID,
+    LD_NOSE_PARABOLOID
+} ld_nose_shape;
+
+/// One of the surfaces that carry the lateral force of the air.
+typedef struct ld_air_surface {
+    char name[LD_MAX_NAME];
+    ld_air_surface_kind kind;
+    double at;          ///< [m] x of B of the force, or of the front end of nose, body, tail, fins
+    double slope_scale; ///< [-] factor on the slope
+    // coefficients
+    ld_table slope;        ///< mach, cn_alpha [1/rad]
+    double area;           ///< [m2] of the coefficients; NaN: that of reference_diameter
+    ld_table roll_forcing; ///< mach, cl_delta [1/rad]; no rows: 0
+    ld_table roll_damping; ///< mach, cl_p [-]; no rows: 0
+    // nose, body, tail
+    ld_nose_shape shape;
+    double length, radius;            ///< [m]; of fins the radius of the body that they stand on
+    double front_radius, rear_radius; ///< [m] of a tail
+    double body_lift;                 ///< [-] K of K A_plan/S sin^2
+    // fins
+    int count;
+    double root_chord, tip_chord, span, sweep_length; ///< [m]
+    double cant; ///< [rad] positive: spins about +x; of coefficients, too
+} ld_air_surface;
 
 typedef enum ld_interpolation { LD_PCHIP, LD_SPLINE, LD_LINEAR } ld_interpolation;
 
@@ -700,6 +741,10 @@ typedef struct ld_aerodynamics {
     double drag;       ///< [-] C_D
     double damping[3]; ///< [-] C_i, about x, y, z of B
     double lengths[3]; ///< [m] l_i
+    // by surface
+    ld_table axial; ///< mach, ca; or mach, ca_power_off, ca_power_on
+    int surface_count;
+    ld_air_surface surface[LD_MAX_AIR_SURFACES];
 } ld_aerodynamics;
 
 typedef struct ld_rocket {

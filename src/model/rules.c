@@ -574,45 +574,6 @@ static void environment_rules(const rule_set *rules)
         broken(rules, "environment.wind.speed", 0, "given together with profile; give one of them");
 }
 
-// The part of the rocket that has come out of its tube.
-static void emerged_rules(const rule_set *rules)
-{
-    const ld_rocket *rocket = &rules->model->rocket;
-    const ld_aerodynamics *air = &rocket->aerodynamics;
-    if (!air->present || !air->emerged.present)
-        return;
-    if (!model_has_launcher(rules->model))
-        broken(rules, "rocket.aerodynamics.emerged", 0,
-               "goes with a launcher; a flight alone has no tube");
-    if (model_has_surfaces(rules->model))
-        broken(rules, "rocket.aerodynamics.emerged", 0,
-               "goes with a bore; on a guide of surfaces the air acts on the whole rocket");
-    if (air->model == LD_AERODYNAMICS_BODY && isnan(air->emerged.diameter))
-        broken(rules, "rocket.aerodynamics.emerged.diameter", 0,
-               "missing; a plain body has no reference_diameter to take in its place");
-    for (int i = 0; i < rocket->adaptor_count; i++)
-        if (air->emerged.nose < rocket->adaptor[i].at) {
-            broken(rules, "rocket.aerodynamics.emerged.nose", 0,
-                   "%g m lies behind adaptor \"%s\" at %g m", air->emerged.nose,
-                   rocket->adaptor[i].name, rocket->adaptor[i].at);
-            return;
-        }
-}
-
-static void aerodynamics_rules(const rule_set *rules)
-{
-    const ld_aerodynamics *air = &rules->model->rocket.aerodynamics;
-    emerged_rules(rules);
-    if (!air->present || air->model != LD_AERODYNAMICS_TABLE || air->table.rows == 0)
-        return;
-    rising_rule(rules, "rocket.aerodynamics.table.#", &air->table, "Mach", false);
-    if (air->table.data[0] > 0)
-        broken(rules, "rocket.aerodynamics.table.1", 0, "the first Mach number must be 0, not %g",
-               air->table.data[0]);
-    if (air->table.rows == 1)
-        broken(rules, "rocket.aerodynamics.table", 0, "needs at least two rows");
-}
-
 static void end_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;

@@ -1030,8 +1030,10 @@ static const field_row motor_fields[] = {
 static const field_block motor_block = {.fields = motor_fields};
 
 static const field_word aerodynamics_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
-static const field_word aerodynamics_models[] = {
-    {"table", LD_AERODYNAMICS_TABLE}, {"body", LD_AERODYNAMICS_BODY}, {NULL, 0}};
+static const field_word aerodynamics_models[] = {{"table", LD_AERODYNAMICS_TABLE},
+                                                 {"body", LD_AERODYNAMICS_BODY},
+                                                 {"surfaces", LD_AERODYNAMICS_SURFACES},
+                                                 {NULL, 0}};
 static const field_word interpolation_words[] = {
     {"pchip", LD_PCHIP}, {"spline", LD_SPLINE}, {"linear", LD_LINEAR}, {NULL, 0}};
 static const field_word beyond_words[] = {
@@ -1066,37 +1068,141 @@ static const field_row emerged_fields[] = {
      NO_DEFAULT("reference_diameter; needed by a plain body"), .doc = "D"},
     {0}};
 static const field_block emerged_block = {.fields = emerged_fields};
+// ---- the air by surface
+
+static const field_row axial_column[] = {
+    {"mach", .unit = "", FROM_TO(0, 100)},
+    {"ca", .unit = "", NOT_NEGATIVE},
+};
+static const field_row axial_columns[] = {
+    {"mach", .unit = "", FROM_TO(0, 100)},
+    {"ca_power_off", .unit = "", NOT_NEGATIVE},
+    {"ca_power_on", .unit = "", NOT_NEGATIVE},
+};
+static const table_format axial_pair = {TABLE_CSV | TABLE_BARE, 3, axial_columns, NULL};
+static const table_format axial_table = {TABLE_CONSTANT | TABLE_CSV | TABLE_BARE, 2, axial_column,
+                                         &axial_pair};
+static const field_row slope_columns[] = {
+    {"mach", .unit = "", FROM_TO(0, 100)},
+    {"cn_alpha", .unit = "", ANY},
+};
+static const table_format slope_table = {TABLE_CONSTANT | TABLE_CSV | TABLE_BARE, 2, slope_columns,
+                                         NULL};
+static const field_row forcing_columns[] = {
+    {"mach", .unit = "", FROM_TO(0, 100)},
+    {"cl_delta", .unit = "", ANY},
+};
+static const table_format forcing_table = {TABLE_CONSTANT | TABLE_CSV | TABLE_BARE, 2,
+                                           forcing_columns, NULL};
+static const field_row roll_damping_columns[] = {
+    {"mach", .unit = "", FROM_TO(0, 100)},
+    {"cl_p", .unit = "", .range = {-INFINITY, 0, 1, 0}},
+};
+static const table_format roll_damping_table = {TABLE_CONSTANT | TABLE_CSV | TABLE_BARE, 2,
+                                                roll_damping_columns, NULL};
+static const field_word air_surface_kinds[] = {{"coefficients", LD_AIR_COEFFICIENTS},
+                                               {"nose", LD_AIR_NOSE},
+                                               {"body", LD_AIR_BODY},
+                                               {"tail", LD_AIR_TAIL},
+                                               {"fins", LD_AIR_FINS},
+                                               {NULL, 0}};
+static const field_word nose_shapes[] = {{"cone", LD_NOSE_CONE},
+                                         {"ogive", LD_NOSE_OGIVE},
+                                         {"von-karman", LD_NOSE_VON_KARMAN},
+                                         {"haack", LD_NOSE_HAACK},
+                                         {"ellipsoid", LD_NOSE_ELLIPSOID},
+                                         {"paraboloid", LD_NOSE_PARABOLOID},
+                                         {NULL, 0}};
+#define COEFFICIENTS FORM(LD_AIR_COEFFICIENTS)
+#define NOSE FORM(LD_AIR_NOSE)
+#define CYLINDER FORM(LD_AIR_BODY)
+#define TAIL FORM(LD_AIR_TAIL)
+#define FINS FORM(LD_AIR_FINS)
+#define LENGTH ABOVE_TO(0, 100)
+static const field_row air_surface_fields[] = {
+    {"name", WORD(ld_air_surface, name), .required = true,
+     .doc = "what the surface is called by the paths of keys"},
+    {"kind", CHOICE(ld_air_surface, kind, air_surface_kinds), DEFAULT(LD_AIR_COEFFICIENTS),
+     .doc = "given by coefficients, or by a shape of which Barrowman's formulas make them"},
+    {"at", NUMBER(ld_air_surface, at, "m"), FROM_TO(-100, 100), REQUIRED,
+     .doc = "x of B: of coefficients where the force acts, of a shape its front end (of fins that "
+            "of the root chord)"},
+    {"slope", TABLE(ld_air_surface, slope, slope_table), .required = true, .forms = COEFFICIENTS,
+     .doc = "of the lateral force, per radian, over the Mach number"},
+    {"area", NUMBER(ld_air_surface, area, "m2"), POSITIVE, NO_DEFAULT("pi d^2/4"),
+     .forms = COEFFICIENTS, .doc = "reference area of the coefficients"},
+    {"roll_forcing", TABLE(ld_air_surface, roll_forcing, forcing_table), .initial_doc = "0",
+     .forms = COEFFICIENTS, .doc = "moment about x per radian of cant, with the length d"},
+    {"roll_damping", TABLE(ld_air_surface, roll_damping, roll_damping_table), .initial_doc = "0",
+     .forms = COEFFICIENTS, .doc = "moment about x for rates times d/(2 V), with the length d"},
+    {"shape", CHOICE(ld_air_surface, shape, nose_shapes), .required = true, .forms = NOSE,
+     .doc = "the ogive is tangent, haack has the least drag for length and volume"},
+    {"length", NUMBER(ld_air_surface, length, "m"), LENGTH, REQUIRED,
+     .forms = NOSE | CYLINDER | TAIL, .doc = "along the axis"},
+    {"radius", NUMBER(ld_air_surface, radius, "m"), LENGTH, REQUIRED,
+     .forms = NOSE | CYLINDER | FINS, .doc = "of the nose's base, of the body, of that under fins"},
+    {"front_radius", NUMBER(ld_air_surface, front_radius, "m"), FROM_TO(0, 100), REQUIRED,
+     .forms = TAIL, .doc = "of a part that grows narrower or wider, at its front end"},
+    {"rear_radius", NUMBER(ld_air_surface, rear_radius, "m"), FROM_TO(0, 100), REQUIRED,
+     .forms = TAIL, .doc = "at its rear end"},
+    {"body_lift", NUMBER(ld_air_surface, body_lift, ""), FROM_TO(0, 100), DEFAULT(0),
+     .forms = NOSE | CYLINDER | TAIL,
+     .doc = "K of a lateral force of K times the area seen from the side times the lateral speed's "
+            "pressure; 1.1 to 1.5 are usual"},
+    {"fin_count", INTEGER(ld_air_surface, count, 3, 8), REQUIRED, .forms = FINS,
+     .doc = "of fins, evenly around the body"},
+    {"root_chord", NUMBER(ld_air_surface, root_chord, "m"), LENGTH, REQUIRED, .forms = FINS,
+     .doc = "along the body"},
+    {"tip_chord", NUMBER(ld_air_surface, tip_chord, "m"), FROM_TO(0, 100), REQUIRED, .forms = FINS,
+     .doc = "at the outer end"},
+    {"span", NUMBER(ld_air_surface, span, "m"), LENGTH, REQUIRED, .forms = FINS,
+     .doc = "of one fin, from the body's surface"},
+    {"sweep_length", NUMBER(ld_air_surface, sweep_length, "m"), FROM_TO(-100, 100), DEFAULT(0),
+     .forms = FINS, .doc = "by which the tip's leading edge is behind the root's"},
+    {"cant", NUMBER(ld_air_surface, cant, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
+     .forms = COEFFICIENTS | FINS, .doc = "positive spins about +x"},
+    {"slope_scale", NUMBER(ld_air_surface, slope_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the slope"},
+    {0}};
+static const field_block air_surface_block = {.fields = air_surface_fields,
+                                              .form = air_surface_kinds,
+                                              .form_offset = offsetof(ld_air_surface, kind),
+                                              .form_key = "kind"};
+
 #define TABLED .forms = FORM(LD_AERODYNAMICS_TABLE)
+#define BY_SURFACE .forms = FORM(LD_AERODYNAMICS_SURFACES)
+#define OVER_MACH .forms = FORM(LD_AERODYNAMICS_TABLE) | FORM(LD_AERODYNAMICS_SURFACES)
 #define PLAIN_BODY .forms = FORM(LD_AERODYNAMICS_BODY)
 static const field_row aerodynamics_fields[] = {
     {"model", CHOICE(ld_aerodynamics, model, aerodynamics_models), DEFAULT(LD_AERODYNAMICS_TABLE),
      .doc =
-         "coefficients over the Mach number, or a body with drag and damping at its mass centre"},
+         "coefficients over the Mach number of the whole rocket or by surface, or a body with drag "
+         "and damping at its mass centre"},
     {"reference_diameter", NUMBER(ld_aerodynamics, reference_diameter, "m"), ABOVE_TO(0, 100),
-     REQUIRED, TABLED, .doc = "d, the only length; the area is pi d^2/4"},
+     REQUIRED, OVER_MACH, .doc = "d, the only length; the area is pi d^2/4"},
     {"fin_cant", NUMBER(ld_aerodynamics, fin_cant, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
      TABLED, .doc = "positive spins about +x"},
     {"interpolation", CHOICE(ld_aerodynamics, interpolation, interpolation_words),
-     DEFAULT(LD_PCHIP), TABLED, .doc = "between the rows of the table"},
+     DEFAULT(LD_PCHIP), OVER_MACH, .doc = "between the rows of tables over the Mach number"},
     {"beyond_table", CHOICE(ld_aerodynamics, beyond_table, beyond_words), DEFAULT(LD_BEYOND_ERROR),
-     TABLED, .doc = "past the last Mach number: stop, or keep its values"},
+     OVER_MACH, .doc = "past the last Mach number: stop, or keep its values"},
     {"table", TABLE(ld_aerodynamics, table, coefficient_table), .required = true, TABLED,
      .doc =
          "coefficients; cn_alpha and cl_delta per radian, x_cp in m forward of the rear adaptor, "
          "cl_p and cm_q for rates times d/(2 V)"},
-    {"crossflow", SAME_STRUCT(crossflow_block), .initial_doc = "none", TABLED,
+    {"crossflow", SAME_STRUCT(crossflow_block), .initial_doc = "none", OVER_MACH,
      SWITCH(ld_aerodynamics, crossflow.present, crossflow_words), .other_is_bool = true,
      .doc = "drag of large angles of attack"},
     {"emerged", SAME_STRUCT(emerged_block), .initial_doc = "none",
      SWITCH(ld_aerodynamics, emerged.present, emerged_words), .other_is_bool = true,
      .doc = "drag of the lateral speed on the part of the rocket that has come out of its bore, "
             "until the rear adaptor does"},
-    {"ca_scale", NUMBER(ld_aerodynamics, ca_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
+    {"ca_scale", NUMBER(ld_aerodynamics, ca_scale, ""), FROM_TO(0, 1000), DEFAULT(1), OVER_MACH,
      .doc = "factor on ca_power_off and ca_power_on"},
-    {"cn_scale", NUMBER(ld_aerodynamics, cn_scale, ""), FROM_TO(0, 1000), DEFAULT(1), TABLED,
-     .doc = "factor on cn_alpha"},
-    {"x_cp_shift", NUMBER(ld_aerodynamics, x_cp_shift, "m"), FROM_TO(-100, 100), DEFAULT(0), TABLED,
-     .doc = "added to x_cp"},
+    {"cn_scale", NUMBER(ld_aerodynamics, cn_scale, ""), FROM_TO(0, 1000), DEFAULT(1), OVER_MACH,
+     .doc = "factor on cn_alpha, or on every surface's slope"},
+    {"x_cp_shift", NUMBER(ld_aerodynamics, x_cp_shift, "m"), FROM_TO(-100, 100), DEFAULT(0),
+     OVER_MACH, .doc = "added to x_cp, or to every surface's place"},
     {"area", NUMBER(ld_aerodynamics, area, "m2"), NOT_NEGATIVE, REQUIRED, PLAIN_BODY,
      .doc = "reference area"},
     {"drag", NUMBER(ld_aerodynamics, drag, ""), NOT_NEGATIVE, DEFAULT(0), PLAIN_BODY,
@@ -1105,6 +1211,12 @@ static const field_row aerodynamics_fields[] = {
      .doc = "moment coefficients of the rates about x, y, z times l_i/(2 V)"},
     {"lengths", VECTOR(ld_aerodynamics, lengths, "m", 3), NOT_NEGATIVE, DEFAULT(0), PLAIN_BODY,
      .doc = "l_i, reference lengths of the damping about x, y, z"},
+    {"axial", TABLE(ld_aerodynamics, axial, axial_table), .required = true, BY_SURFACE,
+     .doc = "coefficient of the axial force, on the reference area; with three columns one while "
+            "the motor burns"},
+    {"surfaces",
+     LIST(ld_aerodynamics, surface, surface_count, air_surface_block, 1, LD_MAX_AIR_SURFACES),
+     .required = true, BY_SURFACE, .doc = "what carries the lateral force"},
     {0}};
 static const field_block aerodynamics_block = {.fields = aerodynamics_fields,
                                                .form = aerodynamics_models,

@@ -215,10 +215,11 @@ static ld_status check_table(flight_run *run)
     dormand_prince_between(&run->steps, t, y);
     v3 r = flight_center(run->job->system, t, y).r;
     return ld_fail(run->error, LD_ERR_LAUNCH,
-                   "rocket.aerodynamics.table: ends at Mach %.4g, beyond which the rocket goes at "
+                   "%s: ends at Mach %.4g, beyond which the rocket goes at "
                    "t = %.4f s, x = %.1f m, y = %.1f m, z = %.1f m (beyond_table: hold keeps the "
                    "last values)",
-                   run->job->system->aerodynamics.last_mach, t, r.x, r.y, r.z);
+                   run->job->system->aerodynamics.last_of, run->job->system->aerodynamics.last_mach,
+                   t, r.x, r.y, r.z);
 }
 
 static ld_status check_limit(flight_run *run, double t)

@@ -117,9 +117,9 @@ static ld_status check_air(ld_run *run, double t, const double *y)
     if (!out || out->launching.air_mach <= last)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_LAUNCH,
-                   "rocket.aerodynamics.table: ends at Mach %.4g, beyond which the rocket goes at "
+                   "%s: ends at Mach %.4g, beyond which the rocket goes at "
                    "t = %.4f s, still on its guide (beyond_table: hold keeps the last values)",
-                   last, t);
+                   self->air->aerodynamics.last_of, last, t);
 }
 
 // Every millisecond of physics: the caller hears of it, tube and air are looked at.

@@ -38,6 +38,9 @@ static flight_numbers numbers_of(const flight_system *self)
                   globe->b, globe->e2, self->has_ground ? self->ground : -INFINITY},
     };
     v3_store(number.air.damping, body->damping);
+    memcpy(number.air.slope_at, body->surfaces.slope_at, sizeof number.air.slope_at);
+    memcpy(number.air.across_at, body->surfaces.across_at, sizeof number.air.across_at);
+    memcpy(number.air.across, body->surfaces.across, sizeof number.air.across);
     v3_store(number.thrust_point, self->thrust_point);
     v3_store(number.thrust_direction, self->thrust_direction);
     v3_store(number.c, self->motor.full.c);
@@ -78,6 +81,9 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
                       is_symmetric_mass(&self->motor.empty) && direction.y == 0 &&
                       direction.z == 0 && self->thrust_point.y == 0 && self->thrust_point.z == 0 &&
                       self->aerodynamics.axisymmetric;
+    self->feels_shear = self->aerodynamics.present &&
+                        self->aerodynamics.model == LD_AERODYNAMICS_SURFACES &&
+                        self->wind.present && self->wind.has_profile;
     self->number = numbers_of(self);
     return LD_OK;
 }
@@ -121,7 +127,7 @@ double flight_stability_margin(const flight_system *self, const flight_phase *ph
                                double mach)
 {
     const aerodynamics *body = &self->aerodynamics;
-    return (flight_mass(self, phase, t).c.x - aerodynamics_center(body, mach)) / body->diameter;
+    return (flight_mass(self, phase, t).c.x - aerodynamics_center(body, mach).at) / body->diameter;
 }
 
 double flight_thrust(const flight_system *self, const flight_phase *phase, double t)
@@ -196,6 +202,9 @@ bool flight_is_like(const flight_system *self, const flight_system *other)
            self->turbulence.present == other->turbulence.present &&
            self->aerodynamics.present == other->aerodynamics.present &&
            self->aerodynamics.model == other->aerodynamics.model &&
+           self->aerodynamics.surfaces.slopes == other->aerodynamics.surfaces.slopes &&
+           self->aerodynamics.surfaces.acrosses == other->aerodynamics.surfaces.acrosses &&
+           self->feels_shear == other->feels_shear &&
            self->symmetric == other->symmetric;
 }
 

@@ -52,6 +52,8 @@ typedef struct flight_numbers {
         double density_scale, temperature_offset;
         double drag, damping[3]; // as in elements/aerodynamics.h
         double half_area, diameter, cant, crossflow_drag, crossflow_at, last_mach;
+        double slope_at[LD_MAX_AIR_SURFACES]; // by surface
+        double across_at[SURFACES_ACROSS], across[SURFACES_ACROSS];
     } air;
     struct {
         double altitude, gravity, gm, j2, rotation, a, b, e2; // as in environment/earth.h
@@ -72,8 +74,9 @@ typedef struct flight_system {
     m3 J_change;         // [kg m2] of the inertia likewise
     v3 thrust_point;     // [m] in B
     v3 thrust_direction; // unit vector, in B
-    bool symmetric;      // the same all around its x axis: nothing depends on the roll angle
-    double ground;       // [m] its height: of the plane y, else above sphere or ellipsoid
+    bool symmetric;   // the same all around its x axis: nothing depends on the roll angle
+    bool feels_shear; // surfaces in a wind that changes with height
+    double ground;    // [m] its height: of the plane y, else above sphere or ellipsoid
     bool has_ground;
     flight_numbers number; // before anything burns
 } flight_system;

@@ -94,8 +94,9 @@ LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, cons
     return out;
 }
 
-// The coefficients of each lane's table at its Mach number.
-LD_INLINE void look_up(const flight_lanes *lanes, real mach, real k[AERODYNAMICS_COLUMNS + 1])
+// The first `columns` coefficients of each lane's table at its Mach number, with those that fill
+// up the last eight.
+LD_INLINE void look_up(const flight_lanes *lanes, real mach, int columns, real *k)
 {
     for (int lane = 0; lane < LANES; lane++) {
         double at = REAL_LANE(mach, lane);
@@ -103,12 +104,12 @@ LD_INLINE void look_up(const flight_lanes *lanes, real mach, real k[AERODYNAMICS
         size_t *interval = &lanes->phase[lane]->interval;
         *interval = curves_interval(table, at, *interval);
 #if LANES == 1
-        curves_first_values(table, *interval, at, AERODYNAMICS_COLUMNS, k);
+        curves_first_values(table, *interval, at, columns, k);
 #else
         // of one lane as many columns at once as there are lanes, then turned
         const double *c = table->coefficient + *interval * 4 * (size_t)table->count;
         double t = at - table->x[*interval];
-        for (int first = 0; first < AERODYNAMICS_COLUMNS + 1; first += LANES) {
+        for (int first = 0; first < columns; first += LANES) {
             real c0, c1, c2, c3;
             memcpy(&c0, c + first, sizeof c0);
             memcpy(&c1, c + first + table->count, sizeof c1);
@@ -118,28 +119,101 @@ LD_INLINE void look_up(const flight_lanes *lanes, real mach, real k[AERODYNAMICS
         }
 #endif
     }
-    for (int first = 0; first < AERODYNAMICS_COLUMNS + 1; first += LANES)
+    for (int first = 0; first < columns; first += LANES)
         real_turn(k + first);
-}
-
-LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, const flow *here, real3 v_B,
-                                      real speed, real3 w, real3 c)
-{
-    if (lanes->system[0]->aerodynamics.model == LD_AERODYNAMICS_BODY)
-        return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), v_B, speed, w,
-                                    here->density);
-    real coefficient[AERODYNAMICS_COLUMNS + 1], mach = speed / here->speed_of_sound;
-    look_up(lanes, real_select(mach < OF(air.last_mach), mach, OF(air.last_mach)), coefficient);
-    const real_body body = {OF(air.half_area), OF(air.diameter), OF(air.cant),
-                            OF(air.crossflow_drag), OF(air.crossflow_at)};
-    real drag = real_select(OF(burn.power) != 0.0, coefficient[1], coefficient[0]);
-    return aerodynamics_of_coefficients(&body, coefficient, drag, v_B, speed, w, c, here->density);
 }
 
 // Rotation about x by an angle of which cosine and sine are given, and back.
 LD_INLINE real3 roll(real c, real s, real3 a)
 {
     return (real3){a.x, c * a.y - s * a.z, s * a.y + c * a.z};
+}
+
+// The rocket in the flow: from C to N, from N to B, mass centre and rates in B.
+typedef struct in_flow {
+    const real33 *A;
+    real c, s;
+    real3 center, w;
+} in_flow;
+
+// Velocity of the wind at each surface less that at the mass centre r, in B.
+LD_INLINE void wind_at_surfaces(const flight_lanes *lanes, real t, real3 r, const flow *here,
+                                const in_flow *rocket, real3 *shear)
+{
+    const flight_system *first = lanes->system[0];
+    int slopes = first->aerodynamics.surfaces.slopes,
+        count = slopes + first->aerodynamics.surfaces.acrosses;
+    const real *slope_at = REALS(lanes->number, flight_numbers, air.slope_at),
+               *across_at = REALS(lanes->number, flight_numbers, air.across_at);
+    for (int k = 0; k < count; k++) {
+        real3 place = {k < slopes ? slope_at[k] : across_at[k - slopes], real_all(0), real_all(0)};
+        real3 arm = real3_sub(place, rocket->center), more = arm;
+        real3 at = real3_add(r, real33_apply(rocket->A, roll(rocket->c, rocket->s, arm)));
+        real altitude = OF(earth.altitude) + at.y;
+        if (!first->earth.flat)
+            altitude = earth_altitude_above(OF(earth.a), OF(earth.b), OF(earth.e2), at);
+        for (int i = 0; i < LANES; i++) {
+            const flight_system *system = lanes->system[i];
+            double now = REAL_LANE(t, i);
+            v3 there = {REAL_LANE(at.x, i), REAL_LANE(at.y, i), REAL_LANE(at.z, i)};
+            v3 center = {REAL_LANE(r.x, i), REAL_LANE(r.y, i), REAL_LANE(r.z, i)};
+            v3 v = v3_sub(flight_wind(system, now, there, REAL_LANE(altitude, i)),
+                          flight_wind(system, now, center, REAL_LANE(here->altitude, i)));
+            REAL_LANE(more.x, i) = v.x;
+            REAL_LANE(more.y, i) = v.y;
+            REAL_LANE(more.z, i) = v.z;
+        }
+        shear[k] = roll(rocket->c, -rocket->s, real33_apply_transposed(rocket->A, more));
+    }
+}
+
+LD_INLINE real_wrench wrench_of_surfaces(const flight_lanes *lanes, const flow *here,
+                                         const in_flow *rocket, real held, real3 v_B, real speed,
+                                         const real3 *shear)
+{
+    const air_surfaces *first = &lanes->system[0]->aerodynamics.surfaces;
+    real k[SURFACES_COLUMNS];
+    if (first->slopes > SURFACES_EIGHT - SURFACES_FIRST)
+        look_up(lanes, held, SURFACES_COLUMNS, k);
+    else
+        look_up(lanes, held, SURFACES_EIGHT, k);
+    const real_surfaces all = {OF(air.half_area),
+                               OF(air.diameter),
+                               first->slopes,
+                               first->acrosses,
+                               REALS(lanes->number, flight_numbers, air.slope_at),
+                               REALS(lanes->number, flight_numbers, air.across_at),
+                               REALS(lanes->number, flight_numbers, air.across)};
+    real drag = real_select(OF(burn.power) != 0.0, k[1], k[0]);
+    return aerodynamics_of_surfaces(&all, k, drag, v_B, speed, shear, rocket->w, rocket->center,
+                                    here->density);
+}
+
+LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, real t, real3 r, const flow *here,
+                                      const in_flow *rocket)
+{
+    const flight_system *first = lanes->system[0];
+    real3 v_B = roll(rocket->c, -rocket->s, real33_apply_transposed(rocket->A, here->v));
+    real speed = real3_norm(here->v);
+    if (first->aerodynamics.model == LD_AERODYNAMICS_BODY)
+        return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), v_B, speed, rocket->w,
+                                    here->density);
+    real mach = speed / here->speed_of_sound;
+    real held = real_select(mach < OF(air.last_mach), mach, OF(air.last_mach));
+    if (first->aerodynamics.model == LD_AERODYNAMICS_SURFACES) {
+        real3 shear[LD_MAX_AIR_SURFACES + SURFACES_ACROSS];
+        if (first->feels_shear)
+            wind_at_surfaces(lanes, t, r, here, rocket, shear);
+        return wrench_of_surfaces(lanes, here, rocket, held, v_B, speed,
+                                  first->feels_shear ? shear : NULL);
+    }
+    real coefficient[AERODYNAMICS_COLUMNS + 1];
+    look_up(lanes, held, AERODYNAMICS_COLUMNS, coefficient);
+    const real_body body = {OF(air.half_area), OF(air.diameter), OF(air.cant),
+                            OF(air.crossflow_drag), OF(air.crossflow_at)};
+    real drag = real_select(OF(burn.power) != 0.0, coefficient[1], coefficient[0]);
+    return aerodynamics_of_coefficients(&body, coefficient, drag, v_B, speed, rocket->w,
+                                        rocket->center, here->density);
 }
 
 LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_dot, bool symmetric)
@@ -166,8 +240,8 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
             y_dot[FLIGHT_XI] = here.xi_dot[0];
             y_dot[FLIGHT_XI + 1] = here.xi_dot[1];
         }
-        real3 v_B = roll(c, -s, real33_apply_transposed(&A, here.v));
-        real_wrench wrench = wrench_of_lanes(lanes, &here, v_B, real3_norm(here.v), w, mass.c);
+        const in_flow rocket = {&A, c, s, mass.c, w};
+        real_wrench wrench = wrench_of_lanes(lanes, t, r, &here, &rocket);
         force = real3_add(force, wrench.f);
         moment = real3_add(moment, wrench.m);
     }

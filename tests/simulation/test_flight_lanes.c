@@ -9,7 +9,21 @@
 #include "simulation/flight_lanes.h"
 #include "simulation/simulation.h"
 
-enum { FLIGHTS = 11, MOST_SETTINGS = 5 };
+enum { FLIGHTS = 11, MOST_SETTINGS = 6 };
+
+// The air by surface, four of them with slopes, to which more may be added.
+#define SURFACES                                                                                   \
+    "rocket.aerodynamics.table=", "rocket.aerodynamics.fin_cant=",                                 \
+        "rocket.aerodynamics={model: surfaces, reference_diameter: 164 mm, axial: "                \
+        "[[0, 0.5], [1, 0.7], [3, 0.5]], beyond_table: hold, surfaces: [{name: nose, kind: nose, " \
+        "shape: ogive, at: 2.4 m, length: 0.5 "                                                    \
+        "m, radius: 82 mm, body_lift: 1.1}, {name: body, kind: body, at: 1.9 m, length: 1.9 m, "   \
+        "radius: 82 mm, body_lift: 1.1}, {name: tail, kind: tail, at: 0.1 m, length: 0.1 m, "      \
+        "front_radius: 82 mm, rear_radius: 60 mm}, {name: canards, at: 2 m, slope: [[0, 1], "      \
+        "[0.8, "                                                                                   \
+        "1.3], [1.5, 0.9], [3, 0.7]]}, {name: fins, kind: fins, at: 0.3 m, fin_count: 4, "         \
+        "root_chord: 0.2 "                                                                         \
+        "m, tip_chord: 0.1 m, span: 0.15 m, sweep_length: 0.1 m, radius: 82 mm, cant: 0.5 deg}"
 
 // What is set beside examples/flight.yaml; "body": a plain body in the place of its table.
 static const char *const options[][MOST_SETTINGS] = {
@@ -20,6 +34,14 @@ static const char *const options[][MOST_SETTINGS] = {
     {"rocket.aerodynamics.interpolation=linear", "rocket.aerodynamics.x_cp_shift=2 mm"},
     {"body"},
     {"rocket.aerodynamics=none"},
+    {SURFACES "]}"},
+    {SURFACES ", {name: strake, at: 1 m, slope: 0.4}]}", "rocket.eccentricity=0.3 -0.2 mm"},
+    {SURFACES "], crossflow: {drag: 5, at: 1.2 m}}",
+     "environment.wind={profile: [[0 m, 1 m/s, 2 m/s], [400 m, 5 m/s, -3 m/s], [2 km, 9 m/s, 4 "
+     "m/s]]}"},
+    {SURFACES ", {name: strake, at: 1 m, slope: 0.4}]}", "rocket.eccentricity=0.3 -0.2 mm",
+     "environment={earth: wgs84, site: {latitude: 45 deg}, wind: {axes: geographic, profile: [[0 "
+     "m, 1 m/s, 2 m/s], [2 km, 9 m/s, 4 m/s]], turbulence: {wind_at_6m: 5 m/s, harmonics: 20}}}"},
     {"environment.atmosphere={density: 1.2 kg/m3, speed_of_sound: 340 m/s}"},
     {"environment.atmosphere=none"},
     {"environment.wind={speed: 8 m/s, heading: 60 deg}"},
