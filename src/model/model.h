@@ -653,6 +653,9 @@ typedef struct ld_lock {
     ld_hold holds_roll; ///< by the guide: yes without slot and flat surfaces
 } ld_lock;
 
+/// Whether free flight counts what the gas that flows takes along and the rates of m, c and J.
+typedef enum ld_jet_damping { LD_JET_DAMPING_NO, LD_JET_DAMPING_YES } ld_jet_damping;
+
 typedef struct ld_motor {
     bool absent;            ///< no motor (flight alone, or a launch by pressure)
     ld_table thrust;        ///< t [s], T [N]; linear between, 0 after the last; a double time jumps
@@ -660,6 +663,8 @@ typedef struct ld_motor {
     double misalignment[2]; ///< [-] eps_y, eps_z
     double thrust_scale;    ///< [-]
     double time_scale;      ///< [-]
+    ld_jet_damping jet_damping;
+    double exit_radius; ///< [m] of the nozzle, for jet damping
 } ld_motor;
 
 typedef enum ld_aerodynamic_model {

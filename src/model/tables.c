@@ -1014,6 +1014,8 @@ static const field_row thrust_columns[] = {
     {"thrust", .unit = "N", NOT_NEGATIVE},
 };
 static const table_format thrust_table = {TABLE_ENGINE, 2, thrust_columns, NULL};
+static const field_word jet_damping_words[] = {
+    {"no", LD_JET_DAMPING_NO}, {"yes", LD_JET_DAMPING_YES}, {NULL, 0}};
 static const field_row motor_fields[] = {
     {"thrust", TABLE(ld_motor, thrust, thrust_table), .required = true,
      .doc = "over time from ignition, linear between rows, 0 after the last; a time given twice is "
@@ -1026,6 +1028,11 @@ static const field_row motor_fields[] = {
      .doc = "factor on the thrust"},
     {"time_scale", NUMBER(ld_motor, time_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
      .doc = "factor on the times of the table"},
+    {"jet_damping", CHOICE(ld_motor, jet_damping, jet_damping_words), DEFAULT(LD_JET_DAMPING_NO),
+     .doc = "in free flight, what the gas that flows takes along of the rocket's turning, and the "
+            "rates of mass, centre and inertia"},
+    {"exit_radius", NUMBER(ld_motor, exit_radius, "m"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "of the nozzle, for jet damping"},
     {0}};
 static const field_block motor_block = {.fields = motor_fields};
 

@@ -20,9 +20,11 @@ static flight_numbers numbers_of(const flight_system *self)
     const earth *globe = &self->earth;
     const atmosphere *above = &self->atmosphere;
     bool uniform = above->kind == LD_ATMOSPHERE_UNIFORM;
+    double exit_radius = self->rocket->motor.exit_radius;
     flight_numbers number = {
         .mass = self->motor.full.m,
         .propellant = self->motor.propellant,
+        .exit_square = 0.25 * exit_radius * exit_radius,
         .air = {.density = uniform ? above->density_scale * above->density : 0,
                 .speed_of_sound = uniform ? above->speed_of_sound : 1,
                 .density_scale = above->density_scale,
@@ -56,6 +58,7 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
     const ld_motor *thrust = &flying->motor;
     *self = (flight_system){.rocket = flying,
                             .thrust_point = v3_from(thrust->at),
+                            .jet_damping = thrust->jet_damping == LD_JET_DAMPING_YES,
                             .ground = model->environment.ground_height,
                             .has_ground = model->environment.ground == LD_GROUND_PLANE};
     earth_build(&self->earth, model);
@@ -204,7 +207,7 @@ bool flight_is_like(const flight_system *self, const flight_system *other)
            self->aerodynamics.model == other->aerodynamics.model &&
            self->aerodynamics.surfaces.slopes == other->aerodynamics.surfaces.slopes &&
            self->aerodynamics.surfaces.acrosses == other->aerodynamics.surfaces.acrosses &&
-           self->feels_shear == other->feels_shear &&
+           self->feels_shear == other->feels_shear && self->jet_damping == other->jet_damping &&
            self->symmetric == other->symmetric;
 }
 

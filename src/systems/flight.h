@@ -9,6 +9,9 @@
 // J taken as constants at each instant (a_O1 as in model.md, differentiated):
 //   r_dot = v + A c_dot,   v_dot = A f/m + g + A (w x c_dot),   J alpha = M_C - w x J w (in B),
 //   q_dot = 1/2 q (0, 0, w_y, w_z),   phi_dot = w_x,   w_dot = alpha + w_x e_x x w (in N)
+// With jet damping (docs/flight.md) besides, in B, mu = -m_dot what leaves at r_e = r_T, R the
+// radius there, and e = r_e - c:
+//   f -= 2 w x (m c_dot + mu e),   M_C -= J_dot w + mu (e x (w x e) + R^2/4 (2 w_x, w_y, w_z))
 // In turbulence two more states: xi_dot = V_m/L_u and V_m/L_w, V_m the speed through the air
 // without it.
 #ifndef LD_SYSTEMS_FLIGHT_H
@@ -44,6 +47,7 @@ typedef struct flight_numbers {
         double power;         // 1: the thrust table has not ended
     } burn;
     double thrust_point[3], thrust_direction[3];
+    double exit_square;      // [m2] R^2/4 of the nozzle's exit
     double mass, propellant; // [kg] full; what burns
     double c[3], c_change[3];
     double J[9], J_change[9];
@@ -74,6 +78,7 @@ typedef struct flight_system {
     m3 J_change;         // [kg m2] of the inertia likewise
     v3 thrust_point;     // [m] in B
     v3 thrust_direction; // unit vector, in B
+    bool jet_damping;
     bool symmetric;   // the same all around its x axis: nothing depends on the roll angle
     bool feels_shear; // surfaces in a wind that changes with height
     double ground;    // [m] its height: of the plane y, else above sphere or ellipsoid

@@ -42,6 +42,26 @@ LD_INLINE burning burning_at(const flight_lanes *lanes, real t, bool symmetric)
     return out;
 }
 
+// Force and moment about the mass centre, in B, of the gas that flows and of the rates of mass,
+// centre and inertia (systems/flight.h).
+LD_INLINE real_wrench jet_damping(const flight_lanes *lanes, const burning *mass, real3 w)
+{
+    real gone = OF(burn.rate) * mass->thrust, leaving = gone * OF(propellant);
+    real3 arm = real3_sub(THREE_OF(thrust_point), mass->c);
+    real3 inside = real3_axpy(real3_scale(mass->mass, mass->c_dot), leaving, arm);
+    real3 turned = real3_cross(arm, real3_cross(w, arm));
+    real exit = OF(exit_square);
+    turned = real3_add(turned, (real3){2.0 * exit * w.x, exit * w.y, exit * w.z});
+    const real *J_change = REALS(lanes->number, flight_numbers, J_change);
+    real33 J_dot;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            J_dot.a[i][j] = gone * J_change[3 * i + j];
+    real3 moment = real3_axpy(real33_apply(&J_dot, w), leaving, turned);
+    return (real_wrench){real3_scale(real_all(-2), real3_cross(w, inside)),
+                         real3_scale(real_all(-1), moment)};
+}
+
 // The air at points of C that move with v: density, speed of sound, velocity through it, in C.
 typedef struct flow {
     real altitude, density, speed_of_sound;
@@ -232,6 +252,11 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     burning mass = burning_at(lanes, t, symmetric);
     real3 force = real3_scale(mass.thrust, THREE_OF(thrust_direction));
     real3 moment = real3_cross(real3_sub(THREE_OF(thrust_point), mass.c), force);
+    if (first->jet_damping) {
+        real_wrench jet = jet_damping(lanes, &mass, w);
+        force = real3_add(force, jet.f);
+        moment = real3_add(moment, jet.m);
+    }
     // air
     y_dot[FLIGHT_XI] = y_dot[FLIGHT_XI + 1] = real_all(0);
     if (first->aerodynamics.present) {

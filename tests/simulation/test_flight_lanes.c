@@ -42,6 +42,8 @@ static const char *const options[][MOST_SETTINGS] = {
     {SURFACES ", {name: strake, at: 1 m, slope: 0.4}]}", "rocket.eccentricity=0.3 -0.2 mm",
      "environment={earth: wgs84, site: {latitude: 45 deg}, wind: {axes: geographic, profile: [[0 "
      "m, 1 m/s, 2 m/s], [2 km, 9 m/s, 4 m/s]], turbulence: {wind_at_6m: 5 m/s, harmonics: 20}}}"},
+    {"rocket.motor.jet_damping=yes", "rocket.motor.exit_radius=50 mm"},
+    {"rocket.motor.jet_damping=yes", "rocket.eccentricity=0.3 -0.2 mm"},
     {"environment.atmosphere={density: 1.2 kg/m3, speed_of_sound: 340 m/s}"},
     {"environment.atmosphere=none"},
     {"environment.wind={speed: 8 m/s, heading: 60 deg}"},
