@@ -1,6 +1,7 @@
 #include "results/kml.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,10 +12,10 @@
 
 #define DEGREES 57.29577951308232
 
-enum { LATITUDE, LONGITUDE, ALTITUDE, X, Z, COLUMNS };
+enum { LATITUDE, LONGITUDE, ALTITUDE, X, Z, TIME, COLUMNS };
 
-static const char *const column_name[COLUMNS] = {"latitude", "longitude", "altitude", "center.x",
-                                                 "center.z"};
+static const char *const column_name[COLUMNS] = {"latitude", "longitude", "altitude",
+                                                 "center.x", "center.z",  "t"};
 
 struct kml_file {
     FILE *stream;
@@ -24,6 +25,8 @@ struct kml_file {
     size_t column[COLUMNS]; // where they stand in a row
     bool geodetic;          // rows have latitude and longitude
     bool in_line;           // a flight's line is open
+    int rocket;             // whose it is
+    double last[4];         // its latest longitude, latitude [deg], altitude [m], time [s]
 };
 
 bool kml_has_place(const ld_model *model)
@@ -107,10 +110,21 @@ ld_status kml_create(const char *path, const ld_model *model, kml_file **file, l
     return state_of(created, error);
 }
 
+// Its end is a point with its time.
 static void end_line(kml_file *file)
 {
-    if (file->in_line)
+    const double *last = file->last;
+    if (file->in_line) {
+        locale_t before = numeric_locale_enter();
         fputs("</coordinates>\n</LineString>\n</Placemark>\n", file->stream);
+        if (!isnan(last[0]))
+            fprintf(file->stream,
+                    "<Placemark>\n<name>Rocket %d, t = %.3f s</name>\n<Point>\n"
+                    "<altitudeMode>absolute</altitudeMode>\n<coordinates>%.9f,%.9f,%.3f"
+                    "</coordinates>\n</Point>\n</Placemark>\n",
+                    file->rocket, last[3], last[0], last[1], last[2]);
+        numeric_locale_leave(before);
+    }
     file->in_line = false;
 }
 
@@ -133,10 +147,13 @@ ld_status kml_flight(kml_file *file, int rocket, const ld_column *columns, size_
         file->column[i] = find_column(columns, count, column_name[i]);
     file->geodetic = file->column[LATITUDE] < count && file->column[LONGITUDE] < count;
     bool plane = file->column[X] < count && file->column[Z] < count;
-    if (file->column[ALTITUDE] == count || !(file->geodetic || plane))
+    if (file->column[ALTITUDE] == count || file->column[TIME] == count ||
+        !(file->geodetic || plane))
         return ld_fail(error, LD_ERR_INPUT, "the rows of a flight hold no place for %s",
                        file->path);
     end_line(file);
+    file->rocket = rocket;
+    file->last[0] = NAN;
     fprintf(file->stream, "<Placemark>\n<name>Rocket %d", rocket);
     if (rocket <= file->model->firing_count)
         fprintf(file->stream, ", tube %d", file->model->firing[rocket - 1].tube);
@@ -161,10 +178,12 @@ static geodetic place_of(const kml_file *file, const double *values)
 ld_status kml_row(kml_file *file, const double *values, ld_error *error)
 {
     geodetic place = place_of(file, values);
+    file->last[0] = printed_fixed(place.longitude * DEGREES, 9);
+    file->last[1] = printed_fixed(place.latitude * DEGREES, 9);
+    file->last[2] = printed_fixed(values[file->column[ALTITUDE]], 3);
+    file->last[3] = values[file->column[TIME]];
     locale_t before = numeric_locale_enter();
-    fprintf(file->stream, "%.9f,%.9f,%.3f\n", printed_fixed(place.longitude * DEGREES, 9),
-            printed_fixed(place.latitude * DEGREES, 9),
-            printed_fixed(values[file->column[ALTITUDE]], 3));
+    fprintf(file->stream, "%.9f,%.9f,%.3f\n", file->last[0], file->last[1], file->last[2]);
     numeric_locale_leave(before);
     return state_of(file, error);
 }

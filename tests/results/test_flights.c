@@ -286,6 +286,17 @@ static void test_map_of_an_ellipsoid(void **state)
     assert_line(file, "</coordinates>");
     assert_line(file, "</LineString>");
     assert_line(file, "</Placemark>");
+    // where it ended, and when
+    snprintf(digits, sizeof digits, "<name>Rocket 1, t = %.3f s</name>", final->t);
+    assert_line(file, "<Placemark>");
+    assert_line(file, digits);
+    assert_line(file, "<Point>");
+    assert_line(file, "<altitudeMode>absolute</altitudeMode>");
+    snprintf(line, sizeof line, "<coordinates>%.9f,%.9f,%.3f</coordinates>", place[0], place[1],
+             place[2]);
+    assert_line(file, line);
+    assert_line(file, "</Point>");
+    assert_line(file, "</Placemark>");
     assert_line(file, "</Document>");
     assert_line(file, "</kml>");
     assert_null(fgets(line, sizeof line, file));
