@@ -24,6 +24,7 @@ enum {
     LD_MAX_CLAMPED = 12,         ///< such directions in all
     LD_MAX_STATIONS = 16,
     LD_MAX_ADAPTORS = 8,
+    LD_MAX_PARACHUTES = 8,
     LD_MAX_SURFACES = 12,
     LD_MAX_AIR_SURFACES = 8, ///< nose, body, tail, fins
     LD_MAX_SINES = 16,
@@ -752,6 +753,19 @@ typedef struct ld_aerodynamics {
     ld_air_surface surface[LD_MAX_AIR_SURFACES];
 } ld_aerodynamics;
 
+typedef enum ld_trigger { LD_TRIGGER_APOGEE, LD_TRIGGER_TIME, LD_TRIGGER_HEIGHT } ld_trigger;
+
+/// A parachute, which takes the place of the one before it: model.md, section 8.
+typedef struct ld_parachute {
+    char name[LD_MAX_NAME];
+    double drag_area; ///< [m2] C_D S when full, with all that hangs below it
+    ld_trigger trigger;
+    double time;    ///< [s] from ignition
+    double height;  ///< [m] above the ground, falling
+    double lag;     ///< [s] from the trigger until it opens
+    double filling; ///< [s] in which the drag area grows, linearly
+} ld_parachute;
+
 typedef struct ld_rocket {
     double start_at; ///< [m] s of the rear adaptor at the start
     ld_mass_data full;
@@ -769,6 +783,8 @@ typedef struct ld_rocket {
     ld_lock lock;
     ld_motor motor;
     ld_aerodynamics aerodynamics;
+    int parachute_count;
+    ld_parachute parachute[LD_MAX_PARACHUTES];
 } ld_rocket;
 
 typedef enum ld_flight_point { LD_POINT_REAR, LD_POINT_CENTER } ld_flight_point;
@@ -818,7 +834,7 @@ typedef struct ld_firing_order {
 typedef enum ld_start { LD_START_EQUILIBRIUM, LD_START_UNDEFORMED } ld_start;
 typedef enum ld_formulation { LD_FORMULATION_REDUCED, LD_FORMULATION_OVERALL } ld_formulation;
 typedef enum ld_lead_in_method { LD_LEAD_IN_EXPLICIT, LD_LEAD_IN_EXPONENTIAL } ld_lead_in_method;
-typedef enum ld_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING } ld_end;
+typedef enum ld_end { LD_END_TIP, LD_END_TIME, LD_END_LANDING, LD_END_APOGEE } ld_end;
 
 typedef struct ld_run_settings {
     ld_start start;

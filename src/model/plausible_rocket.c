@@ -140,6 +140,23 @@ FIND(acceleration)
     return plausible_alone(plausible_peak_thrust(&rocket->motor) / rocket->full.mass);
 }
 
+// At which the empty rocket falls below it near sea level.
+FIND(speed_of_descent)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    double area = rocket->parachute[at->i].drag_area;
+    return plausible_alone(sqrt(2 * rocket->empty.mass * 9.81 / (1.2 * area)));
+}
+
+FIND(opening_time)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    const ld_parachute *one = &rocket->parachute[at->i];
+    bool burns = one->trigger == LD_TRIGGER_TIME && !rocket->motor.absent;
+    return plausible_compare(burns ? one->time + one->lag : NAN,
+                             plausible_burn_time(&rocket->motor));
+}
+
 FIND(exhaust_speed)
 {
     const ld_rocket *rocket = &at->model->rocket;
@@ -310,6 +327,14 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "it is a correction of the curve"},
     {"rocket.motor.time_scale", .unit = "", .low = 0.1, .high = 10,
      .why = "it is a correction of the curve"},
+    {"rocket.parachutes.#.drag_area", "the speed of the descent below it", .unit = "m/s",
+     .low = 0.5, .high = 100, .find = speed_of_descent,
+     .why = "rockets come down at 15 to 40 m/s under a drogue, at 4 to 10 m/s under a main"},
+    {"rocket.parachutes.#.time", "the time of its opening", .unit = "s",
+     .other = "the time that the motor burns", .low = 1, NO_HIGH, .find = opening_time,
+     .why = "below a parachute the thrust counts no more"},
+    {"rocket.parachutes.#.filling", .unit = "s", NO_LOW, .high = 20,
+     .why = "parachutes fill in some tenths of a second to a few seconds"},
     {"rocket.aerodynamics.reference_diameter", .unit = "m", .other = "the bore's diameter",
      .low = 0.2, .high = 1.05, .find = diameter, .why = "the rocket goes through the bore"},
     {"rocket.aerodynamics.area", .unit = "m2", .other = "the area of the bore", .low = 0.04,

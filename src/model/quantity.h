@@ -28,6 +28,7 @@ typedef enum quantity_each {
     EACH_WHEEL,
     EACH_MEASURE, // that the scenario asks for
     EACH_SLIDE,   // support on which the tube recoils, by its number among them
+    EACH_PARACHUTE,
     EACH_STATION, // of the tube, at which loads are asked for
     EACH_SUPPORT, // of the tube, where loads are asked for
     EACH_COUNT

@@ -574,6 +574,24 @@ static void environment_rules(const rule_set *rules)
         broken(rules, "environment.wind.speed", 0, "given together with profile; give one of them");
 }
 
+static void parachute_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    const ld_rocket *rocket = &model->rocket;
+    if (rocket->parachute_count > 0 && model->environment.atmosphere.kind == LD_ATMOSPHERE_NONE)
+        broken(rules, "rocket.parachutes", 0, "without air no parachute opens");
+    for (int i = 0; i < rocket->parachute_count; i++) {
+        const ld_parachute *one = &rocket->parachute[i];
+        if (one->trigger == LD_TRIGGER_HEIGHT && model->environment.ground == LD_GROUND_NONE)
+            broken(rules, "rocket.parachutes.#.trigger", i + 1,
+                   "without ground there is no height above it");
+        for (int j = 0; j < i; j++)
+            if (one->name[0] && strcasecmp(one->name, rocket->parachute[j].name) == 0)
+                broken(rules, "rocket.parachutes.#.name", i + 1,
+                       "\"%s\" is the name of parachute %d", one->name, j + 1);
+    }
+}
+
 static void end_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
@@ -648,6 +666,7 @@ void model_check_rules(const ld_model *model, rule_report *report, void *self)
     thrust_rules(&all);
     environment_rules(&all);
     aerodynamics_rules(&all);
+    parachute_rules(&all);
     end_rules(&all);
     coupling_rules(&all);
     scatter_rules(&all);

@@ -1230,6 +1230,31 @@ static const field_block aerodynamics_block = {.fields = aerodynamics_fields,
                                                .form_offset = offsetof(ld_aerodynamics, model),
                                                .form_key = "model"};
 
+static const field_word trigger_words[] = {{"apogee", LD_TRIGGER_APOGEE},
+                                           {"time", LD_TRIGGER_TIME},
+                                           {"height", LD_TRIGGER_HEIGHT},
+                                           {NULL, 0}};
+static const field_row parachute_fields[] = {
+    {"name", WORD(ld_parachute, name), .required = true, .doc = "its name in results and paths"},
+    {"drag_area", NUMBER(ld_parachute, drag_area, "m2"), ABOVE_TO(0, 1e5), REQUIRED,
+     .doc = "drag coefficient times area when it is full, with what hangs below it"},
+    {"trigger", CHOICE(ld_parachute, trigger, trigger_words), .required = true,
+     .doc =
+         "the highest point, a time from ignition, or a height above the ground on the way down"},
+    {"time", NUMBER(ld_parachute, time, "s"), FROM_TO(0, 10000), REQUIRED,
+     .forms = FORM(LD_TRIGGER_TIME), .doc = "from ignition"},
+    {"height", NUMBER(ld_parachute, height, "m"), FROM_TO(0, 1e6), REQUIRED,
+     .forms = FORM(LD_TRIGGER_HEIGHT), .doc = "of the mass centre above the ground"},
+    {"lag", NUMBER(ld_parachute, lag, "s"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "from the trigger until it begins to open"},
+    {"filling", NUMBER(ld_parachute, filling, "s"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "in which the drag area goes linearly to its own from that of the one before"},
+    {0}};
+static const field_block parachute_block = {.fields = parachute_fields,
+                                            .form = trigger_words,
+                                            .form_offset = offsetof(ld_parachute, trigger),
+                                            .form_key = "trigger"};
+
 // What carries the rocket: the form of the whole scenario and of the rocket.
 static const field_word kind_words[] = {{"base.kind: fixed", LD_BASE_FIXED},
                                         {"base.kind: prescribed", LD_BASE_PRESCRIBED},
@@ -1279,6 +1304,11 @@ static const field_row rocket_fields[] = {
     {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
      NOT_IN_FLIGHT("none in a flight alone"), SWITCH(ld_model, rocket.motor.absent, motor_words),
      .other_is_bool = true, .doc = "thrust; `none`: a flight alone, or a launch by tubes.pressure"},
+    {"parachutes",
+     LIST(ld_model, rocket.parachute, rocket.parachute_count, parachute_block, 0,
+          LD_MAX_PARACHUTES),
+     .silent = true, .initial_doc = "none",
+     .doc = "under which the rocket comes down, each in the place of the one before it"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
      .other_is_bool = true,
@@ -1402,8 +1432,11 @@ static const field_word formulation_words[] = {
     {"reduced", LD_FORMULATION_REDUCED}, {"overall", LD_FORMULATION_OVERALL}, {NULL, 0}};
 static const field_word lead_in_words[] = {
     {"explicit", LD_LEAD_IN_EXPLICIT}, {"exponential", LD_LEAD_IN_EXPONENTIAL}, {NULL, 0}};
-static const field_word end_words[] = {
-    {"tip", LD_END_TIP}, {"", LD_END_TIME}, {"landing", LD_END_LANDING}, {NULL, 0}};
+static const field_word end_words[] = {{"tip", LD_END_TIP},
+                                       {"", LD_END_TIME},
+                                       {"apogee", LD_END_APOGEE},
+                                       {"landing", LD_END_LANDING},
+                                       {NULL, 0}};
 static const field_row run_fields[] = {
     {"start", CHOICE(ld_run_settings, start, start_words), DEFAULT(LD_START_EQUILIBRIUM),
      .doc = "static equilibrium under gravity, or straight and at rest"},
@@ -1419,8 +1452,9 @@ static const field_row run_fields[] = {
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
      .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
      .doc =
-         "when the last rocket has left the tube (a flight alone: as landing), when it has "
-         "landed, or a time after the last ignition until which launcher and rockets are followed"},
+         "when the last rocket has left the tube (a flight alone: as landing), when each is at its "
+         "highest point, when it has landed, or a time after the last ignition until which "
+         "launcher and rockets are followed"},
     {"tolerance", NUMBER(ld_run_settings, tolerance, ""), FROM_TO(1e-12, 1e-2), DEFAULT(1e-5),
      .doc = "relative tolerance of the integrator"},
     {"max_step", NUMBER(ld_run_settings, max_step, "s"), FROM_TO(1e-7, 1),

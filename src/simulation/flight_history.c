@@ -1,4 +1,6 @@
 // The history of a free flight: what is found at an instant, and the quantities that stand in it.
+#include <math.h>
+
 #include "simulation/free_flight.h"
 #include "simulation/launch_quantities.h"
 #include "simulation/simulation.h"
@@ -10,7 +12,7 @@ typedef struct flight_instant {
     earth_motion center;
     double mass, thrust;
     flight_flow flow;
-    double acceleration, margin;
+    double acceleration, margin, drag_area;
     flight_place place; // on a round or WGS 84 Earth
 } flight_instant;
 
@@ -53,6 +55,7 @@ static const quantity flight[] = {
     {"acceleration", "m/s2", "magnitude of the mass centre's acceleration against inertial axes", AT(acceleration)},
     {"stability_margin", "1", "mass centre ahead of the centre of pressure, in reference diameters", AT(margin)},
     {"angle_of_attack", "rad", "between the rocket's axis and its velocity through the air", AT(flow.angle_of_attack)},
+    {"drag_area", "m2", "of the parachute that the rocket hangs below, 0 before", AT(drag_area)},
     {"wind.x", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.x)},
     {"wind.y", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.y)},
     {"wind.z", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.z)},
@@ -97,6 +100,9 @@ void flight_row(const flight_system *system, const quantity_columns *columns,
     now.mass = flight_mass(system, phase, t).m;
     now.thrust = flight_thrust(system, phase, t);
     now.margin = flight_stability_margin(system, phase, t, now.flow.mach);
+    now.drag_area = flight_drag_area(phase, t);
+    if (phase->hangs) // a point has no axis
+        now.flow.angle_of_attack = now.margin = NAN;
     flight_phase rated = *phase;
     double rates[FLIGHT_STATES];
     flight_rates(system, &rated, t, state, rates);

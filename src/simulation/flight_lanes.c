@@ -8,7 +8,7 @@ enum { MOST = FLIGHT_MOST_LANES };
 
 typedef struct lane {
     bool flies;
-    int piece; // of the thrust curve, of which the block has the numbers
+    int changes; // of the phase, of which the block has the numbers
     lane_flight flight;
     flight_run run;
 } lane;
@@ -83,11 +83,11 @@ static void put_flight(lane_group *self, int i, int from)
 {
     lane *one = &self->lane[from];
     const flight_run *run = &one->run;
-    if (i != from || one->piece != run->phase.piece)
+    if (i != from || one->changes != run->phase.changes)
         put(self->number, self, i, &run->phase.number, FLIGHT_NUMBERS);
     put(self->step, self, i, &run->steps.step, DORMAND_PRINCE_NUMBERS);
     put(self->extremes, self, i, &run->extremes, FLIGHT_EXTREMES);
-    one->piece = run->phase.piece;
+    one->changes = run->phase.changes;
 }
 
 static void end(lane_group *self, int i, ld_status status)
@@ -145,7 +145,7 @@ static bool take(lane_group *self, int i)
         fly_alone(self, i);
     } else {
         one->flies = true;
-        one->piece = -2; // none is
+        one->changes = -1; // none is
         self->side.system[i] = flight->job.system;
         self->side.phase[i] = &one->run.phase;
         put_flight(self, i, i);

@@ -37,7 +37,7 @@ static void set_tolerances(flight_run *run)
 
 flight_phase free_flight_phase(const flight_system *system, double t_ignition, double t)
 {
-    flight_phase phase = {.t_ignition = t_ignition};
+    flight_phase phase = {.t_ignition = t_ignition, .lowest_trigger = -INFINITY};
     flight_set_piece(system, &phase, motor_piece(&system->motor, t - t_ignition));
     return phase;
 }
@@ -189,13 +189,13 @@ static void watch(flight_run *run, double t, const double *y)
     take_height(run, t, y);
     watch_pressure(run, &flow);
     watch_acceleration(run);
-    if (flow.airspeed > 0 && flow.density > 0 &&
-        flow.across * most->along > flow.along * most->across) {
+    bool in_air = flow.density > 0 && !run->phase.hangs;
+    if (flow.airspeed > 0 && in_air && flow.across * most->along > flow.along * most->across) {
         most->across = flow.across;
         most->along = flow.along;
     }
-    if (isnan(run->t_tumbling) && system->aerodynamics.present && flow.density > 0 &&
-        flow.airspeed > 10 && flow.along < 0)
+    if (isnan(run->t_tumbling) && system->aerodynamics.present && in_air && flow.airspeed > 10 &&
+        flow.along < 0)
         run->t_tumbling = t;
     double t_fastest = fastest_instant(run, flow.mach);
     if (isnan(t_fastest))
@@ -227,8 +227,12 @@ static ld_status check_limit(flight_run *run, double t)
     double limit = run->job->model->run.flight_limit;
     if (isfinite(run->job->t_end) || t < run->t_limit)
         return LD_OK;
-    return ld_fail(run->error, LD_ERR_LAUNCH,
-                   "the rocket has not landed within the flight limit of %.6g s", limit);
+    return ld_fail(
+        run->error, LD_ERR_LAUNCH,
+        run->job->model->run.end == LD_END_APOGEE
+            ? "the rocket has not come to its highest point within the flight limit of %.6g s"
+            : "the rocket has not landed within the flight limit of %.6g s",
+        limit);
 }
 
 // Every 50 ms of flight; the share by the time that the rocket would need to fall without air.
@@ -401,9 +405,9 @@ static void measure_step(flight_run *run, double apex)
 
 // ---- events within a step ----
 
-// Where height (rate = false) or its rate goes through zero between a and b: the method of false
-// position as Illinois has it. Height counts from the ground.
-static double crossing(flight_run *run, bool rate, double a, double b)
+// Where the height goes through `level` between a and b, or its rate through zero where that is
+// NaN: the method of false position as Illinois has it.
+static double crossing(flight_run *run, double level, double a, double b)
 {
     double f[3], t[3] = {a, b, b};
     for (int i = 0; i < 60; i++) {
@@ -412,8 +416,8 @@ static double crossing(flight_run *run, bool rate, double a, double b)
             const flight_system *system = run->job->system;
             double y[DORMAND_PRINCE_STATES];
             dormand_prince_between(&run->steps, t[k], y);
-            f[k] = rate ? flight_height_rate(system, &run->phase, t[k], y)
-                        : flight_height(system, y) - system->ground;
+            f[k] = isnan(level) ? flight_height_rate(system, &run->phase, t[k], y)
+                                : flight_height(system, y) - level;
         }
         if (i) {
             bool other = f[2] * f[1] < 0;
@@ -436,7 +440,10 @@ static double find_apex(flight_run *run)
     const dormand_prince *steps = &run->steps;
     double before = flight_height_rate(system, &run->phase, steps->step.t0, steps->step.y0);
     double after = flight_height_rate(system, &run->phase, steps->step.t, steps->step.y);
-    return before > 0 && after < 0 ? crossing(run, true, steps->step.t0, steps->step.t) : NAN;
+    // a step that ended there is not to be found again
+    bool passed = steps->step.t0 == run->t_topped;
+    return before > 0 && after < 0 && !passed ? crossing(run, NAN, steps->step.t0, steps->step.t)
+                                              : NAN;
 }
 
 // Ends the last step on the ground if it went through; apex: of the same step.
@@ -448,13 +455,159 @@ static bool land(flight_run *run, double apex)
     if (!system->has_ground || flight_height(system, steps->step.y) > system->ground ||
         flight_height_rate(system, &run->phase, steps->step.t, steps->step.y) > 0)
         return false;
-    double t = crossing(run, false, isnan(apex) ? steps->step.t0 : apex, steps->step.t);
+    double t = crossing(run, system->ground, isnan(apex) ? steps->step.t0 : apex, steps->step.t);
     dormand_prince_retake(steps, t);
     memcpy(y, steps->step.y, sizeof y);
     t = touch_ground(run, t, y);
     memcpy(steps->step.y, y, sizeof y);
     steps->step.t = t;
     return true;
+}
+
+// ---- parachutes ----
+
+static int parachutes_of(const flight_run *run)
+{
+    return run->job->system->rocket->parachute_count;
+}
+
+static double height_of_trigger(const flight_run *run, int i)
+{
+    return run->job->system->ground + run->job->system->rocket->parachute[i].height;
+}
+
+// The highest of the heights on which a trigger waits is looked at.
+static void watch_triggers(flight_run *run)
+{
+    flight_phase *phase = &run->phase;
+    double level = -INFINITY;
+    for (int i = 0; i < parachutes_of(run); i++)
+        if (isnan(run->t_open[i]) &&
+            run->job->system->rocket->parachute[i].trigger == LD_TRIGGER_HEIGHT)
+            level = fmax(level, height_of_trigger(run, i));
+    if (level == phase->lowest_trigger)
+        return;
+    phase->lowest_trigger = level;
+    flight_set_piece(run->job->system, phase, phase->piece);
+}
+
+// When parachute i is triggered in the last step, with the apex in it (NaN: none); NaN: not.
+static double trigger_in_step(flight_run *run, int i, double apex)
+{
+    const flight_system *system = run->job->system;
+    const dormand_prince_numbers *step = &run->steps.step;
+    const ld_parachute *one = &system->rocket->parachute[i];
+    if (!isnan(run->t_open[i]) || one->trigger == LD_TRIGGER_TIME)
+        return NAN;
+    if (one->trigger == LD_TRIGGER_APOGEE)
+        return apex;
+    double from = isnan(apex) ? step->t0 : apex, level = height_of_trigger(run, i);
+    double y[DORMAND_PRINCE_STATES];
+    dormand_prince_between(&run->steps, from, y);
+    // what is so little below it may be an end that was cut short
+    if (flight_height(system, y) < level - 1e-6)
+        return apex;
+    bool falls_through = flight_height(system, step->y) <= level;
+    return falls_through ? fmax(from, crossing(run, level, from, step->t)) : NAN;
+}
+
+// The next instant at which one opens or is full.
+static double next_opening(const flight_run *run)
+{
+    double t = run->t_full;
+    for (int i = 0; i < parachutes_of(run); i++)
+        if (!run->opened[i])
+            t = fmin(t, run->t_open[i]); // which leaves NaN out
+    return t;
+}
+
+// Triggers in the last step; where one of the parachutes opens within it, or the flight ends at its
+// highest point, the step ends there.
+static bool cut_step(flight_run *run, double *apex)
+{
+    const ld_parachute *parachute = run->job->system->rocket->parachute;
+    double t[LD_MAX_PARACHUTES], end = run->steps.step.t;
+    bool to_apex = run->job->model->run.end == LD_END_APOGEE && !isnan(*apex);
+    double cut = to_apex ? *apex : end;
+    for (int i = 0; i < parachutes_of(run); i++) {
+        t[i] = trigger_in_step(run, i, *apex);
+        if (t[i] + parachute[i].lag < cut)
+            cut = t[i] + parachute[i].lag;
+    }
+    for (int i = 0; i < parachutes_of(run); i++)
+        if (t[i] <= cut)
+            run->t_open[i] = t[i] + parachute[i].lag;
+    if (*apex > cut)
+        *apex = NAN;
+    run->topped = to_apex && *apex == cut;
+    run->t_topped = *apex == cut ? cut : run->t_topped;
+    watch_triggers(run);
+    if (cut < end)
+        dormand_prince_retake(&run->steps, cut);
+    return run->topped || next_opening(run) <= cut;
+}
+
+// The rocket, which hangs below parachute i from now on, does not turn.
+static void open_parachute(flight_run *run, int i, double t, double *y)
+{
+    const flight_system *system = run->job->system;
+    const ld_parachute *one = &system->rocket->parachute[i];
+    ld_parachute_summary *opened = &run->rocket->parachute[i];
+    double before = flight_drag_area(&run->phase, t);
+    *opened = (ld_parachute_summary){t - run->job->t_ignition, flight_height(system, y),
+                                     flight_flow_at(system, t, y).airspeed};
+    if (system->has_ground)
+        opened->height -= system->ground;
+    if (run->phase.burning && !run->phase.hangs)
+        simulation_note(run->summary,
+                        "parachute %s opened at t = %.4f s while the motor was burning: its thrust "
+                        "counts no more",
+                        one->name, t);
+    bool at_once = one->filling == 0 || one->drag_area == before;
+    flight_hang(system, &run->phase, t, one->drag_area,
+                at_once ? 0 : (one->drag_area - before) / one->filling);
+    run->t_full = at_once ? INFINITY : t + one->filling;
+    run->area = one->drag_area;
+    run->opened[i] = true;
+    for (int k = 0; k < 3; k++)
+        y[FLIGHT_W + k] = 0;
+}
+
+// Parachutes that open at or before t, and one that is full; true where there was one.
+static bool pass_parachutes(flight_run *run, double t, double *y)
+{
+    bool passed = t >= run->t_full;
+    if (passed) {
+        flight_hang(run->job->system, &run->phase, t, run->area, 0);
+        run->t_full = INFINITY;
+    }
+    for (int i = 0; i < parachutes_of(run); i++)
+        if (!run->opened[i] && t >= run->t_open[i]) {
+            open_parachute(run, i, t, y);
+            passed = true;
+        }
+    return passed;
+}
+
+// Those of a time are known, that of a rocket still in its tube comes at its exit.
+static void set_triggers(flight_run *run)
+{
+    const free_flight *job = run->job;
+    for (int i = 0; i < parachutes_of(run); i++) {
+        const ld_parachute *one = &job->system->rocket->parachute[i];
+        run->t_open[i] = one->trigger == LD_TRIGGER_TIME
+                             ? fmax(job->t_start, job->t_ignition + one->time + one->lag)
+                             : NAN;
+    }
+    watch_triggers(run);
+}
+
+static void note_closed(flight_run *run)
+{
+    for (int i = 0; i < parachutes_of(run); i++)
+        if (!run->opened[i])
+            simulation_note(run->summary, "parachute %s did not open before the rocket landed",
+                            run->job->system->rocket->parachute[i].name);
 }
 
 // ---- the loop ----
@@ -469,6 +622,7 @@ static double next_stop(const flight_run *run)
     int next = run->phase.piece + 1;
     if (next < (int)thrust->corner_count)
         stop = fmin(stop, job->t_ignition + thrust->t[next]);
+    stop = fmin(stop, next_opening(run));
     return fmin(stop, isinf(job->t_end) ? run->t_limit : INFINITY);
 }
 
@@ -488,10 +642,16 @@ static bool pass_corners(flight_run *run, double t)
     return true;
 }
 
-static ld_status after_step(flight_run *run, bool stopped)
+// What changes the equations at or before t; true where there was something.
+static bool pass_events(flight_run *run, double t, double *y)
+{
+    bool corner = pass_corners(run, t);
+    return pass_parachutes(run, t, y) || corner;
+}
+
+static ld_status after_step(flight_run *run, double apex, bool stopped)
 {
     const dormand_prince *steps = &run->steps;
-    double apex = find_apex(run);
     ld_status status = LD_OK;
     // the step as it was, until the ground ends it
     if (!isnan(apex)) {
@@ -534,7 +694,7 @@ static ld_status check_steps(const flight_run *run)
 
 bool flight_run_goes_on(const flight_run *run)
 {
-    return !run->landed && run->steps.step.t < run->job->t_end;
+    return !run->landed && !run->topped && run->steps.step.t < run->job->t_end;
 }
 
 // Where every row is asked for, or something is measured, all steps are looked at.
@@ -555,13 +715,14 @@ ld_status flight_run_look(flight_run *run)
                        "the equations of flight gave no finite result, or the step size fell to "
                        "nothing, at t = %.9g s",
                        steps->step.t);
-    bool stopped = steps->step.t == steps->step.t_stop;
-    ld_status status = after_step(run, stopped);
+    double apex = find_apex(run);
+    bool cut = cut_step(run, &apex), stopped = cut || steps->step.t == steps->step.t_stop;
+    ld_status status = after_step(run, apex, stopped);
     if (!status)
         status = check_steps(run);
     if (status)
         return status;
-    if (stopped && pass_corners(run, steps->step.t)) {
+    if (stopped && !run->landed && pass_events(run, steps->step.t, steps->step.y)) {
         dormand_prince_start(steps, steps->step.t, steps->step.y);
         watch_acceleration(run); // beyond the corner, too
     }
@@ -588,6 +749,7 @@ static ld_status begin(flight_run *run, const double *y)
     double start[DORMAND_PRINCE_STATES] = {0};
     memcpy(start, y, FLIGHT_STATES * sizeof(double));
     set_tolerances(run);
+    pass_parachutes(run, job->t_start, start);
     dormand_prince_start(&run->steps, job->t_start, start);
     double height = flight_height(job->system, y);
     run->t_limit = job->t_start + job->model->run.flight_limit;
@@ -624,6 +786,8 @@ static void note(flight_run *run)
         simulation_note(run->summary,
                         "the rocket hit the ground at t = %.4f s while its motor was burning",
                         run->steps.step.t);
+    if (run->landed)
+        note_closed(run);
 }
 
 ld_status flight_run_begin(flight_run *run, const free_flight *job, const double *state,
@@ -642,8 +806,11 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
                         .extremes = {.along = 1},
                         .last_row = NAN,
                         .t_beyond = NAN,
-                        .t_tumbling = NAN};
+                        .t_tumbling = NAN,
+                        .t_topped = NAN,
+                        .t_full = INFINITY};
     rocket->flown = true;
+    set_triggers(run);
     flight_flow about = flight_flow_at(job->system, job->t_start, state);
     rocket->flight.stability_margin =
         flight_stability_margin(job->system, &run->phase, job->t_start, about.mach);

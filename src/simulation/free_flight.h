@@ -63,7 +63,12 @@ typedef struct flight_run {
     double last_time;  // the end of the last step
     double t_limit;
     bool burnt_out, past_apex, landed; // in this flight
-    quantity_columns columns;          // where something is measured
+    bool topped;                       // ended at its highest point
+    double t_topped;                   // when a step was ended there; NaN: none was
+    double t_open[LD_MAX_PARACHUTES];  // NaN: not triggered yet
+    bool opened[LD_MAX_PARACHUTES];
+    double t_full, area;      // when the one that fills is full [s], infinity: none does; then [m2]
+    quantity_columns columns; // where something is measured
     measure_window window[LD_MAX_MEASURES];
 } flight_run;
 

@@ -32,6 +32,13 @@ typedef struct ld_flight_summary {
     double max_angle_of_attack;    ///< [rad] at the ends of the steps
 } ld_flight_summary;
 
+/// A parachute that has opened; NaN: it has not.
+typedef struct ld_parachute_summary {
+    double t_open;   ///< [s] from ignition
+    double height;   ///< [m] of the mass centre above the ground (without one, its height)
+    double airspeed; ///< [m/s]
+} ld_parachute_summary;
+
 /// State at the end of a free flight, of the rear adaptor's centre in I against the ground.
 typedef struct ld_final_state {
     double t;                    ///< [s] on the run's clock
@@ -136,6 +143,7 @@ typedef struct ld_rocket_summary {
     double measure[LD_MAX_MEASURES]; ///< in the model's order; NaN: its instants did not all come
     bool flown;                      ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
+    ld_parachute_summary parachute[LD_MAX_PARACHUTES]; ///< in the model's order
     ld_final_state final;
 } ld_rocket_summary;
 

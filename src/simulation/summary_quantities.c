@@ -158,6 +158,12 @@ static const quantity flight[] = {
     {"t_max_acceleration", "s", "when that was", ROCKET(flight.t_max_acceleration), "flight.t_max_acceleration", KEPT},
     {"max_angle_of_attack", "rad", "largest angle of attack at the ends of the steps", ROCKET(flight.max_angle_of_attack), "flight.max_angle_of_attack", KEPT, LINE("largest angle of attack", "deg", DEGREES, 3)},
 };
+#define OPENED(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, parachute, member)
+static const quantity parachutes[] = {
+    {"parachute.%s.t_open", "s", "parachute %s: begins to open", OPENED(t_open), KEPT, LINE("%s opens", "s", 1, 4)},
+    {"parachute.%s.height", "m", "parachute %s: height of the mass centre above the ground then", OPENED(height), KEPT, LINE("%s, height", "m", 1, 3)},
+    {"parachute.%s.airspeed", "m/s", "parachute %s: speed through the air then", OPENED(airspeed), KEPT, LINE("%s, airspeed", "m/s", 1, 3)},
+};
 static const quantity final[] = {
     {"final.t", "s", "end of the flight, on the run's clock", ROCKET(final.t)},
     {"final.x", "m", "rear adaptor's centre in I", ROCKET(final.position[0]), "final.position[]"},
@@ -216,6 +222,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(held)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
+    {.title = "of each parachute", .each = EACH_PARACHUTE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(parachutes)},
     {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},
     {.title = "the same on a round or WGS 84 Earth", .where = QUANTITY_AT(ld_rocket_summary, final.earth), QUANTITY_ROWS(final_on_earth)},
 };
@@ -325,9 +332,10 @@ const quantity_table cost_quantities = TABLE(cost_groups);
 void rocket_clear(ld_rocket_summary *rocket, bool launched)
 {
     static const int most[EACH_COUNT] = {
-        [EACH_ADAPTOR] = LD_MAX_ADAPTORS, [EACH_MEASURE] = LD_MAX_MEASURES,
-        [EACH_STATION] = LD_MAX_STATIONS, [EACH_SUPPORT] = LD_MAX_SUPPORTS,
-        [EACH_SLIDE] = LD_MAX_SUPPORTS,   [EACH_HINGE] = HINGES};
+        [EACH_ADAPTOR] = LD_MAX_ADAPTORS,    [EACH_MEASURE] = LD_MAX_MEASURES,
+        [EACH_STATION] = LD_MAX_STATIONS,    [EACH_SUPPORT] = LD_MAX_SUPPORTS,
+        [EACH_SLIDE] = LD_MAX_SUPPORTS,      [EACH_HINGE] = HINGES,
+        [EACH_PARACHUTE] = LD_MAX_PARACHUTES};
     memset(rocket, 0, sizeof *rocket);
     for (int i = 0; i < rocket_quantities.groups; i++) {
         const quantity_group *group = &rocket_groups[i];

@@ -59,6 +59,7 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
     *self = (flight_system){.rocket = flying,
                             .thrust_point = v3_from(thrust->at),
                             .jet_damping = thrust->jet_damping == LD_JET_DAMPING_YES,
+                            .parachutes = flying->parachute_count > 0,
                             .ground = model->environment.ground_height,
                             .has_ground = model->environment.ground == LD_GROUND_PLANE};
     earth_build(&self->earth, model);
@@ -68,7 +69,7 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
     ld_status status = wind_build(&self->wind, &model->environment.wind, error);
     if (!status)
         status = aerodynamics_build(&self->aerodynamics, &flying->aerodynamics, error);
-    if (!status && self->wind.present && self->aerodynamics.present)
+    if (!status && self->wind.present && (self->aerodynamics.present || self->parachutes))
         status =
             turbulence_build(&self->turbulence, &model->environment.wind.turbulence, rocket, error);
     self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;
@@ -99,6 +100,19 @@ void flight_free(flight_system *self)
     motor_free(&self->motor);
 }
 
+// Numbers that a phase has of its own.
+static void set_numbers(const flight_system *self, flight_phase *phase)
+{
+    flight_numbers *number = &phase->number;
+    *number = self->number;
+    number->parachute.open = phase->hangs;
+    number->parachute.t0 = phase->hangs_since;
+    number->parachute.area = phase->area;
+    number->parachute.slope = phase->slope;
+    number->earth.watched = fmax(number->earth.watched, phase->lowest_trigger);
+    phase->changes++;
+}
+
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
 {
     const motor *thrust = &self->motor;
@@ -106,7 +120,7 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
     double total = motor_total_impulse(thrust);
     phase->piece = piece;
     phase->burning = piece >= 0 && piece + 1 < corners;
-    phase->number = self->number;
+    set_numbers(self, phase);
     phase->number.burn.power = piece + 1 < corners;
     phase->number.burn.share = piece >= 0 && total > 0 ? thrust->impulse[piece] / total : 0;
     if (!phase->burning)
@@ -117,6 +131,21 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
     phase->number.burn.thrust = thrust->thrust[piece];
     phase->number.burn.slope = (thrust->thrust[piece + 1] - thrust->thrust[piece]) / length;
     phase->number.burn.share = thrust->impulse[piece] * phase->number.burn.rate;
+}
+
+void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
+                 double slope)
+{
+    phase->area = slope == 0 ? area : flight_drag_area(phase, t);
+    phase->slope = slope;
+    phase->hangs_since = t;
+    phase->hangs = true;
+    flight_set_piece(self, phase, phase->piece);
+}
+
+double flight_drag_area(const flight_phase *phase, double t)
+{
+    return phase->area + phase->slope * (t - phase->hangs_since);
 }
 
 rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t)
@@ -135,7 +164,7 @@ double flight_stability_margin(const flight_system *self, const flight_phase *ph
 
 double flight_thrust(const flight_system *self, const flight_phase *phase, double t)
 {
-    return motor_thrust(&self->motor, phase->piece, t - phase->t_ignition);
+    return phase->hangs ? 0 : motor_thrust(&self->motor, phase->piece, t - phase->t_ignition);
 }
 
 // ---- the air
@@ -204,6 +233,7 @@ bool flight_is_like(const flight_system *self, const flight_system *other)
            self->wind.present == other->wind.present &&
            self->turbulence.present == other->turbulence.present &&
            self->aerodynamics.present == other->aerodynamics.present &&
+           self->parachutes == other->parachutes &&
            self->aerodynamics.model == other->aerodynamics.model &&
            self->aerodynamics.surfaces.slopes == other->aerodynamics.surfaces.slopes &&
            self->aerodynamics.surfaces.acrosses == other->aerodynamics.surfaces.acrosses &&
@@ -273,7 +303,7 @@ double flight_height_rate(const flight_system *self, const flight_phase *phase, 
                           const double *state)
 {
     v3 up, v = v3_from(state + FLIGHT_V);
-    if (phase->burning) {
+    if (phase->burning && !phase->hangs) {
         v3 c_dot = m3_apply(m3_rotation_x(state[FLIGHT_ROLL]), flight_mass(self, phase, t).c_dot);
         v = v3_add(v, m3_apply(q_matrix(q_from(state + FLIGHT_Q)), c_dot));
     }

@@ -12,6 +12,8 @@
 // With jet damping (docs/flight.md) besides, in B, mu = -m_dot what leaves at r_e = r_T, R the
 // radius there, and e = r_e - c:
 //   f -= 2 w x (m c_dot + mu e),   M_C -= J_dot w + mu (e x (w x e) + R^2/4 (2 w_x, w_y, w_z))
+// Below a parachute the rocket is a point of its mass: with v_a its velocity through the air and A
+// the drag area, v_dot = g - rho A |v_a| v_a/(2 m), r_dot = v; the attitude stays as it was.
 // In turbulence two more states: xi_dot = V_m/L_u and V_m/L_w, V_m the speed through the air
 // without it.
 #ifndef LD_SYSTEMS_FLIGHT_H
@@ -61,8 +63,11 @@ typedef struct flight_numbers {
     } air;
     struct {
         double altitude, gravity, gm, j2, rotation, a, b, e2; // as in environment/earth.h
-        double ground;                                        // [m] -infinity: there is none
+        double watched; // [m] steps that end so low are looked at; -infinity: none is
     } earth;
+    struct {
+        double open, t0, area, slope; // 1: the rocket hangs below one; [m2] at t0 [s], [m2/s]
+    } parachute;
 } flight_numbers;
 
 typedef struct flight_system {
@@ -79,6 +84,7 @@ typedef struct flight_system {
     v3 thrust_point;     // [m] in B
     v3 thrust_direction; // unit vector, in B
     bool jet_damping;
+    bool parachutes;  // there are some
     bool symmetric;   // the same all around its x axis: nothing depends on the roll angle
     bool feels_shear; // surfaces in a wind that changes with height
     double ground;    // [m] its height: of the plane y, else above sphere or ellipsoid
@@ -95,12 +101,23 @@ typedef struct flight_phase {
     double t_ignition; // [s]
     int piece;         // of the thrust curve
     bool burning;
-    size_t interval; // of the aerodynamic table, where it was last read
+    size_t interval;                 // of the aerodynamic table, where it was last read
+    bool hangs;                      // below a parachute
+    double hangs_since, area, slope; // its drag area [m2] then [s], [m2/s] while it fills
+    double lowest_trigger; // [m] height at or below which a parachute's trigger waits; else -inf
+    int changes;           // of the numbers, so far
     flight_numbers number;
 } flight_phase;
 
 // Begins a piece of the thrust curve (elements/motor.h).
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece);
+
+// The drag area of the parachute that the rocket hangs below goes linearly from what it is at t to
+// `area` [m2] with the slope given [m2/s], or there at once where that is 0.
+void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
+                 double slope);
+// Its value at t; 0 where the rocket flies by itself.
+double flight_drag_area(const flight_phase *phase, double t);
 
 // Derivative of the state.
 void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,

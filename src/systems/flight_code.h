@@ -236,6 +236,25 @@ LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, real t, real3 r
                                         rocket->center, here->density);
 }
 
+// What becomes of the rates where the rocket hangs below a parachute: those of a point.
+LD_INLINE void hang(const flight_lanes *lanes, real t, const flow *here, real mass, real3 gravity,
+                    const real *y, real *y_dot)
+{
+    real_condition hangs = OF(parachute.open) != 0.0;
+    if (!real_any(hangs))
+        return;
+    real area = OF(parachute.area) + OF(parachute.slope) * (t - OF(parachute.t0));
+    real drag = 0.5 * here->density * area * real3_norm(here->v) / mass;
+    real3 a = real3_axpy(gravity, -drag, here->v);
+    real still[FLIGHT_XI];
+    for (int i = 0; i < FLIGHT_XI; i++)
+        still[i] = real_all(0);
+    real3_store(still + FLIGHT_R, real3_from(y + FLIGHT_V));
+    real3_store(still + FLIGHT_V, a);
+    for (int i = 0; i < FLIGHT_XI; i++)
+        y_dot[i] = real_select(hangs, still[i], y_dot[i]);
+}
+
 LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_dot, bool symmetric)
 {
     const flight_system *first = lanes->system[0];
@@ -259,12 +278,14 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     }
     // air
     y_dot[FLIGHT_XI] = y_dot[FLIGHT_XI + 1] = real_all(0);
+    flow here;
+    if (first->aerodynamics.present || first->parachutes)
+        here = flow_at(lanes, t, r, v, y + FLIGHT_XI);
+    if (first->turbulence.present) {
+        y_dot[FLIGHT_XI] = here.xi_dot[0];
+        y_dot[FLIGHT_XI + 1] = here.xi_dot[1];
+    }
     if (first->aerodynamics.present) {
-        flow here = flow_at(lanes, t, r, v, y + FLIGHT_XI);
-        if (first->turbulence.present) {
-            y_dot[FLIGHT_XI] = here.xi_dot[0];
-            y_dot[FLIGHT_XI + 1] = here.xi_dot[1];
-        }
         const in_flow rocket = {&A, c, s, mass.c, w};
         real_wrench wrench = wrench_of_lanes(lanes, t, r, &here, &rocket);
         force = real3_add(force, wrench.f);
@@ -297,6 +318,8 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     y_dot[FLIGHT_ROLL] = w_N.x;
     real3_store(y_dot + FLIGHT_W,
                 (real3){alpha.x, alpha.y - w_N.x * w_N.z, alpha.z + w_N.x * w_N.y});
+    if (first->parachutes)
+        hang(lanes, t, &here, mass.mass, gravity, y, y_dot);
 }
 
 LD_INLINE void flight_rates_of(const flight_lanes *lanes, const double *t, const double *y,
@@ -354,7 +377,8 @@ LD_INLINE real rise_of(bool flat, const real *y, const real *y_dot, real *margin
     return (r.x * r_dot.x + r.y * r_dot.y + r.z * r_dot.z) / real3_norm(r);
 }
 
-// Whether the highest point may lie in the step, or the ground at its end at the height given.
+// Whether the highest point may lie in the step, or its end, at the height given, is low enough for
+// the ground or a parachute's trigger.
 LD_INLINE real_condition turns_or_lands(const flight_lanes *lanes, const flight_step *step,
                                         real altitude)
 {
@@ -366,7 +390,7 @@ LD_INLINE real_condition turns_or_lands(const flight_lanes *lanes, const flight_
     real height = altitude - 1e-3;
     if (flat)
         height = y[FLIGHT_R + 1];
-    return ((rise0 > -margin0) & (rise < margin)) | (height <= OF(earth.ground));
+    return ((rise0 > -margin0) & (rise < margin)) | (height <= OF(earth.watched));
 }
 
 LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step *step)
@@ -391,6 +415,8 @@ LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step 
     real along = axis.x * here.v.x + axis.y * here.v.y + axis.z * here.v.z;
     real across = real3_norm(real3_cross(axis, here.v));
     real_condition in_air = here.density > 0.0;
+    if (first->parachutes)
+        in_air &= OF(parachute.open) == 0.0;
     real_condition more = in_air & (speed > 0.0) &
                           (across * *REALS(most, flight_extremes, along) >
                            along * *REALS(most, flight_extremes, across));

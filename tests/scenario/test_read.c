@@ -287,6 +287,23 @@ static void test_override_order(void **state)
     model_clear(&m);
 }
 
+static void test_parachutes(void **state)
+{
+    (void)state;
+    const char *const sets[] = {"run.end=apogee", "rocket.parachutes.main.lag=200 ms",
+                                "rocket.parachutes.1={trigger: time, time: 40 s}"};
+    ld_model m = read_model("examples/parachutes.yaml", sets, 3);
+    const ld_parachute *drogue = &m.rocket.parachute[0], *chief = &m.rocket.parachute[1];
+    assert_true(m.rocket.parachute_count == 2 && m.run.end == LD_END_APOGEE);
+    assert_true(strcmp(drogue->name, "drogue") == 0 && strcmp(chief->name, "main") == 0);
+    assert_true(drogue->trigger == LD_TRIGGER_TIME && chief->trigger == LD_TRIGGER_HEIGHT);
+    assert_true(drogue->time == 40 && chief->height == 300);
+    assert_true(drogue->drag_area == 0.6 && chief->drag_area == 7);
+    assert_true(drogue->lag == 1 && chief->lag == 0.2);
+    assert_true(drogue->filling == 0.3 && chief->filling == 1.2);
+    model_clear(&m);
+}
+
 static void test_engine_file(void **state)
 {
     (void)state;
@@ -518,23 +535,15 @@ static void test_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_ring),
-        cmocka_unit_test(test_reference_model),
-        cmocka_unit_test(test_section_forms),
-        cmocka_unit_test(test_include),
-        cmocka_unit_test(test_point_of_the_lock),
-        cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_override_order),
-        cmocka_unit_test(test_engine_file),
-        cmocka_unit_test(test_engine_from_zero),
-        cmocka_unit_test(test_motion_file),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_round_trip_of_random_bits),
-        cmocka_unit_test(test_awkward_title),
-        cmocka_unit_test(test_locale),
-        cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_values),           cmocka_unit_test(test_ring),
+        cmocka_unit_test(test_reference_model),  cmocka_unit_test(test_section_forms),
+        cmocka_unit_test(test_include),          cmocka_unit_test(test_point_of_the_lock),
+        cmocka_unit_test(test_overrides),        cmocka_unit_test(test_override_order),
+        cmocka_unit_test(test_parachutes),       cmocka_unit_test(test_engine_file),
+        cmocka_unit_test(test_engine_from_zero), cmocka_unit_test(test_motion_file),
+        cmocka_unit_test(test_round_trip),       cmocka_unit_test(test_round_trip_of_random_bits),
+        cmocka_unit_test(test_awkward_title),    cmocka_unit_test(test_locale),
+        cmocka_unit_test(test_failures),         cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

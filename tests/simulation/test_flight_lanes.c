@@ -63,6 +63,17 @@ static const char *const options[][MOST_SETTINGS] = {
     {"flight.attitude.pitch=-5 deg", "flight.position=0 500 0 m"},
     {"flight.position=0 -5 0 m"},
     {"run.flight_limit=3 s"},
+    {"run.end=apogee"},
+    {"rocket.parachutes=[{name: drogue, drag_area: 0.5 m2, trigger: apogee, lag: 0.7 s, filling: "
+     "0.3 "
+     "s}, {name: main, drag_area: 8 m2, trigger: height, height: 300 m, filling: 1 s}]"},
+    {"rocket.parachutes=[{name: only, drag_area: 3 m2, trigger: time, time: 2 s}]",
+     "environment={earth: wgs84, site: {latitude: 45 deg}, wind: {speed: 4 m/s, turbulence: "
+     "{wind_at_6m: 8 m/s, harmonics: 20}}}",
+     "rocket.aerodynamics=none"},
+    {"rocket.parachutes=[{name: low, drag_area: 3 m2, trigger: height, height: 400 m}, {name: top, "
+     "drag_area: 0.2 m2, trigger: apogee}]",
+     "rocket.eccentricity=0.3 -0.2 mm", "environment.earth=round"},
     {"measures=[{name: fastest, of: airspeed, take: peak, from: start, to: t_apogee}]"},
 };
 
@@ -149,6 +160,7 @@ static void check_same(const flown *alone, const flown *beside, const char *how)
                 strcmp(alone->error.text, beside->error.text) == 0 &&
                 memcmp(&a->flight, &b->flight, sizeof a->flight) == 0 &&
                 memcmp(a->measure, b->measure, sizeof a->measure) == 0 &&
+                memcmp(a->parachute, b->parachute, sizeof a->parachute) == 0 &&
                 memcmp(a->final.center, b->final.center, sizeof a->final.center) == 0 &&
                 memcmp(a->final.quaternion, b->final.quaternion, sizeof a->final.quaternion) == 0 &&
                 memcmp(a->final.rate, b->final.rate, sizeof a->final.rate) == 0 &&

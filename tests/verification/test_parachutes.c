@@ -1,0 +1,164 @@
+// Descent under parachutes against closed forms: fall to the terminal speed, in wind, filling,
+// triggers, one in the place of another, the terminal speed of the standard's air, the run that
+// ends at the highest point.
+#include "support/check.h"
+
+#include <stdlib.h>
+
+#include "scenario/scenario.h"
+#include "support/recorded_run.h"
+
+static const double g = 9.80665;
+
+// Scenario text with a rocket of 4 kg without air forces of its own, and what is given.
+static ld_model model_of(const char *environment, const char *parachutes, const char *rest)
+{
+    ld_model model;
+    ld_messages messages;
+    char text[2048];
+    snprintf(text, sizeof text,
+             "launchdyn: 1\nenvironment: {%s}\n"
+             "rocket: {mass: 4 kg, center: 0.3 0.01 0 m, inertia: 0.1 1 1 kg.m2,\n"
+             "  parachutes: [%s]}\n%s",
+             environment, parachutes, rest);
+    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
+        ld_messages_print(&messages, stdout);
+        fail();
+    }
+    return model;
+}
+
+static ld_rocket_summary fly(const char *environment, const char *parachutes, const char *rest)
+{
+    ld_model model = model_of(environment, parachutes, rest);
+    ld_rocket_summary rocket = summary_of_run(&model).rocket[0];
+    model_clear(&model);
+    return rocket;
+}
+
+#define UNIFORM "atmosphere: {density: 1.2 kg/m3, speed_of_sound: 340 m/s}"
+
+// From rest: v = v_t tanh(g t/v_t), fallen v_t^2/g ln cosh(g t/v_t); across, with the wind. A
+// rocket that turns, and a mass centre beside its axis, change nothing.
+static void test_terminal_speed(void **state)
+{
+    (void)state;
+    ld_rocket_summary rocket =
+        fly(UNIFORM ", ground: none, wind: {speed: 6 m/s, heading: 90 deg}",
+            "{name: only, drag_area: 0.5 m2, trigger: time, time: 0 s}",
+            "flight: {point: center, position: 0 0 0 m, velocity: 0 0 6 m/s, rate: 3 1 2 rad/s}\n"
+            "run: {end: 4 s, flight_tolerance: 1e-11}\n");
+    double v = sqrt(2 * 4 * g / (1.2 * 0.5)), t = 4;
+    CHECK_NEAR("speed [m/s]", -rocket.final.center_velocity[1], v * tanh(g * t / v), 1e-9);
+    CHECK_NEAR("fallen [m]", -rocket.final.center[1], v * v / g * log(cosh(g * t / v)), 1e-9);
+    CHECK_NEAR("drift [m]", rocket.final.center[2], 6 * t, 1e-9);
+    CHECK_NEAR("opened [s]", rocket.parachute[0].t_open, 0, 0);
+    CHECK_NEAR("rate [rad/s]", rocket.final.rate[0], 0, 0);
+}
+
+// Without gravity m v' = -rho A v^2/2, so 1/v grows by rho/(2 m) times the integral of A: nothing
+// for 0.5 s, a drogue that fills in 0.4 s, and a main that takes its place at 1.5 s in 2 s, the
+// motor's last second pushing nothing.
+static void test_filling(void **state)
+{
+    (void)state;
+    ld_model model = model_of(
+        UNIFORM ", gravity: 0 m/s2, ground: none",
+        "{name: main, drag_area: 3 m2, trigger: time, time: 1.2 s, lag: 0.3 s, filling: 2 s},"
+        "{name: drogue, drag_area: 0.2 m2, trigger: time, time: 0.5 s, filling: 0.4 s}",
+        "flight: {point: center, position: 0 0 0 m, velocity: 50 0 0 m/s}\n"
+        "run: {end: 5 s, flight_tolerance: 1e-11}\n");
+    recorded_run run;
+    recorded_run_make(&run, &model);
+    const ld_rocket_summary *rocket = &run.summary.rocket[0];
+    double area = 0.2 * 0.4 / 2 + 0.2 * (1.5 - 0.9) + (0.2 + 3) / 2 * 2 + 3 * (5 - 3.5);
+    CHECK_NEAR("speed at the end [m/s]", rocket->final.center_velocity[0],
+               1 / (1 / 50.0 + 1.2 / 8 * area), 1e-9);
+    CHECK_NEAR("main opened [s]", rocket->parachute[0].t_open, 1.5, 1e-15);
+    CHECK_NEAR("drogue opened [s]", rocket->parachute[1].t_open, 0.5, 1e-15);
+    CHECK_NEAR("airspeed at the drogue's opening [m/s]", rocket->parachute[1].airspeed, 50, 1e-12);
+    double before = 0.2 * 0.4 / 2 + 0.2 * (1.5 - 0.9);
+    CHECK_NEAR("airspeed at the main's opening [m/s]", rocket->parachute[0].airspeed,
+               1 / (1 / 50.0 + 1.2 / 8 * before), 1e-9);
+    double worst = 0;
+    for (size_t i = 0; i < run.rows; i++) {
+        double t = recorded_value(&run, i, recorded_column(&run, "t"));
+        double due = t <= 0.5   ? 0
+                     : t <= 0.9 ? 0.2 * (t - 0.5) / 0.4
+                     : t <= 1.5 ? 0.2
+                     : t <= 3.5 ? 0.2 + 2.8 * (t - 1.5) / 2
+                                : 3;
+        double area_now = recorded_value(&run, i, recorded_column(&run, "drag_area"));
+        worst = fmax(worst, fabs(area_now - due));
+        double attack = recorded_value(&run, i, recorded_column(&run, "angle_of_attack"));
+        assert_true(isnan(attack) == (t > 0.5));
+    }
+    CHECK_BELOW("drag area [m2]", worst, 1e-14);
+    recorded_run_free(&run);
+    model_clear(&model);
+}
+
+// In air that hardly brakes: up v^2/(2 g) in v/g; the height's trigger where the way down has come
+// there, or at the highest point where that is not above it.
+static void test_triggers(void **state)
+{
+    (void)state;
+    const char *thin = "atmosphere: {density: 1e-12 kg/m3, speed_of_sound: 340 m/s}, ground: -7 m";
+    const char *parachutes =
+        "{name: low, drag_area: 1 m2, trigger: height, height: 30 m, lag: 0.25 s},"
+        "{name: top, drag_area: 1 m2, trigger: apogee},"
+        "{name: late, drag_area: 1 m2, trigger: apogee, lag: 1.25 s, filling: 0.1 s},"
+        "{name: high, drag_area: 1 m2, trigger: height, height: 500 m},"
+        "{name: never, drag_area: 1 m2, trigger: time, time: 100 s}";
+    ld_rocket_summary rocket = fly(thin, parachutes,
+                                   "flight: {point: center, position: 0 0 0 m, velocity: 5 40 0 "
+                                   "m/s, ignition: 0.5 s}\n");
+    double v = 40, top = v * v / (2 * g), t_top = v / g - 0.5;
+    CHECK_NEAR("apogee's trigger [s]", rocket.parachute[1].t_open, t_top, 1e-9);
+    CHECK_NEAR("height there, over the ground [m]", rocket.parachute[1].height, top + 7, 1e-9);
+    CHECK_NEAR("the one with a lag [s]", rocket.parachute[2].t_open, t_top + 1.25, 1e-9);
+    CHECK_NEAR("height above the highest point [s]", rocket.parachute[3].t_open, t_top, 1e-9);
+    CHECK_NEAR("height on the way down [s]", rocket.parachute[0].t_open,
+               t_top + sqrt(2 * (top - 23) / g) + 0.25, 1e-9);
+    assert_true(isnan(rocket.parachute[4].t_open));
+    CHECK_NEAR("landing, as without a parachute [s]", rocket.flight.t_impact,
+               t_top + sqrt(2 * (top + 7) / g), 1e-9);
+}
+
+// In air whose density grows slowly on the way down the speed follows that of the balance.
+static void test_standard_air(void **state)
+{
+    (void)state;
+    ld_rocket_summary rocket =
+        fly("atmosphere: us1976", "{name: only, drag_area: 2 m2, trigger: time, time: 0 s}",
+            "flight: {point: center, position: 0 800 0 m, velocity: 0 -5 0 m/s}\n");
+    const double R = 8314.32 / 28.9644;
+    double v = sqrt(2 * 4 * g / (101325 / (R * 288.15) * 2));
+    // the density's scale height H; the balance with the deceleration v^2/(2 H) of v = sqrt(k/rho)
+    double height = 288.15 / (g / R - 0.0065);
+    CHECK_NEAR("speed at the landing, relative to the balance's", rocket.flight.impact_speed / v,
+               1 + v * v / (4 * g * height), 1e-7);
+}
+
+static void test_end_at_apogee(void **state)
+{
+    (void)state;
+    ld_rocket_summary rocket = fly("atmosphere: none", "",
+                                   "flight: {point: center, position: 0 0 0 m, velocity: 5 40 0 "
+                                   "m/s}\nrun: {end: apogee}\n");
+    CHECK_NEAR("end [s]", rocket.final.t, 40 / g, 1e-12);
+    CHECK_NEAR("height [m]", rocket.final.center[1], 1600 / (2 * g), 1e-12);
+    CHECK_NEAR("rise [m/s]", rocket.final.center_velocity[1], 0, 1e-12);
+    CHECK_NEAR("apogee [s]", rocket.flight.t_apogee, 40 / g, 1e-12);
+    assert_true(isnan(rocket.flight.t_impact));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_terminal_speed), cmocka_unit_test(test_filling),
+        cmocka_unit_test(test_triggers),       cmocka_unit_test(test_standard_air),
+        cmocka_unit_test(test_end_at_apogee),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
