@@ -86,6 +86,19 @@ ld_status curves_build(curves *self, size_t rows, size_t columns, const double *
     return status;
 }
 
+void curves_set_slopes(curves *self, int k, const double *d)
+{
+    size_t n = (size_t)self->count;
+    for (size_t i = 0; i + 1 < self->points; i++) {
+        double *at = self->coefficient + 4 * i * n + (size_t)k, c[4];
+        double h = self->x[i + 1] - self->x[i];
+        double next = at[0] + h * (at[n] + h * (at[2 * n] + h * at[3 * n]));
+        hermite(h, at[0], next, d[i], d[i + 1], c);
+        for (size_t power = 0; power < 4; power++)
+            at[power * n] = c[power];
+    }
+}
+
 void curves_free(curves *self)
 {
     free(self->x);

@@ -22,6 +22,9 @@ ld_status curves_build(curves *self, size_t rows, size_t columns, const double *
                        curve_kind kind, ld_error *error);
 void curves_free(curves *self);
 
+// Gives function k the slopes d at its points, in place of those that it has.
+void curves_set_slopes(curves *self, int k, const double *d);
+
 // The interval that x lies in, the first or last one outside; `hint` is tried first.
 static inline size_t curves_interval(const curves *self, double x, size_t hint)
 {

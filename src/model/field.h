@@ -50,10 +50,11 @@ enum { FIELD_WORD_LATER = -2 };
 
 // What may stand in place of a table's rows.
 enum table_source {
-    TABLE_CONSTANT = 1, // one value, of the last column
-    TABLE_CSV = 2,      // a CSV file whose header names columns and units
-    TABLE_ENGINE = 4,   // a RASP .eng file
-    TABLE_BARE = 8,     // the CSV file may do without a header: numbers in SI
+    TABLE_CONSTANT = 1,  // one value, of the last column
+    TABLE_CSV = 2,       // a CSV file whose header names columns and units
+    TABLE_ENGINE = 4,    // a RASP .eng file
+    TABLE_BARE = 8,      // the CSV file may do without a header: numbers in SI
+    TABLE_SOUNDING = 16, // a sounding (scenario/sounding_file.c)
 };
 
 enum { FIELD_MAX_COLUMNS = 8 };
@@ -71,7 +72,8 @@ typedef struct field_row {
     bool required;
     unsigned optional;       // bit f: not required in form f
     size_t offset;           // in the block's struct; FIELD_NOWHERE: nothing is stored
-    size_t other;            // list: its count; choice: its number; block with words: its switch
+    size_t other;            // list: its count; choice: its number; block with words: its switch;
+                             // table of a wind: its axes, read before
     bool other_is_bool;      // the switch is a bool, not an enum
     size_t stride;           // list, selection: size of one entry
     size_t mark;             // selection: place of the mark in an entry

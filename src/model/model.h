@@ -95,6 +95,7 @@ typedef enum ld_atmosphere_kind {
     LD_ATMOSPHERE_US1976,
     LD_ATMOSPHERE_NONE,
     LD_ATMOSPHERE_UNIFORM,
+    LD_ATMOSPHERE_PROFILE,
 } ld_atmosphere_kind;
 
 typedef struct ld_atmosphere {
@@ -102,7 +103,9 @@ typedef struct ld_atmosphere {
     double density;            ///< [kg/m3] (uniform)
     double speed_of_sound;     ///< [m/s] (uniform)
     double density_scale;      ///< [-] factor on the density
-    double temperature_offset; ///< [K] added at unchanged pressure (us1976)
+    double temperature_offset; ///< [K] added at unchanged pressure (us1976, profile)
+    ld_table profile; ///< measured: altitude [m], pressure [Pa], temperature [K] and, where
+                      ///< it has a fourth column, relative humidity over water [-]
 } ld_atmosphere;
 
 /// Half-cosine up, constant, half-cosine down, uniform in space.

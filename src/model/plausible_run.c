@@ -1,4 +1,5 @@
 // Plausibility of the environment, flights, runs and studies.
+#include "model/moist_air.h"
 #include "model/plausible.h"
 
 #define PI 3.14159265358979323846
@@ -15,11 +16,51 @@ FIND(profile_speed)
     return plausible_alone(most);
 }
 
+// Temperature [K] of dry air as dense as that of a row.
+static double dry_temperature(const double *row, size_t columns)
+{
+    return columns == 4 ? virtual_temperature(row[1], row[2], row[3]) : row[2];
+}
+
+// Fall of the pressure [Pa] from a row to the next by the weight of the air between them, whose
+// temperature is the mean of both.
+static double hydrostatic_fall(const double *row, const double *next, size_t columns)
+{
+    const double g = 9.80665, radius = 6356766, R = 8314.32 / 28.9644; // of us1976
+    double T = 0.5 * (dry_temperature(row, columns) + dry_temperature(next, columns));
+    double thickness =
+        radius * radius * (next[0] - row[0]) / ((radius + row[0]) * (radius + next[0]));
+    return -row[1] * expm1(-g * thickness / (R * T));
+}
+
+// The row that is farthest from resting on the one before, by more than is measured otherwise.
+FIND(air_at_rest)
+{
+    const ld_atmosphere *air = &at->model->environment.atmosphere;
+    const ld_table *profile = &air->profile;
+    plausible_pair worst = plausible_nothing();
+    double most = 0.005;
+    if (air->kind != LD_ATMOSPHERE_PROFILE)
+        return worst;
+    for (size_t i = 1; i < profile->rows; i++) {
+        const double *row = profile->data + i * profile->columns, *before = row - profile->columns;
+        double fall = before[1] - row[1], due = hydrostatic_fall(before, row, profile->columns);
+        double off = fabs(fall - due) / before[1];
+        if (off <= most)
+            continue;
+        most = off;
+        worst = plausible_compare(fall, due);
+        worst.row = (int)i + 1;
+    }
+    return worst;
+}
+
 // Altitude at the start where there are air forces by a table that ends.
 static double altitude_in_air(const ld_model *model, double altitude)
 {
     bool flies = model->rocket.aerodynamics.present &&
-                 model->environment.atmosphere.kind == LD_ATMOSPHERE_US1976;
+                 (model->environment.atmosphere.kind == LD_ATMOSPHERE_US1976 ||
+                  model->environment.atmosphere.kind == LD_ATMOSPHERE_PROFILE);
     return flies ? altitude : NAN;
 }
 
@@ -215,6 +256,9 @@ const plausible_rule plausible_of_run[] = {
      .why = "that of air on the ground is 1.2 kg/m3"},
     {"environment.atmosphere.speed_of_sound", .unit = "m/s", .low = 100, .high = 2000,
      .why = "that of air on the ground is 340 m/s"},
+    {"environment.atmosphere.profile.#", "the fall of the pressure from the row before",
+     .unit = "Pa", .other = "the weight of the air between", .low = 0.99, .high = 1.01,
+     .find = air_at_rest, .why = "air at rest is carried by the air below"},
     {"environment.density_scale", .unit = "", NO_LOW, .high = 3,
      .why = "it is a correction of the atmosphere"},
     {"environment.wind.speed", .unit = "m/s", .low = -100, .high = 100,

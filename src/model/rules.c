@@ -4,6 +4,8 @@
 
 #include <strings.h>
 
+#include "model/moist_air.h"
+
 // A station must lie on the tube.
 static void station_rule(const rule_set *rules, const char *path, int index, double at)
 {
@@ -560,13 +562,36 @@ static void coupling_rules(const rule_set *rules)
                "goes with base.kind: vehicle; another base has no subsystems to couple");
 }
 
+// Heights rise, pressures fall, and no row has as much vapour as air.
+static void air_profile_rules(const rule_set *rules)
+{
+    static const char path[] = "environment.atmosphere.profile.#";
+    const ld_table *profile = &rules->model->environment.atmosphere.profile;
+    rising_rule(rules, path, profile, "m", false);
+    for (size_t i = 0; i < profile->rows; i++) {
+        const double *row = profile->data + i * profile->columns;
+        if (i > 0 && row[1] >= row[1 - (int)profile->columns])
+            broken(rules, path, (int)i + 1, "%g Pa is no less than %g Pa in the row before", row[1],
+                   row[1 - (int)profile->columns]);
+        if (profile->columns == 4 && vapour_pressure(row[2], row[3]) > 0.5 * row[1])
+            broken(rules, path, (int)i + 1,
+                   "a humidity of %g at %g K is a vapour pressure of %g Pa, too much for air of "
+                   "%g Pa",
+                   row[3], row[2], vapour_pressure(row[2], row[3]), row[1]);
+    }
+}
+
 static void environment_rules(const rule_set *rules)
 {
     const ld_environment *environment = &rules->model->environment;
     const ld_wind *wind = &environment->wind;
-    if (environment->atmosphere.temperature_offset != 0 &&
-        environment->atmosphere.kind != LD_ATMOSPHERE_US1976)
-        broken(rules, "environment.temperature_offset", 0, "goes with the atmosphere us1976");
+    const ld_atmosphere *air = &environment->atmosphere;
+    if (air->temperature_offset != 0 && air->kind != LD_ATMOSPHERE_US1976 &&
+        air->kind != LD_ATMOSPHERE_PROFILE)
+        broken(rules, "environment.temperature_offset", 0,
+               "goes with the atmosphere us1976 or a profile");
+    if (air->kind == LD_ATMOSPHERE_PROFILE)
+        air_profile_rules(rules);
     if (!wind->present)
         return;
     rising_rule(rules, "environment.wind.profile.#", &wind->profile, "m", false);

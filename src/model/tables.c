@@ -84,14 +84,37 @@ static const field_word site_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_word atmosphere_words[] = {{"us1976", LD_ATMOSPHERE_US1976},
                                               {"none", LD_ATMOSPHERE_NONE},
                                               {"", LD_ATMOSPHERE_UNIFORM},
+                                              {"", LD_ATMOSPHERE_PROFILE},
                                               {NULL, 0}};
+static const field_word atmosphere_forms[] = {{"uniform air", LD_ATMOSPHERE_UNIFORM},
+                                              {"a profile of the air", LD_ATMOSPHERE_PROFILE},
+                                              {NULL, 0}};
+#define AIR_COLUMNS                                                                                \
+    {"height", .unit = "m", FROM_TO(-5000, 86000)}, {"pressure", .unit = "Pa", FROM_TO(0.1, 2e5)}, \
+    {                                                                                              \
+        "temperature", .unit = "K", FROM_TO(100, 400)                                              \
+    }
+static const field_row dry_air_columns[] = {AIR_COLUMNS};
+static const field_row air_columns[] = {AIR_COLUMNS, {"humidity", .unit = "", FROM_TO(0, 1)}};
+static const table_format air_table = {TABLE_CSV | TABLE_BARE | TABLE_SOUNDING, 4, air_columns,
+                                       NULL};
+static const table_format dry_air_table = {TABLE_CSV | TABLE_BARE | TABLE_SOUNDING, 3,
+                                           dry_air_columns, &air_table};
+#define UNIFORM_AIR .forms = FORM(LD_ATMOSPHERE_UNIFORM)
 static const field_row atmosphere_fields[] = {
-    {"density", NUMBER(ld_atmosphere, density, "kg/m3"), FROM_TO(0, 1000), REQUIRED,
+    {"density", NUMBER(ld_atmosphere, density, "kg/m3"), FROM_TO(0, 1000), REQUIRED, UNIFORM_AIR,
      .doc = "the same everywhere"},
     {"speed_of_sound", NUMBER(ld_atmosphere, speed_of_sound, "m/s"), ABOVE_TO(0, 1e5), REQUIRED,
-     .doc = "the same everywhere"},
+     UNIFORM_AIR, .doc = "the same everywhere"},
+    {"profile", TABLE(ld_atmosphere, profile, dry_air_table), .required = true,
+     .forms = FORM(LD_ATMOSPHERE_PROFILE),
+     .doc = "measured air over the altitude, with relative humidity over water or dry; below and "
+            "above its rows us1976, scaled so that it goes on where they end"},
     {0}};
-static const field_block atmosphere_block = {.fields = atmosphere_fields};
+static const field_block atmosphere_block = {.fields = atmosphere_fields,
+                                             .form = atmosphere_forms,
+                                             .form_offset = offsetof(ld_atmosphere, kind),
+                                             .form_from_keys = true};
 
 static const field_row gust_fields[] = {
     {"start", NUMBER(ld_gust, start, "s"), FROM_TO(-10000, 10000), REQUIRED,
@@ -126,7 +149,8 @@ static const field_row wind_columns[] = {
     {"x", .unit = "m/s", FROM_TO(-1000, 1000)},
     {"z", .unit = "m/s", FROM_TO(-1000, 1000)},
 };
-static const table_format wind_table = {TABLE_CSV | TABLE_BARE, 3, wind_columns, NULL};
+static const table_format wind_table = {TABLE_CSV | TABLE_BARE | TABLE_SOUNDING, 3, wind_columns,
+                                        NULL};
 static const field_word wind_axes[] = {
     {"launcher", LD_WIND_LAUNCHER}, {"geographic", LD_WIND_GEOGRAPHIC}, {NULL, 0}};
 static const field_word wind_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
@@ -138,7 +162,8 @@ static const field_row wind_fields[] = {
      .doc = "at every height, in place of a profile"},
     {"heading", NUMBER(ld_wind, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
      .doc = "where the air goes to; 0: a tail wind along x"},
-    {"profile", TABLE(ld_wind, profile, wind_table), .initial_doc = "none",
+    {"profile", TABLE(ld_wind, profile, wind_table), .other = offsetof(ld_wind, axes),
+     .initial_doc = "none",
      .doc = "velocity along x and z over the height above ground (geographic: north and east over "
             "the altitude), pchip between rows, constant outside"},
     {"scale", NUMBER(ld_wind, scale, ""), FROM_TO(-1000, 1000), DEFAULT(1),
@@ -167,12 +192,12 @@ static const field_row environment_fields[] = {
      .doc = "place of I's origin on the Earth; none: as below, and on a flat Earth no map"},
     {"atmosphere", BLOCK(ld_model, environment.atmosphere, atmosphere_block),
      .initial_doc = "us1976", SWITCH(ld_model, environment.atmosphere.kind, atmosphere_words),
-     .doc = "air about the rocket: US Standard Atmosphere 1976, or uniform"},
+     .doc = "air about the rocket: US Standard Atmosphere 1976, uniform, or measured"},
     {"density_scale", NUMBER(ld_model, environment.atmosphere.density_scale, ""), FROM_TO(0, 1000),
      DEFAULT(1), .doc = "factor on the density of the air"},
     {"temperature_offset", NUMBER(ld_model, environment.atmosphere.temperature_offset, "K"),
      FROM_TO(-100, 100), DEFAULT(0),
-     .doc = "added to the temperature of us1976, at unchanged pressure"},
+     .doc = "added to the temperature of us1976 or of a profile, at unchanged pressure"},
     {"ground", CHOICE(ld_model, environment.ground, ground_words),
      .other = offsetof(ld_model, environment.ground_height), .unit = "m",
      .range = {-1e5, 1e7, 0, 0}, .initial_doc = "0 m, or the site's altitude",

@@ -287,13 +287,23 @@ static bool ends_with(const char *text, const char *ending)
 }
 
 static bool read_table_file(scenario_reader *reader, const field_row *f, const tree_node *value,
-                            const char *path, ld_table *table)
+                            void *base, const char *path)
 {
+    ld_table *table = field_at(base, f);
+    bool sounding = false;
     bool known = (f->table->sources & TABLE_CSV && ends_with(value->text, ".csv")) ||
-                 (f->table->sources & TABLE_ENGINE && ends_with(value->text, ".eng"));
+                 (f->table->sources & TABLE_ENGINE && ends_with(value->text, ".eng")) ||
+                 (f->table->sources & TABLE_SOUNDING && ends_with(value->text, ".txt"));
     if (!known)
         refuse_value(reader, f, value, path);
-    return known && table_file_read(reader, f, value->at, path, value->text, table);
+    if (!known || !table_file_read(reader, f, value->at, path, value->text, table, &sounding))
+        return false;
+    if (sounding && f->other && field_switch(base, f) == LD_WIND_LAUNCHER) {
+        reader_refuse(reader, value->at, path,
+                      "a sounding's wind is along north and east; it goes with axes: geographic");
+        return false;
+    }
+    return true;
 }
 
 // Whether a text in place of a table is its one value; else it is the name of a file.
@@ -316,7 +326,7 @@ static void read_table(scenario_reader *reader, const field_row *f, const tree_n
     else if (is_constant(f->table, value->text))
         good = read_constant(reader, f, value, path, table);
     else
-        good = read_table_file(reader, f, value, path, table);
+        good = read_table_file(reader, f, value, base, path);
     if (!good) {
         free(table->data);
         *table = (ld_table){0};

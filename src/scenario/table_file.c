@@ -1,88 +1,31 @@
-// Tables in files of their own: RASP .eng thrust curves and motions as CSV.
+// Tables in files of their own: RASP .eng thrust curves, CSV.
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/text_lines.h"
 #include "model/field.h"
-#include "scenario/scenario_reader.h"
-
-// A file's lines, and where what is wrong with them is told.
-typedef struct line_reader {
-    scenario_reader *reader;
-    const char *path; // of the key that names the file
-    const text_source *source;
-    text_lines at; // the line at hand
-    bool failed;
-} line_reader;
-
-static void refuse_line(line_reader *lines, int field, const char *text)
-{
-    text_place at = {lines->source, lines->at.number, text_lines_column(&lines->at, field)};
-    reader_refuse(lines->reader, at, lines->path, "%s", text);
-    lines->failed = true;
-}
-
-// The next line that is neither blank nor a comment, its fields cut at blanks or at commas.
-static bool next_line(line_reader *lines, char comment, bool commas)
-{
-    bool there = !lines->failed && text_lines_next(&lines->at, comment, commas);
-    if (!there && !lines->failed && lines->at.wrong)
-        refuse_line(lines, 0, lines->at.wrong);
-    return there;
-}
-
-static bool line_number(line_reader *lines, int field, double *value)
-{
-    const char *reason, *end = number_parse(lines->at.field[field], value, &reason);
-    char text[160], quoted[64];
-    if (end && *end == '\0')
-        return true;
-    snprintf(text, sizeof text, "found %s%s%s; expected a number",
-             reader_quote(lines->at.field[field], quoted), reason ? ", " : "",
-             reason ? reason : "");
-    refuse_line(lines, field, text);
-    return false;
-}
-
-static bool append_row(line_reader *lines, ld_table *table, size_t columns, const double *row)
-{
-    // room is doubled at each power of two
-    if ((table->rows & (table->rows - 1)) == 0) {
-        size_t room = table->rows ? 2 * table->rows : 1;
-        double *larger = realloc(table->data, room * columns * sizeof *larger);
-        if (!larger) {
-            lines->reader->no_memory = lines->failed = true;
-            return false;
-        }
-        table->data = larger;
-    }
-    memcpy(table->data + table->rows * columns, row, columns * sizeof *row);
-    table->rows++;
-    table->columns = columns;
-    return true;
-}
+#include "scenario/line_reader.h"
+#include "scenario/sounding_file.h"
 
 // ---- RASP .eng: comments, a header of seven fields, lines "time thrust" up to thrust 0
 
 static void read_rasp_header(line_reader *lines)
 {
     double propellant, total, value;
-    if (!next_line(lines, ';', false)) {
+    if (!line_next(lines, ';', false)) {
         if (!lines->failed)
-            refuse_line(lines, 0, "no engine in this file");
+            line_refuse(lines, 0, "no engine in this file");
         return;
     }
     if (lines->at.count < 7) {
-        refuse_line(lines, 0,
+        line_refuse(lines, 0,
                     "the header of an engine has seven fields: name, diameter, length, "
                     "delays, propellant mass, total mass, manufacturer");
         return;
     }
     if (line_number(lines, 1, &value) && line_number(lines, 2, &value) &&
         line_number(lines, 4, &propellant) && line_number(lines, 5, &total) && propellant > total)
-        refuse_line(lines, 4, "more propellant than the whole engine weighs");
+        line_refuse(lines, 4, "more propellant than the whole engine weighs");
 }
 
 // One point of the curve; the point 0, 0 is implied where the first is later.
@@ -91,33 +34,33 @@ static bool read_rasp_point(line_reader *lines, ld_table *table)
     const double origin[2] = {0, 0};
     double row[2];
     if (lines->at.count != 2) {
-        refuse_line(lines, 0, "expected two numbers, time in s and thrust in N");
+        line_refuse(lines, 0, "expected two numbers, time in s and thrust in N");
         return false;
     }
     if (!line_number(lines, 0, &row[0]) || !line_number(lines, 1, &row[1]))
         return false;
     double before = table->rows ? table->data[2 * (table->rows - 1)] : 0;
     if (row[0] < before)
-        refuse_line(lines, 0,
+        line_refuse(lines, 0,
                     table->rows ? "a time before that of the line above"
                                 : "a time before ignition");
     else if (row[0] > 10000)
-        refuse_line(lines, 0, "a time of more than 10000 s");
+        line_refuse(lines, 0, "a time of more than 10000 s");
     else if (row[1] < 0)
-        refuse_line(lines, 1, "a negative thrust");
+        line_refuse(lines, 1, "a negative thrust");
     else if (table->rows >= 2 && row[0] == before && table->data[2 * (table->rows - 2)] == before)
-        refuse_line(lines, 0, "a time that stands there a third time");
+        line_refuse(lines, 0, "a time that stands there a third time");
     if (lines->failed)
         return false;
-    if (table->rows == 0 && row[0] > 0 && !append_row(lines, table, 2, origin))
+    if (table->rows == 0 && row[0] > 0 && !line_append(lines, table, 2, origin))
         return false;
-    return append_row(lines, table, 2, row);
+    return line_append(lines, table, 2, row);
 }
 
 static void read_rasp(line_reader *lines, ld_table *table)
 {
     read_rasp_header(lines);
-    while (next_line(lines, ';', false)) {
+    while (line_next(lines, ';', false)) {
         if (!read_rasp_point(lines, table))
             return;
         double thrust = table->data[2 * table->rows - 1];
@@ -127,11 +70,11 @@ static void read_rasp(line_reader *lines, ld_table *table)
     if (lines->failed)
         return;
     if (table->rows == 0)
-        refuse_line(lines, 0, "an engine without a thrust curve");
+        line_refuse(lines, 0, "an engine without a thrust curve");
     else if (table->data[2 * table->rows - 1] != 0)
-        refuse_line(lines, 0, "the last thrust of a curve must be 0");
-    else if (next_line(lines, ';', false))
-        refuse_line(lines, 0, "the curve ends at thrust 0; more lines (a second engine?) follow");
+        line_refuse(lines, 0, "the last thrust of a curve must be 0");
+    else if (line_next(lines, ';', false))
+        line_refuse(lines, 0, "the curve ends at thrust 0; more lines (a second engine?) follow");
 }
 
 // ---- CSV: a header such as "t [s], x [m], .., roll [deg]", then rows of numbers
@@ -155,7 +98,7 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
                  i + 1, column->name, column->unit);
     else
         snprintf(text, sizeof text, "column %d of the header must be \"%s\"", i + 1, column->name);
-    refuse_line(lines, i, text);
+    line_refuse(lines, i, text);
     return NAN;
 }
 
@@ -168,11 +111,11 @@ static void read_cell(line_reader *lines, const field_row *column, int i, double
         return;
     *value = units_scale(*value, factor);
     if (!isfinite(*value)) {
-        refuse_line(lines, i, "too large a number");
+        line_refuse(lines, i, "too large a number");
     } else if (!field_in_range(column->range, *value)) {
         field_range_text(column, expected, sizeof expected);
         snprintf(text, sizeof text, "found %.40s; expected %s", lines->at.field[i], expected);
-        refuse_line(lines, i, text);
+        line_refuse(lines, i, text);
     }
 }
 
@@ -184,7 +127,7 @@ static void read_csv_row(line_reader *lines, const table_format *format, const d
     if (lines->at.count != format->columns) {
         snprintf(text, sizeof text, "expected %d numbers, found %d", format->columns,
                  lines->at.count);
-        refuse_line(lines, 0, text);
+        line_refuse(lines, 0, text);
         return;
     }
     for (int i = 0; i < format->columns && !lines->failed; i++)
@@ -193,17 +136,21 @@ static void read_csv_row(line_reader *lines, const table_format *format, const d
         row[0] <= table->data[(table->rows - 1) * table->columns]) {
         snprintf(text, sizeof text, "%s does not come after that of the row before",
                  format->column[0].name);
-        refuse_line(lines, 0, text);
+        line_refuse(lines, 0, text);
     }
     if (!lines->failed)
-        append_row(lines, table, (size_t)format->columns, row);
+        line_append(lines, table, (size_t)format->columns, row);
 }
 
 static void read_csv(line_reader *lines, const table_format *format, ld_table *table)
 {
     double factor[FIELD_MAX_COLUMNS];
-    if (!next_line(lines, '#', true) && !lines->failed)
-        refuse_line(lines, 0, "the file is empty");
+    if (!line_next(lines, '#', true) && !lines->failed)
+        line_refuse(lines, 0, "the file is empty");
+    if (!lines->failed && format->sources & TABLE_SOUNDING && sounding_is_header(lines)) {
+        sounding_read_csv(lines, format, table);
+        return;
+    }
     // the header says which form of the table it is
     const table_format *given = field_table_format(format, (size_t)lines->at.count);
     format = given ? given : format;
@@ -214,14 +161,14 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
         factor[i] = bare ? 1 : header_factor(lines, &format->column[i], i);
     if (bare)
         read_csv_row(lines, format, factor, table);
-    while (next_line(lines, '#', true) && !lines->failed)
+    while (line_next(lines, '#', true) && !lines->failed)
         read_csv_row(lines, format, factor, table);
     if (!lines->failed && table->rows == 0)
-        refuse_line(lines, 0, "no row of numbers");
+        line_refuse(lines, 0, "no row of numbers");
 }
 
 bool table_file_read(scenario_reader *reader, const field_row *f, text_place place,
-                     const char *path, const char *name, ld_table *table)
+                     const char *path, const char *name, ld_table *table, bool *sounding)
 {
     text_source *opened = reader_open(reader, place, path, name);
     line_reader lines = {.reader = reader, .path = path, .source = opened};
@@ -231,7 +178,10 @@ bool table_file_read(scenario_reader *reader, const field_row *f, text_place pla
     size_t length = strlen(name);
     if (strcmp(name + length - 4, ".eng") == 0)
         read_rasp(&lines, table);
+    else if (strcmp(name + length - 4, ".txt") == 0)
+        sounding_read_text(&lines, f->table, table);
     else
         read_csv(&lines, f->table, table);
+    *sounding = lines.sounding;
     return !lines.failed;
 }

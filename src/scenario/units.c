@@ -46,13 +46,13 @@ static const struct {
     char symbol;
     double factor;
 } prefixes[] = {{'n', 1e-9}, {'u', 1e-6}, {'m', 1e-3}, {'c', 1e-2},
-                {'k', 1e3},  {'M', 1e6},  {'G', 1e9}};
+                {'h', 1e2},  {'k', 1e3},  {'M', 1e6},  {'G', 1e9}};
 
 // Common units, for suggestions, and slips that are no matter of spelling.
 static const char *const common[] = {"m",   "mm", "cm",  "um", "km",  "kg",   "g",   "t",   "s",
                                      "ms",  "us", "min", "h",  "rad", "mrad", "deg", "rev", "Hz",
-                                     "kHz", "N",  "kN",  "MN", "Pa",  "kPa",  "MPa", "GPa", "bar",
-                                     "J",   "kJ", "W",   "kW", "rpm", "K"};
+                                     "kHz", "N",  "kN",  "MN", "Pa",  "hPa",  "kPa", "MPa", "GPa",
+                                     "bar", "J",  "kJ",  "W",  "kW",  "rpm",  "K"};
 static const struct {
     const char *wrong, *right;
 } slips[] = {{"kph", "km/h"}, {"kmh", "km/h"},   {"mps", "m/s"},    {"Nm", "N.m"},

@@ -63,10 +63,11 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
                             .ground = model->environment.ground_height,
                             .has_ground = model->environment.ground == LD_GROUND_PLANE};
     earth_build(&self->earth, model);
-    atmosphere_build(&self->atmosphere, &model->environment.atmosphere);
     v3 direction = {1, thrust->misalignment[0], thrust->misalignment[1]};
     self->thrust_direction = v3_scale(1 / v3_norm(direction), direction);
-    ld_status status = wind_build(&self->wind, &model->environment.wind, error);
+    ld_status status = atmosphere_build(&self->atmosphere, &model->environment.atmosphere, error);
+    if (!status)
+        status = wind_build(&self->wind, &model->environment.wind, error);
     if (!status)
         status = aerodynamics_build(&self->aerodynamics, &flying->aerodynamics, error);
     if (!status && self->wind.present && (self->aerodynamics.present || self->parachutes))
@@ -94,6 +95,7 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
 
 void flight_free(flight_system *self)
 {
+    atmosphere_free(&self->atmosphere);
     wind_free(&self->wind);
     turbulence_free(&self->turbulence);
     aerodynamics_free(&self->aerodynamics);

@@ -102,6 +102,7 @@ typedef struct flight_phase {
     int piece;         // of the thrust curve
     bool burning;
     size_t interval;                 // of the aerodynamic table, where it was last read
+    size_t air_interval;             // of the measured air likewise
     bool hangs;                      // below a parachute
     double hangs_since, area, slope; // its drag area [m2] then [s], [m2/s] while it fills
     double lowest_trigger; // [m] height at or below which a parachute's trigger waits; else -inf
@@ -127,7 +128,7 @@ void flight_rates(const flight_system *self, flight_phase *phase, double t, cons
 enum { FLIGHT_MOST_LANES = 8, FLIGHT_NUMBERS = sizeof(flight_numbers) / sizeof(double) };
 typedef struct flight_lanes {
     const flight_system *system[FLIGHT_MOST_LANES];
-    flight_phase *phase[FLIGHT_MOST_LANES]; // of which `interval` is kept
+    flight_phase *phase[FLIGHT_MOST_LANES]; // of which the intervals are kept
     const double *number;                   // [FLIGHT_NUMBERS][lanes] of the phases
 } flight_lanes;
 

@@ -91,6 +91,24 @@ LD_INLINE void take_wind(const flight_lanes *lanes, real t, real3 r, const real 
     }
 }
 
+// Measured air at the altitude of each lane.
+LD_INLINE void look_up_air(const flight_lanes *lanes, flow *out)
+{
+    real piece[ATMOSPHERE_PIECE], above;
+    for (int lane = 0; lane < LANES; lane++) {
+        double altitude = REAL_LANE(out->altitude, lane);
+        const curves *profile = &lanes->system[lane]->atmosphere.profile;
+        flight_phase *phase = lanes->phase[lane];
+        size_t interval = phase ? curves_interval(profile, altitude, phase->air_interval)
+                                : atmosphere_interval(profile, altitude);
+        if (phase)
+            phase->air_interval = interval;
+        REAL_LANE(above, lane) = atmosphere_piece(profile, interval, altitude, lane, piece);
+    }
+    atmosphere_measured(piece, above, out->altitude, OF(air.density_scale),
+                        OF(air.temperature_offset), &out->density, &out->speed_of_sound);
+}
+
 LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, const real xi[2])
 {
     const flight_system *first = lanes->system[0];
@@ -105,6 +123,8 @@ LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, cons
     if (first->atmosphere.kind == LD_ATMOSPHERE_US1976) {
         atmosphere_standard(first->atmosphere.layer, out.altitude, OF(air.density_scale),
                             OF(air.temperature_offset), &out.density, &out.speed_of_sound);
+    } else if (first->atmosphere.kind == LD_ATMOSPHERE_PROFILE) {
+        look_up_air(lanes, &out);
     } else {
         out.density = OF(air.density);
         out.speed_of_sound = OF(air.speed_of_sound);

@@ -1,5 +1,6 @@
-// Any text, read as a RASP .eng file or as one of the tables that may lie in a CSV file, ends with
-// messages or with a model that holds what model_checks.h says. The first byte chooses the table.
+// Any text, read as a RASP .eng file, a sounding or one of the tables that may lie in a CSV file,
+// ends with messages or with a model that holds what model_checks.h says. The first byte chooses
+// the table.
 #include <stdint.h>
 
 #include "fuzz/true_scenarios.h"
@@ -16,6 +17,8 @@ static const struct {
     {TRUE_VEHICLE, "table.csv", "platform.azimuth.stabiliser.command=%s"},
     {TRUE_FLIGHT, "table.csv", "environment.wind={profile: %s}"},
     {TRUE_FLIGHT, "table.csv", "rocket.aerodynamics.table=%s"},
+    {TRUE_FLIGHT, "table.csv", "environment.atmosphere={profile: %s}"},
+    {TRUE_FLIGHT, "table.txt", "environment.atmosphere={profile: %s}"},
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

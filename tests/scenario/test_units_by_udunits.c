@@ -9,7 +9,7 @@
 
 #include "scenario/units.h"
 
-enum { BASES = 5, UNITS = BASES + 14, PREFIXES = 7 };
+enum { BASES = 5, UNITS = BASES + 14, PREFIXES = 8 };
 
 // UDUNITS loses memory at texts that it refuses.
 const char *__lsan_default_suppressions(void);
@@ -35,7 +35,7 @@ static const struct {
     const char *symbol;
     double factor;
 } prefixes[] = {{"n", 1e-9}, {"u", 1e-6}, {"m", 1e-3}, {"c", 1e-2},
-                {"k", 1e3},  {"M", 1e6},  {"G", 1e9}};
+                {"h", 1e2},  {"k", 1e3},  {"M", 1e6},  {"G", 1e9}};
 
 static ut_system *make_system(void)
 {

@@ -46,6 +46,11 @@ static const char *const options[][MOST_SETTINGS] = {
     {"rocket.motor.jet_damping=yes", "rocket.eccentricity=0.3 -0.2 mm"},
     {"environment.atmosphere={density: 1.2 kg/m3, speed_of_sound: 340 m/s}"},
     {"environment.atmosphere=none"},
+    {"environment.atmosphere={profile: [[0 m, 100 kPa, 290 K], [300 m, 96.5 kPa, 287 K], [2 km, "
+     "78.5 kPa, 280 K]]}",
+     "environment.density_scale=0.97", "environment.temperature_offset=3 K"},
+    {"environment.atmosphere={profile: [[200 m, 100 kPa, 290 K, 0.8]]}",
+     "environment.wind={speed: 8 m/s, heading: 60 deg}"},
     {"environment.wind={speed: 8 m/s, heading: 60 deg}"},
     {"environment.wind={profile: [[0 m, 1 m/s, 2 m/s], [400 m, 5 m/s, -3 m/s], [2 km, 9 m/s, 4 "
      "m/s]]}"},
