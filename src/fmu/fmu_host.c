@@ -327,7 +327,9 @@ static int step_once(double t, double size, double *reached, bool *ends)
     if (host.version == 3) {
         bool event = false, early = false;
         int status = CALL(fmi3DoStep, host.instance, t, size, true, &event, ends, &early, reached);
-        return judged(status) == FOREIGN_DONE && *reached < t + size ? (int)fmi3Discard : status;
+        // one of steps of its own may say where the last of these ended, and has not broken off
+        bool short_of_it = early && *reached < t + size * (1 - 1e-9);
+        return judged(status) == FOREIGN_DONE && short_of_it ? (int)fmi3Discard : status;
     }
     int status = CALL(fmi2DoStep, host.instance, t, size, 1), terminated = 0;
     if (status != fmi2Discard)
