@@ -323,6 +323,30 @@ static ld_status leave(fmu_base *self, double t, ld_error *error)
     return status;
 }
 
+// The launcher rests on the place that the initialization mode told.
+static ld_status check_place(fmu_base *self, double t, const double *state, ld_error *error)
+{
+    const double most = 1e-6; // [m], [rad]
+    double told[LD_FMU_QUANTITIES], number[LD_FMU_FORCE], frame[FRAME_SIZE];
+    double unused[WRENCH_SIZE] = {0}, moved = 0;
+    foreign_value value[LD_FMU_QUANTITIES];
+    foreign_stepping step = values_of(self, unused, value);
+    ld_status status =
+        foreign_get(self->instance, t, value + step.inputs, step.outputs, told, error);
+    if (status)
+        return status;
+    sort_outputs(self, told, number);
+    status = take_frame(self, t, number, frame, error);
+    for (int i = FRAME_R; i < FRAME_V && !status; i++)
+        moved = fmax(moved, fabs(frame[i] - state[FMU_TO + i]));
+    if (status || moved <= most)
+        return status;
+    return ld_fail(error, LD_ERR_NUMERIC,
+                   "%s: the FMU has moved by %.3g (m, or of its quaternion) when its "
+                   "initialization ends; within it its outputs must follow its inputs",
+                   self->package->path, moved);
+}
+
 static ld_status go(const base_system *base, double t, const base_wrench *on, double *state,
                     ld_error *error)
 {
@@ -339,7 +363,10 @@ static ld_status go(const base_system *base, double t, const base_wrench *on, do
     double next = next_instant(base, t);
     step.t = self->given->start_time + (t - self->t_first);
     step.size = self->given->start_time + (next - self->t_first) - step.t;
+    bool first = !self->going;
     ld_status status = leave(self, t, error);
+    if (!status && first)
+        status = check_place(self, t, state, error);
     if (!status)
         status = foreign_step(self->instance, t, &step, value, told, &pieces, error);
     if (status)

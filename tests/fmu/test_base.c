@@ -333,6 +333,9 @@ static const struct {
     {9,
      {"the FMU asks for the end of the simulation in fmi2DoStep at t = ",
       "the FMU asks for the end of the simulation in fmi3DoStep at t = "}},
+    {11,
+     {"the FMU has moved by 0.001 (m, or of its quaternion) when its initialization ends",
+      "the FMU has moved by 0.001 (m, or of its quaternion) when its initialization ends"}},
     {8, {NULL, NULL}}, // noise
 };
 
