@@ -2,43 +2,22 @@
 // comes to; rates are the library's to the bit; states come back to the bit; what is called at the
 // wrong time is refused with a sentence.
 // link: -ldl -lsundials_cvode -lsundials_nvecserial
-#include "launchdyn/run.h"
-#include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
 #include "support/fmu_importer.h"
+#include "support/library_run.h"
 
 // ---- against the library ----
 
-typedef struct library {
-    ld_model *model;
-    ld_simulation *simulation;
-    ld_run *run;
-} library;
-
 // By the scenario and overrides, of which the last one is NULL; in the shell's folder.
-static library library_begin(const char *scenario, const char *const *set,
-                             const ld_base_frame *base)
+static library begin_in_shell(const char *scenario, const char *const *set,
+                              const ld_base_frame *base)
 {
-    library self;
-    ld_messages messages;
-    ld_error error;
     char path[256];
     size_t sets = 0;
     snprintf(path, sizeof path, "%s/%s.yaml", shell.folder, scenario);
     while (set[sets])
         sets++;
-    assert_int_equal(ld_scenario_read(path, set, sets, &self.model, &messages), LD_OK);
-    assert_int_equal(ld_simulation_create(self.model, &self.simulation, &error), LD_OK);
-    assert_int_equal(
-        ld_run_begin(self.simulation, &(ld_run_options){.base = base}, &self.run, &error), LD_OK);
-    return self;
-}
-
-static void library_end(library *self)
-{
-    ld_run_end(self->run, NULL, NULL);
-    ld_simulation_free(self->simulation);
-    ld_model_free(self->model);
+    return library_begin(path, set, sets, base);
 }
 
 static double library_value(const library *self, const char *name)
@@ -105,7 +84,7 @@ static void compare(const launch_case *self, double tolerance, double *instants,
         sets++;
     snprintf(own, sizeof own, "run.tolerance=%g", tolerance);
     tight.set[sets] = own;
-    library from = library_begin(self->scenario, tight.set, NULL);
+    library from = begin_in_shell(self->scenario, tight.set, NULL);
     double start = ld_run_time(from.run);
     assert_int_equal(ld_run_advance(from.run, INFINITY, NULL), LD_OK);
     importer_open(&by, &fmu, self->version);
@@ -275,7 +254,7 @@ static void moves_with_its_base(void **state)
     write_external();
     unpacked_fmu fmu = open_case(&outside);
     ld_base_frame base = swaying(-0.1);
-    library from = library_begin("external", set, &base);
+    library from = begin_in_shell("external", set, &base);
     for (int i = 1; !ld_run_is_finished(from.run); i++) {
         double t = -0.1 + i * 1e-4;
         base = swaying(t);
@@ -321,7 +300,7 @@ static void lights_by_the_input(void **state)
     CHECK_BELOW("the next corner of the thrust [s]", by.next - 10.06, 1e-12);
     assert_int_equal(CVodeReInit(by.cvode, by.t, by.y), 0);
     importer_go(&by, 10.15);
-    library from = library_begin("examples/fixed", set, NULL);
+    library from = begin_in_shell("examples/fixed", set, NULL);
     assert_int_equal(ld_run_ignite(from.run, INFINITY, NULL), LD_OK);
     assert_int_equal(ld_run_advance(from.run, 10.05 - ahead, NULL), LD_OK);
     assert_int_equal(ld_run_ignite(from.run, ld_run_time(from.run), NULL), LD_OK);

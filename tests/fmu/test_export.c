@@ -6,38 +6,18 @@
 
 #include "fmu/fmi2_interface.h"
 #include "fmu/fmi3_interface.h"
-#include "launchdyn/run.h"
-#include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
 #include "support/fmu.h"
+#include "support/library_run.h"
 
 #define EXAMPLE(name) LD_SOURCE_DIR "/examples/" name ".yaml"
 
 // ---- the library ----
 
-typedef struct library {
-    ld_model *model;
-    ld_simulation *simulation;
-    ld_run *run;
-} library;
-
-static library library_begin(const char *scenario, const char *set, const ld_base_frame *base)
+// With one override, or NULL.
+static library begin_with(const char *scenario, const char *set, const ld_base_frame *base)
 {
-    library self;
-    ld_messages messages;
-    ld_error error;
-    assert_int_equal(ld_scenario_read(scenario, &set, set != NULL, &self.model, &messages), LD_OK);
-    assert_int_equal(ld_simulation_create(self.model, &self.simulation, &error), LD_OK);
-    assert_int_equal(
-        ld_run_begin(self.simulation, &(ld_run_options){.base = base}, &self.run, &error), LD_OK);
-    return self;
-}
-
-static void library_end(library *self)
-{
-    ld_run_end(self->run, NULL, NULL);
-    ld_simulation_free(self->simulation);
-    ld_model_free(self->model);
+    return library_begin(scenario, &set, set != NULL, base);
 }
 
 static double told(library *self, const char *name)
@@ -143,7 +123,7 @@ static void tells_what_the_library_tells(void **state)
     static const char *const scenarios[] = {EXAMPLE("fixed"), EXAMPLE("ship"), EXAMPLE("smooth")};
     for (int i = 0; i < 3; i++) {
         unpacked_fmu fmu = fmu_open(scenarios[i], 3);
-        library by = library_begin(scenarios[i], NULL, NULL);
+        library by = begin_with(scenarios[i], NULL, NULL);
         void *instance = begin_3(&fmu, false);
         double t = ld_run_time(by.run);
         int unequal = 0, steps = 0;
@@ -170,7 +150,7 @@ static void returns_at_events(void **state)
 {
     (void)state;
     unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
-    library by = library_begin(EXAMPLE("fixed"), NULL, NULL);
+    library by = begin_with(EXAMPLE("fixed"), NULL, NULL);
     void *instance = begin_3(&fmu, true);
     double t = 0, worst = 0;
     int events = 0;
@@ -209,7 +189,7 @@ static void parameters_are_overrides(void **state)
 {
     (void)state;
     unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
-    library by = library_begin(EXAMPLE("fixed"), "rocket.mass=61 kg", NULL);
+    library by = begin_with(EXAMPLE("fixed"), "rocket.mass=61 kg", NULL);
     void *instance = begin_3(&fmu, false);
     uint32_t law = reference_of(&fmu, "scenario.rocket.contact.law");
     const char *word;
@@ -324,7 +304,7 @@ static void moves_with_its_base(void **state)
                      0);
     unpacked_fmu fmu = fmu_open(scenario, 3);
     ld_base_frame base = swaying(-0.1);
-    library by = library_begin(path, NULL, &base);
+    library by = begin_with(path, NULL, &base);
     void *instance = begin_3(&fmu, false);
     int unequal = 0;
     tell_3(&fmu, instance, &base);
@@ -364,7 +344,7 @@ static void waits_for_the_input(void **state)
     step_3(&fmu, instance, 10.05, 0.1);
     step_3(&fmu, instance, 10.05 + 0.1, 0.05); // the input is still true
     const double ahead = 10 - -0.02;
-    library by = library_begin(EXAMPLE("fixed"), "run.lead_in=0.02 s", NULL);
+    library by = begin_with(EXAMPLE("fixed"), "run.lead_in=0.02 s", NULL);
     assert_int_equal(ld_run_ignite(by.run, INFINITY, NULL), LD_OK);
     assert_int_equal(ld_run_advance(by.run, 10.05 - ahead, NULL), LD_OK);
     assert_int_equal(ld_run_ignite(by.run, ld_run_time(by.run), NULL), LD_OK);
@@ -394,7 +374,7 @@ static void speaks_version_2(void **state)
 {
     (void)state;
     unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 2);
-    library by = library_begin(EXAMPLE("fixed"), NULL, NULL);
+    library by = begin_with(EXAMPLE("fixed"), NULL, NULL);
     const fmi2CallbackFunctions call = {.logger = keep_log_2};
     char uri[256];
     snprintf(uri, sizeof uri, "file://localhost%s", fmu.resources);

@@ -5,34 +5,11 @@
 #include <stdlib.h>
 
 #include "math/quaternion.h"
-#include "scenario/scenario.h"
 #include "simulation/summary.h"
+#include "support/flight_text.h"
 #include "systems/flight.h"
 
 static const double pi = 3.14159265358979323846, degree = 0.017453292519943295;
-
-static ld_model read_text(const char *text)
-{
-    ld_model model;
-    ld_messages messages;
-    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
-        ld_messages_print(&messages, stdout);
-        fail();
-    }
-    return model;
-}
-
-static ld_rocket_summary fly(const ld_model *model)
-{
-    static ld_summary summary;
-    ld_simulation *simulation;
-    ld_error error;
-    assert_int_equal(ld_simulation_create(model, &simulation, &error), LD_OK);
-    if (ld_simulation_run(simulation, NULL, &summary, &error))
-        fail_msg("%s", error.text);
-    ld_simulation_free(simulation);
-    return summary.rocket[0];
-}
 
 // Two surfaces as far before as behind the mass centre of slopes that balance: without wind angle
 // there is no moment, and w' = -rho V S/(2 J) sum C_i (x_i - c)^2 w.
@@ -49,7 +26,7 @@ static void test_pitch_damping(void **state)
         "    {name: front, at: 2.5 m, slope: 2}, {name: rear, at: 0.25 m, slope: 4}]}}\n"
         "flight: {position: 0 0 0 m, velocity: 200 0 0 m/s, rate: 0 1.5e-4 1e-4 rad/s}\n"
         "run: {end: 4 s, flight_tolerance: 1e-12}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double S = pi * 0.01, sum = 2 * 1.5 * 1.5 + 4 * 0.75 * 0.75;
     double left = exp(-1.2 * 200 * S * sum / (2 * 20) * 4);
     CHECK_NEAR("rate about z over the first", rocket.final.rate[2] / 1e-4, left, 4e-9);
@@ -73,12 +50,12 @@ static void test_steady_roll(void **state)
         "     area: 0.02 m2}]}}\n"
         "flight: {position: 0 0 0 m, velocity: 200 0 0 m/s}\n"
         "run: {end: 0.2 s, flight_tolerance: 1e-12}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double steady = 5 * degree * 200 * 2 / (6 * 0.2);
     double decay = 1.2 * 200 * 0.02 * 0.04 * 6 / (4 * 0.02);
     CHECK_NEAR("roll rate [rad/s]", rocket.final.rate[0], steady * (1 - exp(-decay * 0.2)), 1e-9);
     model.run.end_time = 5;
-    rocket = fly(&model);
+    rocket = fly_model(&model);
     CHECK_NEAR("steady roll rate [rad/s]", rocket.final.rate[0], steady, 1e-9);
     model_clear(&model);
 }

@@ -6,7 +6,7 @@
 
 #include "elements/exchange.h"
 #include "scenario/scenario.h"
-#include "support/recorded_run.h"
+#include "support/flight_text.h"
 
 #define TIGHT "run.tolerance=1e-9", "run.flight_tolerance=1e-10"
 
@@ -78,12 +78,7 @@ static void impulse_over_mass(void **state)
         "         motor: {thrust: [[0 s, 10 kN], [2 s, 10 kN], [2 s, 0 kN]]}}\n"
         "flight: {position: 0 0 0 m, velocity: 0 0 0 m/s}\n"
         "run: {end: 3 s}\n";
-    ld_model model;
-    ld_messages messages;
-    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
-        ld_messages_print(&messages, stdout);
-        fail();
-    }
+    ld_model model = read_text(text);
     ld_summary summary = summary_of_run(&model);
     model_clear(&model);
     CHECK_NEAR("speed [m/s]", summary.rocket[0].final.velocity[0], 400, 1e-12);

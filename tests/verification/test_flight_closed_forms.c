@@ -5,34 +5,10 @@
 #include <stdlib.h>
 
 #include "math/quaternion.h"
-#include "scenario/scenario.h"
 #include "simulation/summary.h"
-#include "support/recorded_run.h"
+#include "support/flight_text.h"
 
 static const double degree = 0.017453292519943295, g = 9.80665;
-
-static ld_model read_text(const char *text)
-{
-    ld_model model;
-    ld_messages messages;
-    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
-        ld_messages_print(&messages, stdout);
-        fail();
-    }
-    return model;
-}
-
-static ld_rocket_summary fly(const ld_model *model)
-{
-    static ld_summary summary;
-    ld_simulation *simulation;
-    ld_error error;
-    assert_int_equal(ld_simulation_create(model, &simulation, &error), LD_OK);
-    if (ld_simulation_run(simulation, NULL, &summary, &error))
-        fail_msg("%s", error.text);
-    ld_simulation_free(simulation);
-    return summary.rocket[0];
-}
 
 // 50 m/s at 30 deg from 7 m above a ground at -3 m, at the default tolerance.
 static void test_parabola(void **state)
@@ -43,7 +19,7 @@ static void test_parabola(void **state)
                                "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2}\n"
                                "flight: {position: 2 7 -1 m, speed: 50 m/s, attitude: {pitch: 30 "
                                "deg, yaw: 10 deg}, rate: 5 1 2 rad/s}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double vy = 50 * sin(30 * degree), v = 50 * cos(30 * degree);
     double t = (vy + sqrt(vy * vy + 2 * g * 10)) / g;
     CHECK_NEAR("apogee [m]", rocket.flight.apogee, 7 + vy * vy / (2 * g), 5e-14);
@@ -72,7 +48,7 @@ static void test_ellipse(void **state)
         "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2}\n"
         "flight: {position: 0 0 0 m, speed: 1500 m/s, attitude: {pitch: 50 deg}}\n"
         "run: {flight_tolerance: 1e-12}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double l = r0 * v * cos(gamma), p = l * l / GM, a = 1 / (2 / r0 - v * v / GM);
     double e = sqrt(1 - p / a), f0 = acos((p / r0 - 1) / e), f1 = 2 * pi - acos((p / r1 - 1) / e);
     // times by Kepler's equation
@@ -109,7 +85,7 @@ static void test_ground_of_site(void **state)
                   "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2}\n"
                   "flight: {position: 0 0 0 m, speed: 500 m/s, attitude: {pitch: 50 deg}}\n"
                   "run: {flight_tolerance: 1e-12}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     CHECK_NEAR("altitude of the impact [m]", rocket.final.altitude, 1000, 5e-9);
     CHECK_NEAR("impact speed [m/s]", rocket.flight.impact_speed, 500, 2e-10);
     CHECK_NEAR("impact angle [deg]", rocket.flight.impact_angle / degree, 50, 2e-11);
@@ -130,7 +106,7 @@ static void test_rocket_equation(void **state)
                   "   motor: {thrust: [[0 s, 0 kN], [0 s, 10 kN], [2 s, 10 kN], [2 s, 0 kN]]}}\n"
                   "flight: {ignition: 0.5 s, position: 0 0 0 m, velocity: 0 0 0 m/s}\n"
                   "run: {end: 3 s}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     // x of the mass centre: integral of u ln(m0/m), and its own way in the rocket
     double u = 20000.0 / 20, m0 = 60, m = 40, rate = 10;
     double v = u * log(m0 / m);
@@ -188,7 +164,7 @@ static void test_precession(void **state)
                   "rocket: {mass: 60 kg, center: 1.1 0 0 m, inertia: 0.22 24 24 kg.m2}\n"
                   "flight: {position: 0 0 0 m, velocity: 0 0 0 m/s, rate: 60 0.1 0 rad/s}\n"
                   "run: {end: 7 s, flight_tolerance: 1e-12}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     // about L the axis turns by L/J_t t, about itself the body by w_x (1 - J_x/J_t) t
     double Lx = 0.22 * 60, Ly = 24 * 0.1, L = hypot(Lx, Ly), angle = L / 24 * 7;
     v3 n = v3_make(Lx / L, Ly / L, 0), e = v3_make(1, 0, 0);
@@ -216,7 +192,7 @@ static void test_body_fixed_torque(void **state)
                   "   motor: {thrust: [[0 s, 0 kN], [0 s, 15 kN], [10 s, 15 kN]], at: 0 -1 0 mm}}\n"
                   "flight: {position: 0 0 0 m, velocity: 0 0 0 m/s, rate: 30 0 0 rad/s}\n"
                   "run: {end: 5 s, flight_tolerance: 1e-11}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double k = (1 - 0.22 / 24) * 30, M = 15000 * 1e-3;
     CHECK_NEAR("rate about y", rocket.final.rate[1], M / (24 * k) * (1 - cos(k * 5)), 1e-11);
     CHECK_NEAR("rate about z", rocket.final.rate[2], M / (24 * k) * sin(k * 5), 1e-11);
@@ -236,7 +212,7 @@ static void test_terminal_speed(void **state)
         "0.5}}\n"
         "flight: {position: 0 0 0 m, velocity: 0 0 0 m/s}\n"
         "run: {end: 10 s, flight_tolerance: 1e-10}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double v = sqrt(2 * 3 * g / (1.2 * 0.1 * 0.5));
     CHECK_NEAR("speed [m/s]", -rocket.final.velocity[1], v * tanh(g * 10 / v), 1e-9);
     CHECK_NEAR("fallen [m]", -rocket.final.position[1], v * v / g * log(cosh(g * 10 / v)), 2e-8);
@@ -259,7 +235,7 @@ static void test_fin_cant(void **state)
         "-300]]}}\n"
         "flight: {position: 0 0 0 m, velocity: 300 0 0 m/s}\n"
         "run: {end: 0.7 s, flight_tolerance: 1e-11}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double S = acos(-1) * 0.16 * 0.16 / 4, V = 300, d = 0.16;
     double torque = 0.5 * 1.2 * V * V * S * d * 5 * degree;
     double damping = 0.5 * 1.2 * V * S * d * d / 2 * 7;
@@ -284,7 +260,7 @@ static void test_pitch_oscillation(void **state)
         "m, 5, -7, -300]]}}\n"
         "flight: {position: 0 0 0 m, point: center, velocity: 300 0 0 m/s, rate: 0 0 1e-6 rad/s}\n"
         "run: {end: 1.3 s, flight_tolerance: 1e-13}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     double S = acos(-1) * 0.16 * 0.16 / 4, V = 300, d = 0.16, q = 0.5 * 1.2 * V * S;
     double n = q * d * d / 2 * 300 / 24 / 2, w = sqrt(q * V * 6 * 0.3 / 24 - n * n);
     double t = 1.3, expected = 1e-6 * exp(-n * t) * (cos(w * t) - n / w * sin(w * t));
@@ -343,10 +319,10 @@ static void test_ground(void **state)
                                "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2}\n"
                                "flight: {position: 0 0 0 m, velocity: 1 3 0 m/s}\n"
                                "run: {flight_tolerance: 1e-2}\n");
-    ld_rocket_summary rocket = fly(&model);
+    ld_rocket_summary rocket = fly_model(&model);
     CHECK_NEAR("hop from the ground [s]", rocket.flight.time_of_flight, 6 / g, 1e-14);
     model.flight.velocity[1] = 0;
-    rocket = fly(&model);
+    rocket = fly_model(&model);
     CHECK_NEAR("lying on the ground [s]", rocket.flight.time_of_flight, 0, 1e-9);
     model_clear(&model);
 }

@@ -4,26 +4,14 @@
 
 #include <stdlib.h>
 
-#include "scenario/scenario.h"
-#include "support/recorded_run.h"
+#include "support/flight_text.h"
 
 static const double g = 9.80665;
-
-static ld_model read_text(const char *text)
-{
-    ld_model model;
-    ld_messages messages;
-    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
-        ld_messages_print(&messages, stdout);
-        fail();
-    }
-    return model;
-}
 
 static ld_flight_summary fly(const char *text)
 {
     ld_model model = read_text(text);
-    ld_flight_summary flight = summary_of_run(&model).rocket[0].flight;
+    ld_flight_summary flight = fly_model(&model).flight;
     model_clear(&model);
     return flight;
 }

@@ -3,7 +3,7 @@
 #include "support/check.h"
 
 #include "math/quaternion.h"
-#include "scenario/scenario.h"
+#include "support/flight_text.h"
 #include "systems/flight.h"
 
 // A motor of constant thrust in empty space without gravity, off the mass centre's way, so that c
@@ -103,17 +103,6 @@ static void step(const flight_system *system, flight_phase *phase, double t, dou
         y[i] += h / 6 * sum[i];
 }
 
-static ld_model read_model(void)
-{
-    ld_model model;
-    ld_messages messages;
-    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
-        ld_messages_print(&messages, stdout);
-        fail();
-    }
-    return model;
-}
-
 // Flies 1.9 s of the burn; returns the state with what has left.
 static void burn(const flight_system *system, const ld_model *model, double *y)
 {
@@ -130,7 +119,7 @@ static void burn(const flight_system *system, const ld_model *model, double *y)
 static void test_momentum(void **state)
 {
     (void)state;
-    ld_model model = read_model();
+    ld_model model = read_text(text);
     flight_system system;
     double y[ALL], first[ALL] = {0};
     assert_int_equal(flight_build(&system, &model, 0, NULL), LD_OK);
@@ -154,7 +143,7 @@ static void test_momentum(void **state)
 static void test_without(void **state)
 {
     (void)state;
-    ld_model model = read_model();
+    ld_model model = read_text(text);
     flight_system system;
     double y[ALL], first[ALL] = {0};
     model.rocket.motor.jet_damping = LD_JET_DAMPING_NO;
@@ -178,7 +167,7 @@ static void test_decay(void **state)
 {
     (void)state;
     for (int roll = 0; roll < 2; roll++) {
-        ld_model model = read_model();
+        ld_model model = read_text(text);
         model.rocket.empty.center[0] = model.rocket.full.center[0];
         model.flight.rate[0] = roll ? 3 : 0;
         model.flight.rate[1] = 0;

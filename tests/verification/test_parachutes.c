@@ -5,33 +5,26 @@
 
 #include <stdlib.h>
 
-#include "scenario/scenario.h"
-#include "support/recorded_run.h"
+#include "support/flight_text.h"
 
 static const double g = 9.80665;
 
 // Scenario text with a rocket of 4 kg without air forces of its own, and what is given.
 static ld_model model_of(const char *environment, const char *parachutes, const char *rest)
 {
-    ld_model model;
-    ld_messages messages;
     char text[2048];
     snprintf(text, sizeof text,
              "launchdyn: 1\nenvironment: {%s}\n"
              "rocket: {mass: 4 kg, center: 0.3 0.01 0 m, inertia: 0.1 1 1 kg.m2,\n"
              "  parachutes: [%s]}\n%s",
              environment, parachutes, rest);
-    if (scenario_read_text(text, strlen(text), "flight", "", NULL, 0, &model, &messages)) {
-        ld_messages_print(&messages, stdout);
-        fail();
-    }
-    return model;
+    return read_text(text);
 }
 
 static ld_rocket_summary fly(const char *environment, const char *parachutes, const char *rest)
 {
     ld_model model = model_of(environment, parachutes, rest);
-    ld_rocket_summary rocket = summary_of_run(&model).rocket[0];
+    ld_rocket_summary rocket = fly_model(&model);
     model_clear(&model);
     return rocket;
 }
