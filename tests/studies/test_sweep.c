@@ -1,4 +1,5 @@
 // Sweeps: points and their samples. Stopping rules: the same end however the study is run.
+// ctest: slow
 #include "support/study_run.h"
 
 #include <stdatomic.h>

@@ -1,5 +1,6 @@
 // The independent launch program on the reference launcher: it converges in its step, starts in
 // balance, and gives what hand calculation expects.
+// ctest: slow
 #include "support/check.h"
 
 #include "support/dense_simulation.h"

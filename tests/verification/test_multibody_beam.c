@@ -1,5 +1,6 @@
 // Two beams on two revolutes driven through a large angle, against the same beams cut into rigid
 // pieces with springs: the pieces converge to the beams with the second order of their length.
+// ctest: slow
 #include "launchdyn/mstmm.h"
 
 #include <stdbool.h>

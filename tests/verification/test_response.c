@@ -2,7 +2,8 @@
 // road of small sines, of which some are under the left wheels alone; a command's step; root mean
 // squares on random roads. LD_RESPONSE_SEEDS: on so many of them, at three speeds, up to 14 Hz;
 // LD_RESPONSE_BARE_SEEDS, _LOW_, _RUBBING_: on whole roads, on low ones, on whole ones with
-// friction of the adaptors; LD_RESPONSE_SINES: on so many sets of sines. ctest: slow
+// friction of the adaptors; LD_RESPONSE_SINES: on so many sets of sines.
+// ctest: slow
 #include <lapacke.h>
 #include <stdlib.h>
 

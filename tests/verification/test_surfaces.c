@@ -3,6 +3,7 @@
 // load goes along one of them, contact on a bent and twisted rail loses no energy.
 //   LD_RESTS         how many random rockets come to rest (12)
 //   LD_FIRST_REST    number of the first, its seed (1)
+// ctest: slow
 #include <stdlib.h>
 #include <string.h>
 
