@@ -1,5 +1,6 @@
 // A vehicle and its launcher as two FMUs, exchanged by a simple master of our own (Jacobi: both
 // tell, then both step; inputs stay as they were set): as all together, with order two in its step.
+// ctest: slow
 // link: -ldl
 #include <math.h>
 

@@ -1,6 +1,7 @@
 // Studies killed at any instant: what was kept stays, and the rest comes out the same. LD_KILLS:
 // how often while at work (default 6). The study runs in children only, so that none inherits
 // threads.
+// ctest: slow
 #include "support/study_run.h"
 
 #include <signal.h>
