@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "launchdyn/vehicle_run.h"
-#include "simulation/summary.h"
 #include "support/check.h"
+#include "support/exit_distance.h"
 #include "support/reference_model.h"
 
 static void marching_model(ld_model *model)
@@ -159,13 +159,6 @@ static coupled couple(const ld_model *model, double step, bool waits)
     return result;
 }
 
-static double distance(const ld_summary *a, const ld_summary *b)
-{
-    const ld_rocket_summary *p = &a->rocket[0], *q = &b->rocket[0];
-    double rates = hypot(p->pitch_rate - q->pitch_rate, p->yaw_rate - q->yaw_rate);
-    return hypot(rates, 50 * hypot(p->pitch - q->pitch, p->yaw - q->yaw));
-}
-
 static void second_order(void **state)
 {
     (void)state;
@@ -177,7 +170,7 @@ static void second_order(void **state)
     double error[STEPS], missing[STEPS];
     for (int i = 0; i < STEPS; i++) {
         coupled apart = couple(&model, step[i], false);
-        error[i] = distance(&apart.summary, &all);
+        error[i] = exit_distance(&apart.summary, &all);
         missing[i] = apart.missing / apart.work;
         printf(
             "    %g ms: attitude and rates %.3g rad/s, of the work that goes over %.3g is missed\n",
@@ -217,8 +210,8 @@ static void digital_loop(void **state)
     loop->delay = 0.5e-3;
     ld_summary all = together(&model);
     coupled apart = couple(&model, 0.1e-3, false);
-    CHECK_BELOW("exit attitude and rates, digital loop [rad/s]", distance(&apart.summary, &all),
-                3e-6);
+    CHECK_BELOW("exit attitude and rates, digital loop [rad/s]",
+                exit_distance(&apart.summary, &all), 3e-6);
     reference_model_free(&model);
 }
 
