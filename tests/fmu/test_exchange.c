@@ -96,6 +96,8 @@ static void compare(const launch_case *self, double tolerance, double *instants,
     printf("    %s %s, %g: %d steps, %d events\n", self->scenario, self->set[0] ? self->set[0] : "",
            tolerance, by.steps, by.events);
     assert_true(by.ended);
+    // few: two to twelve of the launch, and none by steps that end as they should
+    CHECK_BELOW("events", by.events, 12);
     importer_close(&by);
     library_end(&from);
     fmu_close(&fmu);
@@ -209,6 +211,66 @@ static void tells_the_same_at_a_point(void **state)
     fmu_close(&fmu);
 }
 
+// Rates of the point that was left for another's event, where the importer goes back to it.
+static void goes_back_from_an_event(void **state)
+{
+    (void)state;
+    static double rate[2][IMPORTER_MOST];
+    unpacked_fmu fmu = fmu_open("examples/fixed.yaml", 3);
+    importer by;
+    int unequal = 0;
+    importer_open(&by, &fmu, 3);
+    importer_start(&by, 0);
+    for (int k = 0; k < 2; k++) {
+        importer_place(&by, 0.005, by.x);
+        importer_rates(&by, rate[k]);
+        if (k == 0) {
+            importer_place(&by, by.next, by.x);
+            assert_true(importer_complete(&by));
+        }
+    }
+    for (size_t i = 0; i < by.states; i++)
+        unequal += !same(rate[0][i], rate[1][i]);
+    CHECK_BELOW("rates that differ, after an event was left", unequal, 0);
+    importer_close(&by);
+    fmu_close(&fmu);
+}
+
+// Adaptors held on the axis: a step that ends off it asks for event mode, which puts it back.
+static void asks_for_a_place_on_the_axis(void **state)
+{
+    (void)state;
+    static const launch_case held = {
+        "examples/line-thrower", {HELD, "rocket.contact.friction=0"}, 3, 1, true, false};
+    static double x[IMPORTER_MOST];
+    unpacked_fmu fmu = open_case(&held);
+    int asked = 0;
+    double put_back = 0;
+    void *saved = NULL;
+    importer by;
+    importer_open(&by, &fmu, 3);
+    importer_start(&by, 0);
+    OK_3(&by, fmi3GetFMUState, &saved);
+    for (size_t i = 0; i < by.states; i++) {
+        OK_3(&by, fmi3SetFMUState, saved);
+        importer_get_states(&by);
+        memcpy(x, by.x, by.states * sizeof *x);
+        x[i] += 1e-4;
+        importer_place(&by, 1e-6, x);
+        if (!importer_complete(&by))
+            continue;
+        asked++;
+        importer_event(&by);
+        put_back = fmax(put_back, fabs(by.x[i] - x[i]));
+    }
+    printf("    of %zu states %d ask\n", by.states, asked);
+    assert_in_range(asked, 1, by.states - 1);
+    CHECK_WITHIN("put back by [m, m/s]", put_back, 0.5e-4, 2e-4);
+    OK_3(&by, fmi3FreeFMUState, &saved);
+    importer_close(&by);
+    fmu_close(&fmu);
+}
+
 // ---- inputs ----
 
 // A deck that sways and turns.
@@ -267,6 +329,15 @@ static void moves_with_its_base(void **state)
     by.input = tell_swaying;
     tell_swaying(&by, -0.1);
     importer_start(&by, -0.1);
+    // an input alone moves it
+    static double rate[3][IMPORTER_MOST];
+    importer_rates(&by, rate[0]);
+    tell_swaying(&by, 0.4);
+    importer_rates(&by, rate[1]);
+    tell_swaying(&by, -0.1);
+    importer_rates(&by, rate[2]);
+    assert_memory_equal(rate[0], rate[2], by.states * sizeof(double));
+    assert_memory_not_equal(rate[0], rate[1], by.states * sizeof(double));
     importer_integrate(&by, 1e-8);
     importer_go(&by, INFINITY);
     CHECK_BELOW("rates at the exit, on a base that is told [mrad/s]",
@@ -469,6 +540,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(comes_to_what_the_library_comes_to, shell_make,
                                         shell_remove),
         cmocka_unit_test_setup_teardown(tells_the_same_at_a_point, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(goes_back_from_an_event, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(asks_for_a_place_on_the_axis, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(moves_with_its_base, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(lights_by_the_input, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(states_come_back, shell_make, shell_remove),

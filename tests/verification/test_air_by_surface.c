@@ -342,6 +342,19 @@ static void test_shapes(void **state)
     CHECK_NEAR("lift of nose and body [N]", without.f.y - with.f.y, nose + body, 1e-5);
     CHECK_NEAR("its moment [N m]", without.m.z - with.m.z, nose * 1.1 + body * 0, 1e-5);
     aerodynamics_free(&built);
+    // of an ellipsoid the area from the side has its centre 4/(3 pi) of its length before its base
+    model.rocket.aerodynamics.surface[0].shape = LD_NOSE_ELLIPSOID;
+    air_wrench lift[2];
+    for (int i = 0; i < 2; i++) {
+        model.rocket.aerodynamics.surface[0].body_lift = i;
+        assert_int_equal(aerodynamics_build(&built, &model.rocket.aerodynamics, NULL), LD_OK);
+        lift[i] = of(&built, v3_make(0, 50, 0), v3_zero(), v3_make(1, 0, 0), 0.1, false);
+        aerodynamics_free(&built);
+    }
+    nose = pi / 2 * 0.1 * 0.6 * 0.5 * 1.1 * 2500;
+    CHECK_NEAR("lift of an ellipsoid [N]", lift[0].f.y - lift[1].f.y, nose, 1e-5);
+    CHECK_NEAR("its moment [N m]", lift[0].m.z - lift[1].m.z,
+               nose * (2.5 - 0.6 * (1 - 4 / (3 * pi)) - 1), 1e-5);
     model_clear(&model);
 }
 

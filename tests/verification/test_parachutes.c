@@ -91,6 +91,21 @@ static void test_filling(void **state)
     model_clear(&model);
 }
 
+// One that takes another's place while that one still fills begins with what has filled.
+static void test_filling_in_another(void **state)
+{
+    (void)state;
+    ld_rocket_summary rocket =
+        fly(UNIFORM ", gravity: 0 m/s2, ground: none",
+            "{name: drogue, drag_area: 0.2 m2, trigger: time, time: 0.5 s, filling: 2 s},"
+            "{name: main, drag_area: 3 m2, trigger: time, time: 1.5 s, filling: 1 s}",
+            "flight: {point: center, position: 0 0 0 m, velocity: 50 0 0 m/s}\n"
+            "run: {end: 4 s, flight_tolerance: 1e-11}\n");
+    double area = 0.1 / 2 * 1 + (0.1 + 3) / 2 * 1 + 3 * (4 - 2.5);
+    CHECK_NEAR("speed at the end [m/s]", rocket.final.center_velocity[0],
+               1 / (1 / 50.0 + 1.2 / 8 * area), 1e-9);
+}
+
 // In air that hardly brakes: up v^2/(2 g) in v/g; the height's trigger where the way down has come
 // there, or at the highest point where that is not above it.
 static void test_triggers(void **state)
@@ -149,9 +164,9 @@ static void test_end_at_apogee(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_terminal_speed), cmocka_unit_test(test_filling),
-        cmocka_unit_test(test_triggers),       cmocka_unit_test(test_standard_air),
-        cmocka_unit_test(test_end_at_apogee),
+        cmocka_unit_test(test_terminal_speed),     cmocka_unit_test(test_filling),
+        cmocka_unit_test(test_filling_in_another), cmocka_unit_test(test_triggers),
+        cmocka_unit_test(test_standard_air),       cmocka_unit_test(test_end_at_apogee),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
