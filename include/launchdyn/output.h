@@ -9,6 +9,7 @@
 
 #include "launchdyn/model.h"
 #include "launchdyn/results.h"
+#include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
 #include "launchdyn/status.h"
 
@@ -47,6 +48,27 @@ ld_status ld_summary_write(const char *path, const ld_model *model, const ld_sum
 
 /// Prints a summary as a short table for a terminal.
 void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *stream);
+
+/// Prints as JSON (docs/command.md) what was found in a scenario: its errors and notes and, where
+/// there is a model, what was understood, in SI.
+/// @param model  NULL: the scenario has errors
+/// @param errors, notes  may be NULL: none
+/// @return LD_OK, LD_ERR_MEMORY
+ld_status ld_check_print_json(const ld_model *model, const ld_messages *errors,
+                              const ld_messages *notes, FILE *stream, ld_error *error);
+
+/// Natural frequencies, as ld_simulation_tube_modes() and ld_simulation_system_modes() find them.
+typedef struct ld_found_modes {
+    const ld_mode *tube; ///< [tube_count] tube and tail on their supports
+    int tube_count;
+    const ld_mode *system; ///< [system_count] the whole about its equilibrium
+    int system_count;
+    const ld_pole *pole; ///< [pole_count] its eigenvalues with damping
+    int pole_count;
+} ld_found_modes;
+
+/// Prints them as JSON (docs/command.md), in full precision.
+void ld_modes_print_json(const ld_found_modes *modes, FILE *stream);
 
 /// A standard figure of a launch.
 typedef struct ld_figure {

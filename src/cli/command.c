@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 
 #include "cli/progress.h"
 #include "launchdyn/child.h"
-#include "launchdyn/scenario.h"
 
 void command_complain(const char *format, ...)
 {
@@ -19,6 +19,47 @@ void command_complain(const char *format, ...)
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     fprintf(stderr, "launchdyn: %s\n", ld_visible_text(text, visible, sizeof visible));
+}
+
+// Of the one command that a process does.
+static struct {
+    int quiet, verbose;
+    double since; // [s] the latest step
+} voice;
+
+int *command_quiet_flag(void)
+{
+    return &voice.quiet;
+}
+
+int *command_verbose_flag(void)
+{
+    return &voice.verbose;
+}
+
+bool command_is_quiet(void)
+{
+    return voice.quiet != 0;
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+void command_step(const char *format, ...)
+{
+    char text[LD_ERROR_TEXT];
+    if (!voice.verbose)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    command_complain("%s: %.1f ms", text, (now() - voice.since) * 1e3);
+    voice.since = now();
 }
 
 int command_code(ld_status status)
@@ -109,6 +150,9 @@ bool command_line_read(command_line *line, const command *self, int argc, char *
 {
     ld_error error;
     ld_status status = options_read(line, argc, argv, options, &error);
+    voice.since = now();
+    if (!status && !line->help && voice.quiet && voice.verbose)
+        status = ld_fail(&error, LD_ERR_INPUT, "--quiet and --verbose do not go together");
     if (!status && !line->help && has_words(self, line, count))
         return true;
     if (!status && line->help)
@@ -137,12 +181,13 @@ static ld_status print_messages(ld_status status, ld_messages *messages)
     return status;
 }
 
-static ld_status read_file(const char *file, char **sets, ld_model **model)
+ld_status command_read_file(const char *file, char **sets, ld_model **model, ld_messages *messages)
 {
-    ld_messages messages = {0};
-    ld_status status =
-        ld_scenario_read(file, (const char *const *)sets, count_sets(sets), model, &messages);
-    return print_messages(status, &messages);
+    size_t count = count_sets(sets);
+    ld_status status = ld_scenario_read(file, (const char *const *)sets, count, model, messages);
+    if (!status)
+        command_step("read %s with %zu overrides", file, count);
+    return status;
 }
 
 ld_status command_read_source(ld_source *source, int point, ld_model **model)
@@ -173,7 +218,7 @@ void command_tell_difference(const char *folder, const ld_origin *origin)
                          folder, text);
 }
 
-int command_take_notes(ld_source *source, int from, int to, bool quiet, bool strict)
+int command_take_notes(ld_source *source, int from, int to, bool strict)
 {
     ld_messages notes;
     ld_status status = ld_scenario_notes(source, from, to, &notes);
@@ -184,7 +229,7 @@ int command_take_notes(ld_source *source, int from, int to, bool quiet, bool str
     int code = strict && notes.count > 0 ? EXIT_INPUT : 0;
     if (strict)
         ld_messages_print(&notes, stderr);
-    else if (!quiet)
+    else if (!command_is_quiet())
         ld_notes_print(&notes, stderr);
     ld_messages_free(&notes);
     return code;
@@ -194,7 +239,8 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
                     void *data)
 {
     ld_model *model;
-    ld_status status = read_file(file, sets, &model);
+    ld_messages messages = {0};
+    ld_status status = print_messages(command_read_file(file, sets, &model, &messages), &messages);
     if (status)
         return command_code(status);
     int code = work(model, data);

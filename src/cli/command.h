@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "launchdyn/model.h"
 #include "launchdyn/origin.h"
+#include "launchdyn/scenario.h"
 #include "launchdyn/status.h"
 #include "launchdyn/study.h"
 
@@ -81,6 +82,24 @@ int command_wind(const command *self, int argc, char **argv);
             NULL                                                                                   \
     }
 
+// What is said beside the result: less than usual, or more.
+#define COMMAND_QUIET                                                                              \
+    {                                                                                              \
+        "quiet", 'q', OPTION_FLAG, command_quiet_flag(), "Print nothing but errors", NULL          \
+    }
+#define COMMAND_VERBOSE                                                                            \
+    {                                                                                              \
+        "verbose", 'v', OPTION_FLAG, command_verbose_flag(),                                       \
+            "Say on standard error what is read, done and written, and how long each takes", NULL  \
+    }
+int *command_quiet_flag(void);
+int *command_verbose_flag(void);
+bool command_is_quiet(void);
+
+// With --verbose prints "launchdyn: text: 3.1 ms" on stderr, the time since the last such line or
+// the start.
+void command_step(const char *format, ...) LD_PRINTF(1, 2);
+
 enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 
 // Reads the options and `count` words. Returns true to go on, then options_end() is due; false to
@@ -98,13 +117,16 @@ int command_fail(ld_status status, const ld_error *error);
 void command_tell_difference(const char *folder, const ld_origin *origin);
 
 // Writes the report of the results in `folder` (file NULL: into it), says what is missing in them
-// and, unless quiet, what was written. Returns the exit code.
-int command_write_report(const char *folder, const char *file, bool quiet);
+// and what was written. Returns the exit code.
+int command_write_report(const char *folder, const char *file);
 
 // A command on one scenario: reads the options and the file with its overrides, which `options` put
 // into *sets, and does `work` on the model. Returns the exit code.
 int command_on_model(const command *self, int argc, char **argv, const command_option *options,
                      char ***sets, int (*work)(const ld_model *model, void *data), void *data);
+
+// Reads a scenario with its overrides; `messages` as of ld_scenario_read().
+ld_status command_read_file(const char *file, char **sets, ld_model **model, ld_messages *messages);
 
 // The parts of it: `work` on the nominal model of the file with its overrides; the model of texts
 // at a point of its sweep (0: the nominal one), or a study, after messages LD_ERR_INPUT or another.
@@ -114,9 +136,9 @@ ld_status command_read_source(ld_source *source, int point, ld_model **model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
 
-// Prints notes on points `from` to `to` of the sweep of texts: as warnings, which `quiet` leaves
+// Prints notes on points `from` to `to` of the sweep of texts: as warnings, which --quiet leaves
 // out, or where `strict` as errors; where one of the points is wrong, none. Returns 0, or the exit
 // code to end with.
-int command_take_notes(ld_source *source, int from, int to, bool quiet, bool strict);
+int command_take_notes(ld_source *source, int from, int to, bool strict);
 
 #endif

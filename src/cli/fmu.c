@@ -22,6 +22,8 @@ static int export(const ld_model *model, void *data)
     int version = self->version ? self->version : self->system ? 2 : 3;
     ld_status status = self->system ? ld_ssp_export(model, version, self->out, &error)
                                     : ld_fmu_export(model, self->part, version, self->out, &error);
+    if (!status)
+        command_step("wrote %s", self->out);
     return status ? command_fail_on(model, status, &error) : 0;
 }
 
@@ -55,6 +57,7 @@ int command_fmu(const command *self, int argc, char **argv)
         {"out", 'o', OPTION_TEXT, &out, "The FMU", "FILE"},
         {"ssp", '\0', OPTION_TEXT, &archive, "Instead: an archive of SSP of vehicle and launcher",
          "FILE"},
+        COMMAND_VERBOSE,
         COMMAND_HELP,
         COMMAND_END};
     command_line line;

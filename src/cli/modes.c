@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "cli/command.h"
+#include "launchdyn/output.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
 
@@ -29,46 +30,65 @@ static void print_poles(const ld_pole *poles, int count)
                poles[i].shape);
 }
 
-static ld_status list_modes(const ld_model *model, ld_error *error)
+static void print_system(const ld_model *model, const ld_found_modes *modes)
 {
-    static ld_mode modes[MOST];
+    putchar('\n');
+    print_modes(ld_model_has_vehicle(model)
+                    ? "Vehicle with platforms, tube and locked rocket about their equilibrium "
+                      "on a flat road, no Coulomb friction: moduli of the damped eigenvalues"
+                    : "Tube, tail and locked rocket about their equilibrium, no Coulomb "
+                      "friction, undamped",
+                modes->system, modes->system_count);
+    putchar('\n');
+    print_poles(modes->pole, modes->pole_count);
+}
+
+static ld_status list_modes(const ld_model *model, bool json, ld_error *error)
+{
+    static ld_mode tube[MOST], whole[MOST];
     static ld_pole poles[2 * MOST];
+    ld_found_modes found = {.tube = tube, .system = whole, .pole = poles};
     ld_simulation *simulation = NULL;
     if (!ld_model_has_launcher(model))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
     ld_status status = ld_simulation_create(model, &simulation, error);
     if (status)
         return status;
-    int count = ld_simulation_tube_modes(simulation, modes, MOST), pole_count;
-    print_modes("Tube and tail on their supports, base held, undamped frequencies", modes, count);
-    status = ld_simulation_system_modes(simulation, modes, MOST, &count, poles, 2 * MOST,
-                                        &pole_count, error);
-    if (!status) {
-        putchar('\n');
-        print_modes(ld_model_has_vehicle(model)
-                        ? "Vehicle with platforms, tube and locked rocket about their equilibrium "
-                          "on a flat road, no Coulomb friction: moduli of the damped eigenvalues"
-                        : "Tube, tail and locked rocket about their equilibrium, no Coulomb "
-                          "friction, undamped",
-                    modes, count);
-        putchar('\n');
-        print_poles(poles, pole_count);
-    }
+    found.tube_count = ld_simulation_tube_modes(simulation, tube, MOST);
+    if (!json)
+        print_modes("Tube and tail on their supports, base held, undamped frequencies", tube,
+                    found.tube_count);
+    command_step("found the modes of the tube");
+    status = ld_simulation_system_modes(simulation, whole, MOST, &found.system_count, poles,
+                                        2 * MOST, &found.pole_count, error);
     ld_simulation_free(simulation);
-    return status;
+    if (status)
+        return status;
+    command_step("found those of the whole about its equilibrium");
+    if (json)
+        ld_modes_print_json(&found, stdout);
+    else
+        print_system(model, &found);
+    return LD_OK;
 }
 
 static int print_all_modes(const ld_model *model, void *data)
 {
-    (void)data;
+    const int *json = data;
     ld_error error;
-    ld_status status = list_modes(model, &error);
+    ld_status status = list_modes(model, *json != 0, &error);
     return status ? command_fail_on(model, status, &error) : 0;
 }
 
 int command_modes(const command *self, int argc, char **argv)
 {
     char **sets = NULL;
-    const command_option options[] = {COMMAND_SETS(&sets), COMMAND_HELP, COMMAND_END};
-    return command_on_model(self, argc, argv, options, &sets, print_all_modes, NULL);
+    int json = 0;
+    const command_option options[] = {
+        COMMAND_SETS(&sets),
+        {"json", '\0', OPTION_FLAG, &json, "Print as JSON, in full precision", NULL},
+        COMMAND_VERBOSE,
+        COMMAND_HELP,
+        COMMAND_END};
+    return command_on_model(self, argc, argv, options, &sets, print_all_modes, &json);
 }

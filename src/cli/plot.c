@@ -41,7 +41,9 @@ static int draw(const command_line *line, char *what, double from, double to, co
                           .note = note};
     ld_error error;
     ld_status status = ld_plot(&picture, file, &error);
-    if (!status && *note)
+    if (!status)
+        command_step("drew %s", file);
+    if (!status && *note && !command_is_quiet())
         command_complain("note: %s", note);
     return status ? command_fail(status, &error) : 0;
 }
@@ -56,6 +58,8 @@ int command_plot(const command *self, int argc, char **argv)
         {"output", 'o', OPTION_TEXT, &file, "The picture: FILE.svg, FILE.pdf or FILE.png", "FILE"},
         {"from", '\0', OPTION_NUMBER, &from, "Draw from this time after ignition [ms] on", "MS"},
         {"to", '\0', OPTION_NUMBER, &to, "Draw up to this time after ignition [ms]", "MS"},
+        COMMAND_QUIET,
+        COMMAND_VERBOSE,
         COMMAND_HELP,
         COMMAND_END};
     command_line line;

@@ -7,15 +7,17 @@
 #include "launchdyn/report.h"
 
 static int finish(ld_status status, const ld_error *error, const ld_report *report,
-                  const char *file, bool quiet)
+                  const char *file)
 {
     bool written = report->bytes > 0;
+    if (written)
+        command_step("wrote %s", file);
     for (int i = 0; written && i < report->note_count; i++)
         command_complain("%s", report->note[i]);
     if (status)
         return command_fail(status, error);
     char visible[1024];
-    if (!quiet)
+    if (!command_is_quiet())
         printf("%s: %.0f kB\n", ld_visible_text(file, visible, sizeof visible),
                (double)report->bytes * 1e-3);
     return 0;
@@ -30,13 +32,13 @@ static const char *place_of(const char *folder, const char *file, char usual[PAT
     return file ? file : usual;
 }
 
-int command_write_report(const char *folder, const char *file, bool quiet)
+int command_write_report(const char *folder, const char *file)
 {
     static ld_report report;
     ld_error error;
     char usual[PATH_SIZE];
     ld_status status = ld_report_write(folder, file, &report, &error);
-    return finish(status, &error, &report, place_of(folder, file, usual), quiet);
+    return finish(status, &error, &report, place_of(folder, file, usual));
 }
 
 // `shots`: of studies, the file with measured ones, or NULL.
@@ -54,7 +56,7 @@ static int write_several(const char *const *folder, size_t count, bool studies, 
     ld_status status = studies
                            ? ld_report_write_measured(folder, count, shots, file, &report, &error)
                            : ld_report_write_runs(folder, count, file, &report, &error);
-    return finish(status, &error, &report, file, false);
+    return finish(status, &error, &report, file);
 }
 
 static bool holds_study(const char *folder)
@@ -71,6 +73,8 @@ int command_report(const command *self, int argc, char **argv)
         {"output", 'o', OPTION_TEXT, &file, "The report (DIR/report.html)", "FILE"},
         {"measured", '\0', OPTION_TEXT, &shots, "Of studies: beside the shots in this CSV file",
          "FILE"},
+        COMMAND_QUIET,
+        COMMAND_VERBOSE,
         COMMAND_HELP,
         COMMAND_END};
     command_line line;
@@ -85,7 +89,7 @@ int command_report(const command *self, int argc, char **argv)
         } else if (line.count > 1 || studies) {
             code = write_several(line.word, line.count, studies, shots, file);
         } else {
-            code = command_write_report(line.word[0], file, false);
+            code = command_write_report(line.word[0], file);
         }
         options_end(&line);
     }

@@ -54,6 +54,8 @@ static int show_response(const ld_model *model, void *data)
     if (!status && wishes->picture)
         status = ld_response_view_draw(view, wishes->picture, &error);
     if (!status)
+        command_step("computed and wrote what was asked for");
+    if (!status && !command_is_quiet())
         ld_response_view_print(view, stdout);
     ld_response_view_free(view);
     return status ? command_fail_on(model, status, &error) : 0;
@@ -127,6 +129,8 @@ int command_response(const command *self, int argc, char **argv)
          "DIR"},
         {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw it with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
+        COMMAND_QUIET,
+        COMMAND_VERBOSE,
         COMMAND_HELP,
         COMMAND_END};
     static const char *names[MOST];

@@ -23,6 +23,8 @@ static int show_road(const ld_model *model, void *data)
     if (!status && wishes->picture)
         status = ld_road_view_draw(view, wishes->picture, &error);
     if (!status)
+        command_step("computed and wrote what was asked for");
+    if (!status && !command_is_quiet())
         ld_road_view_print(view, stdout);
     ld_road_view_free(view);
     return status ? command_fail(status, &error) : 0;
@@ -42,6 +44,8 @@ int command_road(const command *self, int argc, char **argv)
         {"to", '\0', OPTION_NUMBER, &wishes.stretch.to, "Where it ends, in metres (100)", "X"},
         {"step", '\0', OPTION_NUMBER, &wishes.stretch.step, "From place to place, in metres (0.02)",
          "DX"},
+        COMMAND_QUIET,
+        COMMAND_VERBOSE,
         COMMAND_HELP,
         COMMAND_END};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_road, &wishes);

@@ -25,7 +25,7 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
     ld_output *output = NULL;
     ld_status status = LD_OK;
     run_progress progress;
-    progress_start(&progress, wishes->quiet != 0); // first: a stop leaves no half a file behind
+    progress_start(&progress, command_is_quiet()); // first: a stop leaves no half a file behind
     if (wishes->folder)
         status = ld_output_open(wishes->folder, model, wishes->csv != 0, &output, error);
     if (status)
@@ -36,6 +36,7 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
                               .progress = progress_share};
     status = ld_simulation_run(simulation, &options, summary, error);
     progress_end(&progress);
+    command_step("ran the launch, from equilibrium to its end");
 
     if (!leaves_results(status)) {
         ld_output_discard(output);
@@ -43,7 +44,9 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
     }
     ld_error problem;
     ld_status written = output ? ld_output_finish(output, summary, &problem) : LD_OK;
-    if (!written && !wishes->quiet)
+    if (output && !written)
+        command_step("wrote %s", wishes->folder);
+    if (!written && !command_is_quiet())
         ld_summary_print(model, summary, stdout);
     if (!written)
         return status;
@@ -70,13 +73,15 @@ int run_model(const ld_model *model, void *data)
     ld_status status = summary ? ld_simulation_create(model, &simulation, &error)
                                : ld_fail(&error, LD_ERR_MEMORY, "no memory for a summary");
     bool begun = !status;
+    command_step(begun ? "built the system: modes, coefficients, tables"
+                       : "could not build the system");
     if (begun)
         status = simulate(simulation, model, wishes, summary, &error);
     ld_simulation_free(simulation);
     ld_summary_free(summary);
     int code = 0;
     if (wishes->report && begun && leaves_results(status))
-        code = command_write_report(wishes->folder, NULL, wishes->quiet != 0);
+        code = command_write_report(wishes->folder, NULL);
     if (!status)
         return code;
     fflush(stdout);
@@ -88,8 +93,7 @@ int run_model(const ld_model *model, void *data)
 static int run_noted(const ld_model *model, void *data)
 {
     const run_wishes *wishes = data;
-    int code =
-        command_take_notes(ld_model_source(model), 0, 0, wishes->quiet != 0, wishes->strict != 0);
+    int code = command_take_notes(ld_model_source(model), 0, 0, wishes->strict != 0);
     return code ? code : run_model(model, data);
 }
 
@@ -121,8 +125,7 @@ static int run_again(const char *folder, run_wishes *wishes)
         code = command_code(status);
     } else {
         command_tell_difference(folder, &origin);
-        code = command_take_notes(origin.source, origin.point, origin.point, wishes->quiet != 0,
-                                  wishes->strict != 0);
+        code = command_take_notes(origin.source, origin.point, origin.point, wishes->strict != 0);
         if (!code)
             code = origin.sample > 0 ? run_sample(model, origin.sample, wishes)
                                      : run_model(model, wishes);
@@ -164,7 +167,8 @@ int command_run(const command *self, int argc, char **argv)
         {"csv", '\0', OPTION_FLAG, &wishes.csv,
          "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
         {"report", '\0', OPTION_FLAG, &wishes.report, "Write report.html there too", NULL},
-        {"quiet", 'q', OPTION_FLAG, &wishes.quiet, "Print nothing but errors", NULL},
+        COMMAND_QUIET,
+        COMMAND_VERBOSE,
         COMMAND_STRICT(&wishes.strict),
         COMMAND_HELP,
         COMMAND_END};

@@ -7,7 +7,7 @@
 typedef struct run_wishes {
     char **sets;
     char *folder; // NULL: print the table only
-    int csv, report, quiet, strict;
+    int csv, report, strict;
 } run_wishes;
 
 // Runs the model, prints the table and writes the folder; returns the exit code.

@@ -26,8 +26,7 @@ int study_take_notes(const ld_study *study, const study_wishes *wishes)
     const ld_model *nominal = ld_study_model(study);
     int axes = ld_scenario_axes(nominal);
     return command_take_notes(ld_model_source(nominal), axes > 0 ? 1 : 0,
-                              axes > 0 ? ld_scenario_points(nominal) : 0, wishes->run.quiet != 0,
-                              wishes->run.strict != 0);
+                              axes > 0 ? ld_scenario_points(nominal) : 0, wishes->run.strict != 0);
 }
 
 int study_run_all(const ld_study *study, const study_wishes *wishes, study_runner *run)
@@ -35,7 +34,7 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
     run_progress progress;
     ld_study_counts counts;
     ld_error error;
-    progress_start(&progress, wishes->run.quiet != 0);
+    progress_start(&progress, command_is_quiet());
     ld_study_options options = {.threads = wishes->threads,
                                 .shard = wishes->shard,
                                 .shards = wishes->shards,
@@ -44,17 +43,18 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
                                 .go_on = progress_go_on};
     ld_status status = run(study, wishes->run.folder, &options, &counts, &error);
     progress_end(&progress);
+    command_step("ran %lld samples into %s", (long long)counts.now, wishes->run.folder);
     char folder[1024];
-    if (!status && !wishes->run.quiet && wishes->shards)
+    if (!status && !command_is_quiet() && wishes->shards)
         printf(
             "shard %d of %d: %lld samples, %lld failed; when all shards are done: launchdyn study "
             "merge %s\n",
             wishes->shard, wishes->shards, (long long)counts.done, (long long)counts.failed,
             ld_visible_text(wishes->run.folder, folder, sizeof folder));
-    if (!status && !wishes->run.quiet && counts.look > 0)
+    if (!status && !command_is_quiet() && counts.look > 0)
         printf("the stopping rule %s after %lld samples\n",
                counts.enough ? "holds" : "does not hold", (long long)counts.samples);
-    if (!status && !wishes->run.quiet && !wishes->shards)
+    if (!status && !command_is_quiet() && !wishes->shards)
         status = ld_study_show(wishes->run.folder, NULL, stdout, &error);
     return status ? command_fail(status, &error) : 0;
 }
@@ -133,6 +133,10 @@ static const char *wrong_to_show(const study_wishes *wishes)
     if (view->measured && (view->what || view->sensitivity || view->against))
         return "--measured shows what its file has: neither --what nor --sensitivity nor --against "
                "goes with it";
+    if (view->json && (view->measured || view->against))
+        return "--json shows statistics or sensitivities: neither --measured nor --against goes "
+               "with "
+               "it";
     if (view->against && view->sensitivity)
         return "--against and --sensitivity do not go together";
     if (wishes->hdf5 || (wishes->csv && !view->against))
@@ -190,8 +194,9 @@ static const char *wrong_to_run(const char *file, const char *again, const study
     if (wishes->csv || wishes->hdf5)
         return "--csv and --hdf5 are options of study export DIR";
     const ld_study_view *view = &wishes->view;
-    if (view->what || view->sensitivity || view->measured || view->against)
-        return "--what, --sensitivity, --measured and --against are options of study show DIR";
+    if (view->what || view->sensitivity || view->json || view->measured || view->against)
+        return "--what, --sensitivity, --json, --measured and --against are options of study show "
+               "DIR";
     if (wishes->shards && wishes->only != ALL_SAMPLES)
         return "--only and --shard do not go together";
     if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
@@ -203,7 +208,7 @@ int command_study(const command *self, int argc, char **argv)
 {
     study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
     char *shard = NULL, *what = NULL, *measured = NULL, *against = NULL, *again = NULL;
-    int sensitivity = 0;
+    int sensitivity = 0, json = 0;
     const command_option options[] = {
         STUDY_OPTIONS(&wishes),
         {"again", '\0', OPTION_TEXT, &again,
@@ -217,6 +222,7 @@ int command_study(const command *self, int argc, char **argv)
         {"what", 'w', OPTION_TEXT, &what, "Of show: these results, or all", "NAME,..."},
         {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
          "Of show: the share of the variance that each factor explains", NULL},
+        {"json", '\0', OPTION_FLAG, &json, "Of show: as JSON, in full precision", NULL},
         {"measured", '\0', OPTION_TEXT, &measured,
          "Of show: its results beside the shots in this CSV file", "FILE"},
         {"against", '\0', OPTION_TEXT, &against,
@@ -232,6 +238,7 @@ int command_study(const command *self, int argc, char **argv)
         const char *file = line.count > 0 ? line.word[0] : NULL;
         wishes.view = (ld_study_view){.what = what,
                                       .sensitivity = sensitivity,
+                                      .json = json,
                                       .measured = measured,
                                       .against = against,
                                       .csv = against ? wishes.csv : NULL};

@@ -10,7 +10,7 @@
 enum { ALL_SAMPLES = INT_MIN };
 
 typedef struct study_wishes {
-    run_wishes run; // overrides, folder, quiet
+    run_wishes run; // overrides, folder
     int threads;
     int only; // sample, or ALL_SAMPLES
     int shard, shards;
@@ -18,7 +18,7 @@ typedef struct study_wishes {
     char *csv, *hdf5; // tables to be written
 } study_wishes;
 
-// The options that they share; overrides, folder and quiet are those of `wishes`.
+// The options that they share; overrides and folder are those of `wishes`.
 #define STUDY_OPTIONS(wishes)                                                                      \
     COMMAND_SETS(&(wishes)->run.sets), {"out",                                                     \
                                         'o',                                                       \
@@ -26,8 +26,7 @@ typedef struct study_wishes {
                                         &(wishes)->run.folder,                                     \
                                         "The folder that keeps the study",                         \
                                         "DIR"},                                                    \
-        {"quiet", 'q', OPTION_FLAG, &(wishes)->run.quiet, "Print nothing but errors", NULL},       \
-        COMMAND_STRICT(&(wishes)->run.strict)
+        COMMAND_QUIET, COMMAND_VERBOSE, COMMAND_STRICT(&(wishes)->run.strict)
 
 // Prints notes on all points of the study (command_take_notes()).
 int study_take_notes(const ld_study *study, const study_wishes *wishes);

@@ -23,6 +23,8 @@ static int show_wind(const ld_model *model, void *data)
     if (!status && wishes->picture)
         status = ld_wind_view_draw(view, wishes->picture, &error);
     if (!status)
+        command_step("computed and wrote what was asked for");
+    if (!status && !command_is_quiet())
         ld_wind_view_print(view, stdout);
     ld_wind_view_free(view);
     return status ? command_fail(status, &error) : 0;
@@ -49,6 +51,8 @@ int command_wind(const command *self, int argc, char **argv)
          "From place to place on it, in metres (0.03 of the smaller length scale)", "DS"},
         {"rocket", '\0', OPTION_INTEGER, &wishes.section.rocket,
          "Whose turbulence, by its place in the firing sequence (1)", "N"},
+        COMMAND_QUIET,
+        COMMAND_VERBOSE,
         COMMAND_HELP,
         COMMAND_END};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_wind, &wishes);

@@ -11,71 +11,12 @@
 #include "base/numeric_locale.h"
 #include "launchdyn/output.h"
 #include "launchdyn/version.h"
+#include "results/json.h"
 #include "results/json_text.h"
 #include "results/origin.h"
 #include "simulation/measures.h"
 #include "simulation/summary.h"
 #include "simulation/summary_quantities.h"
-
-// A JSON text on its way to a file: indented by two blanks a level, commas as they are needed.
-typedef struct json_writer {
-    FILE *file;
-    int level;
-    bool first;               // no member of the innermost object or array yet
-    char path[QUANTITY_NAME]; // of the object or list that numbers stand in, "" or with a point
-} json_writer;
-
-static void json_new_line(json_writer *json)
-{
-    fprintf(json->file, "%s\n%*s", json->first ? "" : ",", 2 * json->level, "");
-    json->first = false;
-}
-
-// The name of a member; NULL in an array.
-static void json_key(json_writer *json, const char *key)
-{
-    json_new_line(json);
-    if (!key)
-        return;
-    json_write_text(json->file, key);
-    fputs(": ", json->file);
-}
-
-static void json_open(json_writer *json, const char *key, char bracket)
-{
-    if (json->level > 0)
-        json_key(json, key);
-    fputc(bracket, json->file);
-    json->level++;
-    json->first = true;
-}
-
-static void json_close(json_writer *json, char bracket)
-{
-    json->level--;
-    if (!json->first)
-        fprintf(json->file, "\n%*s", 2 * json->level, "");
-    fputc(bracket, json->file);
-    json->first = false;
-}
-
-static void json_text(json_writer *json, const char *key, const char *text)
-{
-    json_key(json, key);
-    json_write_text(json->file, text);
-}
-
-static void json_number(json_writer *json, const char *key, double value)
-{
-    json_key(json, key);
-    json_write_number(json->file, value);
-}
-
-static void json_integer(json_writer *json, const char *key, long long value)
-{
-    json_key(json, key);
-    fprintf(json->file, "%lld", value);
-}
 
 // ---- numbers by their paths
 
@@ -97,25 +38,27 @@ static void open_segment(json_writer *json, const char *path, size_t at, size_t 
         json_text(json, "name", name);
 }
 
-// Closes what is not of the path, opens what it has besides.
-static void json_enter(json_writer *json, const char *path)
+// Closes what is not of the path, opens what it has besides; `inside` is the object or list that
+// numbers stand in, "" or with a point.
+static void enter(json_writer *json, char inside[QUANTITY_NAME], const char *path)
 {
     size_t same = 0;
-    for (size_t i = 0; path[i] && path[i] == json->path[i]; i++)
+    for (size_t i = 0; path[i] && path[i] == inside[i]; i++)
         same = path[i] == '.' ? i + 1 : same;
-    for (size_t at = strlen(json->path); at > same;) {
-        json_close(json, is_list(json->path, at) ? ']' : '}');
-        for (at--; at > 0 && json->path[at - 1] != '.'; at--)
+    for (size_t at = strlen(inside); at > same;) {
+        json_close(json, is_list(inside, at) ? ']' : '}');
+        for (at--; at > 0 && inside[at - 1] != '.'; at--)
             ;
     }
     for (size_t at = same, end; path[at]; at = end) {
         end = at + strcspn(path + at, ".") + 1;
         open_segment(json, path, at, end);
     }
-    snprintf(json->path, sizeof json->path, "%s", path);
+    snprintf(inside, QUANTITY_NAME, "%s", path);
 }
 
-static void write_number(json_writer *json, const quantity_walk *at, const void *from)
+static void write_number(json_writer *json, char inside[QUANTITY_NAME], const quantity_walk *at,
+                         const void *from)
 {
     char path[QUANTITY_NAME], in[QUANTITY_NAME];
     quantity_text(at->row->json ? at->row->json : at->row->name, at->group->each, at->item,
@@ -125,7 +68,7 @@ static void write_number(json_writer *json, const quantity_walk *at, const void 
     if (in_list)
         strcat(path, ".");
     snprintf(in, sizeof in, "%.*s", (int)(in_list ? strlen(path) : (size_t)(key - path)), path);
-    json_enter(json, in);
+    enter(json, inside, in);
     double value = quantity_value(at, from);
     if (at->row->at.type == QUANTITY_NUMBER)
         json_number(json, in_list ? NULL : key, value);
@@ -137,10 +80,11 @@ static void write_number(json_writer *json, const quantity_walk *at, const void 
 static void write_numbers(json_writer *json, const quantity_table *table,
                           const quantity_things *things, const void *from)
 {
+    char inside[QUANTITY_NAME] = "";
     for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at))
         if ((things->launcher || !at.group->launch) && quantity_is_there(at.group, from))
-            write_number(json, &at, from);
-    json_enter(json, "");
+            write_number(json, inside, &at, from);
+    enter(json, inside, "");
 }
 
 static void write_rockets(json_writer *json, const ld_summary *summary,

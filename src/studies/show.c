@@ -9,147 +9,11 @@
 #include "base/printed.h"
 #include "launchdyn/study.h"
 #include "simulation/study_results.h"
-#include "studies/sensitivity.h"
-#include "studies/show_against.h"
-#include "studies/show_measured.h"
+#include "studies/show_json.h"
 #include "studies/show_numbers.h"
+#include "studies/shown.h"
 #include "studies/statistics.h"
-#include "studies/study_data.h"
 #include "studies/table_file.h"
-
-typedef struct shown {
-    const study_data *data;
-    const ld_study_view *view;
-    FILE *stream;
-    measured shots;              // beside which the study is shown, or none
-    against reference;           // against which points are shown, or none
-    show_against pairs;          // with those
-    const study_column **column; // [count] what is shown
-    int count;
-    group_statistics *of; // [points][count]
-    study_values values;  // read last
-} shown;
-
-static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,pitch,yaw,pitch_rate,"
-                            "yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
-                            "tip_off.yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed,"
-                            "azimuth.error_rms,azimuth.torque_rms,azimuth.torque_peak,"
-                            "azimuth.saturated,azimuth.power_mean,elevation.error_rms,"
-                            "elevation.torque_rms,elevation.torque_peak,elevation.saturated,"
-                            "elevation.power_mean";
-static const char sensitive[] = "t_rear,muzzle_speed,pitch,yaw,pitch_rate,yaw_rate,downrange,drift";
-
-static ld_status no_memory(ld_error *error)
-{
-    return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
-}
-
-// ---- what is shown
-
-static ld_status add_column(shown *self, const char *name, ld_error *error)
-{
-    const char *nearest = NULL;
-    const study_column *column = study_data_find(self->data, name, &nearest);
-    if (!column)
-        return ld_fail(error, LD_ERR_INPUT, "the study has no result \"%s\"%s%s%s", name,
-                       nearest ? "; did you mean \"" : "", nearest ? nearest : "",
-                       nearest ? "\"?" : "");
-    for (int i = 0; i < self->count; i++)
-        if (self->column[i] == column)
-            return LD_OK;
-    self->column[self->count++] = column;
-    return LD_OK;
-}
-
-static ld_status choose_columns(shown *self, ld_error *error)
-{
-    const study_data *data = self->data;
-    const char *what = self->view->what;
-    self->column = calloc((size_t)data->column_count + 1, sizeof(void *));
-    if (!self->column)
-        return no_memory(error);
-    if (what && strcmp(what, "all") == 0) {
-        for (int i = 0; i < data->result_count; i++)
-            self->column[self->count++] = &data->column[i];
-        return LD_OK;
-    }
-    char *names = strdup(what ? what : self->view->sensitivity ? sensitive : usual), *rest = NULL;
-    ld_status status = names ? LD_OK : no_memory(error);
-    for (char *name = names ? strtok_r(names, ", ", &rest) : NULL; name && !status;
-         name = strtok_r(NULL, ", ", &rest)) {
-        status = add_column(self, name, error);
-        status = what ? status : LD_OK; // of the choice, what there is
-    }
-    free(names);
-    for (int i = 0; i < data->result_count && !what; i++)
-        if (study_result_is_measure(data->column[i].name))
-            self->column[self->count++] = &data->column[i];
-    if (!status && what && self->count == 0)
-        return ld_fail(error, LD_ERR_INPUT, "\"%s\" names no result", what);
-    return status;
-}
-
-static group_statistics *statistics_at(const shown *self, const study_point *point)
-{
-    return self->of + (point - self->data->point) * self->count;
-}
-
-static ld_status compute_point(shown *self, const study_point *point, ld_error *error)
-{
-    for (int i = 0; i < self->count; i++) {
-        study_values *values = &self->values;
-        ld_status status = study_data_read(self->data, point, &self->column[i], 1, values, error);
-        if (status)
-            return status;
-        if (statistics_of(values->count ? values->value[0] : NULL, values->group, values->count,
-                          &statistics_at(self, point)[i]))
-            return no_memory(error);
-    }
-    return LD_OK;
-}
-
-// Whether any point has a value of it; of the choice a sum that stays 0 is none.
-static bool has_values(const shown *self, int column)
-{
-    const quantity *row = study_result_like(self->column[column]->name);
-    bool sum = !self->view->what && row && row->from_zero;
-    for (int i = 0; i < self->data->point_count; i++) {
-        const group_statistics *of = &statistics_at(self, &self->data->point[i])[column];
-        if (of->count > 0 && !(sum && of->greatest == 0))
-            return true;
-    }
-    return false;
-}
-
-// Leaves out what no point has a value of.
-static void drop_empty(shown *self)
-{
-    for (int c = self->count - 1; c >= 0; c--) {
-        if (has_values(self, c))
-            continue;
-        size_t kept = 0, all = (size_t)self->data->point_count * (size_t)self->count;
-        for (size_t i = 0; i < all; i++)
-            if (i % (size_t)self->count != (size_t)c)
-                self->of[kept++] = self->of[i];
-        self->count--;
-        for (int i = c; i < self->count; i++)
-            self->column[i] = self->column[i + 1];
-    }
-}
-
-static ld_status compute(shown *self, ld_error *error)
-{
-    int points = self->data->point_count;
-    self->of = calloc((size_t)points * (size_t)self->count + 1, sizeof *self->of);
-    if (!self->of)
-        return no_memory(error);
-    ld_status status = LD_OK;
-    for (int i = 0; i < points && !status; i++)
-        status = compute_point(self, &self->data->point[i], error);
-    if (!status)
-        drop_empty(self);
-    return status;
-}
 
 // ---- a point
 
@@ -238,58 +102,36 @@ static const group_statistics *most_values(const shown *self, const group_statis
 
 // ---- ellipses
 
-static bool is_shown(const shown *self, const study_column *column)
-{
-    for (int i = 0; i < self->count; i++)
-        if (self->column[i] == column)
-            return true;
-    return false;
-}
-
-static void print_ellipse(FILE *stream, const study_column *const pair[2],
-                          const covariance_ellipse *e, const estimate axis[2], size_t count)
+static void print_ellipse(FILE *stream, const shown_ellipse *e)
 {
     const double degrees = 57.295779513082321;
+    const study_column *const *pair = e->column;
     fprintf(stream, "%s and %s [%s]: centre %.6g, %.6g; %zu rockets\n", VISIBLE(pair[0]->name),
-            VISIBLE(pair[1]->name), VISIBLE(pair[0]->unit), e->mean[0], e->mean[1], count);
+            VISIBLE(pair[1]->name), VISIBLE(pair[0]->unit), e->of.mean[0], e->of.mean[1], e->count);
     fputs("    semi-axes of one standard deviation", stream);
-    show_estimate(stream, 0, &axis[0], NAN);
+    show_estimate(stream, 0, &e->axis[0], NAN);
     fputs(" and", stream);
-    show_estimate(stream, 0, &axis[1], NAN);
+    show_estimate(stream, 0, &e->axis[1], NAN);
     fprintf(stream,
             "\n    of 95 %% of a normal distribution %.4g and %.4g; the long one %.4g deg from %s "
             "towards %s\n",
-            ellipse_radius * e->semi_axis[0], ellipse_radius * e->semi_axis[1], e->angle * degrees,
-            VISIBLE(pair[0]->name), VISIBLE(pair[1]->name));
+            ellipse_radius * e->of.semi_axis[0], ellipse_radius * e->of.semi_axis[1],
+            e->of.angle * degrees, VISIBLE(pair[0]->name), VISIBLE(pair[1]->name));
 }
 
 static ld_status print_ellipses(shown *self, const study_point *point, ld_error *error)
 {
-    study_values *values = &self->values;
     bool first = true;
     for (size_t i = 0; i < STUDY_PAIRS; i++) {
-        const char *nearest;
-        const study_column *pair[] = {
-            study_data_find(self->data, study_pairs[i].name[0], &nearest),
-            study_data_find(self->data, study_pairs[i].name[1], &nearest)};
-        covariance_ellipse ellipse;
-        estimate axis[2];
-        if (!is_shown(self, pair[0]) || !is_shown(self, pair[1]))
-            continue;
-        ld_status status = study_data_read(self->data, point, pair, 2, values, error);
+        shown_ellipse ellipse;
+        ld_status status = shown_ellipse_of(self, point, i, &ellipse, error);
         if (status)
             return status;
-        if (values->count < 3)
-            continue;
-        covariance_ellipse_of(values->value[0], values->value[1], values->count, &ellipse);
-        if (!isfinite(ellipse.semi_axis[0])) // a value is infinite
+        if (ellipse.count == 0)
             continue;
         fputs(first ? "\n" : "", self->stream);
         first = false;
-        if (covariance_ellipse_intervals(values->value[0], values->value[1], values->group,
-                                         values->count, &ellipse, axis))
-            return no_memory(error);
-        print_ellipse(self->stream, pair, &ellipse, axis, values->count);
+        print_ellipse(self->stream, &ellipse);
     }
     return LD_OK;
 }
@@ -314,29 +156,6 @@ static int share_width(const study_column *column)
 {
     int length = (int)strlen(VISIBLE(column->name));
     return length > 9 ? length : 9;
-}
-
-// Reads the shown result together with all factors of the study; one result's columns at a time.
-static ld_status sensitivities_of(shown *self, const study_point *point, int result,
-                                  estimate *share, ld_error *error)
-{
-    const study_data *data = self->data;
-    int factors = data->column_count - data->result_count;
-    study_values *values = &self->values;
-    const study_column **column = calloc((size_t)factors + 1, sizeof(void *));
-    if (!column)
-        return no_memory(error);
-    for (int k = 0; k < factors; k++)
-        column[k] = &data->column[data->result_count + k];
-    column[factors] = self->column[result];
-    ld_status status = study_data_read(data, point, column, factors + 1, values, error);
-    for (int k = 0; k < factors && !status; k++)
-        share[k] = values->count
-                       ? sensitivity_of(values->value[k], values->value[factors], values->sample,
-                                        values->group, values->count, column[k]->per_rocket)
-                       : (estimate){NAN, NAN, NAN};
-    free(column);
-    return status;
 }
 
 static void print_shares(const shown *self, const estimate *share)
@@ -372,9 +191,10 @@ static ld_status print_sensitivities(shown *self, const study_point *point, ld_e
 {
     int factors = self->data->column_count - self->data->result_count;
     estimate *share = calloc((size_t)(self->count * factors) + 1, sizeof *share);
-    ld_status status = share ? LD_OK : no_memory(error);
+    ld_status status =
+        share ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the sensitivities");
     for (int i = 0; i < self->count && !status; i++)
-        status = sensitivities_of(self, point, i, share + i * factors, error);
+        status = shown_sensitivities(self, point, i, share + i * factors, error);
     if (!status && factors > 0)
         print_shares(self, share);
     free(share);
@@ -398,7 +218,7 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
         return show_measured(self->stream, &self->shots, data, point, &self->values, error);
     if (!status && self->view->against)
         return show_against_point(&self->pairs, point, self->stream, error);
-    const group_statistics *of = statistics_at(self, point), *most = most_values(self, of);
+    const group_statistics *of = shown_statistics(self, point), *most = most_values(self, of);
     if (status || !most)
         return status;
     if (!scatters(self, of)) {
@@ -419,7 +239,7 @@ enum { CELL = 22, CELLS = 4 };
 static bool column_scatters(const shown *self, int column, int from, int to)
 {
     for (int i = from; i < to; i++) {
-        const group_statistics *of = &statistics_at(self, &self->data->point[i])[column];
+        const group_statistics *of = &shown_statistics(self, &self->data->point[i])[column];
         if (of->greatest > of->least)
             return true;
     }
@@ -439,12 +259,12 @@ static void print_beside(const shown *self, int from, int to)
         fputc('\n', self->stream);
         show_name(self->stream, self->column[c]->name, self->column[c]->unit);
         for (int i = from; i < to; i++)
-            show_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].mean, 6);
+            show_half(self->stream, CELL, &shown_statistics(self, &data->point[i])[c].mean, 6);
         if (!column_scatters(self, c, from, to))
             continue;
         fprintf(self->stream, "\n%-26s", "    deviation");
         for (int i = from; i < to; i++)
-            show_half(self->stream, CELL, &statistics_at(self, &data->point[i])[c].deviation, 4);
+            show_half(self->stream, CELL, &shown_statistics(self, &data->point[i])[c].deviation, 4);
     }
     fputc('\n', self->stream);
 }
@@ -471,9 +291,9 @@ static ld_status prepare(shown *self, ld_error *error)
             show_shots(self->stream, view->measured, &self->shots);
         return status;
     }
-    ld_status status = choose_columns(self, error);
+    ld_status status = shown_choose(self, error);
     if (status || !view->against)
-        return status ? status : compute(self, error);
+        return status ? status : shown_compute(self, error);
     self->pairs =
         (show_against){.of = &self->reference, .column = self->column, .count = self->count};
     return against_read(view->against, self->data, &self->reference, error);
@@ -503,7 +323,14 @@ static ld_status conclude(shown *self, ld_error *error)
 static ld_status print_all(shown *self, ld_error *error)
 {
     const study_data *data = self->data;
+    const ld_study_view *view = self->view;
+    if (view->json && (view->measured || view->against))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "--json shows statistics or sensitivities: neither --measured nor --against "
+                       "goes with it");
     ld_status status = prepare(self, error);
+    if (!status && view->json)
+        return show_json(self, error);
     for (int i = 0; i < data->point_count && !status; i++)
         status = print_point(self, &data->point[i], error);
     return status ? status : conclude(self, error);

@@ -1,0 +1,296 @@
+// What check, modes and study show print as JSON, against the numbers by other ways: the model by
+// the paths of its keys, the tables of the text, the statistics of the exported table.
+#include "support/check.h"
+#include "support/shell.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "launchdyn/scenario.h"
+
+static FILE *open_here(const char *name)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", shell.folder, name);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    return file;
+}
+
+// Lines "path value table row column" of all numbers: components of vectors by letter (of two: y
+// and z), members of lists from 1; what its path is if it stands in a table.
+#define NUMBERS                                                                                    \
+    "jq -r 'def path_of(p): p | map(if type == \"number\" then . + 1 else . end | tostring) | "    \
+    "join(\".\"); .scenario as $s | $s | paths(type == \"number\") as $p | "                       \
+    "select($p[0] != \"sweep\" and $p[0] != \"scatter\") | ($s | getpath($p[:-1])) as $from | "    \
+    "(if $from | type == \"array\" then ([\"x\", \"y\", \"z\"] | .[-($from | length):])[$p[-1]] "  \
+    "else $p[-1] end) as $last | \"\\(path_of($p[:-1] + [$last])) \\($s | getpath($p)) "           \
+    "\\(if $p[-2:] | map(type) == [\"number\", \"number\"] then \"\\(path_of($p[:-2])) "           \
+    "\\($p[-2]) "                                                                                  \
+    "\\($p[-1])\" else \"- 0 0\" end)\"' a.json >numbers"
+
+// The number at a row and a column of a table; NaN: there is no such table.
+static double in_table(const ld_model *model, const char *path, size_t row, size_t column)
+{
+    const double *table;
+    size_t rows, columns;
+    if (ld_model_table(model, path, &table, &rows, &columns, NULL) || row >= rows ||
+        column >= columns)
+        return NAN;
+    return table[row * columns + column];
+}
+
+static void compare_with_paths(const char *example, int least)
+{
+    char line[512], path[256], table[256];
+    snprintf(line, sizeof line, "launchdyn check --json %s >a.json", example);
+    assert_int_equal(run(line), 0);
+    assert_int_equal(run("jq -c '[.format, .ok, .errors, .points]' a.json"), 0);
+    assert_string_equal(shell.out, "[1,true,[],1]\n");
+    assert_int_equal(run(NUMBERS), 0);
+    snprintf(line, sizeof line, "%s/%s", LD_SOURCE_DIR, example);
+    ld_model *model = NULL;
+    ld_messages messages;
+    assert_int_equal(ld_scenario_read(line, NULL, 0, &model, &messages), LD_OK);
+    FILE *numbers = open_here("numbers");
+    int equal = 0, other = 0;
+    size_t row, column;
+    double found, expected;
+    while (fscanf(numbers, "%255s %lf %255s %zu %zu", path, &found, table, &row, &column) == 5) {
+        if (ld_model_number(model, path, &expected, NULL))
+            expected = in_table(model, table, row, column);
+        if (isnan(expected)) // an integer, or one of a list of numbers
+            other++;
+        else if (found == expected)
+            equal++;
+        else
+            fail_msg("%s is %.17g, not %.17g", path, expected, found);
+    }
+    fclose(numbers);
+    ld_model_free(model);
+    CHECK_WITHIN("numbers that are those by path", equal, least, 1000);
+    CHECK_WITHIN("numbers without a path of their own", other, 0, 20);
+}
+
+static void test_check_has_the_numbers_of_the_model(void **state)
+{
+    (void)state;
+    compare_with_paths("examples/fixed.yaml", 115);
+    compare_with_paths("examples/reference.yaml", 420);
+}
+
+static void test_check_has_texts(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn check --json examples/fixed.yaml --set 'title=a \"b\"' | "
+                         "jq -c '.scenario | [.title, .rocket.adaptors[0].name, .base.kind]'"),
+                     0);
+    assert_string_equal(shell.out, "[\"a \\\"b\\\"\",\"rear\",\"fixed\"]\n");
+    // under scatter and sweep, whose values are texts of the scenario, nothing is taken apart
+    assert_int_equal(
+        run("launchdyn check --json examples/fixed.yaml --set 'sweep={rocket.mass: [60 kg, 61 kg]}'"
+            " --set 'scatter={samples: 3, seed: 1, factors: {rocket.motor.thrust_scale: "
+            "{normal: 1 %}, environment.temperature_offset: {normal: 2 K}}}' "
+            "| jq -c '.points, .scenario.sweep, .scenario.scatter'"),
+        0);
+    assert_string_equal(shell.out, "2\n{\"rocket.mass\":[\"60 kg\",\"61 kg\"]}\n"
+                                   "{\"seed\":1,\"samples\":3,\"plan\":\"random\",\"factors\":{"
+                                   "\"rocket.motor.thrust_scale\":{\"normal\":0.01},"
+                                   "\"environment.temperature_offset\":{\"normal\":\"2 K\"}}}\n");
+}
+
+static void test_check_tells_errors(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn check --json examples/fixed.yaml --set rocket.mas=1 --set "
+                         "rocket.mass='1 m' >a.json"),
+                     2);
+    assert_string_equal(shell.err, "");
+    assert_int_equal(run("jq -c '.ok, (.errors | length), .scenario, .errors[0]' a.json"), 0);
+    assert_string_equal(shell.out, "false\n2\nnull\n{\"file\":\"--set\",\"line\":1,\"column\":8,"
+                                   "\"path\":\"rocket.mas\",\"text\":\"unknown key, did you mean "
+                                   "\\\"mass\\\"?\"}\n");
+    // a file that is not there, a start that cannot be had, a note with and without --strict
+    assert_int_equal(run("launchdyn check --json none.yaml | jq -c '[.ok, .errors[0].file]'"), 0);
+    assert_string_equal(shell.out, "[false,\"none.yaml\"]\n");
+    assert_int_equal(run("launchdyn check --json examples/reference.yaml --set "
+                         "platform.elevation.stabiliser.kp='0 N.m/rad' --set "
+                         "platform.elevation.stabiliser.ki='4e6 N.m/rad/s' | "
+                         "jq -c '[.ok, (.errors[] | .file, .path, (.text | .[:8]))]'"),
+                     0);
+    assert_string_equal(
+        shell.out,
+        "[false,\"examples/reference.yaml\",\"platform.elevation.stabiliser\",\"unstable\"]\n");
+#define LOW "examples/fixed.yaml --set rocket.adaptors.rear.clearance='70 mm'"
+    assert_int_equal(run("launchdyn check --json " LOW " | jq -c '[.ok, (.errors | length), "
+                         ".notes[0].path, .scenario.rocket.adaptors[0].clearance]'"),
+                     0);
+    assert_string_equal(shell.out, "[true,0,\"rocket.adaptors.rear.clearance\",0.07]\n");
+    assert_int_equal(run("launchdyn check --json --strict " LOW " >a.json"), 2);
+    assert_int_equal(run("jq -c '[.ok, .notes, .errors[0].path]' a.json"), 0);
+    assert_string_equal(shell.out, "[false,[],\"rocket.adaptors.rear.clearance\"]\n");
+}
+
+// More on standard error, or less; what is printed and the exit code are the same.
+static void test_quiet_and_verbose(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn check -v examples/fixed.yaml >a; launchdyn check "
+                         "examples/fixed.yaml | cmp - a; launchdyn modes -v examples/fixed.yaml; "
+                         "launchdyn run -v examples/fixed.yaml -o r --report"),
+                     0);
+    static const char *const steps[] = {
+        "launchdyn: read examples/fixed.yaml with 0 overrides: ",
+        "launchdyn: its start can be had: ",
+        "launchdyn: found the modes of the tube: ",
+        "launchdyn: found those of the whole about its equilibrium: ",
+        "launchdyn: built the system: modes, coefficients, tables: ",
+        "launchdyn: ran the launch, from equilibrium to its end: ",
+        "launchdyn: wrote r: ",
+        "launchdyn: wrote r/report.html: ",
+    };
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        expect_in(shell.err, steps[i]);
+    assert_int_equal(run("launchdyn check -q " LOW "; launchdyn report -q r; "
+                         "launchdyn road -q examples/reference.yaml"),
+                     0);
+    assert_string_equal(shell.out, "");
+    assert_string_equal(shell.err, "");
+    expect_complaint("launchdyn check -q examples/fixed.yaml --set rocket.mas=1", 2, "unknown key");
+    expect_complaint("launchdyn check -qv examples/fixed.yaml", 2,
+                     "--quiet and --verbose do not go together");
+}
+
+// Each row of the text from the numbers of JSON.
+static void compare_modes(const char *key)
+{
+    char line[256], text[1 << 14], row[256], shape[128];
+    double frequency, damping;
+    int count = 0;
+    assert_int_equal(run("launchdyn modes examples/fixed.yaml"), 0);
+    strcpy(text, shell.out);
+    snprintf(line, sizeof line,
+             "launchdyn modes --json examples/fixed.yaml | "
+             "jq -r '.%s[] | \"\\(.frequency) \\(.damping) \\(.shape)\"' >modes",
+             key);
+    assert_int_equal(run(line), 0);
+    FILE *file = open_here("modes");
+    while (fscanf(file, "%lf %lf %127[^\n]", &frequency, &damping, shape) == 3) {
+        snprintf(row, sizeof row, "\n%4d %16.4f %18.4f  %s\n", ++count, frequency, damping * 100,
+                 shape);
+        expect_in(text, row);
+    }
+    fclose(file);
+    CHECK_WITHIN("modes that are those of the table", count, 10, 100);
+}
+
+static void test_modes(void **state)
+{
+    (void)state;
+    compare_modes("tube");
+    compare_modes("system");
+    assert_int_equal(run("launchdyn modes examples/fixed.yaml | tail -1; launchdyn modes --json "
+                         "examples/fixed.yaml | jq -r '.eigenvalues | length, .[-1].real, "
+                         ".[-1].imaginary, .[-1].shape'"),
+                     0);
+    int count, listed;
+    double real, imaginary, re, im;
+    assert_int_equal(sscanf(shell.out, "%d %lf %lf %*[^\n] %d %lf %lf", &listed, &real, &imaginary,
+                            &count, &re, &im),
+                     6);
+    assert_int_equal(count, listed);
+    CHECK_NEAR("last eigenvalue, real [1/s]", re, real, 1e-5 * fabs(real));
+    CHECK_NEAR("last eigenvalue, imaginary [rad/s]", im, imaginary, 1e-5 * fabs(imaginary) + 1e-9);
+}
+
+enum { SAMPLES = 8 };
+
+static double column_of(const char *name, double value[SAMPLES])
+{
+    char line[256];
+    snprintf(line, sizeof line,
+             "awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i ~ /^%s( |$)/) c = i; next} "
+             "{print $c}' all.csv >values",
+             name);
+    assert_int_equal(run(line), 0);
+    FILE *file = open_here("values");
+    double sum = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        assert_int_equal(fscanf(file, "%lf", &value[i]), 1);
+        sum += value[i] / SAMPLES;
+    }
+    fclose(file);
+    return sum;
+}
+
+static void test_study(void **state)
+{
+    (void)state;
+    double value[SAMPLES], mean = 0, deviation, least = INFINITY, square = 0, found[5];
+    assert_int_equal(run("launchdyn study examples/fixed.yaml -q -o s --set run.end=tip --set "
+                         "'scatter={samples: 8, seed: 1, factors: {rocket.mass: {normal: 1 kg}}}'; "
+                         "launchdyn study export s --csv all.csv; "
+                         "launchdyn study show s --json --what muzzle_speed,pitch_rate >a.json"),
+                     0);
+    mean = column_of("muzzle_speed", value);
+    for (int i = 0; i < SAMPLES; i++) {
+        square += (value[i] - mean) * (value[i] - mean);
+        least = fmin(least, value[i]);
+    }
+    deviation = sqrt(square / (SAMPLES - 1));
+    assert_int_equal(run("jq -r '.points[0] | .done, (.results[0] | .mean.value, .deviation.value, "
+                         ".least, .mean.high)' a.json"),
+                     0);
+    assert_int_equal(sscanf(shell.out, "%lf %lf %lf %lf %lf", &found[0], &found[1], &found[2],
+                            &found[3], &found[4]),
+                     5);
+    CHECK_NEAR("samples", found[0], SAMPLES, 0);
+    CHECK_NEAR("mean muzzle speed [m/s]", found[1], mean, 1e-12);
+    CHECK_NEAR("its deviation [m/s]", found[2], deviation, 1e-12);
+    CHECK_NEAR("the least [m/s]", found[3], least, 0);
+    // Student's t of 7 degrees of freedom, 97.5 %
+    CHECK_NEAR("end of the interval [m/s]", found[4], mean + 2.364624 * deviation / sqrt(SAMPLES),
+               1e-6);
+    assert_int_equal(run("jq -c '[.format, .asked, (.points | length), .points[0].swept, "
+                         "[.points[0].results[].name], .points[0].results[0].unit]' a.json"),
+                     0);
+    assert_string_equal(shell.out, "[1,8,1,{},[\"muzzle_speed\",\"pitch_rate\"],\"m/s\"]\n");
+}
+
+static void test_study_sensitivity_and_ellipses(void **state)
+{
+    (void)state;
+    // one factor explains all that is linear in it
+    assert_int_equal(run("launchdyn study show s --json --sensitivity --what muzzle_speed | jq -r "
+                         "'.points[0].results[0].factors[] | .path, .share.value'"),
+                     0);
+    char path[64];
+    double share;
+    assert_int_equal(sscanf(shell.out, "%63s %lf", path, &share), 2);
+    assert_string_equal(path, "rocket.mass");
+    CHECK_NEAR("share of the only factor", share, 1, 1e-4);
+    // the centre of an ellipse is the mean of its two results
+    assert_int_equal(run("launchdyn study show s --json --what pitch_rate,yaw_rate >a.json; jq -c "
+                         "'.points[0] | .ellipses[0].of, (.ellipses[0].centre == "
+                         "[.results[].mean.value]), .ellipses[0].count' a.json"),
+                     0);
+    assert_string_equal(shell.out, "[\"pitch_rate\",\"yaw_rate\"]\ntrue\n8\n");
+    expect_complaint("launchdyn study show s --json --against 1", 2,
+                     "--json shows statistics or sensitivities: neither --measured nor");
+    expect_complaint("launchdyn study examples/salvo.yaml --json --out x", 2,
+                     "are options of study show DIR");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_check_has_the_numbers_of_the_model),
+        cmocka_unit_test(test_check_has_texts),
+        cmocka_unit_test(test_check_tells_errors),
+        cmocka_unit_test(test_quiet_and_verbose),
+        cmocka_unit_test(test_modes),
+        cmocka_unit_test(test_study),
+        cmocka_unit_test(test_study_sensitivity_and_ellipses),
+    };
+    return cmocka_run_group_tests(tests, shell_make, shell_remove);
+}
