@@ -1,14 +1,8 @@
 // Where everything of a launcher is at an instant, from the columns of its history and its geometry.
 // Frames: I inertial, T undeformed launching tube (origin at its rear end, x along it), R tube.
+import { rowsOf } from "./geometry.js";
 import { guideOf } from "./guide.js";
 import { add, apply, aboutX, aboutY, aboutZ, multiply, pose, rotation, scaled, subtract } from "./vector.js";
-
-// An array of the geometry as a list of rows.
-function rowsOf(geometry, name) {
-  const { columns, value } = geometry[name] ?? { columns: 1, value: [] }, rows = [];
-  for (let i = 0; i < value.length; i += columns) rows.push(value.slice(i, i + columns));
-  return rows;
-}
 
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 

@@ -16,11 +16,11 @@ function program(facts) {
 export function originBlock(origin, again) {
   const drawn = [origin.point > 0 ? `point ${origin.point} of the sweep` : "", origin.sample > 0 ? `sample ${origin.sample}` : ""]
     .filter(Boolean).join(", ");
-  return element("section", { className: "card origin" },
-    element("details", {}, element("summary", {}, "Program and libraries"), program(origin.program)),
+  return element("section", { className: "origin" },
+    element("div", { className: "rest" }, element("details", {}, element("summary", {}, "Program and libraries"), program(origin.program)),
     folded("Scenario as it was understood", origin.scenario),
     ...origin.files.map(([name, text]) => folded(`File ${name}`, text)),
-    origin.set.length ? folded("Overrides", origin.set.map((set) => `--set ${set ?? LONG}`).join("\n")) : null,
+    origin.set.length ? folded("Overrides", origin.set.map((set) => `--set ${set ?? LONG}`).join("\n")) : null),
     element("p", { className: "shown" }, `${drawn ? `This is ${drawn}. ` : ""}${origin.files.length
       ? `launchdyn ${again} FOLDER repeats it from its folder alone.` : "Its model was not read from a scenario."}`));
 }

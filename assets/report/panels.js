@@ -1,5 +1,7 @@
 // What a figure's panels show of a table: curves ready to be drawn.
-import { matching, rowAt } from "./data.js";
+import { filled, matching, rowAt } from "./data.js";
+
+const TOLD = 190, FOLDED = 240; // heights of plots [px]
 
 const hasValues = (column) => column.value.some((v) => typeof v === "number");
 
@@ -30,7 +32,7 @@ export function panelsOf(table, figure, zero) {
     const against = panel.x && table.column.get(panel.x.column);
     const curves = curvesOf(table, panel, zero);
     if (curves.length === 0 || (panel.x && !against)) continue;
-    const base = { figure, panel, table, zero, against };
+    const base = { figure, panel, table, zero, against, height: figure.told ? TOLD : FOLDED };
     if (panel.each)
       for (const curve of curves)
         shown.push({ ...base, title: panel.title.replace("%s", () => curve.label), curves: [curve] });
@@ -55,20 +57,41 @@ export function panelsOver(runs, figure) {
   return [...found.values()];
 }
 
-// Marks for the time axis, in seconds from `zero`.
+const INSTANTS = ["release", "front", "middle", "rear"];
+// Whose name gives way first where there is no room for all: the greatest.
+const RANK = { ignition: 0, exit: 0, impact: 0, rear: 1, apogee: 1, release: 2, burnout: 2, front: 3, middle: 4 };
+
+// When the thrust of a flight ends, on the run's clock; nothing where it has none, or has it to its end.
+function burnoutOf(table) {
+  const column = table.column.get("thrust");
+  if (!column) return null;
+  const thrust = filled(column.value, table.t), last = thrust.findLastIndex((v) => v > 0);
+  return last >= 0 && last + 1 < thrust.length ? table.t[last + 1] : null;
+}
+
+// What is marked in a flight: when the rocket leaves the launcher, then by what it flies.
+function flightInstants(table, rocket, told, zero) {
+  const t0 = (rocket?.ignition ?? zero) - zero, since = (t) => (typeof t === "number" ? t0 + t : null);
+  const burnout = burnoutOf(table), opened = Object.entries(told?.parachute ?? {}).map(([name, { t_open: t }]) => [name, since(t)]);
+  return [["exit", since(rocket?.rear)], ["burnout", burnout === null ? null : burnout - zero],
+    ["apogee", since(told?.flight?.t_apogee)], ...opened, ["impact", since(told?.flight?.t_impact)]];
+}
+
+// Marks for the time axis, in seconds from `zero`; `ends`: one of the two that a vehicle's whole way shows.
 export function instantsOf(table, rockets, summary, zero) {
-  const marks = [];
+  const marks = [], mark = (name, t, number = "") => {
+    if (Number.isFinite(t)) marks.push({ name: name + number, t, rank: RANK[name] ?? 2, ends: name === "ignition" || name === "rear" });
+  };
+  if (table.kind === "flight") {
+    const i = Math.max(0, table.rocket - 1);
+    for (const [name, t] of flightInstants(table, rockets[i], summary?.rockets?.[i], zero)) mark(name, t ?? NaN);
+    return marks;
+  }
   rockets.forEach((rocket, i) => {
-    if (table.rocket && table.rocket !== i + 1) return;
     if (rocket.ignition === null) return;
-    const number = !table.rocket && rockets.length > 1 ? ` ${i + 1}` : "";
-    const t0 = rocket.ignition - zero;
-    marks.push({ name: `ignition${number}`, t: t0 });
-    for (const name of ["release", "front", "middle", "rear"])
-      if (rocket[name] !== null) marks.push({ name: name + number, t: t0 + rocket[name] });
-    const impact = summary?.rockets?.[i]?.flight?.t_impact;
-    if (table.kind === "flight" && typeof impact === "number")
-      marks.push({ name: "impact", t: t0 + impact });
+    const number = rockets.length > 1 ? ` ${i + 1}` : "", t0 = rocket.ignition - zero;
+    mark("ignition", t0, number);
+    for (const name of INSTANTS) mark(name, t0 + (rocket[name] ?? NaN), number);
   });
   return marks;
 }

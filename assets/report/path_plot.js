@@ -1,10 +1,11 @@
 // One column against another, as a path on a canvas, or the paths of several runs; their points follow
 // the window of time and the cursor of the plots over time.
 import { filled, readable, rowAt } from "./data.js";
+import { placeBeside } from "./labels.js";
 import { colour, curveColour, element, onColours } from "./page.js";
 import { tickTexts, ticks } from "./ticks.js";
 
-const HEIGHT = 230, LEFT = 74, RIGHT = 14, TOP = 12, BOTTOM = 46;
+const LEFT = 74, RIGHT = 14, TOP = 12, BOTTOM = 46;
 
 function widened(values) {
   let low = Infinity, high = -Infinity;
@@ -40,13 +41,14 @@ export function pathPlot(shown, group, marks, host) {
   const reading = element("output", { className: "reading" });
   canvas.setAttribute("role", "figure");
   canvas.setAttribute("aria-label", `${shown.title}: ${panel.y.text} against ${panel.x.text}`);
+  canvas.style.height = `${shown.height}px`;
   host.append(canvas, reading);
   let place;
 
   const inWindow = (of) => ways.flatMap((way) => [...way[of].subarray(way.first, way.last + 1)]);
   const measure = () => {
     const range = [widened(inWindow("x")), widened(inWindow("y"))];
-    const w = canvas.clientWidth - LEFT - RIGHT, h = HEIGHT - TOP - BOTTOM;
+    const w = canvas.clientWidth - LEFT - RIGHT, h = shown.height - TOP - BOTTOM;
     place = {
       range,
       x: (v) => LEFT + ((v - range[0][0]) / (range[0][1] - range[0][0])) * w,
@@ -55,13 +57,13 @@ export function pathPlot(shown, group, marks, host) {
   };
 
   const drawAxes = (ctx) => {
-    const right = canvas.clientWidth - RIGHT, bottom = HEIGHT - BOTTOM;
+    const right = canvas.clientWidth - RIGHT, bottom = shown.height - BOTTOM;
     ctx.strokeStyle = colour("grid");
     ctx.fillStyle = colour("ink");
     ctx.font = "11px sans-serif";
     ctx.textAlign = "center";
     ctx.textBaseline = "top";
-    const across = ticks(...place.range[0], Math.max(2, (right - LEFT) / 80)), up = ticks(...place.range[1], 5);
+    const across = ticks(...place.range[0], Math.max(3, (right - LEFT) / 80)), up = ticks(...place.range[1], 5);
     tickTexts(across).forEach((text, i) => {
       const v = across[i];
       ctx.strokeRect(place.x(v), TOP, 0, bottom - TOP);
@@ -76,7 +78,7 @@ export function pathPlot(shown, group, marks, host) {
     });
     ctx.font = "12px sans-serif";
     ctx.textAlign = "center";
-    ctx.fillText(panel.x.text, (LEFT + right) / 2, HEIGHT - 12);
+    ctx.fillText(panel.x.text, (LEFT + right) / 2, shown.height - 12);
     ctx.save();
     ctx.translate(12, (TOP + bottom) / 2);
     ctx.rotate(-Math.PI / 2);
@@ -92,29 +94,34 @@ export function pathPlot(shown, group, marks, host) {
     ctx.fill();
   };
 
-  // A name beside its dot, above or below, where the names before leave room.
+  // Some hundred points of the ways, as they are drawn.
+  const someOf = (all) => all.flatMap(({ x, y, first, last }) => Array.from({ length: 200 }, (_, i) => {
+    const row = Math.round(first + ((last - first) * i) / 199);
+    return [place.x(x[row]), place.y(y[row])];
+  }));
+
+  // A dot at each instant, its name beside it where there is room.
   const drawMarks = (ctx) => {
     const named = [];
     for (const mark of marks) {
-      const way = ways.find(({ run }) => run === (mark.run ?? 0)), row = way ? rowAt(way.t, mark.t) : -1;
+      const way = ways.find(({ run }) => run === (mark.run ?? 0)), row = way ? rowNext(way, mark.t) : -1;
       if (!way || row < way.first || row > way.last || !isAt(way, row)) continue;
       dot(ctx, way, row, mark.run ? curveColour(mark.run) : colour("mark"));
-      if (!mark.name) continue;
-      ctx.fillStyle = colour("mark");
-      const left = place.x(way.x[row]) + 6, top = [-7, 7].map((down) => place.y(way.y[row]) + down)
-        .find((at) => !named.some(([l, t0]) => Math.abs(l - left) < 50 && Math.abs(t0 - at) < 12));
-      if (top === undefined) continue;
-      named.push([left, top]);
-      ctx.textAlign = left > canvas.clientWidth - 50 ? "right" : "left";
-      ctx.fillText(mark.name, ctx.textAlign === "left" ? left : left - 12, top);
+      if (mark.name) named.push({ mark, x: place.x(way.x[row]), y: place.y(way.y[row]), width: ctx.measureText(mark.name).width });
     }
+    ctx.fillStyle = colour("mark");
+    ctx.textAlign = "left";
+    ctx.textBaseline = "middle";
+    const bounds = { left: LEFT, right: canvas.clientWidth, top: 0, bottom: shown.height - BOTTOM };
+    named.sort((a, b) => a.mark.rank - b.mark.rank);
+    placeBeside(named, 13, bounds, someOf(ways)).forEach((box, i) => box && ctx.fillText(named[i].mark.name, box.left, (box.top + box.bottom) / 2));
   };
 
   const draw = () => {
     const scale = devicePixelRatio, ctx = canvas.getContext("2d");
     if (canvas.clientWidth === 0) return;
     canvas.width = canvas.clientWidth * scale;
-    canvas.height = HEIGHT * scale;
+    canvas.height = shown.height * scale;
     ctx.scale(scale, scale);
     measure();
     drawAxes(ctx);

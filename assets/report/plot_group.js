@@ -13,7 +13,16 @@ export class PlotGroup {
     this.followers = this.plots; // what shows the cursor; the table's other groups too
     this.busy = true;
   }
+  // A plot more, which shows what the others do.
+  add(plot) {
+    this.plots.push(plot);
+    this.busy = true;
+    plot.window(...(this.shown ?? this.home));
+    this.busy = false;
+    return plot;
+  }
   show(min, max) {
+    this.shown = [min, max];
     this.busy = true;
     for (const plot of this.plots) plot.window(min, max);
     this.busy = false;
@@ -45,25 +54,34 @@ function addPanel(grid, shown, group, marks) {
         onclick: () => download(fileName(shown), csvOf(shown)) }, "CSV")),
     canvas);
   grid.append(card);
-  group.plots.push((shown.panel.x ? pathPlot : timePlot)(shown, group, marks, canvas));
+  return group.add((shown.panel.x ? pathPlot : timePlot)(shown, group, marks, canvas));
 }
 
-// A section of each figure that has panels, their plots in the groups, of which all show one cursor.
+// A figure of the story, or one that is folded and drawn when it is unfolded; `draw` fills its grid.
+function figureOf(id, { told, title }, count, draw) {
+  const grid = element("div", { className: `grid of${count}` });
+  if (told) return { node: element("section", { className: "figure", id }, element("h3", { className: "heading" }, title), grid), draw: () => draw(grid) };
+  const node = element("details", { className: "figure", id }, element("summary", {}, title), grid);
+  node.addEventListener("toggle", () => draw(grid), { once: true });
+  return { node, draw: null };
+}
+
+// Each figure that has panels, those of the story first, the others folded below them. Their plots are in the
+// groups, of which all show one cursor.
 export function addFigures(host, id, figures, panelsOf, groups, marks) {
-  const followers = [];
+  const followers = [], rest = element("div", { className: "rest" });
   groups.launch.followers = groups.vehicle.followers = followers;
   for (const figure of figures) {
-    const panels = panelsOf(figure);
+    const panels = panelsOf(figure), group = figure.time === "vehicle" ? groups.vehicle : groups.launch;
     if (panels.length === 0) continue;
-    const grid = element("div", { className: "grid" });
-    host.append(element("section", { className: "figure", id: `${id}-${figure.name}` },
-      element("h3", { className: "heading" }, figure.title), grid));
-    for (const shown of panels) {
-      const group = figure.time === "vehicle" ? groups.vehicle : groups.launch;
-      addPanel(grid, shown, group, marks);
-      followers.push(group.plots[group.plots.length - 1]);
-    }
+    const { node, draw } = figureOf(`${id}-${figure.name}`, figure, panels.length, (grid) => {
+      const here = group === groups.vehicle ? marks.filter(({ ends }) => ends) : marks;
+      for (const shown of panels) followers.push(addPanel(grid, shown, group, here));
+    });
+    (figure.told ? host : rest).append(node);
+    draw?.();
   }
+  if (rest.children.length > 0) host.append(rest);
   for (const group of Object.values(groups)) group.reset();
 }
 

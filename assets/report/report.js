@@ -1,6 +1,8 @@
-// The report of a run: summary first, then the plots of each table of numbers.
+// The report of a run: replay, launcher and answer first, then the plots of each table of numbers, then all numbers.
+import { answerCard } from "./answer.js";
 import { decodeTable, filled, inflated, readable, rowAt } from "./data.js";
 import { colour, element, onColours, themeSwitch } from "./page.js";
+import { drawingCard } from "./drawing.js";
 import { originBlock } from "./origin.js";
 import { namedFigures, namingOf } from "./naming.js";
 import { instantsOf, panelsOf } from "./panels.js";
@@ -33,13 +35,19 @@ function showTable(table, index, summary, nav) {
     launch: new PlotGroup(`table${index}`, homeOf(table, ignition, table.kind === "flight")),
     vehicle: new PlotGroup(`table${index}`, homeOf(table, ignition, true)),
   };
-  const id = `table${index}`;
-  host.append(element("h2", { id }, heading));
+  const id = `table${index}`, figures = data.figures.filter(({ time }) => (time === "flight") === (table.kind === "flight"));
+  const fill = (host) => addFigures(host, id, figures, (figure) => panelsOf(table, figure, ignition), groups, marks);
   nav.append(element("a", { href: `#${id}` }, heading));
-  const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
-  if (buttons) host.append(buttons);
-  const figures = data.figures.filter(({ time }) => (time === "flight") === (table.kind === "flight"));
-  addFigures(host, id, figures, (figure) => panelsOf(table, figure, ignition), groups, marks);
+  if (table.kind === "flight" && table.rocket > 1) { // of those after the first: folded as a whole
+    const folded = element("details", { className: "flight", id }, element("summary", {}, heading));
+    folded.addEventListener("toggle", () => fill(folded), { once: true });
+    host.append(folded);
+  } else {
+    host.append(element("h2", { id }, heading));
+    const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
+    if (buttons) host.append(buttons);
+    fill(host);
+  }
   return { table, marks, zero: ignition, group: groups.launch };
 }
 
@@ -110,24 +118,37 @@ function state(summary) {
 }
 
 const { summary, tables: summaryTables, notes: summaryNotes = [] } = readSummary();
-const nav = element("nav", {}, element("a", { href: "#summary-tables" }, "Summary"));
-host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
-  themeSwitch()));
-host.append(element("h2", { id: "summary-tables" }, "Summary"), state(summary),
-  ...[...data.notes, ...summaryNotes].map((note) => element("p", { className: "warning" }, note)));
-if (summary) host.append(summaryTables);
-
 const tables = data.tables.map(decodeTable);
 const launch = tables.find((table) => table.kind === "launch" && table.t.length > 0);
-const place = element("section", { className: "card replay" });
-if (launch) {
-  host.append(element("h2", { id: "replay-heading" }, "Replay"), place);
-  nav.append(element("a", { href: "#replay-heading" }, "Replay"));
+const place = element("section", { className: "card replay", id: "replay-card" });
+const nav = element("nav", {}, element("a", { href: "#answer" }, "Answer"));
+
+// The first screen: replay, drawing, answer.
+function overview() {
+  const ignition = data.rockets[0]?.ignition ?? launch?.t[0] ?? 0;
+  const answer = answerCard({ summary, state: state(summary), notes: [...data.notes, ...summaryNotes], table: launch, ignition, named });
+  return element("div", { className: `overview${launch ? "" : " alone"}` }, launch ? place : null, answer, launch ? drawing() : null);
 }
+
+// Nothing where an earlier version has kept no geometry.
+function drawing() {
+  try {
+    return drawingCard({ geometry: data.geometry, table: launch, rockets: data.rockets, named });
+  } catch {
+    return null;
+  }
+}
+
+host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
+  themeSwitch()), overview());
 const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, summary, nav));
 if (launch)
   showReplay(place, shown[tables.indexOf(launch)],
     data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && table.rocket === i + 1 && table.t.length > 0)));
+if (summary) {
+  host.append(element("h2", { id: "summary-tables" }, "All numbers"), summaryTables);
+  nav.append(element("a", { href: "#summary-tables" }, "Numbers"));
+}
 
 const origin = document.getElementById("origin");
 if (origin) {

@@ -63,7 +63,7 @@ function tableOf(heading, rows, heads) {
       ...cells.map((cell) => element("td", {}, cell)), element("td", { className: "unit" }, unit)));
   const head = heads && element("tr", {}, element("th", {}, ""),
     ...heads.map((name) => element("th", { scope: "col" }, name)), element("th", {}, ""));
-  return element("section", { className: "card" }, element("h3", {}, heading),
+  return element("details", { className: "card" }, element("summary", {}, heading),
     element("div", { className: "scroll" }, element("table", {}, head, ...body)));
 }
 

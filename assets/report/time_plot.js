@@ -1,10 +1,11 @@
 // Curves over time, by uPlot.
 import uPlot from "uplot";
 import { filled, readable, rowAt } from "./data.js";
+import { placeOnLine } from "./labels.js";
 import { colour, curveColour, onColours } from "./page.js";
 import { tickTexts } from "./ticks.js";
 
-const HEIGHT = 230, LABEL_GAP = 14;
+const NAMES = 20; // height above the plot for the names of instants [px]
 // Of a run's curves in one panel, and their signs below it.
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]], BORDERS = ["solid", "dashed", "dotted", "double"];
 
@@ -41,42 +42,42 @@ function alignedData(shown) {
   })];
 }
 
-// Lines at the key instants, named at their tops; one that would go through the name before begins
-// below it. A name that has no room is left out.
+// The instants in the window that have names, with the places of those above the plot.
+function placeNames(u, marks) {
+  const { ctx, bbox } = u, scale = devicePixelRatio;
+  const named = marks.filter(({ name }) => name).map((mark) => ({ mark, at: u.valToPos(mark.t, "x", true), rank: mark.rank,
+    width: ctx.measureText(mark.name).width })).filter(({ at }) => at >= bbox.left - 1 && at <= bbox.left + bbox.width + 1);
+  const lefts = placeOnLine(named, 0.5 * bbox.left, bbox.left + bbox.width + 10 * scale, 6 * scale);
+  return new Map(named.map(({ mark, width }, i) => [mark, lefts[i] === null ? null : { left: lefts[i], width }]));
+}
+
+// Lines at the key instants, from their names above the plot, which never meet; a name that has no room is left out.
 function drawInstants(u, marks) {
   const { ctx, bbox } = u, scale = devicePixelRatio, bottom = bbox.top + bbox.height;
-  let free = -Infinity, below = bbox.top;
   ctx.save();
   ctx.font = `${11 * scale}px sans-serif`;
-  ctx.textBaseline = "top";
+  ctx.textBaseline = "bottom";
   ctx.textAlign = "left";
-  ctx.strokeStyle = ctx.fillStyle = colour("mark");
   ctx.lineWidth = scale;
-  ctx.setLineDash([4 * scale, 3 * scale]);
+  const names = placeNames(u, marks);
   for (const mark of marks) {
-    const x = Math.round(u.valToPos(mark.t, "x", true));
-    if (x < bbox.left || x > bbox.left + bbox.width) continue;
-    ctx.strokeStyle = mark.run ? curveColour(mark.run) : colour("mark");
-    if (!mark.name) { // of another run than the first
-      ctx.globalAlpha = 0.5;
-      ctx.strokeRect(x, bbox.top, 0, bbox.height);
-      ctx.globalAlpha = 1;
-      continue;
-    }
-    const top = x < free ? below : bbox.top, end = top + 6 * scale + ctx.measureText(mark.name).width;
+    const x = Math.round(u.valToPos(mark.t, "x", true)), name = names.get(mark);
+    if (x < bbox.left - 1 || x > bbox.left + bbox.width + 1) continue;
+    ctx.strokeStyle = ctx.fillStyle = mark.run ? curveColour(mark.run) : colour("mark");
+    ctx.globalAlpha = mark.name ? 1 : 0.5; // without a name it is one of another run than the first
+    ctx.setLineDash([4 * scale, 3 * scale]);
     ctx.beginPath();
-    ctx.moveTo(x, top);
+    ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bottom);
     ctx.stroke();
-    if (end > bottom) continue;
-    ctx.save();
-    ctx.translate(x + 2 * scale, top + 3 * scale);
-    ctx.rotate(Math.PI / 2);
-    ctx.translate(0, -LABEL_GAP * scale);
-    ctx.fillText(mark.name, 0, 0);
-    ctx.restore();
-    free = x + LABEL_GAP * scale;
-    below = end;
+    if (!name) continue;
+    const foot = bbox.top - 7 * scale;
+    ctx.fillText(mark.name, name.left, foot);
+    ctx.setLineDash([]);
+    ctx.beginPath();
+    ctx.moveTo(Math.min(name.left + name.width, Math.max(name.left, x)), foot);
+    ctx.lineTo(x, bbox.top);
+    ctx.stroke();
   }
   ctx.restore();
 }
@@ -101,7 +102,7 @@ function axis(label, grid) {
 function options(shown, group, marks, width) {
   const { panel, curves } = shown;
   return {
-    width, height: HEIGHT, pxAlign: 0,
+    width, height: shown.height, pxAlign: 0, padding: [NAMES, null, null, null],
     scales: { x: { time: false }, y: { range: roomAround } },
     axes: [{ ...axis("time from ignition [s]", true), size: 30 },
       { ...axis(panel.y.text, true), size: 56 }],
@@ -155,10 +156,10 @@ export function timePlot(shown, group, marks, host) {
   const data = alignedData(shown);
   const u = new uPlot(options(shown, group, marks, host.clientWidth || 600), data, host);
   u.root.setAttribute("role", "figure");
-  u.root.setAttribute("aria-label", `${shown.title}, ${shown.panel.y.unit}, over time`);
+  u.root.setAttribute("aria-label", `${shown.title}, ${shown.panel.y.text}, over time`);
   listenToKeys(u, data, group);
   new ResizeObserver(() => {
-    if (host.clientWidth !== u.width) u.setSize({ width: host.clientWidth, height: HEIGHT });
+    if (host.clientWidth !== u.width) u.setSize({ width: host.clientWidth, height: shown.height });
   }).observe(host);
   onColours(() => u.redraw(false, true));
   return {

@@ -24,7 +24,7 @@ typedef struct plot_unit {
     double factor;    // from SI
 } plot_unit;
 
-// What stands at an axis; without a name the unit alone.
+// What stands at an axis: what is shown there and its unit.
 typedef struct plot_axis {
     const char *name;
     plot_unit unit;
@@ -51,6 +51,7 @@ typedef struct plot_figure {
     ld_figure about;
     plot_panel panel[PLOT_PANELS]; // up to the first without a title
     plot_time time;
+    bool told; // the report shows it at once, the others folded
 } plot_figure;
 
 // The figures in their order, NULL after the last; that with a name, or NULL.

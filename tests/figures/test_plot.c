@@ -157,7 +157,7 @@ static void test_instants_titles_and_names(void **state)
         "$p0c0 using 1:2 with lines ls 1 title 'rear'",
         "$p0c1 using 1:2 with lines ls 2 title 'middle'",
         "$p0c2 using 1:2 with lines ls 3 title 'front'",
-        "set label '[kN]' at screen",
+        "set label 'force [kN]' at screen",
         "set label 'time from ignition [ms]' at screen",
     };
     expect_in(script, expected, sizeof expected / sizeof *expected);
@@ -298,8 +298,9 @@ static void expect(const char *where, const char *figure, const char *file, ld_s
 static void test_what_can_be_wrong(void **state)
 {
     (void)state;
-    expect(in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
-           "there is no figure \"tipp\" (did you mean tip?); there are tip-inertial, tip-rate, ");
+    expect(
+        in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
+        "there is no figure \"tipp\" (did you mean tip?); there are travel, contact, relative, ");
     expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT, "no figure \"spaghetti\"; there are");
     expect(in("run"), "tip", in("x.jpg"), LD_ERR_INPUT, "ends in .svg, .pdf or .png");
     expect(in("run"), "tip", in("none/x.svg"), LD_ERR_FILE, "No such file or directory");

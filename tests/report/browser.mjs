@@ -2,7 +2,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, checkFits, checkInjected, checkNoneEmpty, drawn, inBrowser, launchdyn, launchdynEnding, leave, near, open, paper, picture,
-  rowNear, runOf } from "./support.mjs";
+  rowNear, runOf, unfold } from "./support.mjs";
 
 // The numbers below a plot, the time first.
 const legend = (page, selector) => page.$$eval(`${selector} .u-value`, (cells) =>
@@ -32,8 +32,6 @@ async function checkOrigin(page, run) {
   check("the scenario's own text", file === source.files[0].text && file.includes("adaptors:"), file.length);
   const cells = await page.$$eval(".origin td", (list) => list.map((cell) => cell.textContent));
   check("program and libraries", cells.length >= 10 && cells.join() === Object.values(program).join(), cells.join(", "));
-  const open = await page.$$eval(".origin details[open]", (list) => list.length);
-  check("all of it is folded", open === 0, open);
 }
 
 // Every figure that the command lists stands on the page, but for those of which this launch has nothing.
@@ -41,7 +39,7 @@ async function checkAllFigures(page) {
   const none = ["pressure", "recoil", "loads"];
   const listed = launchdyn("plot", "--help").split("Figures for --what")[1].matchAll(/^  ([a-z][a-z-]*) /gm);
   const names = [...listed].map(([, name]) => name).filter((name) => name !== "all" && !none.includes(name));
-  const there = await page.$$eval("section.figure", (list) => list.map(({ id }) => id.replace(/^table\d+-/, "")));
+  const there = await page.$$eval(".figure", (list) => list.map(({ id }) => id.replace(/^table\d+-/, "")));
   check("the figures of plot, in its order", names.length >= 24 && there.join() === names.join(), there.join(" "));
 }
 
@@ -57,10 +55,71 @@ async function checkFigures(page, run) {
   check("all figures against the launcher are in the table", figures.length === 16 && missing.length === 0, missing);
 }
 
+// What one reads in ten seconds: replay, drawing and answer in the first window, the rest in 5000 pixels.
+async function checkFirstScreen(page, run) {
+  const boxes = await page.evaluate(() => [".replay", ".drawing", ".answer"].map((name) => {
+    const { top, bottom, height } = document.querySelector(name).getBoundingClientRect();
+    return { name, top, bottom, height };
+  }));
+  check("replay, drawing and answer fill the first screen", boxes.every(({ top, bottom, height }) => top >= 0 && bottom <= 900 && height > 100),
+    boxes.map(({ name, top, bottom }) => `${name} ${top.toFixed(0)} to ${bottom.toFixed(0)}`).join(", "));
+  await checkHeight(page);
+  const open = await page.$$eval("details[open]", (list) => list.length);
+  check("tables, origin and what is beside the story are folded", open === 0 && (await page.$$("details")).length > 15, open);
+  await checkAnswer(page, run);
+  await checkDrawing(page);
+}
+
+async function checkHeight(page) {
+  const high = await page.evaluate(() => document.documentElement.scrollHeight);
+  check("the page before unfolding is at most 5000 pixels high", high <= 5000, high);
+}
+
+// The card's numbers are those of the results, rounded to three digits.
+async function checkAnswer(page, run) {
+  const said = Object.fromEntries(await page.$$eval(".answer tr", (rows) => rows.map((row) => [row.cells[0].firstChild.textContent,
+    row.cells[1].textContent.replace("−", "-"), row.cells[0].querySelector("small")?.textContent ?? ""]).map(([name, ...more]) => [name, more])));
+  const summary = JSON.parse(readFileSync(join(run.out, "summary.json"))), [rocket] = summary.rockets, { column } = run, t = column.get("t");
+  const forces = Object.entries(rocket.max_contact_force), [part, force] = forces.reduce((best, one) => (one[1] > best[1] ? one : best));
+  const headline = parseFloat(await page.textContent(".headline strong"));
+  const first = t.findIndex((time) => time >= 0), apart = (row, names) => Math.hypot(...names.map((name) => column.get(name)[row] - column.get(name)[first]));
+  const way = (names) => Math.max(...t.map((_, row) => (row >= first && Number.isFinite(column.get(names[0])[row]) ? apart(row, names) : 0)));
+  const wanted = { "Tip-off pitch rate": 1e3 * rocket.tip_off.pitch_rate_relative, "Tip-off yaw rate": 1e3 * rocket.tip_off.yaw_rate_relative,
+    "Spin at the exit": rocket.spin_rate, "From release to exit": 1e3 * (rocket.t_rear - rocket.t_release), "Largest contact force": 1e-3 * force,
+    "Moved most": 1e3 * Math.max(way(["tip.y", "tip.z"]), way(["rocket.y", "rocket.z"])) };
+  const wrong = Object.entries(wanted).filter(([name, value]) => !near(parseFloat(said[name]?.[0]), value, 6e-3));
+  check("the answer says what the results do, in three digits", near(headline, rocket.muzzle_speed, 6e-3) && wrong.length === 0 &&
+    Object.values(said).every(([text]) => (text.match(/[1-9][0-9.]*/)?.[0] ?? "").replace(".", "").length <= 4), JSON.stringify(said));
+  check("with the part of the largest force, and the unit", said["Largest contact force"][1] === part && said["Largest contact force"][0].endsWith("kN") &&
+    said["Moved most"][0].endsWith("mm"), part);
+  const [digits, power] = said["Energy balance misses"][0].split("·10");
+  check("and how well energies balance", near(Number(digits) * 10 ** Number([...power].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).map((d) => (d < 0 ? "-" : d)).join("")),
+    Math.abs(summary.energy.residual_relative), 0.06), said["Energy balance misses"][0]);
+}
+
+// Tube, adaptors, supports and mass centre are where the geometry has them, with one scale in both directions.
+async function checkDrawing(page) {
+  const boxes = (kind) => page.$$eval(`.plan .${kind}`, (list) => list.map((node) => {
+    const { x, y, width, height } = node.getBBox();
+    return { x, y, width, height };
+  }));
+  const [walls, adaptors, supports, [centre]] = await Promise.all(["beam", "adaptor", "support", "centre"].map(boxes));
+  const { geometry } = await page.evaluate(() => JSON.parse(document.getElementById("data").textContent)), of = (name) => geometry[name].value;
+  const scale = walls[0].width / of("tube.station").at(-1), at = (x) => walls[0].x + scale * x, middle = ({ x, width }) => x + width / 2;
+  const rear = middle(adaptors[0]), bore = Math.abs(walls[1].y - walls[0].y) / scale, [, radius, outer] = of("tube.section");
+  check("the drawing's bore has the scale of its length", near(bore, radius + outer, 1e-2), `${bore} m between walls`);
+  check("so have the adaptors, each in its place", adaptors.length === 3 && adaptors.every((box, i) =>
+    near(box.height / scale, 2 * (radius - of("rocket.clearance")[i]), 1e-2) && Math.abs(middle(box) - rear - scale * of("rocket.adaptor")[i]) < 0.2));
+  check("and the supports", supports.length === 2 && supports.every((box, i) => Math.abs(middle(box) - at(of("tube.support")[i])) < 0.2));
+  check("and the mass centre", Math.abs(middle(centre) - rear - scale * of("rocket.center")[0]) < 0.2);
+}
+
 async function checkLaunch(browser) {
   const run = runOf("fixed.yaml");
   console.log("fixed.yaml");
-  const page = await open(browser, run.file);
+  const page = await open(browser, run.file, { width: 1400 });
+  await checkFirstScreen(page, run);
+  await unfold(page);
   const counts = await page.evaluate(() =>
     [".panel", ".plot canvas"].map((selector) => document.querySelectorAll(selector).length));
   check("plots, each with a canvas", counts[0] >= 30 && counts[0] === counts[1], counts);
@@ -327,22 +386,39 @@ async function checkRail(browser) {
   await leave(page);
 }
 
-// Keeps the numbers along the upright axis of each plot and the names in it as they are drawn; code
-// of the page.
+// Keeps the numbers along the upright axis of each plot, what is said at the axes, and the names in it with the places
+// where they are drawn; code of the page.
 function keepLabels() {
   const { clearRect, fillText } = CanvasRenderingContext2D.prototype;
   Object.assign(CanvasRenderingContext2D.prototype, {
     clearRect(...place) {
-      this.canvas.labels = [];
-      this.canvas.names = [];
+      Object.assign(this.canvas, { labels: [], names: [], axes: [] });
       clearRect.apply(this, place);
     },
-    fillText(text, ...place) {
+    fillText(text, x, y, ...more) {
       if (this.textAlign === "right") this.canvas.labels?.push(text);
-      if (this.textAlign === "left") this.canvas.names?.push(text);
-      fillText.call(this, text, ...place);
+      if (this.textAlign === "left") this.canvas.names?.push({ text, left: x, right: x + this.measureText(text).width, y });
+      if (this.textAlign === "center" && this.getTransform().b !== 0) this.canvas.axes?.push(text);
+      fillText.call(this, text, x, y, ...more);
     },
   });
+}
+
+// What stands in the plots of the story: numbers that differ, axes that say what they show, names that do not meet.
+async function checkTexts(page) {
+  const drawn = await page.$$eval(".uplot canvas", (list) => list.map(({ labels, names, axes }) => ({ labels, names, axes })));
+  check("each line of a plot has a number of its own", drawn.length > 15 &&
+    drawn.every(({ labels }) => labels.length > 1 && new Set(labels).size === labels.length),
+    drawn.filter(({ labels }) => new Set(labels).size < labels.length).map(({ labels }) => labels).join("; "));
+  check("each upright axis says what it shows", drawn.every(({ axes }) => axes.length === 1 && /^[A-Za-z][^[]+( \[.+\])?$/.test(axes[0])),
+    [...new Set(drawn.flatMap(({ axes }) => axes))].join(", "));
+  const meeting = drawn.flatMap(({ names }) => names.flatMap((a, i) => names.slice(i + 1)
+    .filter((b) => Math.abs(a.y - b.y) < 11 && a.left < b.right && b.left < a.right).map((b) => `${a.text} and ${b.text}`)));
+  check("no name of an instant meets another", meeting.length === 0, meeting.join(", "));
+  const named = drawn.map(({ names }) => names.map(({ text }) => text));
+  const launch = named.filter((names) => names.includes("release")), flight = named.filter((names) => names.includes("apogee"));
+  check("a launch has all five instants", launch.length > 10 && launch.every((names) => names.join() === "ignition,release,front,middle,rear"), launch.length);
+  check("a flight those of its own", flight.length > 5 && flight.every((names) => names.join() === "exit,burnout,apogee,impact"), flight.join("; "));
 }
 
 async function checkLooks(browser) {
@@ -351,14 +427,7 @@ async function checkLooks(browser) {
   const page = await open(browser, run.file, { width: 400, dark: true, before: keepLabels });
   await checkNoneEmpty(page);
   await checkFits(page);
-  const labels = await page.$$eval(".uplot canvas", (canvases) => canvases.map(({ labels }) => labels));
-  check("each line of a plot has a number of its own", labels.length > 0 &&
-    labels.every((texts) => texts.length > 1 && new Set(texts).size === texts.length),
-    labels.filter((texts) => new Set(texts).size < texts.length).join("; "));
-  const named = (await page.$$eval(".uplot canvas", (canvases) => canvases.map(({ names }) => names)))
-    .filter((names) => names?.includes("ignition"));
-  check("where ignition is named release is too", named.length > 0 && named.every((names) => names.includes("release")),
-    named.filter((names) => !names.includes("release")).length);
+  await checkTexts(page);
   const seen = await look(page, "replay.look('tube');" + show(0.1));
   check("tube and rocket are seen in the dark", seen.tube > 0.002 * seen.points && seen.rocket > 0.001 * seen.points,
     `${seen.tube} and ${seen.rocket} of ${seen.points}`);
@@ -367,6 +436,9 @@ async function checkLooks(browser) {
   await page.click("#theme");
   check("the switch makes it light", (await paper(page)) === "rgb(255, 255, 255)");
   await checkAllFigures(page);
+  await page.setViewportSize({ width: 1400, height: 900 });
+  await drawn(page);
+  await checkHeight(page);
   const entered = await page.evaluate(() => {
     const replay = window.launchdyn.current, { from } = replay.clock.parts.find(({ name }) => name === "tube");
     replay.show(from - 0.004);

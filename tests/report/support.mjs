@@ -158,6 +158,12 @@ export async function checkInjected(browser, file) {
 export const drawn = (page) =>
   page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
 
+// Opens all that is folded; what has been folded draws itself then.
+export async function unfold(page) {
+  await page.evaluate(() => document.querySelectorAll("details").forEach((node) => { node.open = true; }));
+  await drawn(page);
+}
+
 // A picture of the window, where pictures are wanted.
 export async function picture(page, name) {
   if (LD_SCREENSHOTS) await page.screenshot({ path: join(LD_SCREENSHOTS, name) });

@@ -1,0 +1,204 @@
+// A labelled drawing of the launcher, to scale: the guide from its side with its supports and the rocket as it stands
+// before ignition, and how the whole stands on its base. What the results do not say is drawn dashed.
+import { rowsOf } from "../replay/geometry.js";
+import { guideOf } from "../replay/guide.js";
+import { svg } from "./chart.js";
+import { filled } from "./data.js";
+import { placeOnLine } from "./labels.js";
+import { element } from "./page.js";
+import { inUnit } from "./rounded.js";
+
+const LETTER = 5.9, LINE = 14; // width and height of text [px]
+const length = (v, like) => inUnit(v, "m", like).join("\u00a0");
+
+// ---- parts of a drawing
+
+const line = (x1, y1, x2, y2, kind = "thin") => svg("line", { x1, y1, x2, y2, class: kind });
+const text = (content, x, y, anchor = "start", kind = "") => svg("text", { x, y, "text-anchor": anchor, class: kind }, content);
+const shape = (points, kind) => svg("polygon", { points: points.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(" "), class: kind });
+const circle = (cx, cy, r, kind) => svg("circle", { cx, cy, r, class: kind });
+
+// A length between two places of a line, with an arrow at each end.
+function dimension(x1, x2, y, content) {
+  const tip = (x, d) => shape([[x, y], [x + 6 * d, y - 2.5], [x + 6 * d, y + 2.5]], "arrow"), middle = (x1 + x2) / 2;
+  return [line(x1, y - 5, x1, y + 5), line(x2, y - 5, x2, y + 5), line(x1, y, x2, y), tip(x1, 1), tip(x2, -1),
+    svg("rect", { x: middle - (LETTER * content.length) / 2 - 4, y: y - 8, width: LETTER * content.length + 8, height: 16, class: "back" }),
+    text(content, middle, y + 4, "middle")];
+}
+
+// Names in a row at `y`, each joined to its point { x, y, name }; none through another.
+function named(points, y, low, high) {
+  const wide = points.map(({ name, x, rank = 0 }) => ({ at: x, width: LETTER * name.length, rank }));
+  return placeOnLine(wide, low, high, 10).flatMap((left, i) => {
+    if (left === null) return [];
+    const { x, y: end, name } = points[i], from = Math.min(left + wide[i].width, Math.max(left, x)), above = y < end;
+    return [line(from, above ? y + 3 : y - 11, x, end), text(name, left, y, "start", "name")];
+  });
+}
+
+// Mass centre: a circle with two dark quarters.
+function centreSign(x, y, r) {
+  const quarter = (a) => svg("path", { class: "sign",
+    d: `M${x} ${y}l${r * Math.cos(a)} ${r * Math.sin(a)}A${r} ${r} 0 0 1 ${x + r * Math.cos(a + Math.PI / 2)} ${y + r * Math.sin(a + Math.PI / 2)}Z` });
+  return [circle(x, y, r, "centre"), quarter(0), quarter(Math.PI)];
+}
+
+// ---- the launcher in numbers
+
+// What the drawing is of; `table`: of the launch. Heights y are from the line along which the rocket is guided.
+function launcherOf(geometry, table, rockets) {
+  const rows = (name) => rowsOf(geometry, name), stations = rows("tube.station").map(([x]) => x), end = stations.at(-1);
+  const guide = guideOf(rows, end), first = (name) => {
+    const column = table.column.get(name);
+    return column ? filled(column.value, table.t).find(Number.isFinite) : undefined;
+  };
+  const names = [...table.column.keys()].filter((name) => /^contact\..*\.force$/.test(name)).map((name) => name.slice(8, -6));
+  return {
+    guide, end, names, stations, rows,
+    supports: rows("tube.support").map(([x], i) => ({ x, clamped: rows("tube.clamped")[i]?.some((held) => held === 1) })),
+    adaptors: rows("rocket.adaptor").map(([x]) => x), clearances: guide.clearances[0] ?? [],
+    centre: rows("rocket.center")[0] ?? [], diameter: rows("rocket.diameter")[0]?.[0],
+    travel: first("rocket.s") ?? 0, pitch: first("base.pitch") ?? 0, mount: rows("base.mount")[0],
+    places: rows("tubes.rear_end"), tube: rockets[0]?.tube ?? 1, closed: table.column.has("pressure.force"),
+    wheels: rows("wheel.mount"), wheelRadius: rows("wheel.radius")[0]?.[0] ?? 0,
+    azimuth: rows("azimuth.hinge")[0], elevation: rows("elevation.hinge")[0],
+  };
+}
+
+// Heights of the guide's parts: of a bore its walls, else its beams; from the guide line.
+function partsOf({ guide }) {
+  if (guide.kind === "bore") {
+    const walls = guide.sections.map(([x, inner, outer]) => ({ x, inner, outer: outer ?? 1.03 * inner }));
+    return { walls, top: Math.max(...walls.map(({ outer }) => outer)), beams: [] };
+  }
+  const span = (profile) => [Math.min(...profile.map(([y]) => y)), Math.max(...profile.map(([y]) => y))];
+  const beams = [...guide.solid.map((p) => ({ y: span(p), kind: "beam" })), ...guide.seenThrough.map((p) => ({ y: span(p), kind: "thin-beam" }))];
+  return { walls: [], beams, top: Math.max(guide.body, ...beams.flatMap(({ y }) => y.map(Math.abs))) };
+}
+
+// ---- the guide and the rocket
+
+function drawGuide(it, parts, X, Y) {
+  const out = parts.beams.map(({ y: [low, high], kind }) => shape([[X(0), Y(low)], [X(it.end), Y(low)], [X(it.end), Y(high)], [X(0), Y(high)]], kind));
+  for (const side of [-1, 1]) {
+    if (parts.walls.length === 0) break;
+    const along = parts.walls.flatMap((wall, i) => [[wall.x, wall], [parts.walls[i + 1]?.x ?? it.end, wall]]);
+    out.push(shape([...along.map(([x, w]) => [X(x), Y(side * w.inner)]), ...along.toReversed().map(([x, w]) => [X(x), Y(side * w.outer)])], "beam"));
+  }
+  if (it.closed) out.push(shape([[X(-0.03 * it.end), Y(parts.top)], [X(0), Y(parts.top)], [X(0), Y(-parts.top)], [X(-0.03 * it.end), Y(-parts.top)]], "beam"));
+  return out;
+}
+
+// Triangles below the guide, blocks where it is clamped.
+function drawSupports(it, low, X, Y) {
+  return it.supports.map(({ x, clamped }) => {
+    const [a, b] = [X(x), Y(low)];
+    return clamped ? shape([[a - 8, b], [a + 8, b], [a + 8, b + 13], [a - 8, b + 13]], "held")
+      : shape([[a, b], [a - 7, b + 13], [a + 7, b + 13]], "support");
+  });
+}
+
+// Body, nose and nozzle are of the size that is known; where that ends they are made up, and dashed.
+function drawRocket(it, X, Y) {
+  const { travel: s, adaptors, guide } = it, front = Math.max(...adaptors), radius = it.diameter > 0 ? it.diameter / 2 : guide.body;
+  const known = it.diameter > 0, rear = s - 0.5 * radius, shoulder = s + front + radius, tip = shoulder + 4 * radius;
+  const out = [shape([[X(rear), Y(radius)], [X(shoulder), Y(radius)], [X(shoulder), Y(-radius)], [X(rear), Y(-radius)]], known ? "rocket" : "rocket made-up"),
+    shape([[X(shoulder), Y(radius)], [X(tip), Y(0)], [X(shoulder), Y(-radius)]], "rocket made-up")];
+  adaptors.forEach((l, i) => {
+    const half = Math.max(2.5, 0.006 * (X(it.end) - X(0)));
+    for (const [low, high] of adaptorHeights(it, i))
+      out.push(shape([[X(s + l) - half, Y(low)], [X(s + l) + half, Y(low)], [X(s + l) + half, Y(high)], [X(s + l) - half, Y(high)]], "adaptor"));
+  });
+  const at = X(s + (it.centre[0] ?? 0));
+  return [...out, ...(it.centre.length ? centreSign(at, Y(0), Math.min(7, Math.max(4, Y(0) - Y(radius)))) : [])];
+}
+
+// From and to which heights an adaptor is seen, a ring about the body; shoes stand on it.
+function adaptorHeights({ guide, clearances }, i) {
+  const ring = guide.ring(clearances[i] ?? 0, 1);
+  if (ring) return [[-ring, ring]];
+  return guide.pads(clearances[i] ?? 0, 1).map((profile) => [Math.min(...profile.map(([y]) => y)), Math.max(...profile.map(([y]) => y))]);
+}
+
+// `words`: puts the right ones for the guide into a text.
+function guideDrawing(it, words, left, width, top) {
+  const parts = partsOf(it), low = it.guide.kind === "bore" ? -parts.top : Math.min(...parts.beams.map(({ y }) => y[0]), -it.guide.body);
+  const radius = it.diameter > 0 ? it.diameter / 2 : it.guide.body;
+  const from = Math.min(-0.04 * it.end, it.travel - radius), to = Math.max(it.end, it.travel + Math.max(...it.adaptors) + 5 * radius);
+  const scale = (width - 24) / (to - from), X = (x) => left + 12 + scale * (x - from), high = Math.max(parts.top, radius);
+  const middle = top + 62 + scale * high, Y = (y) => middle - scale * y, under = Y(low);
+  const adaptors = it.adaptors.map((l, i) => ({ x: X(it.travel + l), y: Y(radius), rank: 1,
+    name: `${it.names[i] ?? ""}${it.clearances[i] > 0 ? `, gap ${length(it.clearances[i])}` : ""}` }));
+  const centre = it.centre.length ? [{ x: X(it.travel + it.centre[0]), y: Y(0) - 5, name: "mass centre", rank: 0 }] : [];
+  const supports = it.supports.map(({ x, clamped }, i) => ({ x: X(x), y: under + 14, rank: i,
+    name: `${i === 0 ? (clamped ? "clamp at " : "support at ") : ""}${length(x, it.end)}` }));
+  const bore = it.guide.kind === "bore" ? `, bore ${length(2 * it.guide.radius)}` : it.diameter > 0 ? `, rocket ${length(it.diameter)} thick` : "";
+  return {
+    nodes: [...dimension(X(0), X(it.end), top + 10, words(`tube ${length(it.end)}`) + bore), ...drawGuide(it, parts, X, Y),
+      ...drawSupports(it, low, X, Y), ...drawRocket(it, X, Y),
+      ...named([...adaptors, ...centre].sort((a, b) => a.x - b.x), top + 36, left, left + width), ...named(supports, under + 34, left, left + width)],
+    bottom: under + 34 + 6, scale,
+  };
+}
+
+// ---- how it stands
+
+// Points of the side view in a frame with x forwards and y up, and what is drawn of them.
+function sideOf(it) {
+  const turn = (angle) => ([x, y]) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
+  if (it.wheels.length === 0) {
+    const angle = (it.mount?.[1] ?? 0) + it.pitch, end = turn(angle)([it.end, 0]);
+    return { tubes: [[[0, 0], end]], angle, wheels: [], pivot: [0, 0], ground: Math.min(0, end[1]) - 0.12 * it.end, body: null };
+  }
+  const pivot = [it.azimuth[0] + it.elevation[0], it.azimuth[1] + it.elevation[1]], turned = turn(it.pitch);
+  const shift = ([x, y]) => { const [a, b] = turned([x, y]); return [a + pivot[0], b + pivot[1]]; };
+  const tubes = it.places.map(([x, y]) => [shift([x, y]), shift([x + it.end, y])]);
+  const xs = it.wheels.map(([x]) => x), y = Math.max(...it.wheels.map(([, height]) => height));
+  const body = [Math.min(...xs) - 1.2 * it.wheelRadius, Math.max(...xs) + 1.2 * it.wheelRadius, y + 0.4 * it.wheelRadius, Math.max(it.azimuth[1], y + 0.7 * it.wheelRadius)];
+  return { tubes, angle: it.pitch, wheels: it.wheels, pivot, ground: Math.min(...it.wheels.map(([, height]) => height)) - it.wheelRadius, body };
+}
+
+function standing(it, left, width, top, height) {
+  const side = sideOf(it), xs = [...side.tubes.flat().map(([x]) => x), ...(side.body ? side.body.slice(0, 2) : [])];
+  const ys = [...side.tubes.flat().map(([, y]) => y), side.ground], w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - side.ground;
+  const scale = Math.min((width - 20) / (1.1 * w), (height - 24) / (1.05 * h)), x0 = Math.min(...xs);
+  const X = (x) => left + 10 + (width - 20 - scale * w) / 2 + scale * (x - x0), Y = (y) => top + height - 20 - scale * (y - side.ground);
+  const out = [line(left, Y(side.ground), left + width, Y(side.ground), "ground")];
+  if (side.body) out.push(shape([[X(side.body[0]), Y(side.body[2])], [X(side.body[1]), Y(side.body[2])], [X(side.body[1]), Y(side.body[3])], [X(side.body[0]), Y(side.body[3])]], "made-up"));
+  if (side.body) out.push(shape([[X(side.pivot[0] - 0.2), Y(side.body[3])], [X(side.pivot[0] + 0.2), Y(side.body[3])], [X(side.pivot[0]), Y(side.pivot[1])]], "made-up"));
+  for (const [x, y] of new Map(side.wheels.map((mount) => [mount[0], mount])).values()) out.push(circle(X(x), Y(y), scale * it.wheelRadius, "wheel"));
+  for (const [[a, b], [c, d]] of side.tubes) out.push(line(X(a), Y(b), X(c), Y(d), "tube"));
+  const [px, py] = [X(side.pivot[0]), Y(side.pivot[1])], reach = Math.min(0.5 * scale * it.end, 46), up = side.angle;
+  out.push(circle(px, py, 2.5, "pivot"), line(px, py, px + 1.25 * reach, py, "level"),
+    svg("path", { class: "thin", d: `M${px + reach} ${py}A${reach} ${reach} 0 0 ${up > 0 ? 0 : 1} ${px + reach * Math.cos(up)} ${py - reach * Math.sin(up)}` }));
+  const turned = it.mount?.[0] ?? 0, degrees = (v) => `${Number(((Math.abs(v) * 180) / Math.PI).toPrecision(3))}°`;
+  const count = it.places.length > 1 ? `, ${it.places.length} in the pack` : "";
+  const aside = Math.abs(turned) > 1e-6 ? `, ${degrees(turned)} to the ${turned > 0 ? "left" : "right"}` : "";
+  out.push(text(`${degrees(up)} ${up >= 0 ? "up" : "down"}${aside}${count}`, left + width / 2, top + height - 4, "middle"));
+  return out;
+}
+
+// ---- the card
+
+export function drawingCard({ geometry, table, rockets, named: words }) {
+  const it = launcherOf(geometry, table, rockets), picture = svg("svg", { role: "img" });
+  const label = words(`The launcher to scale: tube ${length(it.end)}, supports at ${it.supports.map(({ x }) => length(x, it.end)).join(", ")}, ` +
+    `adaptors at ${it.adaptors.map((l) => length(l, it.end)).join(", ")} of the rocket`);
+  picture.setAttribute("aria-label", label);
+  const host = element("div", { className: "plan" }, picture);
+  let before = 0;
+  const draw = () => {
+    const width = host.clientWidth;
+    if (width === 0 || width === before) return;
+    before = width;
+    const beside = width > 560, inset = beside ? Math.min(230, 0.28 * width) : 0;
+    const main = guideDrawing(it, words, inset, width - inset, 4), tall = beside ? Math.max(main.bottom, 110) : main.bottom + 130;
+    const other = beside ? standing(it, 0, inset - 10, 4, tall - 4) : standing(it, 0, width, main.bottom + 10, 120);
+    picture.setAttribute("viewBox", `0 0 ${width} ${tall.toFixed(0)}`);
+    picture.dataset.scale = main.scale;
+    picture.replaceChildren(...other, ...main.nodes);
+  };
+  new ResizeObserver(draw).observe(host);
+  return element("section", { className: "card drawing" },
+    element("h3", {}, "This launcher, to scale ", element("small", {}, "before ignition; dashed is made up")), host);
+}

@@ -1,0 +1,43 @@
+// Where names stand so that none goes through another.
+
+// On a line: left ends of names of these widths, each as near to its middle as the others let it, between `low`
+// and `high`; null for those that have no room. The lower its rank, the sooner a name has it.
+export function placeOnLine(names, low, high, gap = 6) {
+  const kept = names.map((name, i) => ({ ...name, i })).sort((a, b) => a.rank - b.rank || a.i - b.i);
+  const taken = () => kept.reduce((sum, { width }) => sum + width + gap, -gap);
+  while (kept.length > 0 && taken() > high - low) kept.pop();
+  kept.sort((a, b) => a.at - b.at || a.i - b.i);
+  let free = low;
+  for (const name of kept) {
+    name.left = Math.max(name.at - name.width / 2, free);
+    free = name.left + name.width + gap;
+  }
+  let end = high;
+  for (const name of kept.toReversed()) {
+    name.left = Math.min(name.left, end - name.width);
+    end = name.left - gap;
+  }
+  const left = names.map(() => null);
+  for (const name of kept) left[name.i] = name.left;
+  return left;
+}
+
+const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+
+// Beside points { x, y, width }: boxes of names `height` high, within `bounds`, clear of each other and of all points, and
+// of as many of the places `others` [x, y] as can be; null for those without room.
+export function placeBeside(points, height, bounds, others = []) {
+  const around = 5, taken = points.map(({ x, y }) => ({ left: x - 4, right: x + 4, top: y - 4, bottom: y + 4 }));
+  const covered = (box) => others.filter(([x, y]) => x > box.left && x < box.right && y > box.top && y < box.bottom).length;
+  return points.map(({ x, y, width }) => {
+    const sides = [[around, -height], [around, 0], [-around - width, -height], [-around - width, 0],
+      [-width / 2, -height - around], [-width / 2, around]];
+    const free = sides.map(([dx, dy]) => ({ left: x + dx, right: x + dx + width, top: y + dy, bottom: y + dy + height }))
+      .filter((one) => one.left >= bounds.left && one.right <= bounds.right && one.top >= bounds.top &&
+        one.bottom <= bounds.bottom && !taken.some((other) => meet(one, other)));
+    if (free.length === 0) return null;
+    const [box] = free.map((one) => [one, covered(one)]).reduce((best, one) => (one[1] < best[1] ? one : best));
+    taken.push(box);
+    return box;
+  });
+}
