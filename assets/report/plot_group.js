@@ -16,9 +16,7 @@ export class PlotGroup {
   // A plot more, which shows what the others do.
   add(plot) {
     this.plots.push(plot);
-    this.busy = true;
-    plot.window(...(this.shown ?? this.home));
-    this.busy = false;
+    if (this.shown) this.show(...this.shown);
     return plot;
   }
   show(min, max) {
