@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "cli/help.h"
 #include "cli/progress.h"
 #include "launchdyn/child.h"
 
@@ -127,14 +128,6 @@ int command_apart(int (*work)(void *data), void *data)
     return status ? command_fail(status, &error) : code;
 }
 
-static void print_help(const command *self, const command_option *options)
-{
-    printf("%s\n\nUsage: launchdyn %s %s\n", self->summary, self->name, self->arguments);
-    options_print(options);
-    if (self->help)
-        self->help();
-}
-
 // What is wrong with the number of words.
 static bool has_words(const command *self, const command_line *line, int count)
 {
@@ -156,7 +149,7 @@ bool command_line_read(command_line *line, const command *self, int argc, char *
     if (!status && !line->help && has_words(self, line, count))
         return true;
     if (!status && line->help)
-        print_help(self, options);
+        help_print(self, options);
     *code = status ? command_fail(status, &error) : line->help ? 0 : EXIT_INPUT;
     options_end(line);
     return false;

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "cli/help.h"
 #include "cli/options.h"
 #include "launchdyn/model.h"
 #include "launchdyn/origin.h"
@@ -37,25 +38,14 @@ int command_apart(int (*work)(void *data), void *data);
 // The exit code that belongs to a status.
 int command_code(ld_status status);
 
-// One command: a row of the table in main.c.
-typedef struct command command;
-struct command {
-    const char *name;
-    const char *arguments; // e.g. "FILE"
-    const char *summary;   // one line
-    void (*help)(void);    // prints what --help adds; NULL: nothing
-    int (*run)(const command *self, int argc, char **argv);
-    bool apart; // it reads or writes files by libraries that may crash on it
-};
-
+// The commands, rows of the table in main.c.
 int command_run(const command *self, int argc, char **argv);
 int command_study(const command *self, int argc, char **argv);
-void command_study_help(void);
 int command_check(const command *self, int argc, char **argv);
 int command_modes(const command *self, int argc, char **argv);
 int command_fmu(const command *self, int argc, char **argv);
 int command_plot(const command *self, int argc, char **argv);
-void command_plot_help(void);
+void command_plot_figures(void);
 int command_report(const command *self, int argc, char **argv);
 int command_response(const command *self, int argc, char **argv);
 int command_road(const command *self, int argc, char **argv);

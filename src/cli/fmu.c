@@ -51,9 +51,8 @@ int command_fmu(const command *self, int argc, char **argv)
     const command_option options[] = {
         COMMAND_SETS(&sets),
         {"part", '\0', OPTION_TEXT, &part, "all, the vehicle alone, or the launcher alone (all)",
-         "PART"},
-        {"fmi", '\0', OPTION_INTEGER, &what.version, "Version of FMI: 2 or 3 (3; in an archive 2)",
-         "N"},
+         "all|vehicle|launcher"},
+        {"fmi", '\0', OPTION_INTEGER, &what.version, "Version of FMI (3; in an archive 2)", "2|3"},
         {"out", 'o', OPTION_TEXT, &out, "The FMU", "FILE"},
         {"ssp", '\0', OPTION_TEXT, &archive, "Instead: an archive of SSP of vehicle and launcher",
          "FILE"},

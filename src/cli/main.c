@@ -3,37 +3,102 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/complete.h"
+#include "cli/page.h"
 #include "launchdyn/version.h"
 
 static int command_help(const command *self, int argc, char **argv);
 static int command_version(const command *self, int argc, char **argv);
 
 static const command commands[] = {
-    {"run", "FILE", "Simulate the launch that a scenario file describes", NULL, command_run, true},
-    {"study", "FILE | show DIR | export DIR | merge DIR",
-     "Run the samples of a scattered scenario, or show what a study has found", command_study_help,
-     command_study, true},
-    {"check", "FILE", "Check a scenario file and print what was understood, in SI", NULL,
-     command_check, true},
-    {"modes", "FILE", "List natural frequencies and damping", NULL, command_modes, true},
-    {"plot", "DIR...", "Draw figures of one run, or of several laid one over the other",
-     command_plot_help, command_plot, true},
-    {"report", "DIR...",
-     "Write one HTML file that shows runs or studies, offline and in any browser", NULL,
-     command_report, true},
-    {"fmu", "export FILE", "Write a Functional Mock-up Unit of the launch, for other simulators",
-     NULL, command_fmu, true},
-    {"road", "FILE", "Show profile and spectrum of the road of a vehicle", NULL, command_road,
-     true},
-    {"response", "FILE",
-     "Show what the launcher answers to road, base, commands and forces, linear", NULL,
-     command_response, true},
-    {"wind", "FILE", "Show profile, gusts and turbulence of the wind", NULL, command_wind, true},
-    {"version", "", "Print the version", NULL, command_version, false},
-    {"help", "[COMMAND]", "Print this, or the help of a command", NULL, command_help, false},
+    {.name = "run",
+     .arguments = "FILE",
+     .summary = "Simulate the launch that a scenario file describes",
+     .about =
+         "Prints a table of the launch and, with --out, writes its results into a folder. With "
+         "--again FOLDER it repeats the run in that folder to the bit. Ctrl-C stops; what has "
+         "been computed is kept.",
+     .examples = "launchdyn run scenario.yaml --out out --report|Run, with a report in out\n"
+                 "launchdyn run scenario.yaml --set rocket.mass='61 kg'|With another mass\n"
+                 "launchdyn run --again out --out again|Repeat what is in out",
+     .run = command_run,
+     .apart = true},
+    {.name = "study",
+     .arguments = "FILE | show DIR | export DIR | merge DIR",
+     .summary = "Run the samples of a scattered scenario, or show what a study has found",
+     .about = "launchdyn study FILE --out DIR runs what DIR does not hold yet: the same command "
+              "goes on after an interruption. launchdyn study show DIR prints statistics, also "
+              "meanwhile; launchdyn study export DIR --csv FILE --hdf5 FILE writes all rockets, as "
+              "one or both.\n\n"
+              "Jobs on several machines that share DIR take --shard 1/N to N/N, in any order; "
+              "launchdyn study merge DIR then joins what they have kept.",
+     .examples = "launchdyn study scenario.yaml --out out -j 4|Run or go on, four at a time\n"
+                 "launchdyn study show out --what muzzle_speed,pitch_rate|Statistics of two "
+                 "results\n"
+                 "launchdyn study export out --csv all.csv|All rockets as a table",
+     .run = command_study,
+     .apart = true},
+    {.name = "check",
+     .arguments = "FILE",
+     .summary = "Check a scenario file and print what was understood, in SI",
+     .about = "Reads the scenario and does all that a run does before its first step. What it "
+              "prints is a scenario that can be read again.",
+     .examples = "launchdyn check scenario.yaml|All errors at once, or the whole scenario\n"
+                 "launchdyn check scenario.yaml --json --strict|For programs",
+     .run = command_check,
+     .apart = true},
+    {.name = "modes",
+     .arguments = "FILE",
+     .summary = "List natural frequencies and damping",
+     .about = "Of tube and tail on their supports, base held, and of the whole about its "
+              "equilibrium.",
+     .run = command_modes,
+     .apart = true},
+    {.name = "plot",
+     .arguments = "DIR...",
+     .summary = "Draw figures of one run, or of several laid one over the other",
+     .examples = "launchdyn plot out --what tip,contact -o figure.svg|Two figures of a run",
+     .more = command_plot_figures,
+     .run = command_plot,
+     .apart = true},
+    {.name = "report",
+     .arguments = "DIR...",
+     .summary = "Write one HTML file that shows runs or studies, offline and in any browser",
+     .examples = "launchdyn report out|Write out/report.html",
+     .run = command_report,
+     .apart = true},
+    {.name = "fmu",
+     .arguments = "export FILE",
+     .summary = "Write a Functional Mock-up Unit of the launch, for other simulators",
+     .examples = "launchdyn fmu export scenario.yaml --out launch.fmu|The whole launch, FMI 3.0",
+     .run = command_fmu,
+     .apart = true},
+    {.name = "road",
+     .arguments = "FILE",
+     .summary = "Show profile and spectrum of the road of a vehicle",
+     .run = command_road,
+     .apart = true},
+    {.name = "response",
+     .arguments = "FILE",
+     .summary = "Show what the launcher answers to road, base, commands and forces, linear",
+     .about = "Root mean squares, spectra and frequency responses of any column of the history, "
+              "from the equations linearised about the equilibrium, without a run.",
+     .run = command_response,
+     .apart = true},
+    {.name = "wind",
+     .arguments = "FILE",
+     .summary = "Show profile, gusts and turbulence of the wind",
+     .run = command_wind,
+     .apart = true},
+    {.name = "version", .arguments = "", .summary = "Print the version", .run = command_version},
+    {.name = "help",
+     .arguments = "[COMMAND]",
+     .summary = "Print this, or the help of a command",
+     .run = command_help},
+    {0},
 };
 
-enum { COMMANDS = sizeof commands / sizeof *commands };
+enum { COMMANDS = sizeof commands / sizeof *commands - 1 };
 
 static const command *find(const char *name)
 {
@@ -97,9 +162,31 @@ static bool asks_for_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
 }
 
+// The help of a command in the form that was chosen.
+static int help_of(const command *chosen, char *program)
+{
+    char option[] = "--help", *help[] = {program, option, NULL};
+    return start(chosen, 2, help);
+}
+
+// help --man [COMMAND]: its page, or that of all.
+static int print_page(int argc, char **argv)
+{
+    const command *chosen = argc > 2 ? find(argv[2]) : NULL;
+    if (argc > 2 && !chosen)
+        return complain_unknown(argv[2]);
+    help_choose(page_print);
+    if (chosen && chosen->apart)
+        return help_of(chosen, argv[0]);
+    page_print_all(commands);
+    return 0;
+}
+
 static int command_help(const command *self, int argc, char **argv)
 {
     (void)self;
+    if (argc > 1 && strcmp(argv[1], "--man") == 0)
+        return print_page(argc, argv);
     if (argc < 2 || asks_for_help(argv[1])) {
         print_commands(stdout);
         return 0;
@@ -107,12 +194,26 @@ static int command_help(const command *self, int argc, char **argv)
     const command *chosen = find(argv[1]);
     if (!chosen)
         return complain_unknown(argv[1]);
-    if (chosen->run == command_help || chosen->run == command_version) {
-        print_commands(stdout);
-        return 0;
-    }
-    char option[] = "--help", *help[] = {argv[0], option, NULL};
-    return start(chosen, 2, help);
+    if (chosen->apart)
+        return help_of(chosen, argv[0]);
+    print_commands(stdout);
+    return 0;
+}
+
+// complete WORD...: what may stand in place of the last word, for shells.
+static int command_complete(int argc, char **argv)
+{
+    complete_begin(argc - 1, argv + 1);
+    if (argc == 2)
+        for (const command *c = commands; c->name; c++)
+            complete_offer(c->name, c->summary);
+    const command *chosen = argc > 2 ? find(argv[1]) : NULL;
+    help_choose(complete_print);
+    if (chosen && chosen->apart)
+        return help_of(chosen, argv[0]);
+    for (const command *c = commands; c->name && chosen && chosen->run == command_help; c++)
+        complete_offer(c->name, c->summary);
+    return 0;
 }
 
 static int command_version(const command *self, int argc, char **argv)
@@ -137,6 +238,8 @@ static int dispatch(int argc, char **argv)
         name = "help";
     else if (strcmp(name, "--version") == 0)
         name = "version";
+    if (strcmp(name, "complete") == 0)
+        return command_end(command_complete(argc - 1, argv + 1));
     const command *chosen = find(name);
     return chosen ? start(chosen, argc - 1, argv + 1) : complain_unknown(name);
 }

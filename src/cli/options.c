@@ -169,9 +169,24 @@ static int option_text(const command_option *o, char *text, size_t size)
                     o->argument ? o->argument : "");
 }
 
+void print_wrapped(const char *text, int column)
+{
+    enum { WIDTH = 79 };
+    size_t room = (size_t)(WIDTH - column);
+    while (strlen(text) > room || strchr(text, '\n')) {
+        size_t end = strcspn(text, "\n");
+        if (end > room)
+            for (end = room - 1; end > 0 && text[end] != ' '; end--)
+                ;
+        printf("%.*s\n%*s", (int)end, text, text[end + 1] == '\n' ? 0 : column, "");
+        text += end + 1;
+    }
+    puts(text);
+}
+
 void options_print(const command_option *options)
 {
-    enum { WIDTH = 79, BETWEEN = 5 };
+    enum { BETWEEN = 5 };
     char text[64];
     int column = 0;
     for (const command_option *o = options; o->name; o++) {
@@ -179,16 +194,8 @@ void options_print(const command_option *options)
         column = length > column ? length : column;
     }
     for (const command_option *o = options; o->name; o++) {
-        const char *rest = o->help;
         option_text(o, text, sizeof text);
         printf("%-*s", column, text);
-        for (int room = WIDTH - column; (int)strlen(rest) > room;) {
-            int end = room - 1;
-            while (end > 0 && rest[end] != ' ')
-                end--;
-            printf("%.*s\n%*s", end, rest, column, "");
-            rest += end + 1;
-        }
-        puts(rest);
+        print_wrapped(o->help, column);
     }
 }

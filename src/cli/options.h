@@ -42,6 +42,9 @@ ld_status options_read(command_line *line, int argc, char **argv, const command_
                        ld_error *error);
 void options_end(command_line *line);
 
+// Prints text from a column on, broken at blanks before column 79, and ends the line.
+void print_wrapped(const char *text, int column);
+
 // Prints a line or more for each option.
 void options_print(const command_option *options);
 

@@ -9,9 +9,9 @@
 
 enum { MOST = 32 };
 
-void command_plot_help(void)
+void command_plot_figures(void)
 {
-    puts("\nFigures for --what, one below the other on one page:");
+    puts("Figures for --what, one below the other on one page:");
     const ld_figure *figure;
     for (size_t i = 0; (figure = ld_figure_at(i)) != NULL; i++)
         printf("  %-13s %s\n", figure->name, figure->description);

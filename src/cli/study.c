@@ -10,17 +10,6 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/scenario.h"
 
-void command_study_help(void)
-{
-    puts("\nlaunchdyn study FILE --out DIR runs what DIR does not hold yet: the same command goes "
-         "on\n"
-         "after an interruption. launchdyn study show DIR prints statistics, also meanwhile;\n"
-         "launchdyn study export DIR --csv FILE --hdf5 FILE writes all rockets, as one or both.\n"
-         "\n"
-         "Jobs on several machines that share DIR take --shard 1/N to N/N, in any order;\n"
-         "launchdyn study merge DIR then joins what they have kept.");
-}
-
 int study_take_notes(const ld_study *study, const study_wishes *wishes)
 {
     const ld_model *nominal = ld_study_model(study);

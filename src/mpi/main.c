@@ -16,8 +16,9 @@
 #include "studies/study.h"
 
 static const command study_command = {
-    "study", "FILE", "Run the samples of a study on all processes that mpirun has started",
-    NULL,    NULL,   false};
+    .name = "study",
+    .arguments = "FILE",
+    .summary = "Run the samples of a study on all processes that mpirun has started"};
 
 // The lowest number that any process gives.
 static int lowest(int number)

@@ -1,0 +1,13 @@
+# The manual pages of PROGRAM into the folder INTO: launchdyn.1, and one for each command that has
+# options.
+file(MAKE_DIRECTORY ${INTO})
+execute_process(COMMAND ${PROGRAM} help --man OUTPUT_FILE ${INTO}/launchdyn.1 COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${PROGRAM} complete "" OUTPUT_VARIABLE commands COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[a-z]+\t" commands "${commands}")
+foreach(command ${commands})
+  string(STRIP ${command} command)
+  if(NOT command MATCHES "^(version|help)$")
+    execute_process(COMMAND ${PROGRAM} help --man ${command} OUTPUT_FILE ${INTO}/launchdyn-${command}.1
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+endforeach()

@@ -1,0 +1,29 @@
+// What is told of a command: as --help prints it, or in another form made of the same.
+#ifndef LD_CLI_HELP_H
+#define LD_CLI_HELP_H
+
+#include <stdbool.h>
+
+#include "cli/options.h"
+
+// One command: a row of the table in main.c.
+typedef struct command command;
+struct command {
+    const char *name;
+    const char *arguments; // e.g. "FILE"; forms with " | " between
+    const char *summary;   // one line
+    const char *about;     // what --help and the page say besides; NULL: nothing
+    const char *examples;  // lines "command|what it does"; NULL: none
+    void (*more)(void);    // prints what follows `about`, as it is; NULL: nothing
+    int (*run)(const command *self, int argc, char **argv);
+    bool apart; // it reads or writes files by libraries that may crash on it; it has a page
+};
+
+// Prints the help of a command with its options.
+typedef void help_printer(const command *self, const command_option *options);
+help_printer help_print;
+
+// From now on help_print() does what this one does: page_print(), complete_print().
+void help_choose(help_printer *print);
+
+#endif
