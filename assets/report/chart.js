@@ -80,8 +80,9 @@ function drawAxes(spec, place) {
     line(left, place.y(v), right, place.y(v));
     text(texts[i], [left - 5, place.y(v) + 4], "end");
   }
-  text(x.label, [(left + right) / 2, place.height - 8], "middle", { class: "axis" });
-  text(y.label, [-(TOP + bottom) / 2, 12], "middle", { class: "axis", transform: "rotate(-90)" });
+  const fit = (label, room) => (6.3 * label.length > room ? { textLength: room.toFixed(0), lengthAdjust: "spacingAndGlyphs" } : {});
+  text(x.label, [(left + right) / 2, place.height - 8], "middle", { class: "axis", ...fit(x.label, right - left + 20) });
+  text(y.label, [-(TOP + bottom) / 2, 12], "middle", { class: "axis", transform: "rotate(-90)", ...fit(y.label, place.height - 20) });
   return nodes;
 }
 

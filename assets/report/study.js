@@ -2,9 +2,9 @@
 import { element, themeSwitch } from "./page.js";
 import { countSeries } from "./chart.js";
 import { originBlock } from "./origin.js";
-import { beside, convergence, distributions, scatter, sensitivity } from "./study_plots.js";
-import { describe, partCount, partName } from "./study_results.js";
-import { counts, ellipses, failures, measured, plans, seriesName, statistics } from "./study_tables.js";
+import { beside, convergence, distribution, scatter, sensitivity, spread } from "./study_plots.js";
+import { describe, foremost, partCount, partName } from "./study_results.js";
+import { answer, counts, ellipses, failures, measured, plans, seriesName, statistics } from "./study_tables.js";
 
 const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -20,21 +20,46 @@ function section(id, title, ...children) {
   host.append(element("h2", { id }, title), ...content);
 }
 
-// Two cards in a row, or three where there are more; wide ones have a row of their own.
+// Two cards in a row, or three or four where there are more.
 const grid = (children) => {
-  const shown = children.filter(Boolean), narrow = shown.filter((card) => !card.classList.contains("wide"));
-  return shown.length ? element("div", { className: `grid${narrow.length > 2 && data.series.length <= 4 ? " three" : ""}` }, ...shown) : null;
+  const shown = children.filter(Boolean), several = data.series.length <= 4 ? ["", "", "", " three", " four"] : [];
+  const columns = shown.length === 4 || shown.length > 6 ? 4 : Math.min(3, shown.length);
+  return shown.length ? element("div", { className: `grid${several[columns] ?? ""}` }, ...shown) : null;
 };
 
 // Whether a result differs between rockets at all.
 const scatters = ({ series }) => series.some((own) => own && own.greatest - own.least > 1e-12 * Math.abs(own.greatest));
 
+const MOST_FIRST = 8, MOST_SENSITIVITIES = 4; // results with a plot that is not folded
+
+// Something folded, or nothing where there is nothing in it.
+function folded(title, ...children) {
+  const content = children.filter(Boolean);
+  return content.length ? element("details", {}, element("summary", {}, title), ...content) : null;
+}
+
+function rest(...children) {
+  const content = children.filter(Boolean);
+  return content.length ? element("div", { className: "rest" }, ...content) : null;
+}
+
+const varied = results.filter(scatters), first = foremost(varied, MOST_FIRST);
+
+// What is not said of a part's results at first: plots of those that are not the foremost, how estimates settle.
 function partOf(part) {
-  const own = results.filter((result) => result.part === part && scatters(result));
-  if (own.length === 0) return null;
-  return element("section", { className: "figure" }, element("h3", { className: "heading" }, partName(part)),
-    grid(own.flatMap((result) => [...distributions(data, result),
-      convergence(data, result, "mean", "mean"), convergence(data, result, "deviation", "standard deviation")])));
+  const own = varied.filter((result) => result.part === part), other = own.filter((result) => !first.includes(result));
+  return [
+    folded(partName(part), grid(other.map((result) => distribution(data, result)))),
+    folded(`${partName(part)}: how estimates settle`, grid(own.flatMap((result) => [spread(data, result),
+      convergence(data, result, "mean", "mean"), convergence(data, result, "deviation", "standard deviation")]))),
+  ];
+}
+
+function sensitivities() {
+  const all = data.sensitivities.map((item) => [item, sensitivity(data, item)]).filter(([, card]) => card);
+  const open = foremost(all.map(([item]) => item), MOST_SENSITIVITIES), cards = (wanted) =>
+    wanted.map((item) => all.find(([one]) => one === item)[1]);
+  return [grid(cards(open)), rest(folded("Sensitivities of other results", grid(cards(all.map(([item]) => item).filter((item) => !open.includes(item))))))];
 }
 
 function sameEverywhere() {
@@ -64,20 +89,25 @@ host.classList.toggle("several", data.series.length > 1);
 host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeSwitch(),
   data.series.length > 1 && data.series.length <= MOST_NAMED
     ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
-section("summary", "Summary", ...data.notes.map((note) => element("p", { className: "warning" }, note)),
-  ...states(), data.series.length > 0 ? counts(data) : null);
-const shots = data.measured?.results.map(describe) ?? [];
+const notes = data.notes.map((note) => element("p", { className: "warning" }, note));
+const shots = data.measured?.results.map(describe) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
+const told = first.length ? answer(data, first) : null, [shares, otherShares] = sensitivities();
+if (data.series.length === 1 && told && shares) { // beside each other
+  section("summary", "Answer and sensitivities", ...notes, ...states(), element("div", { className: "lead" }, told, shares), otherShares);
+} else {
+  section("summary", "Answer", ...notes, ...states(), told);
+  section("sensitivities", "Sensitivities", shares, otherShares);
+}
 section("measured", "Measured beside simulated", shots.length ? measured(data, shots) : null,
   shots.length ? element("p", { className: "shown" }, "Difference: mean measured less mean simulated; ratio: how many times as far measured values lie from " +
     "their median as simulated ones. p: how often chance alone makes so much where nothing differs; * below 5\u00a0%, as one in twenty is then.") : null,
   grid(shots.map((result) => beside(data, result))));
-section("scatter", "Scatter", grid(data.pairs.map((pair) => scatter(data, pair))), ellipses(data));
-section("statistics", "Statistics", ...(results.length ? statistics(data, results) : []));
-section("distributions", "Distributions and convergence", sameEverywhere(),
-  ...Array.from({ length: partCount }, (_, part) => partOf(part)), partOf(-1));
-section("sensitivities", "Sensitivities", grid(data.sensitivities.map((item) => sensitivity(data, item))));
-section("failed", "Failed samples", failures(data));
-section("plan", "Plan and factors", ...plans(data));
+section("scatter", "Scatter", grid(data.pairs.map((pair) => scatter(data, pair))));
+section("distributions", "Results", grid(first.map((result) => distribution(data, result))), sameEverywhere(),
+  rest(...parts.flatMap(partOf)));
+section("numbers", "Numbers", rest(data.series.length > 0 ? folded("What was run", counts(data)) : null,
+  folded("Statistics", ...(results.length ? statistics(data, results) : [])), folded("Ellipses", ellipses(data)),
+  folded("Failed samples", failures(data)), folded("Plan and factors", ...plans(data))));
 section("origin", "Origin", ...data.studies.filter((study) => study.origin).flatMap((study) => [
   data.studies.length > 1 ? element("h3", {}, study.label) : null, originBlock(study.origin, "study --again")]));
 host.append(element("footer", {}, element("p", {},

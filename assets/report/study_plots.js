@@ -100,8 +100,9 @@ function deviations(data, result) {
   });
 }
 
-export const distributions = (data, result) =>
-  (data.series.length > MOST_OVERLAID ? [columns(data, result), deviations(data, result)] : [histogram(data, result)]);
+// The one plot of a result; what is beside it.
+export const distribution = (data, result) => (data.series.length > MOST_OVERLAID ? columns : histogram)(data, result);
+export const spread = (data, result) => (data.series.length > MOST_OVERLAID ? deviations(data, result) : null);
 
 // ---- convergence ----
 
@@ -150,29 +151,56 @@ function outlineOf({ mean, semi_axis: [[a], [b]], angle }, deviations) {
   });
 }
 
+// Contours of a cloud's density as one path each: pieces in hundredths of a cell of its grid.
+function contoursOf({ origin, step: [ax, ay, bx, by], levels }, f) {
+  const at = (i, j) => [f * (origin[0] + (i * ax + j * bx) / 100), f * (origin[1] + (i * ay + j * by) / 100)];
+  return levels.map(([share, pieces]) => ({ name: percent(share), pieces: Array.from({ length: pieces.length / 4 }, (_, k) =>
+    [at(pieces[4 * k], pieces[4 * k + 1]), at(pieces[4 * k + 2], pieces[4 * k + 3])]) }));
+}
+
+// What stands for the form of a cloud: ellipses where it may be normal, else contours; nothing where those are left out.
+export const isNormal = ({ normality }) => Boolean(normality) && (!normality.tested || normality.normal === 1);
+
+// What the clouds are, as a line below their plot.
+function formOf(list) {
+  const normal = list.filter(({ own }) => own.ellipse && isNormal(own)), drawn = list.filter(({ own }) => own.contours);
+  const refused = list.filter(({ own }) => own.normality && !isNormal(own)), untested = normal.filter(({ own }) => !own.normality.tested);
+  const level = percent(list.find(({ own }) => own.normality)?.own.normality.level ?? 0.05).replace(" ", "\u00a0");
+  const who = (some) => (list.length === 1 || some.length === list.length ? "" : ` of ${some.length > 3 ? `${some.length} series` : some.map(({ series }) => series.label).join(", ")}`);
+  const chance = list.length === 1 && list[0].own.normality?.tested ? `, p ${list[0].own.normality.chance.map((p) => readable(p, 2)).join(" and ")}` : "";
+  return [
+    normal.length ? `ellipses${who(normal)}: one standard deviation and 95\u00a0%` : "",
+    untested.length ? "too few points for a test of normality" : normal.length ? `normal by Mardia's test at ${level}${chance}` : "",
+    drawn.length ? `contours${who(drawn)}: 50\u00a0% and 95\u00a0% of the points lie within` : "",
+    refused.length ? `not normal${drawn.length ? "" : who(refused)} by Mardia's test at ${level}${normal.length ? "" : chance}` : "",
+  ].filter(Boolean).join("; ");
+}
+
 export function scatter(data, pair) {
   const list = having(data, pair.series);
   if (list.length === 0) return null;
   const [across, up] = [pair.x, pair.y].map((name) => describe({ name, unit: pair.unit })), f = across.factor;
   const points = list.flatMap(({ own, series, s }) => own.points.map(([sample, rocket, x, y]) =>
     ({ sample, rocket, at: [x * f, y * f], si: [x, y], series, s }))).sort((a, b) => a.at[0] - b.at[0]);
-  const ellipses = list.filter(({ own }) => own.ellipse).flatMap(({ own, series, s }) =>
+  const ellipses = list.filter(({ own }) => own.ellipse && isNormal(own)).flatMap(({ own, s }) =>
     [[1, "one deviation"], [pair.radius, "95 %"]].map(([r, name]) =>
-      ({ s, series, name, r, points: outlineOf(own.ellipse, r).map(([x, y]) => [x * f, y * f]) })));
-  const all = [...points.map((p) => p.at), ...ellipses.flatMap((e) => e.points)];
+      ({ s, name, points: outlineOf(own.ellipse, r).map(([x, y]) => [x * f, y * f]) })));
+  const contours = list.filter(({ own }) => own.contours).flatMap(({ own, s }) => contoursOf(own.contours, f).map((one) => ({ ...one, s })));
+  const all = [...points.map((p) => p.at), ...ellipses.flatMap((e) => e.points), ...contours.flatMap(({ pieces }) => pieces.flat())];
   const salvo = data.series.some((series) => series.rockets > series.done - series.failed);
   const total = (of) => list.reduce((sum, { own }) => sum + of(own), 0);
   const [drawn, there] = [total((own) => own.points.length), total((own) => own.count)];
   const shown = drawn < there ? `${drawn} of ${there} points shown` : `${there} points`;
   const x = { label: across.axis, range: rangeOf(all.map(([v]) => v)) };
   const y = { label: up.axis, range: rangeOf(all.map(([, v]) => v)) };
+  const outline = ({ s, name }, kind, d) => svg("path", { class: `ellipse ${kind}`, style: colourOf(s), "data-name": name, d });
   return chart({
-    title: pair.title, equal: true, wide: 2 * (y.range[1] - y.range[0]) < x.range[1] - x.range[0], x, y,
+    title: pair.title, equal: true, x, y,
     draw: (place) => [
       ...list.map(({ s }) => svg("path", { class: "points", style: colourOf(s), d: points.filter((p) => p.s === s)
         .map(({ at: [x, y] }) => `M${place.x(x).toFixed(1)} ${place.y(y).toFixed(1)}h0`).join("") })),
-      ...ellipses.map((e) => svg("path", { class: "ellipse", style: colourOf(e.s), "data-name": e.name,
-        d: pathThrough(e.points.map(([x, y]) => [place.x(x), place.y(y)])) + "Z" }))],
+      ...ellipses.map((e) => outline(e, "normal", pathThrough(e.points.map(([x, y]) => [place.x(x), place.y(y)])) + "Z")),
+      ...contours.map((c) => outline(c, "contour", c.pieces.map((piece) => pathThrough(piece.map(([x, y]) => [place.x(x), place.y(y)]))).join("")))],
     count: points.length,
     at: (i) => points[i].at,
     reading: (i) => {
@@ -181,13 +209,13 @@ export function scatter(data, pair) {
     },
     csv: () => csvOf(["series", "sample", "rocket", `${pair.x} [${pair.unit}]`, `${pair.y} [${pair.unit}]`],
       points.map((p) => [p.series.label, p.sample, p.rocket, ...p.si])),
-    note: `${shown}; ellipses of one standard deviation and of 95\u00a0%`,
+    note: [shown, formOf(list)].filter(Boolean).join("; "),
   });
 }
 
 // ---- sensitivities ----
 
-const MOST_FACTORS = 16, MOST_OF_MANY = 6;
+const MOST_FACTORS = 8, MOST_OF_MANY = 6;
 
 // A bar for each factor and series: the share of the result's variance that it makes alone; none where the
 // estimate is below zero.

@@ -47,3 +47,13 @@ export function describe({ name, unit, ...rest }) {
 
 export const partName = (index) => (index < 0 ? "Other results" : PARTS[index][0]);
 export const partCount = PARTS.length;
+
+// What one asks a study first, in this order: of it the first that there are.
+const FIRST = [/^measure\./, /^muzzle_speed$/, /^tip_off\.(pitch|yaw)_rate_relative$/, /^downrange$/, /^drift$/, /^apogee$/, /^spin_rate$/,
+  /^tip_off\.(pitch|yaw)_rate$/, /^tip_off\.(pitch|yaw)$/, /^impact_speed$/, /^time_of_flight$/, /^max_contact_force/, /^max_mach$/];
+
+export function foremost(list, most) {
+  const rank = ({ name }) => FIRST.findIndex((pattern) => pattern.test(name));
+  const ranked = list.filter((one) => rank(one) >= 0).sort((a, b) => rank(a) - rank(b));
+  return (ranked.length > 0 ? ranked : list).slice(0, most);
+}

@@ -2,6 +2,7 @@
 import { colourOf } from "./chart.js";
 import { readable } from "./data.js";
 import { element } from "./page.js";
+import { isNormal } from "./study_plots.js";
 import { describe } from "./study_results.js";
 
 const cell = (content, className = "") => element("td", { className }, content);
@@ -15,6 +16,46 @@ function card(title, table) {
 // A swatch of the series' colour before its name.
 export function seriesName(series, index) {
   return element("span", { className: "series" }, element("i", { style: colourOf(index) }), series.label);
+}
+
+// ---- the answer
+
+// How a result's numbers are said: to two digits of its deviation.
+function digitsOf(own, f) {
+  const deviation = (own.deviation[0] ?? NaN) * f;
+  if (!(deviation > 0)) return (v) => readable(v * f, 4);
+  const decimals = Math.min(8, Math.max(0, 1 - Math.floor(Math.log10(deviation))));
+  return (v) => fixed(v * f, decimals).replace("-", "−");
+}
+
+function meanAndDeviation(own, f) {
+  if (!own) return "–";
+  const said = digitsOf(own, f), [deviation] = own.deviation;
+  return deviation > 0 ? `${said(own.mean[0])} ± ${said(deviation)}` : said(own.mean[0]);
+}
+
+// How much of what was asked for is there.
+function keptLine({ series }) {
+  const sum = (of) => series.reduce((total, one) => total + of(one), 0), failed = sum((s) => s.failed);
+  const asked = sum((s) => Math.max(s.samples, s.done));
+  return `${sum((s) => s.done)} of ${asked} samples, ${failed === 0 ? "none" : failed} failed${series.length > 1 ? `, in ${series.length} series` : ""}.`;
+}
+
+// Mean and deviation of the foremost results: of one series a row for each, with what 90 % lie between; of several a
+// row for each series.
+export function answer(data, results) {
+  const unit = (result) => element("span", { className: "unit" }, result.unit ? `\u00a0${result.unit}` : "");
+  const one = () => [element("tr", {}, head(""), head("mean ± deviation"), head("90 % lie between")), ...results.map((result) => {
+    const [own] = result.series, [low, , high] = own.quantiles.map(([v]) => digitsOf(own, result.factor)(v));
+    return element("tr", {}, head(result.label, "row"), element("td", {}, meanAndDeviation(own, result.factor), unit(result)), cell(`${low} … ${high}`));
+  })];
+  const several = () => [element("tr", {}, head(""), ...results.map((result) => head(`${result.label}${result.unit ? ` [${result.unit}]` : ""}`))),
+    ...data.series.map((series, i) => element("tr", {}, head(seriesName(series, i), "row"),
+      ...results.map((result) => cell(meanAndDeviation(result.series[i], result.factor)))))];
+  const made = card("Mean and standard deviation", element("table", {}, ...(data.series.length === 1 ? one() : several())));
+  made.classList.add("answer");
+  made.append(element("p", { className: "shown" }, keptLine(data)));
+  return made;
 }
 
 const distinct = (data, of) => new Set(data.series.map(of)).size > 1;
@@ -129,7 +170,7 @@ export function measured(data, results) {
 export function ellipses(data) {
   const several = data.series.length > 1;
   const rows = data.pairs.flatMap((pair) => pair.series.flatMap((own, s) => {
-    if (!own?.ellipse) return [];
+    if (!own?.ellipse || !isNormal(own)) return [];
     const { mean, semi_axis: axes, angle } = own.ellipse, { unit, factor } = describe({ name: pair.x, unit: pair.unit });
     return [element("tr", {}, head(pair.title, "row"), several ? element("td", {}, seriesName(data.series[s], s)) : null,
       ...mean.map((v) => cell(readable(v * factor))), ...axes.map((v) => estimate(v, factor)),

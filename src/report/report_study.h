@@ -68,6 +68,14 @@ void study_write_estimate(FILE *json, int index, estimate e, study_write_number 
 void study_read(study_source *source, study_series *series, const study_column *const *column,
                 int columns);
 
+// Reads one or two results of a series into its values; none where it lacks one.
+void study_read_values(study_source *source, study_series *series, const char *const *name,
+                       int columns);
+
+// Writes the pairs of results that are shown against each other, as items of a list.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status study_write_pairs(FILE *json, study_source *source);
+
 // Writes what study number `index` was asked to do and where it comes from, an item of a list.
 // @return LD_OK, LD_ERR_MEMORY
 ld_status study_write_plan(FILE *json, const study_source *source, int index);

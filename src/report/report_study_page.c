@@ -9,14 +9,7 @@
 #include "results/json_text.h"
 
 // Bytes for what grows with the number of series; the rest of a report fits beside them.
-enum {
-    BYTES_OF_PLACES = 600000,
-    BYTES_OF_A_PLACE = 70,
-    BYTES_OF_POINTS = 400000,
-    BYTES_OF_A_POINT = 40,
-    MOST_POINTS = 2000,
-    MOST_FAILURES = 200
-};
+enum { BYTES_OF_PLACES = 600000, BYTES_OF_A_PLACE = 70, MOST_FAILURES = 200 };
 
 static int most_places(const study_source *source, int results)
 {
@@ -74,9 +67,8 @@ void study_read(study_source *source, study_series *series, const study_column *
     study_take_problem(source, what, &error);
 }
 
-// One or two results of a series.
-static void read_values(study_source *source, study_series *series, const char *const *name,
-                        int columns)
+void study_read_values(study_source *source, study_series *series, const char *const *name,
+                       int columns)
 {
     const study_column *column[2];
     const char *nearest;
@@ -243,7 +235,7 @@ static ld_status write_results(FILE *json, study_source *source)
     for (int k = 0; k < results && !status; k++) {
         size_t count = 0;
         for (int i = 0; i < source->series_count; i++) {
-            read_values(source, &source->series[i], &result[k]->name, 1);
+            study_read_values(source, &source->series[i], &result[k]->name, 1);
             count += source->series[i].values.count;
         }
         if (count == 0)
@@ -253,79 +245,6 @@ static ld_status write_results(FILE *json, study_source *source)
         status = write_result(json, source, result[k], places);
     }
     free(result);
-    return status;
-}
-
-// ---- two results against each other
-
-static void write_points(FILE *json, const study_values *values, size_t most)
-{
-    bool first = true;
-    fputs(",\"points\":[", json);
-    for (size_t i = 0; i < values->count; i++) {
-        if (!study_shows_point(values->sample[i], values->rocket[i], values->count, most))
-            continue;
-        fprintf(json, "%s[%" PRId64 ",%d,", first ? "" : ",", values->sample[i], values->rocket[i]);
-        first = false;
-        study_write_short(json, values->value[0][i]);
-        fputc(',', json);
-        study_write_short(json, values->value[1][i]);
-        fputc(']', json);
-    }
-    fputc(']', json);
-}
-
-static ld_status write_ellipse(FILE *json, const study_values *values)
-{
-    covariance_ellipse e;
-    estimate axis[2];
-    double *const *value = values->value;
-    covariance_ellipse_of(value[0], value[1], values->count, &e);
-    if (!isfinite(e.semi_axis[0])) // a value is infinite
-        return LD_OK;
-    ld_status status =
-        covariance_ellipse_intervals(value[0], value[1], values->group, values->count, &e, axis);
-    if (status)
-        return status;
-    fprintf(json, ",\"ellipse\":{\"mean\":[%.17g,%.17g],\"angle\":%.17g,\"semi_axis\":[", e.mean[0],
-            e.mean[1], e.angle);
-    for (int k = 0; k < 2; k++)
-        study_write_estimate(json, k, axis[k], json_write_number);
-    fputs("]}", json);
-    return LD_OK;
-}
-
-static ld_status write_scatter(FILE *json, const study_values *values, size_t most)
-{
-    fprintf(json, "{\"count\":%zu", values->count);
-    ld_status status = values->count >= 3 ? write_ellipse(json, values) : LD_OK;
-    write_points(json, values, most);
-    fputc('}', json);
-    return status;
-}
-
-static ld_status write_pairs(FILE *json, study_source *source)
-{
-    ld_status status = LD_OK;
-    double bytes = source->share * BYTES_OF_POINTS;
-    size_t fit = (size_t)(bytes / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
-    size_t most = fit < MOST_POINTS ? fit : MOST_POINTS;
-    for (size_t p = 0; p < STUDY_PAIRS && !status; p++) {
-        const study_pair *pair = &study_pairs[p];
-        fprintf(json, "%s\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"",
-                p ? "," : "", pair->title, pair->name[0], pair->name[1], pair->unit);
-        fprintf(json, ",\"radius\":%.17g,\"series\":[", ellipse_radius);
-        for (int i = 0; i < source->series_count && !status; i++) {
-            study_series *series = &source->series[i];
-            read_values(source, series, pair->name, 2);
-            fputs(i ? ",\n" : "\n", json);
-            if (series->values.count)
-                status = write_scatter(json, &series->values, most);
-            else
-                fputs("null", json);
-        }
-        fputs("]}", json);
-    }
     return status;
 }
 
@@ -402,7 +321,7 @@ ld_status study_write_data(FILE *json, study_source *source)
         status = write_results(json, source);
     fputs("],\"pairs\":[", json);
     if (!status)
-        status = write_pairs(json, source);
+        status = study_write_pairs(json, source);
     fputs("],\"sensitivities\":[", json);
     if (!status)
         status = study_write_sensitivities(json, source);

@@ -2,10 +2,13 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, checkFits, checkInjected, drawn, example, folder, inBrowser, launchdyn, leave, near, open, paper, picture,
-  readCsv } from "./support.mjs";
+  readCsv, unfold } from "./support.mjs";
+
+// Of the thrust and of its angles.
+const NORMAL = ["{normal: 1 %, within: 3}", "{normal: 0.5 mrad, within: 3}"], UNIFORM = ["{uniform: 0.98 1.02}", "{uniform: -0.9 0.9 mrad}"];
 
 // A scattered flight, with other values for some keys.
-function studyOf(name, samples, { title = "Flight, scattered", speed = "36.8 12.6 0 m/s", more = "" } = {}) {
+function studyOf(name, samples, { title = "Flight, scattered", speed = "36.8 12.6 0 m/s", factors: [thrust, angle] = NORMAL, more = "" } = {}) {
   const scenario = join(folder, `${name}.yaml`), out = join(folder, name), csv = join(folder, `${name}.csv`);
   writeFileSync(scenario, `include: ${example("flight.yaml")}
 title: ${JSON.stringify(title)}
@@ -14,9 +17,9 @@ scatter:
   seed: 7
   samples: ${samples}
   factors:
-    rocket.motor.thrust_scale: {normal: 1 %, within: 3}
-    rocket.motor.misalignment.y: {normal: 0.5 mrad, within: 3}
-    rocket.motor.misalignment.z: {normal: 0.5 mrad, within: 3}
+    rocket.motor.thrust_scale: ${thrust}
+    rocket.motor.misalignment.y: ${angle}
+    rocket.motor.misalignment.z: ${angle}
 ${more}`);
   launchdyn("study", scenario, "--out", out, "--quiet");
   launchdyn("study", "export", out, "--csv", csv);
@@ -133,9 +136,33 @@ async function checkDownload(page, study) {
     near(study.column.get("drift")[sample - 1], Number(y), 1e-7), rows[5]);
 }
 
+// What one reads first: the answer and the sensitivities, one plot a result, the rest folded.
+async function checkFirst(page, study) {
+  const high = await page.evaluate(() => document.documentElement.scrollHeight);
+  check("the page before unfolding is at most 5000 pixels high", high <= 5000, high);
+  const heads = await page.$$eval("h2", (list) => list.map((node) => node.textContent));
+  check("the answer and the sensitivities stand first", heads.join() === "Answer and sensitivities,Scatter,Results,Numbers,Origin", heads);
+  const bottom = await page.$eval(".lead", (node) => node.getBoundingClientRect().bottom);
+  check("on the first screen", bottom < 900, bottom);
+  const rows = await page.$$eval(".answer tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const downrange = study.column.get("downrange"), mean = downrange.reduce((sum, v) => sum + v) / downrange.length;
+  const deviation = Math.sqrt(downrange.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (downrange.length - 1));
+  const [, said, between] = rows.find(([name]) => name === "Downrange"), sorted = [...downrange].sort((a, b) => a - b);
+  const [low, high95] = numbersIn(between), inside = sorted.filter((v) => v >= low && v <= high95).length;
+  check("mean and deviation to two digits of the deviation", Math.abs(numbersIn(said)[0] - mean) <= 0.5 && Math.abs(numbersIn(said)[1] - deviation) <= 0.5, said);
+  check("and between what 90 % lie", near(inside, 0.9 * sorted.length, 0.02), `${inside} of ${sorted.length}`);
+  const plots = await page.$$eval(".panel", (list) => list.filter((node) => !node.closest("details") && node.dataset.title.endsWith("distribution"))
+    .map((node) => node.dataset.title));
+  check("one plot for each of the first results", plots.length === rows.length - 1 && new Set(plots).size === plots.length, plots);
+  const note = await page.textContent(`${panel("Landing points")} .shown`);
+  check("what the cloud is stands below it, with the level", note.includes("normal by Mardia's test at 5") && note.includes("ellipses"), note);
+}
+
 async function checkOne(browser, study) {
   console.log("one study");
-  const file = reportOf("one.html", study), page = await open(browser, file);
+  const file = reportOf("one.html", study), page = await open(browser, file, { width: 1400 });
+  await checkFirst(page, study);
+  await unfold(page);
   await checkNoneEmpty(page, 25);
   await checkCursor(page, study);
   await checkTable(page);
@@ -150,6 +177,7 @@ async function checkOne(browser, study) {
 async function checkSideBySide(browser, studies) {
   console.log("three studies beside each other, dark, 400 pixels wide");
   const file = reportOf("three.html", ...studies), page = await open(browser, file, { width: 400, dark: true });
+  await unfold(page);
   await checkNoneEmpty(page, 25);
   await checkFits(page);
   check("dark as the system says", (await paper(page)) === "rgb(20, 24, 28)");
@@ -158,7 +186,9 @@ async function checkSideBySide(browser, studies) {
   const text = await readingOf(page, "Downrange: distribution");
   check("a bin says what each study has there", ["slow", "middle", "fast"].every((name) => text.includes(`${name}: `)), text);
   const ellipses = await page.$$eval(`${panel("Landing points")} .ellipse`, (list) => list.map((node) => getComputedStyle(node).stroke));
-  check("two ellipses each, in the study's colour", ellipses.length === 6 && new Set(ellipses).size === 3, ellipses);
+  check("two lines each, in the study's colour", ellipses.length === 6 && new Set(ellipses).size === 3, ellipses);
+  const forms = await page.$$eval(`${panel("Landing points")} .ellipse`, (list) => list.map((node) => node.classList[1]));
+  check("ellipses where a cloud is normal, contours of the one that is not", forms.sort().join() === "contour,contour,normal,normal,normal,normal", forms);
   const heads = await page.$$eval(".statistics thead tr:last-child", (rows) => rows[0].textContent);
   check("the table has columns for each", heads === "slowmiddlefastslowmiddlefast", heads);
   await page.locator("#scatter").scrollIntoViewIfNeeded();
@@ -175,6 +205,7 @@ async function checkSideBySide(browser, studies) {
 async function checkColumns(browser, studies) {
   console.log("six studies");
   const file = reportOf("six.html", ...studies, ...studies), page = await open(browser, file);
+  await unfold(page);
   await checkNoneEmpty(page, 25);
   const columns = await page.locator(`${panel("Downrange: distribution")} rect.area`).count();
   check("a column for each", columns === 6, columns);
@@ -189,7 +220,6 @@ async function checkMeasured(browser, [slow, fast]) {
   writeFileSync(shots, `downrange [km],apogee [m]\n${downrange.filter((_, i) => i % 3 === 0).map((v) => `${v / 1000},`).join("\n")}\n,900\n`);
   launchdyn("report", slow.out, fast.out, "--measured", shots, "-o", file);
   const page = await open(browser, file), title = "Downrange: measured and simulated";
-  await checkNoneEmpty(page, 25);
   const rows = await page.$$eval("#measured + section tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
   const [, , mean] = rows, stars = [mean[7], mean[10]].map((text) => text.endsWith("*"));
   check("the fast study has a star, the slow one none", mean[0] === "Downrange" && !stars[0] && stars[1], mean);
@@ -222,7 +252,7 @@ async function checkHostile(browser) {
 }
 
 await inBrowser(async (browser) => {
-  const studies = [studyOf("slow", 150), studyOf("middle", 150, { speed: "39.8 12.6 0 m/s" }),
+  const studies = [studyOf("slow", 150), studyOf("middle", 150, { speed: "39.8 12.6 0 m/s", factors: UNIFORM }),
     studyOf("fast", 150, { speed: "44 12.6 0 m/s" })];
   await checkOne(browser, studies[0]);
   await checkSideBySide(browser, studies);

@@ -1,0 +1,36 @@
+// Where most of a cloud of points lies, of whatever form: contours of its density.
+#ifndef LD_STUDIES_DENSITY_H
+#define LD_STUDIES_DENSITY_H
+
+#include <stddef.h>
+
+#include "launchdyn/status.h"
+
+enum { DENSITY_GRID = 64, DENSITY_LEVELS = 2 };
+
+// The shares of the points that lie within the contours: 50 % and 95 %.
+extern const double density_share[DENSITY_LEVELS];
+
+// A cloud's density on a grid along its main axes: node i, j lies at origin + i step[0] + j
+// step[1].
+typedef struct density_map {
+    double origin[2], step[2][2];
+    double value[DENSITY_GRID][DENSITY_GRID]; // [i][j] points a cell
+    double level[DENSITY_LEVELS];             // of the contours
+} density_map;
+
+// Gaussian kernels in the axes in which the cloud has the covariance 1, as wide as n^(-1/6) (D. W.
+// Scott, Multivariate density estimation, 1992); a level is the density that a share of the points
+// have at least (R. J. Hyndman, Am. Stat. 50, 1996). Points [count] with finite values, not on one
+// line.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status density_of(const double *x, const double *y, size_t count, density_map *map);
+
+// Takes a piece of a contour, from and to in nodes: {i, j}.
+typedef void density_sink(void *self, const double from[2], const double to[2]);
+
+// The contour of a level, piece by piece: straight through each cell of the grid (marching
+// squares).
+void density_contour(const density_map *map, double level, density_sink *take, void *self);
+
+#endif
