@@ -41,6 +41,7 @@ int command_code(ld_status status);
 // The commands, rows of the table in main.c.
 int command_run(const command *self, int argc, char **argv);
 int command_study(const command *self, int argc, char **argv);
+int command_new(const command *self, int argc, char **argv);
 int command_check(const command *self, int argc, char **argv);
 int command_modes(const command *self, int argc, char **argv);
 int command_fmu(const command *self, int argc, char **argv);

@@ -11,6 +11,16 @@ static int command_help(const command *self, int argc, char **argv);
 static int command_version(const command *self, int argc, char **argv);
 
 static const command commands[] = {
+    {.name = "new",
+     .arguments = "",
+     .summary = "Write a scenario to begin with, commented and ready to run",
+     .about =
+         "Of a rocket in a tube or on a rail, which stands on the ground, on a vehicle or on a "
+         "ship. On a terminal it asks for what the options do not say. It overwrites nothing.",
+     .examples = "launchdyn new --guide rail --base ship --out scenario.yaml|A rail on a ship\n"
+                 "launchdyn new|Ask for everything",
+     .run = command_new,
+     .apart = true},
     {.name = "run",
      .arguments = "FILE",
      .summary = "Simulate the launch that a scenario file describes",
