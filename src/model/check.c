@@ -271,6 +271,7 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
             check_study(checker, f->kind, base);
         break;
     case FIELD_TEXT:
+    case FIELD_FILE:
     case FIELD_SELECTION:
     case FIELD_LATER:
         break;

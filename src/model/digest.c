@@ -59,6 +59,7 @@ static uint64_t of_field(uint64_t digest, const field_row *f, const void *base)
     case FIELD_QUANTITY:
         return of_text(digest, at);
     case FIELD_TEXT:
+    case FIELD_FILE:
         return of_text(digest, *(char *const *)at);
     case FIELD_CHOICE:
         digest = digest_bytes(digest, at, sizeof(int));

@@ -208,7 +208,7 @@ void field_release(const field_block *block, void *base)
         } else if (f->kind == FIELD_LIST) {
             for (int i = 0; i < field_switch(base, f); i++)
                 field_release(f->block, field_entry(base, f, i));
-        } else if (f->kind == FIELD_TEXT) {
+        } else if (f->kind == FIELD_TEXT || f->kind == FIELD_FILE) {
             free(*(char **)field_at(base, f));
         } else if (f->kind == FIELD_LIST) {
             for (int i = 0; i < field_switch(base, f); i++)
@@ -369,6 +369,9 @@ void field_expectation(const field_row *field, char *text, size_t size)
         return;
     case FIELD_TEXT:
         snprintf(text, size, "a text");
+        return;
+    case FIELD_FILE:
+        snprintf(text, size, "the name of a file");
         return;
     case FIELD_CHOICE:
         text[0] = '\0';

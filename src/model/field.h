@@ -19,6 +19,8 @@ typedef enum field_kind {
     FIELD_WORD,       // char[LD_MAX_NAME], a name
     FIELD_QUANTITY,   // char[LD_MAX_QUANTITY], names joined by points
     FIELD_TEXT,       // char *, owned by the model
+    FIELD_FILE,       // char *, owned by the model, the full path of a file that is no text; at
+                      // `other` a text, its digest, of a row before
     FIELD_CHOICE,     // enum: one of `words`
     FIELD_BLOCK,      // keys of `block`
     FIELD_LIST,       // array of structs described by `block`, their number at `other`

@@ -374,7 +374,8 @@ enum { LD_MAX_FMU_PARAMETERS = 64 };
 
 /// An FMU that carries the tube: fmi.md.
 typedef struct ld_fmu_base {
-    char *file;        ///< owned by the model
+    char *file;        ///< full path, owned by the model
+    char *digest;      ///< of the file, "FNV-1a DIGEST of SIZE bytes", owned by the model
     double step;       ///< [s] between two instants at which pose and wrench are exchanged
     double start_time; ///< [s] of its own clock when the run begins
     double time_limit; ///< [s] longest that a call of one of its functions may take

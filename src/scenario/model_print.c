@@ -128,7 +128,7 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
     case FIELD_WORDS:
         print_words(stream, f, *(const unsigned *)field_at_const(base, f));
         return;
-    default: // FIELD_TEXT; the others have no place on a line
+    default: // FIELD_TEXT, FIELD_FILE; the others have no place on a line
         scenario_print_text(stream, *(char *const *)field_at_const(base, f));
         return;
     }
@@ -140,7 +140,7 @@ static bool has_value(const field_row *f, const void *base)
         return !isnan(*(const double *)field_at_const(base, f));
     if (f->kind == FIELD_WORDS)
         return *(const unsigned *)field_at_const(base, f) != 0;
-    if (f->kind == FIELD_TEXT)
+    if (f->kind == FIELD_TEXT || f->kind == FIELD_FILE)
         return *(char *const *)field_at_const(base, f) != NULL;
     if (f->kind == FIELD_TABLE)
         return ((const ld_table *)field_at_const(base, f))->rows > 0;

@@ -17,8 +17,7 @@ typedef struct open_file {
     int depth;
 } open_file;
 
-// The name of a file beside others in a folder, in the pool.
-static char *beside(scenario_reader *reader, const char *folder, const char *name)
+char *reader_beside(scenario_reader *reader, const char *folder, const char *name)
 {
     bool alone = name[0] == '/' || !folder || !folder[0];
     size_t length = strlen(name) + (alone ? 0 : strlen(folder)) + 2;
@@ -62,8 +61,8 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
 text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
                          const char *name)
 {
-    char *file_name = beside(reader, place.source->folder, name);
-    char *within = beside(reader, place.source->within, name);
+    char *file_name = reader_beside(reader, place.source->folder, name);
+    char *within = reader_beside(reader, place.source->within, name);
     if (!file_name || !within)
         return NULL;
     const ld_source_file *file = source_find(reader->source, within);

@@ -197,14 +197,35 @@ static void read_word(scenario_reader *reader, const field_row *f, const tree_no
         memcpy(field_at(base, f), value->text, length + 1);
 }
 
+static char *own_text(scenario_reader *reader, const char *text)
+{
+    char *own = strdup(text);
+    reader->no_memory = reader->no_memory || !own;
+    return own;
+}
+
+// A file that is no text, with its digest, which may have been given.
+static void read_file_name(scenario_reader *reader, const field_row *f, const tree_node *value,
+                           void *base, const char *path)
+{
+    char **digest = (char **)((char *)base + f->other);
+    const char *given = *digest, *now = given;
+    if (!is_scalar(reader, f, value, path))
+        return;
+    const char *whole = reader_keep(reader, value->at, path, value->text, &now);
+    if (!whole)
+        return;
+    *(char **)field_at(base, f) = own_text(reader, whole);
+    if (!given)
+        *digest = own_text(reader, now);
+}
+
 static void read_text(scenario_reader *reader, const field_row *f, const tree_node *value,
                       void *base, const char *path)
 {
     if (!is_scalar(reader, f, value, path))
         return;
-    char *text = strdup(value->text);
-    reader->no_memory = reader->no_memory || !text;
-    *(char **)field_at(base, f) = text;
+    *(char **)field_at(base, f) = own_text(reader, value->text);
 }
 
 // ---- tables
@@ -531,6 +552,9 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
         break;
     case FIELD_TEXT:
         read_text(reader, f, value, base, path);
+        break;
+    case FIELD_FILE:
+        read_file_name(reader, f, value, base, path);
         break;
     case FIELD_BLOCK:
         read_block_field(reader, f, value, base, path);

@@ -200,6 +200,14 @@ bool table_file_read(scenario_reader *reader, const struct field_row *f, text_pl
 text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
                          const char *name);
 
+// The same of a file that is no text: its full path; in reader->source are that path and a digest.
+// A file that has changed since, or is not of `digest` (NULL: any), is refused; then `digest` is
+// its own.
+const char *reader_keep(scenario_reader *reader, text_place place, const char *path,
+                        const char *name, const char **digest);
+// The name of a file beside others in a folder, in the pool.
+char *reader_beside(scenario_reader *reader, const char *folder, const char *name);
+
 // Reads a number in plain decimal notation at the start of `text` and returns its end; NULL if
 // there is none, or none that is finite and normal: then `reason` says why, or is NULL.
 const char *number_parse(const char *text, double *value, const char **reason);

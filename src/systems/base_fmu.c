@@ -421,15 +421,6 @@ static void find(const base_system *base, const base_found *found, const base_ou
 
 // ---- set-up
 
-// The FMU as the scenario names it, from the scenario's folder.
-static void path_of(const ld_model *model, char path[FOREIGN_LONGEST_PATH])
-{
-    const char *file = model->base.fmu.file;
-    const char *folder = model->source ? model->source->folder : NULL;
-    bool alone = file[0] == '/' || !folder || !*folder;
-    snprintf(path, FOREIGN_LONGEST_PATH, "%s%s%s", alone ? "" : folder, alone ? "" : "/", file);
-}
-
 static ld_status unknown(const fmu_base *self, const char *key, const char *name,
                          foreign_causality causality, ld_error *error)
 {
@@ -591,7 +582,6 @@ static ld_status check_step(const fmu_base *self, ld_error *error)
 static ld_status build(base_system *base, ld_error *error)
 {
     const ld_base *given = &base->model->base;
-    char path[FOREIGN_LONGEST_PATH];
     if (!given->fmu.file)
         return ld_fail(error, LD_ERR_INPUT, "base.file: missing");
     fmu_base *self = calloc(1, sizeof *self);
@@ -602,9 +592,8 @@ static ld_status build(base_system *base, ld_error *error)
     self->given = &given->fmu;
     self->mount = m3_mul(m3_rotation_y(given->azimuth), m3_rotation_z(given->elevation));
     self->at = v3_from(given->fmu.at);
-    path_of(base->model, path);
     self->owns_package = true;
-    ld_status status = foreign_open(path, &self->package, error);
+    ld_status status = foreign_open(given->fmu.file, &self->package, error);
     if (!status)
         status = connect_all(self, error);
     if (!status)

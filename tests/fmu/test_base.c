@@ -377,7 +377,6 @@ static void what_goes_wrong_is_one_sentence(void **state)
 static const struct {
     const char *base, *in;
 } unfit[] = {
-    {"  file: none.fmu\n  step: 1 ms\n", "none.fmu: cannot be read: No such file or directory"},
     {"  file: platform2.fmu\n  step: 1 ms\n  connect: {force: input.wrench.force.x "
      "input.wrench.force.z}\n",
      "base.connect.force: \"input.wrench.force.x input.wrench.force.z\" has 2 names; expected 3"},

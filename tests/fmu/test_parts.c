@@ -193,7 +193,7 @@ static void write_sets(const char *more, char *sets[3])
     sets[2] = (char *)more;
 }
 
-static outcome in_process(const char *more, double *start)
+static outcome in_process(const char *scenario, const char *more, double *start)
 {
     ld_model *model;
     ld_simulation *simulation;
@@ -203,9 +203,9 @@ static outcome in_process(const char *more, double *start)
     char *sets[3];
     outcome found = {0};
     write_sets(more, sets);
-    assert_int_equal(ld_scenario_read(EXAMPLE("reference"), (const char *const *)sets, more ? 3 : 2,
-                                      &model, &messages),
-                     LD_OK);
+    assert_int_equal(
+        ld_scenario_read(scenario, (const char *const *)sets, more ? 3 : 2, &model, &messages),
+        LD_OK);
     assert_int_equal(ld_simulation_create(model, &simulation, &error), LD_OK);
     assert_int_equal(ld_run_begin(simulation, NULL, &run, &error), LD_OK);
     *start = ld_run_time(run);
@@ -248,11 +248,12 @@ static void two_are_the_whole(void **state)
     enum { STEPS = 4 };
     static const char *const step[STEPS] = {"1", "0.5", "0.25", "0.1"};
     double start, error[STEPS], missing[STEPS], apart[STEPS];
-    const outcome whole = in_process(NULL, &start);
+    const outcome whole = in_process(EXAMPLE("reference"), NULL, &start);
     for (int i = 0; i < STEPS; i++) {
         char set[64];
         snprintf(set, sizeof set, "run.coupling.step=%s ms", step[i]);
-        const outcome two = as_two(1e-3 * atof(step[i]), start), split = in_process(set, &start);
+        const outcome two = as_two(1e-3 * atof(step[i]), start),
+                      split = in_process(EXAMPLE("reference"), set, &start);
         error[i] = 1e3 * fabs(two.pitch_rate - whole.pitch_rate);
         apart[i] = 1e3 * fabs(two.pitch_rate - split.pitch_rate);
         missing[i] = two.missing / two.work;
@@ -271,6 +272,37 @@ static void two_are_the_whole(void **state)
     CHECK_BELOW("pitch rate at 0.1 ms [mrad/s]", error[STEPS - 1], 0.002);
     CHECK_BELOW("against run.coupling at 1 ms [mrad/s]", apart[0], 0.01);
     CHECK_BELOW("against run.coupling at 0.1 ms [mrad/s]", apart[STEPS - 1], 2e-4);
+}
+
+// The vehicle's FMU as base.kind: fmu, which goes on with the wrench by itself.
+static void vehicle_as_a_base(void **state)
+{
+    (void)state;
+    static const char *const steps[] = {"base.step=0.25 ms", "base.step=0.125 ms"};
+    char *sets[3], line[512], path[128];
+    double start, pitch[2], yaw[2];
+    write_sets(NULL, sets);
+    snprintf(line, sizeof line,
+             "launchdyn fmu export examples/reference.yaml --part vehicle --set '%s' --set '%s' "
+             "--out vehicle.fmu && cp examples/reference-aero.csv .",
+             sets[0], sets[1]);
+    assert_int_equal(run(line), 0);
+    assert_int_equal(run("{ sed -e '/^base:/,/^tubes:/{/^tubes:/!d}' -e '/^  layout:/d' -e "
+                         "'s/tube: 8/tube: 1/' examples/reference.yaml; echo 'base: {kind: fmu, "
+                         "file: vehicle.fmu, step: 1 ms, inputs: extrapolated}'; } >carried.yaml"),
+                     0);
+    const outcome whole = in_process(EXAMPLE("reference"), NULL, &start);
+    snprintf(path, sizeof path, "%s/carried.yaml", shell.folder);
+    for (int i = 0; i < 2; i++) {
+        const outcome carried = in_process(path, steps[i], &start);
+        pitch[i] = 1e3 * fabs(carried.pitch_rate - whole.pitch_rate);
+        yaw[i] = 1e3 * fabs(carried.yaw_rate - whole.yaw_rate);
+    }
+    CHECK_BELOW("pitch rate at 0.25 ms [mrad/s]", pitch[0], 8e-3);
+    CHECK_BELOW("pitch rate at 0.125 ms [mrad/s]", pitch[1], 2e-3);
+    CHECK_BELOW("yaw rate at 0.25 ms [mrad/s]", yaw[0], 6e-3);
+    CHECK_WITHIN("order of the pitch rate", log2(pitch[0] / pitch[1]), 1.8, 2.2);
+    CHECK_WITHIN("order of the yaw rate", log2(yaw[0] / yaw[1]), 1.8, 2.2);
 }
 
 // ---- at rest ----
@@ -451,6 +483,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(two_are_the_whole, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(vehicle_as_a_base, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(rest_stays, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(begins_under_its_load, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(states_come_back, shell_make, shell_remove),

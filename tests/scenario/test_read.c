@@ -120,7 +120,8 @@ static double difference(const field_block *block, const void *a, const void *b)
 {
     double most = 0;
     for (const field_row *f = block->fields; f->name; f++) {
-        if (f->offset == FIELD_NOWHERE || f->kind == FIELD_TEXT || f->kind == FIELD_WORD)
+        if (f->offset == FIELD_NOWHERE || f->kind == FIELD_TEXT || f->kind == FIELD_FILE ||
+            f->kind == FIELD_WORD)
             continue;
         const void *x = field_at_const(a, f), *y = field_at_const(b, f);
         if (f->kind == FIELD_NUMBER)

@@ -1,0 +1,121 @@
+// Files that a scenario names and that are no texts: where they lie and what they were when they
+// were read first is kept in their place.
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/text_file.h"
+#include "model/digest.h"
+#include "model/source.h"
+#include "scenario/scenario_reader.h"
+
+// "FNV-1a DIGEST of SIZE bytes", in the pool.
+static const char *digest_text(scenario_reader *reader, uint64_t digest, size_t size)
+{
+    char text[64];
+    int length = snprintf(text, sizeof text, "FNV-1a %016" PRIx64 " of %zu bytes", digest, size);
+    return pool_text(reader, text, (size_t)length);
+}
+
+// Of a file; where it cannot be read, a sentence without its name.
+static ld_status digest_of(scenario_reader *reader, const char *file_name, const char **text,
+                           ld_error *error)
+{
+    unsigned char part[1 << 14];
+    struct stat about;
+    uint64_t digest = DIGEST_BEGIN;
+    size_t size = 0, got;
+    FILE *file = fopen(file_name, "rb");
+    if (!file)
+        return text_file_failed(error);
+    if (fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode)) {
+        fclose(file);
+        return ld_fail(error, LD_ERR_INPUT, "is not a regular file");
+    }
+    while ((got = fread(part, 1, sizeof part, file)) > 0) {
+        digest = digest_bytes(digest, part, got);
+        size += got;
+    }
+    ld_status status = ferror(file) ? text_file_failed(error) : LD_OK;
+    fclose(file);
+    *text = digest_text(reader, digest, size);
+    return status;
+}
+
+// NULL after a message.
+static const char *take_digest(scenario_reader *reader, text_place place, const char *path,
+                               const char *file_name)
+{
+    const char *text = NULL;
+    ld_error error;
+    ld_status status = digest_of(reader, file_name, &text, &error);
+    reader->no_memory |= status == LD_ERR_MEMORY;
+    reader->no_file |= status == LD_ERR_FILE;
+    if (status)
+        reader_refuse(reader, place, path, "file \"%s\" %s", file_name, error.text);
+    return status ? NULL : text;
+}
+
+// Puts "DIGEST: PATH" into the source.
+static const ld_source_file *keep(scenario_reader *reader, const char *digest,
+                                  const char *file_name, const char *within)
+{
+    char *text = NULL, *whole = realpath(file_name, NULL);
+    size_t length;
+    FILE *stream = whole ? open_memstream(&text, &length) : NULL;
+    if (stream) {
+        fprintf(stream, "%s: %s", digest, whole);
+        fclose(stream);
+    }
+    free(whole);
+    const ld_source_file *kept = text ? source_add(reader->source, within, text, length) : NULL;
+    reader->no_memory |= !kept;
+    return kept;
+}
+
+static const ld_source_file *read_first(scenario_reader *reader, text_place place, const char *path,
+                                        const char *file_name, const char *within)
+{
+    const char *digest = NULL;
+    if (reader->source->folder)
+        digest = take_digest(reader, place, path, file_name);
+    else
+        reader_refuse(reader, place, path, "file \"%s\" is not among those that are kept", within);
+    return digest ? keep(reader, digest, file_name, within) : NULL;
+}
+
+// The file is as it was when it was read first, or as the scenario says; false after a message.
+static bool check_digest(scenario_reader *reader, text_place place, const char *path,
+                         const char *file_name, const char *then, const char *now)
+{
+    if (strcmp(then, now) != 0)
+        reader_refuse(reader, place, path, "file \"%s\" has changed: expected %s, found %s",
+                      file_name, then, now);
+    return strcmp(then, now) == 0;
+}
+
+const char *reader_keep(scenario_reader *reader, text_place place, const char *path,
+                        const char *name, const char **digest)
+{
+    const char *file_name = reader_beside(reader, place.source->folder, name);
+    const char *within = reader_beside(reader, place.source->within, name);
+    if (!file_name || !within)
+        return NULL;
+    const ld_source_file *kept = source_find(reader->source, within);
+    if (!kept)
+        kept = read_first(reader, place, path, file_name, within);
+    const char *colon = kept ? strstr(kept->text, ": /") : NULL;
+    if (kept && !colon)
+        reader_refuse(reader, place, path, "where file \"%s\" is has not been kept", within);
+    if (!colon)
+        return NULL;
+    const char *whole = colon + 2, *now = take_digest(reader, place, path, whole);
+    const char *then = pool_text(reader, kept->text, (size_t)(colon - kept->text));
+    if (!now || !then || !check_digest(reader, place, path, whole, *digest ? *digest : then, now))
+        return NULL;
+    *digest = now;
+    return check_digest(reader, place, path, whole, then, now) ? whole : NULL;
+}
