@@ -32,7 +32,7 @@ const char *__asan_default_options(void)
 #define FUNCTIONS_2(X) \
     X(fmi2Instantiate) X(fmi2FreeInstance) X(fmi2SetupExperiment) X(fmi2EnterInitializationMode) \
     X(fmi2ExitInitializationMode) X(fmi2Terminate) X(fmi2GetReal) X(fmi2SetReal) \
-    X(fmi2GetInteger) X(fmi2SetInteger) X(fmi2GetBoolean) X(fmi2SetBoolean) X(fmi2DoStep) \
+    X(fmi2GetInteger) X(fmi2SetInteger) X(fmi2GetBoolean) X(fmi2SetBoolean) X(fmi2SetString) X(fmi2DoStep) \
     X(fmi2GetRealStatus) X(fmi2GetBooleanStatus) X(fmi2GetFMUstate) X(fmi2SetFMUstate) \
     X(fmi2FreeFMUstate) X(fmi2SerializedFMUstateSize) X(fmi2SerializeFMUstate) \
     X(fmi2DeSerializeFMUstate)
@@ -43,7 +43,7 @@ const char *__asan_default_options(void)
     X(fmi3SetUInt8) X(fmi3GetInt16) X(fmi3SetInt16) X(fmi3GetUInt16) X(fmi3SetUInt16) \
     X(fmi3GetInt32) X(fmi3SetInt32) X(fmi3GetUInt32) X(fmi3SetUInt32) X(fmi3GetInt64) \
     X(fmi3SetInt64) X(fmi3GetUInt64) X(fmi3SetUInt64) X(fmi3GetBoolean) X(fmi3SetBoolean) \
-    X(fmi3DoStep) X(fmi3GetFMUState) X(fmi3SetFMUState) X(fmi3FreeFMUState) \
+    X(fmi3SetString) X(fmi3DoStep) X(fmi3GetFMUState) X(fmi3SetFMUState) X(fmi3FreeFMUState) \
     X(fmi3SerializedFMUStateSize) X(fmi3SerializeFMUState) X(fmi3DeserializeFMUState)
 // clang-format on
 #define MEMBER(name) __typeof__(&name) name;
@@ -212,12 +212,21 @@ static int get_2(const foreign_value *one, double *value)
     X(FOREIGN_ENUMERATION, int64_t, Int64)                                                         \
     X(FOREIGN_BOOLEAN, bool, Boolean)
 
+// How many values from this one on are of one variable.
+static size_t length_of(const foreign_value *one)
+{
+    return one->elements ? one->elements : 1;
+}
+
 static int set_3(const foreign_value *one)
 {
+    size_t length = length_of(one);
 #define SET(type, ctype, name)                                                                     \
     case type: {                                                                                   \
-        ctype value = (ctype)one->value;                                                           \
-        return CALL(fmi3Set##name, host.instance, &one->reference, 1, &value, 1);                  \
+        ctype value[FOREIGN_MOST_VALUES];                                                          \
+        for (size_t i = 0; i < length; i++)                                                        \
+            value[i] = (ctype)one[i].value;                                                        \
+        return CALL(fmi3Set##name, host.instance, &one->reference, 1, value, length);              \
     }
     switch ((foreign_type)one->type) {
         TYPES_3(SET)
@@ -228,11 +237,14 @@ static int set_3(const foreign_value *one)
 
 static int get_3(const foreign_value *one, double *number)
 {
+    size_t length = length_of(one);
 #define GET(type, ctype, name)                                                                     \
     case type: {                                                                                   \
-        ctype value = 0;                                                                           \
-        int status = CALL(fmi3Get##name, host.instance, &one->reference, 1, &value, 1);            \
-        *number = (double)value;                                                                   \
+        ctype value[FOREIGN_MOST_VALUES];                                                          \
+        memset(value, 0, length * sizeof *value);                                                  \
+        int status = CALL(fmi3Get##name, host.instance, &one->reference, 1, value, length);        \
+        for (size_t i = 0; i < length; i++)                                                        \
+            number[i] = (double)value[i];                                                          \
         return status;                                                                             \
     }
     switch ((foreign_type)one->type) {
@@ -245,18 +257,28 @@ static int get_3(const foreign_value *one, double *number)
 static foreign_result set_values(const foreign_value *value, size_t count)
 {
     foreign_result result = FOREIGN_DONE;
-    for (size_t i = 0; i < count && !result; i++)
-        result = judged(host.version == 2 ? set_2(&value[i]) : set_3(&value[i]));
+    for (size_t i = 0; i < count && !result; i += length_of(&value[i]))
+        result = length_of(&value[i]) > count - i
+                     ? FOREIGN_BAD
+                     : judged(host.version == 2 ? set_2(&value[i]) : set_3(&value[i]));
     return result;
 }
 
 static foreign_result get_values(const foreign_value *value, size_t count, double *number)
 {
     foreign_result result = FOREIGN_DONE;
-    for (size_t i = 0; i < count && !result; i++)
-        result =
-            judged(host.version == 2 ? get_2(&value[i], &number[i]) : get_3(&value[i], &number[i]));
+    for (size_t i = 0; i < count && !result; i += length_of(&value[i]))
+        result = length_of(&value[i]) > count - i
+                     ? FOREIGN_BAD
+                     : judged(host.version == 2 ? get_2(&value[i], &number[i])
+                                                : get_3(&value[i], &number[i]));
     return result;
+}
+
+static foreign_result set_text(uint32_t reference, const char *text)
+{
+    return judged(host.version == 2 ? CALL(fmi2SetString, host.instance, &reference, 1, &text)
+                                    : CALL(fmi3SetString, host.instance, &reference, 1, &text, 1));
 }
 
 // ---- states
@@ -423,6 +445,15 @@ static bool answer_values(foreign_kind kind, const char *body, size_t size)
     return answer(result, number, result ? 0 : count * sizeof *number);
 }
 
+static bool answer_set_text(const char *body, size_t size)
+{
+    uint32_t reference;
+    if (size <= sizeof reference || body[size - 1])
+        return answer(FOREIGN_BAD, NULL, 0);
+    memcpy(&reference, body, sizeof reference);
+    return answer(set_text(reference, body + sizeof reference), NULL, 0);
+}
+
 static bool answer_save(void)
 {
     char *bytes = NULL;
@@ -443,6 +474,8 @@ static bool serve(foreign_kind kind, const char *body, size_t size)
     case FOREIGN_SET:
     case FOREIGN_GET:
         return answer_values(kind, body, size);
+    case FOREIGN_SET_TEXT:
+        return answer_set_text(body, size);
     case FOREIGN_LEAVE:
         return answer(leave(), NULL, 0);
     case FOREIGN_STEP:

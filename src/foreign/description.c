@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <locale.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,13 @@
 #include "base/suggestion.h"
 #include "base/text_file.h"
 
-enum { MOST_VARIABLES = 1000000, DEEPEST = 32, MOST_TEXT = 1 << 27, MOST_DEFINITIONS = 100000 };
+enum {
+    MOST_VARIABLES = 1000000,
+    DEEPEST = 32,
+    MOST_TEXT = 1 << 27,
+    MOST_DEFINITIONS = 100000,
+    MOST_ELEMENTS = 1000000
+};
 
 static const char *const type_names[FOREIGN_TYPES] = {
     "Float64", "Float32", "Int8",    "UInt8",       "Int16",  "UInt16", "Int32", "UInt32",
@@ -28,6 +35,13 @@ typedef struct declared_type {
     char *name, *unit;
 } declared_type;
 
+// A dimension of an array, of as many elements as it says or as a structural parameter does.
+typedef struct array_dimension {
+    size_t variable; // its place as it was read
+    bool by_parameter;
+    uint32_t number; // elements or value reference
+} array_dimension;
+
 typedef struct description_reader {
     const char *name; // of the FMU
     foreign_description *of;
@@ -38,6 +52,8 @@ typedef struct description_reader {
     bool co_simulation, in_variables, in_types;
     size_t room, type_count;
     declared_type *type;
+    size_t dimension_count;
+    array_dimension *dimension;
     char *open_type; // name of the SimpleType (FMI 2) that is open
 } description_reader;
 
@@ -217,15 +233,25 @@ static void read_type(description_reader *self, const char *name, const char *un
     type->unit = copy_text(self, unit);
 }
 
+// A whole number from 0 to UINT32_MAX; false: it is none.
+static bool whole_of(const char *text, uint32_t *value)
+{
+    double number;
+    if (!text || !isdigit((unsigned char)*text) || !number_of(text, &number) ||
+        !(number <= UINT32_MAX) || number != (uint32_t)number)
+        return false;
+    *value = (uint32_t)number;
+    return true;
+}
+
 static foreign_variable *new_variable(description_reader *self, const char *name,
                                       const char *reference)
 {
     foreign_description *of = self->of;
-    double number = 0;
+    uint32_t number = 0;
     if (!name || !*name)
         fail(self, LD_ERR_INPUT, "has a variable without a name", "");
-    else if (!reference || !isdigit((unsigned char)*reference) || !number_of(reference, &number) ||
-             !(number <= UINT32_MAX) || number != (uint32_t)number)
+    else if (!whole_of(reference, &number))
         fail(self, LD_ERR_INPUT, "has no good valueReference of variable ", name);
     else if (of->count == MOST_VARIABLES)
         fail(self, LD_ERR_INPUT, "has too many variables", "");
@@ -235,7 +261,7 @@ static foreign_variable *new_variable(description_reader *self, const char *name
         return NULL;
     of->count++;
     variable->name = copy_text(self, name);
-    variable->reference = (uint32_t)number;
+    variable->reference = number;
     return variable;
 }
 
@@ -294,6 +320,34 @@ static void read_variable_2(description_reader *self, const char *element,
     }
 }
 
+// One more of the last variable.
+static void add_dimension(description_reader *self, bool by_parameter, uint32_t number)
+{
+    if (self->dimension_count == MOST_DEFINITIONS)
+        fail(self, LD_ERR_INPUT, "has too many dimensions", "");
+    array_dimension *dimension = self->status ? NULL
+                                              : one_more(self, (void **)&self->dimension,
+                                                         self->dimension_count, sizeof *dimension);
+    if (!dimension)
+        return;
+    *dimension = (array_dimension){self->of->count - 1, by_parameter, number};
+    self->dimension_count++;
+    self->of->variable[self->of->count - 1].elements = 1; // until all parameters are there
+}
+
+static void read_dimension(description_reader *self, const XML_Char **attributes)
+{
+    const char *start = attribute(attributes, "start");
+    const char *reference = attribute(attributes, "valueReference");
+    uint32_t number;
+    if (!start == !reference || !whole_of(start ? start : reference, &number))
+        fail(self, LD_ERR_INPUT,
+             "wants start or valueReference, a whole number, of a dimension of variable ",
+             self->of->variable[self->of->count - 1].name);
+    else
+        add_dimension(self, reference != NULL, number);
+}
+
 // Another name of the variable that is open (FMI 3).
 static void read_alias(description_reader *self, const XML_Char **attributes)
 {
@@ -306,6 +360,9 @@ static void read_alias(description_reader *self, const XML_Char **attributes)
     *alias = first;
     alias->declared = copy_text(self, first.declared);
     alias->unit_name = copy_text(self, first.unit_name);
+    for (size_t i = self->dimension_count;
+         i > 0 && self->dimension[i - 1].variable == of->count - 2 && !self->status; i--)
+        add_dimension(self, self->dimension[i - 1].by_parameter, self->dimension[i - 1].number);
 }
 
 static void read_variable_3(description_reader *self, const char *element,
@@ -321,7 +378,7 @@ static void read_variable_3(description_reader *self, const char *element,
         read_traits(self, attributes, variable);
         read_kind(self, (foreign_type)type, attributes, variable);
     } else if (self->depth == 4 && of->count > 0 && strcmp(element, "Dimension") == 0) {
-        of->variable[of->count - 1].array = true;
+        read_dimension(self, attributes);
     } else if (self->depth == 4 && of->count > 0 && strcmp(element, "Alias") == 0) {
         read_alias(self, attributes);
     }
@@ -407,9 +464,42 @@ static void find_unit(const description_reader *self, foreign_variable *variable
     variable->unit = unit_named(self->of, name);
 }
 
-static ld_status complete(const description_reader *self)
+// Its elements; 0: there is no such structural parameter, or it is no number of elements.
+static double dimension_size(const foreign_description *of, const array_dimension *dimension)
+{
+    if (!dimension->by_parameter)
+        return dimension->number;
+    for (size_t i = 0; i < of->count; i++) {
+        const foreign_variable *one = &of->variable[i];
+        if (one->reference == dimension->number && one->causality == FOREIGN_STRUCTURAL_PARAMETER)
+            return one->type < FOREIGN_BOOLEAN && one->has_start && one->start == floor(one->start)
+                       ? one->start
+                       : 0;
+    }
+    return 0;
+}
+
+// Arrays are as large as their dimensions' start values say (FMI 3.0.2 section 2.4.7.4).
+static void size_arrays(description_reader *self)
 {
     foreign_description *of = self->of;
+    for (size_t i = 0; i < self->dimension_count && !self->status; i++) {
+        foreign_variable *array = &of->variable[self->dimension[i].variable];
+        double elements = array->elements * dimension_size(of, &self->dimension[i]);
+        if (elements >= 1 && elements <= MOST_ELEMENTS)
+            array->elements = (uint32_t)elements;
+        else
+            fail(self, LD_ERR_INPUT,
+                 "the dimensions of an array are 1 to a million elements, not of ", array->name);
+    }
+}
+
+static ld_status complete(description_reader *self)
+{
+    foreign_description *of = self->of;
+    size_arrays(self);
+    if (self->status)
+        return self->status;
     if (!self->co_simulation)
         return ld_fail(self->error, LD_ERR_INPUT,
                        "%.300s: is no FMU for co-simulation, which alone can be a base",
@@ -457,6 +547,7 @@ ld_status foreign_describe_text(const char *text, size_t length, const char *nam
         free(self.type[i].unit);
     }
     free(self.type);
+    free(self.dimension);
     free(self.open_type);
     if (status)
         foreign_description_free(out);

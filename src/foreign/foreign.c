@@ -157,6 +157,14 @@ ld_status foreign_set(foreign_instance *self, double t, const foreign_value *val
     return ask(self, FOREIGN_SET, t, values, count * sizeof *values, NULL, 0, error);
 }
 
+ld_status foreign_set_text(foreign_instance *self, double t, uint32_t reference, const char *text,
+                           ld_error *error)
+{
+    size_t none;
+    return foreign_process_ask(self->process, FOREIGN_SET_TEXT, t, &reference, sizeof reference,
+                               text, strlen(text) + 1, NULL, 0, &none, error);
+}
+
 ld_status foreign_get(foreign_instance *self, double t, const foreign_value *values, size_t count,
                       double *numbers, ld_error *error)
 {

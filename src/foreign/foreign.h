@@ -30,6 +30,8 @@ void foreign_end(foreign_instance *self); // may be NULL
 // inputs are set with a step. `t` [s] of the caller's clock, NaN for none, is for sentences.
 ld_status foreign_set(foreign_instance *self, double t, const foreign_value *values, size_t count,
                       ld_error *error);
+ld_status foreign_set_text(foreign_instance *self, double t, uint32_t reference, const char *text,
+                           ld_error *error);
 ld_status foreign_get(foreign_instance *self, double t, const foreign_value *values, size_t count,
                       double *numbers, ld_error *error);
 // Initialization mode, beginning at time `start` [s] of its own clock.

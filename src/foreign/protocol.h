@@ -21,16 +21,17 @@ typedef struct foreign_shared {
 } foreign_shared;
 
 typedef enum foreign_kind {
-    FOREIGN_OPEN,  // foreign_opening; loads and instantiates
-    FOREIGN_ENTER, // double start; initialization mode
-    FOREIGN_SET,   // foreign_value[]
-    FOREIGN_GET,   // foreign_value[]; answers double[]
-    FOREIGN_LEAVE, // initialization mode
-    FOREIGN_STEP,  // foreign_stepping, foreign_value[] set before, then got; answers as much of a
-                   // foreign_step_answer as there are outputs
-    FOREIGN_SAVE,  // answers bytes
-    FOREIGN_LOAD,  // bytes
-    FOREIGN_END,   // terminates and frees
+    FOREIGN_OPEN,     // foreign_opening; loads and instantiates
+    FOREIGN_ENTER,    // double start; initialization mode
+    FOREIGN_SET,      // foreign_value[]
+    FOREIGN_SET_TEXT, // uint32_t reference, the text with its zero
+    FOREIGN_GET,      // foreign_value[]; answers double[]
+    FOREIGN_LEAVE,    // initialization mode
+    FOREIGN_STEP, // foreign_stepping, foreign_value[] set before, then got; answers as much of a
+                  // foreign_step_answer as there are outputs
+    FOREIGN_SAVE, // answers bytes
+    FOREIGN_LOAD, // bytes
+    FOREIGN_END,  // terminates and frees
 } foreign_kind;
 
 typedef struct foreign_request {
@@ -60,11 +61,12 @@ typedef struct foreign_opening {
     char token[1024], identifier[256];
 } foreign_opening;
 
-// A variable, and its value where it is set.
+// A variable, and its value where it is set. Of an array all elements follow each other.
 typedef struct foreign_value {
     uint32_t reference;
     int32_t type; // foreign_type
     double value;
+    uint64_t elements; // of an array, how many; 0: it is none
 } foreign_value;
 
 typedef struct foreign_stepping {

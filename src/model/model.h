@@ -357,8 +357,9 @@ typedef enum ld_fmu_quantity {
 } ld_fmu_quantity;
 
 typedef struct ld_fmu_parameter {
-    char *name; ///< of the FMU's variable, owned by the model
-    double value;
+    char *name;   ///< of the FMU's variable, owned by the model
+    double value; ///< in the FMU's unit; NaN: a text is given
+    char *text;   ///< owned by the model; NULL: a number is given
 } ld_fmu_parameter;
 
 /// How an FMU takes inputs between the instants at which they are set.

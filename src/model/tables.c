@@ -425,8 +425,10 @@ static const field_block connect_block = {.fields = connect_fields};
 static const field_row fmu_parameter_fields[] = {
     {"name", .kind = FIELD_TEXT, .offset = offsetof(ld_fmu_parameter, name), .required = true,
      .doc = "of the FMU's variable"},
-    {"value", NUMBER(ld_fmu_parameter, value, ""), ANY, REQUIRED,
-     .doc = "in the unit that the FMU has for it"},
+    {"value", NUMBER(ld_fmu_parameter, value, ""), ANY, NO_DEFAULT("none"),
+     .doc = "of one that is a number, in the unit that the FMU has for it; 0 or 1 of a Boolean"},
+    {"text", .kind = FIELD_TEXT, .offset = offsetof(ld_fmu_parameter, text), .initial_doc = "none",
+     .doc = "of one that is a text, in place of a value"},
     {0}};
 static const field_block fmu_parameter_block = {.fields = fmu_parameter_fields};
 static const field_word inputs_words[] = {

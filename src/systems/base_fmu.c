@@ -235,15 +235,17 @@ static void carry(const fmu_base *self, const base_wrench *on, const double *fra
 
 static ld_status set_parameters(fmu_base *self, double t, ld_error *error)
 {
-    foreign_value value[LD_MAX_FMU_PARAMETERS];
-    int count = self->given->parameter_count;
-    for (int i = 0; i < count; i++) {
+    ld_status status = LD_OK;
+    for (int i = 0; i < self->given->parameter_count && !status; i++) {
         const ld_fmu_parameter *one = &self->given->parameter[i];
         const foreign_variable *variable =
             foreign_variable_find(&self->package->description, one->name);
-        value[i] = (foreign_value){variable->reference, (int32_t)variable->type, one->value};
+        const foreign_value value = {
+            .reference = variable->reference, .type = (int32_t)variable->type, .value = one->value};
+        status = one->text ? foreign_set_text(self->instance, t, value.reference, one->text, error)
+                           : foreign_set(self->instance, t, &value, 1, error);
     }
-    return count ? foreign_set(self->instance, t, value, (size_t)count, error) : LD_OK;
+    return status;
 }
 
 // In its initialization mode.
@@ -463,10 +465,10 @@ static ld_status check_variable(const fmu_base *self, int i, const char *key,
 {
     bool input = i >= LD_FMU_FORCE;
     const char *path = self->package->path;
-    if (variable->type > FOREIGN_FLOAT32 || variable->array)
+    if (variable->type > FOREIGN_FLOAT32 || variable->elements)
         return ld_fail(error, LD_ERR_INPUT,
                        "%s: %.200s: variable %.100s is %s %s; expected a Float64", key, path,
-                       variable->name, variable->array ? "an array of" : "of type",
+                       variable->name, variable->elements ? "an array of" : "of type",
                        foreign_type_name(variable->type));
     if (input != (variable->causality == FOREIGN_INPUT))
         return ld_fail(error, LD_ERR_INPUT,
@@ -489,7 +491,7 @@ static ld_status connect(fmu_base *self, int i, const char *key, const char *nam
     ld_status status = check_variable(self, i, key, variable, error);
     self->variable[i] = (fmu_variable){
         .there = true,
-        .of = {variable->reference, (int32_t)variable->type, 0},
+        .of = {.reference = variable->reference, .type = (int32_t)variable->type},
         .factor = variable->unit ? variable->unit->factor : 1,
         .offset = variable->unit ? variable->unit->offset : 0,
     };
@@ -547,26 +549,39 @@ static ld_status connect_all(fmu_base *self, ld_error *error)
     return status;
 }
 
+// Whether it may be set before its initialization, and to what is given.
+static ld_status check_parameter(const fmu_base *self, int i, ld_error *error)
+{
+    const ld_fmu_parameter *given = &self->given->parameter[i];
+    bool text = given->text != NULL;
+    const foreign_variable *variable =
+        foreign_variable_find(&self->package->description, given->name);
+    if (!variable)
+        return unknown(self, "base.parameters", given->name, FOREIGN_PARAMETER, error);
+    if (text != isnan(given->value))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "base.parameters.%d: %.200s: expected one of value and text", i + 1,
+                       given->name);
+    bool starts = variable->causality == FOREIGN_PARAMETER ||
+                  variable->causality == FOREIGN_INPUT || variable->has_start;
+    bool fits = text ? variable->type == FOREIGN_STRING : variable->type <= FOREIGN_ENUMERATION;
+    if (fits && !variable->elements && starts && variable->variability != FOREIGN_CONSTANT &&
+        variable->causality != FOREIGN_STRUCTURAL_PARAMETER)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT,
+                   "base.parameters.%d: %.200s: variable %.100s (%s, %s%s) cannot be set to a %s",
+                   i + 1, self->package->path, given->name,
+                   foreign_causality_name(variable->causality),
+                   variable->elements ? "array of " : "", foreign_type_name(variable->type),
+                   text ? "text" : "number");
+}
+
 static ld_status check_parameters(const fmu_base *self, ld_error *error)
 {
-    for (int i = 0; i < self->given->parameter_count; i++) {
-        const char *name = self->given->parameter[i].name;
-        const foreign_variable *variable = foreign_variable_find(&self->package->description, name);
-        if (!variable)
-            return unknown(self, "base.parameters", name, FOREIGN_PARAMETER, error);
-        bool starts = variable->causality == FOREIGN_PARAMETER ||
-                      variable->causality == FOREIGN_INPUT || variable->has_start;
-        if (variable->type > FOREIGN_ENUMERATION || variable->array || !starts ||
-            variable->variability == FOREIGN_CONSTANT ||
-            variable->causality == FOREIGN_STRUCTURAL_PARAMETER)
-            return ld_fail(error, LD_ERR_INPUT,
-                           "base.parameters.%d: %.200s: variable %.100s (%s, %s) cannot be set to "
-                           "a number",
-                           i + 1, self->package->path, name,
-                           foreign_causality_name(variable->causality),
-                           foreign_type_name(variable->type));
-    }
-    return LD_OK;
+    ld_status status = LD_OK;
+    for (int i = 0; i < self->given->parameter_count && !status; i++)
+        status = check_parameter(self, i, error);
+    return status;
 }
 
 static ld_status check_step(const fmu_base *self, ld_error *error)

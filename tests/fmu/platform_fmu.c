@@ -31,7 +31,8 @@ enum { // value references
     GRAVITY = 36,
     MISHAP = 40, // whole number
     MISHAP_AT = 41,
-    VALUES = 42
+    VALUES = 42,
+    TUNING = 60 // text
 };
 
 enum {
@@ -135,6 +136,14 @@ static double get(platform *self, unsigned reference)
     v3_store(at + BODY_RATE, m3_apply_transposed(A, w));
     m3_yaw_pitch_roll(&A, at + ANGLES);
     return self->value[reference];
+}
+
+// Its text.
+static int tune(platform *self, const char *word)
+{
+    if (strcmp(word, "half as stiff") == 0)
+        self->value[STIFFNESS] *= 0.5;
+    return strcmp(word, "half as stiff") == 0 ? fmi2OK : fmi2Error;
 }
 
 // Whatever goes wrong in the step from t; fmi2OK: nothing.
@@ -253,6 +262,12 @@ EXPORTED fmi2Status fmi2SetInteger(void *c, const unsigned *reference, size_t co
     return fmi2OK;
 }
 
+EXPORTED fmi2Status fmi2SetString(void *c, const unsigned *reference, size_t count,
+                                  const char *const *value)
+{
+    return reference[0] == TUNING && count == 1 ? (fmi2Status)tune(c, value[0]) : fmi2Error;
+}
+
 EXPORTED fmi2Status fmi2DoStep(void *c, double t, double size, int no_return)
 {
     platform *self = c;
@@ -350,18 +365,18 @@ EXPORTED fmi3Status fmi3Terminate(void *c)
 EXPORTED fmi3Status fmi3GetFloat64(void *c, const uint32_t *reference, size_t references,
                                    double *value, size_t values)
 {
-    (void)values;
-    for (size_t i = 0; i < references; i++)
-        value[i] = get(c, reference[i]);
+    bool array = references == 1; // whose elements have the references that follow
+    for (size_t i = 0; i < values; i++)
+        value[i] = get(c, array ? reference[0] + (uint32_t)i : reference[i]);
     return fmi3OK;
 }
 
 EXPORTED fmi3Status fmi3SetFloat64(void *c, const uint32_t *reference, size_t references,
                                    const double *value, size_t values)
 {
-    (void)values;
-    for (size_t i = 0; i < references; i++)
-        ((platform *)c)->value[reference[i]] = value[i];
+    bool array = references == 1;
+    for (size_t i = 0; i < values; i++)
+        ((platform *)c)->value[array ? reference[0] + (uint32_t)i : reference[i]] = value[i];
     return fmi3OK;
 }
 
@@ -372,6 +387,13 @@ EXPORTED fmi3Status fmi3SetInt32(void *c, const uint32_t *reference, size_t refe
     for (size_t i = 0; i < references; i++)
         ((platform *)c)->value[reference[i]] = value[i];
     return fmi3OK;
+}
+
+EXPORTED fmi3Status fmi3SetString(void *c, const uint32_t *reference, size_t references,
+                                  const char *const *value, size_t values)
+{
+    return reference[0] == TUNING && references == 1 && values == 1 ? (fmi3Status)tune(c, value[0])
+                                                                    : fmi3Error;
 }
 
 EXPORTED fmi3Status fmi3DoStep(void *c, double t, double size, bool no_return, bool *event,

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "foreign/foreign.h"
 #include "launchdyn/run.h"
 #include "math/rotation_vector.h"
 #include "scenario/scenario.h"
@@ -277,20 +278,61 @@ static void angles_and_body_rates_tell_the_same(void **state)
     CHECK_BELOW("yaw rate [mrad/s]", 1e3 * (one.yaw_rate - other.yaw_rate), 1e-6);
 }
 
+static double sag(const char *base)
+{
+    on_platform self = begin(base, 1e-7, 1e-3);
+    ld_run *run = start(&self);
+    double y = number(run, "base.y");
+    ld_run_end(run, NULL, NULL);
+    end(&self);
+    return y;
+}
+
 static void parameters_reach_it(void **state)
 {
     (void)state;
-    double y[2];
-    for (int i = 0; i < 2; i++) {
-        on_platform self = begin(i ? ON_PLATFORM_2 "  parameters: [{name: stiffness, value: 5e5}]\n"
-                                   : ON_PLATFORM_2,
-                                 1e-7, 1e-3);
-        ld_run *run = start(&self);
-        y[i] = number(run, "base.y");
-        ld_run_end(run, NULL, NULL);
-        end(&self);
-    }
-    CHECK_NEAR("sag on springs half as stiff", y[1] / y[0], 2, 1e-9);
+    double soft = sag(ON_PLATFORM_2 "  parameters: [{name: stiffness, value: 5e5}]\n");
+    CHECK_NEAR("sag on springs half as stiff", soft / sag(ON_PLATFORM_2), 2, 1e-9);
+}
+
+static void texts_reach_it(void **state)
+{
+    (void)state;
+    double two = sag(ON_PLATFORM_2), three = sag(ON_PLATFORM_3);
+    double soft_2 = sag(ON_PLATFORM_2 "  parameters: [{name: tuning, text: half as stiff}]\n"),
+           soft_3 = sag(ON_PLATFORM_3 "  parameters: [{name: tuning, text: half as stiff}]\n");
+    CHECK_NEAR("sag on springs half as stiff, FMI 2", soft_2 / two, 2, 1e-9);
+    CHECK_NEAR("FMI 3", soft_3 / three, 2, 1e-9);
+}
+
+// An array is set and got as a whole.
+static void arrays_reach_it(void **state)
+{
+    (void)state;
+    foreign_package *package;
+    foreign_instance *fmu;
+    ld_error error;
+    const double springs[3] = {1, 2, 4};
+    double got[5];
+    foreign_value value[5] = {{0}};
+    assert_int_equal(foreign_open(in("platform3.fmu"), &package, &error), LD_OK);
+    assert_int_equal(foreign_begin(package, 10, &fmu, &error), LD_OK);
+    const foreign_variable *array = foreign_variable_find(&package->description, "springs");
+    assert_int_equal(array->elements, 3);
+    for (int i = 0; i < 3; i++)
+        value[i + 1] = (foreign_value){.reference = array->reference,
+                                       .type = (int32_t)array->type,
+                                       .value = springs[i],
+                                       .elements = array->elements};
+    value[0] = value[4] = (foreign_value){.reference = 36, .value = 9}; // gravity
+    assert_int_equal(foreign_set(fmu, 0, value, 5, &error), LD_OK);
+    assert_int_equal(foreign_get(fmu, 0, value, 5, got, &error), LD_OK);
+    for (int i = 0; i < 5; i++)
+        assert_true(got[i] == value[i].value);
+    // a part of it
+    assert_int_not_equal(foreign_set(fmu, 0, value, 3, &error), LD_OK);
+    foreign_end(fmu);
+    foreign_close(package);
 }
 
 // ---- steps that it does not take whole
@@ -398,7 +440,22 @@ static const struct {
     {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: stifness, value: 1}]\n",
      "platform3.fmu has no variable \"stifness\"; did you mean \"stiffness\"?"},
     {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: yaw, value: 1}]\n",
-     "base.parameters.1: "},
+     "platform3.fmu: variable yaw (output, Float64) cannot be set to a number"},
+    {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: mass, value: 1}, {name: springs, "
+     "value: 1}]\n",
+     "base.parameters.2: "},
+    {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: springs, value: 1}]\n",
+     "variable springs (parameter, array of Float64) cannot be set to a number"},
+    {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: three, value: 1}]\n",
+     "variable three (structuralParameter, UInt64) cannot be set to a number"},
+    {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: mass, text: big}]\n",
+     "variable mass (parameter, Float64) cannot be set to a text"},
+    {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: mass, text: big, value: 1}]\n",
+     "base.parameters.1: mass: expected one of value and text"},
+    {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: mass}]\n",
+     "base.parameters.1: mass: expected one of value and text"},
+    {"  file: platform3.fmu\n  step: 1 ms\n  connect: {angles: springs pitch roll}\n",
+     "variable springs is an array of Float64; expected a Float64"},
 };
 
 static void what_does_not_fit_is_one_sentence(void **state)
@@ -512,6 +569,8 @@ int main(void)
         cmocka_unit_test(it_rests_where_its_springs_carry_all),
         cmocka_unit_test(angles_and_body_rates_tell_the_same),
         cmocka_unit_test(parameters_reach_it),
+        cmocka_unit_test(texts_reach_it),
+        cmocka_unit_test(arrays_reach_it),
         cmocka_unit_test(a_step_broken_off_goes_on),
         cmocka_unit_test(what_goes_wrong_is_one_sentence),
         cmocka_unit_test(what_does_not_fit_is_one_sentence),

@@ -1,7 +1,7 @@
 // usage: foreign_step_fmu FILE STOP STEP [NAME=VALUE...]
 // Steps an FMU of other people's by our importer, from 0 s to STOP [s] by STEP [s], and prints its
-// outputs that are numbers as CSV. Parameters and inputs keep the values given. For comparing by
-// hand (docs/fmi.md).
+// outputs that are numbers as CSV, of an array all elements. Parameters and inputs keep the values
+// given, VALUE,VALUE,... of an array. For comparing by hand (docs/fmi.md).
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,23 +14,43 @@ typedef struct choice {
     foreign_value value[FOREIGN_MOST_VALUES];
 } choice;
 
-static bool is_number(const foreign_variable *variable)
+static size_t length_of(const foreign_variable *variable)
 {
-    return !variable->array && variable->type < FOREIGN_STRING;
+    return variable->elements ? variable->elements : 1;
 }
 
-static void find_outputs(const foreign_description *all, choice *outputs)
+static bool is_number(const foreign_variable *variable)
 {
+    return variable->type < FOREIGN_STRING && length_of(variable) <= FOREIGN_MOST_VALUES;
+}
+
+// One value more of this variable; false: there is no room.
+static bool add(choice *to, const foreign_variable *variable, double value)
+{
+    if (to->count == FOREIGN_MOST_VALUES)
+        return false;
+    to->value[to->count++] = (foreign_value){.reference = variable->reference,
+                                             .type = (int32_t)variable->type,
+                                             .value = value,
+                                             .elements = variable->elements};
+    return true;
+}
+
+static bool find_outputs(const foreign_description *all, choice *outputs)
+{
+    bool fine = true;
     printf("time");
     for (size_t i = 0; i < all->count; i++) {
         const foreign_variable *variable = &all->variable[i];
         if (variable->causality != FOREIGN_OUTPUT || !is_number(variable))
             continue;
-        printf(",%s", variable->name);
-        outputs->value[outputs->count++] =
-            (foreign_value){.reference = variable->reference, .type = (int32_t)variable->type};
+        for (size_t k = 0; k < length_of(variable) && fine; k++) {
+            printf(variable->elements ? ",%s[%zu]" : ",%s", variable->name, k + 1);
+            fine = add(outputs, variable, 0);
+        }
     }
     printf("\n");
+    return fine;
 }
 
 // Those given as NAME=VALUE, inputs and others apart. False: there is no such variable.
@@ -38,16 +58,19 @@ static bool find_given(const foreign_description *all, char *const *given, choic
                        choice *others)
 {
     for (; *given; given++) {
-        char *equals = strchr(*given, '=');
-        if (!equals)
+        char *at = strchr(*given, '=');
+        if (!at)
             return false;
-        *equals = '\0';
+        *at = '\0';
         const foreign_variable *variable = foreign_variable_find(all, *given);
         if (!variable || !is_number(variable))
             return false;
         choice *to = variable->causality == FOREIGN_INPUT ? inputs : others;
-        to->value[to->count++] =
-            (foreign_value){variable->reference, (int32_t)variable->type, strtod(equals + 1, NULL)};
+        for (size_t k = 0; k < length_of(variable); k++)
+            if (!at || !add(to, variable, strtod(at + 1, &at)))
+                return false;
+        if (*at)
+            return false;
     }
     return true;
 }
@@ -95,7 +118,8 @@ static ld_status simulate(const foreign_package *package, char **argv, ld_error 
         status = foreign_set(fmu, 0, inputs.value, inputs.count, error);
     if (!status)
         status = foreign_leave(fmu, 0, error);
-    find_outputs(&package->description, &outputs);
+    if (!status && !find_outputs(&package->description, &outputs))
+        status = ld_fail(error, LD_ERR_INPUT, "it has too many outputs");
     if (!status)
         status = walk(fmu, strtod(argv[2], NULL), strtod(argv[3], NULL), &inputs, &outputs, error);
     foreign_end(fmu);

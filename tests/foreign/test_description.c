@@ -72,9 +72,28 @@ static void variables_of_FMI_3(void **state)
     const foreign_variable *also = foreign_variable_find(&of, "also x");
     assert_true(x->unit && x->unit->factor == 1e3 && x->unit->offset == 2);
     assert_true(also && also->reference == 1 && also->unit == x->unit);
-    assert_true(foreign_variable_find(&of, "y")->array && !x->array);
+    assert_true(foreign_variable_find(&of, "y")->elements == 3 && x->elements == 0);
     assert_true(foreign_variable_find(&of, "z")->type == FOREIGN_INT8);
     assert_string_equal(foreign_variable_near(&of, "also_x", FOREIGN_OUTPUT), "also x");
+    foreign_description_free(&of);
+}
+
+// FMI 3.0.2 section 2.4.7.4: the parameter may come later; another name is as large.
+static void arrays_of_FMI_3(void **state)
+{
+    (void)state;
+    foreign_description of = described(
+        ROOT_3 "<CoSimulation modelIdentifier='it'/><ModelVariables>"
+               "<Float64 name='A' valueReference='1' causality='output'><Dimension start='4'/>"
+               "<Dimension valueReference='7'/><Alias name='also A'/></Float64>"
+               "<Float64 name='also 7' valueReference='8' start='9'/>"
+               "<UInt64 name='n' valueReference='7' causality='structuralParameter' start='5'/>"
+               "<Float64 name='r' valueReference='9'><Dimension start='1'/></Float64>"
+               "</ModelVariables>" END);
+    assert_int_equal(foreign_variable_find(&of, "A")->elements, 20);
+    assert_int_equal(foreign_variable_find(&of, "also A")->elements, 20);
+    assert_int_equal(foreign_variable_find(&of, "r")->elements, 1);
+    assert_int_equal(foreign_variable_find(&of, "n")->elements, 0);
     foreign_description_free(&of);
 }
 
@@ -99,6 +118,21 @@ static const struct {
     {VARIABLES("<Float64 name='a' valueReference='1' causality='both'/>"), "unknown word: both"},
     {VARIABLES("<Float64 name='a' valueReference='1'/><Int8 name='a' valueReference='2'/>"),
      "has two variables a"},
+    {VARIABLES("<Int8 name='a' valueReference='1'><Dimension/></Int8>"),
+     "wants start or valueReference, a whole number, of a dimension of variable a"},
+    {VARIABLES("<Int8 name='a' valueReference='1'><Dimension start='-1'/></Int8>"),
+     "wants start or valueReference, "},
+    {VARIABLES(
+         "<Int8 name='a' valueReference='1'><Dimension start='1' valueReference='1'/></Int8>"),
+     "wants start or valueReference, "},
+    {VARIABLES("<Int8 name='a' valueReference='1'><Dimension start='0'/></Int8>"),
+     "the dimensions of an array are 1 to a million elements, not of a"},
+    {VARIABLES("<Int8 name='a' valueReference='1'><Dimension start='1001'/><Dimension "
+               "start='1000'/></Int8>"),
+     "1 to a million elements, not of a"},
+    {VARIABLES(
+         "<Int8 name='a' valueReference='1' start='1'><Dimension valueReference='1'/></Int8>"),
+     "1 to a million elements, not of a"},
     {VARIABLES("\n<Clock name='tick' valueReference='1'/>"),
      "x.fmu: modelDescription.xml:2: has a clock, which is not taken in here: tick"},
     {"<!DOCTYPE f [<!ENTITY a 'b'>]>" ROOT_2 "&a;" END, "has a DOCTYPE"},
@@ -136,6 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(variables_of_FMI_2),
         cmocka_unit_test(variables_of_FMI_3),
+        cmocka_unit_test(arrays_of_FMI_3),
         cmocka_unit_test(what_is_wrong_is_one_sentence),
         cmocka_unit_test(nesting),
     };

@@ -129,12 +129,21 @@ static inline char *describe_platform(int version, const char *traits)
     for (size_t i = 0; i < sizeof platform_variables / sizeof *platform_variables; i++)
         for (int part = 0; part < platform_variables[i].parts; part++)
             describe_variable(to, version, &platform_variables[i], part);
-    fprintf(to, version == 2
-                    ? "<ScalarVariable name=\"mishap\" valueReference=\"40\" "
-                      "causality=\"parameter\" variability=\"fixed\"><Integer "
-                      "start=\"0\"/></ScalarVariable>"
-                    : "<Int32 name=\"mishap\" valueReference=\"40\" causality=\"parameter\" "
-                      "variability=\"fixed\" start=\"0\"/>");
+    fprintf(to,
+            version == 2
+                ? "<ScalarVariable name=\"mishap\" valueReference=\"40\" "
+                  "causality=\"parameter\" variability=\"fixed\"><Integer "
+                  "start=\"0\"/></ScalarVariable><ScalarVariable name=\"tuning\" "
+                  "valueReference=\"60\" causality=\"parameter\" variability=\"fixed\">"
+                  "<String start=\"\"/></ScalarVariable>"
+                : "<Int32 name=\"mishap\" valueReference=\"40\" causality=\"parameter\" "
+                  "variability=\"fixed\" start=\"0\"/><String name=\"tuning\" "
+                  "valueReference=\"60\" causality=\"parameter\" variability=\"fixed\"><Start "
+                  "value=\"\"/></String><Float64 name=\"springs\" valueReference=\"30\" "
+                  "causality=\"parameter\" variability=\"fixed\" start=\"1e3 1e6 2e3\"><Dimension "
+                  "valueReference=\"50\"/></Float64><UInt64 name=\"three\" "
+                  "valueReference=\"50\" causality=\"structuralParameter\" "
+                  "variability=\"fixed\" start=\"3\"/>");
     fprintf(to, "</ModelVariables><ModelStructure/></fmiModelDescription>\n");
     fclose(to);
     return text;
