@@ -173,8 +173,13 @@ static void add_exchanged(gathering *self, fmu_group group, const char *prefix,
 
 static void add_frame(gathering *self, fmu_group group, const char *prefix, const double *start)
 {
-    add_exchanged(self, group, prefix, frame_parts, sizeof frame_parts / sizeof *frame_parts,
-                  start);
+    enum { PARTS = sizeof frame_parts / sizeof *frame_parts, QUATERNION = 1 };
+    exchanged part[PARTS];
+    memcpy(part, frame_parts, sizeof part);
+    if (group == FMU_TOLD)
+        part[QUATERNION].description = "Axes of the undeformed tube against I, scalar first; all "
+                                       "zero: the frame is not told yet, it goes on as it began";
+    add_exchanged(self, group, prefix, part, PARTS, start);
 }
 
 static void add_wrench(gathering *self, fmu_group group, const char *prefix, const double *start)

@@ -365,6 +365,61 @@ static void begins_under_its_load(void **state)
     side_close(&vehicle);
 }
 
+// A frame whose quaternion is zero is none: as if nobody had told anything, until one is told.
+static void a_frame_of_zeros_is_not_told(void **state)
+{
+    (void)state;
+    coupling two;
+    double zero[FRAME] = {0}, frame[FRAME], wrench[2][WRENCH];
+    uint32_t y, wait;
+    bool yes = true;
+    coupling_open(&two, PARKED);
+    side *const launcher = &two.launcher;
+    wait = reference_of(&launcher->fmu, "ignition_by_input");
+    y = reference_of(&launcher->fmu, "input.base.position.y");
+    for (int told = 0; told < 2; told++) {
+        if (told) {
+            FMU_FUNCTION(&launcher->fmu, fmi3FreeInstance)(launcher->instance);
+            launcher->instance = instance_of(&launcher->fmu);
+        }
+        assert_int_equal(
+            FMU_FUNCTION(&launcher->fmu, fmi3SetBoolean)(launcher->instance, &wait, 1, &yes, 1),
+            fmi3OK);
+        if (told)
+            side_tell(launcher, zero);
+        side_enter(launcher, -2);
+        if (told)
+            side_tell(launcher, zero);
+        side_go(launcher);
+        for (int i = 0; i < 20; i++) {
+            if (told)
+                side_tell(launcher, zero);
+            side_step(launcher, -2 + 1e-3 * i, 1e-3);
+        }
+        side_tells(launcher, wrench[told]);
+    }
+    assert_memory_equal(wrench[0], wrench[1], sizeof wrench[0]);
+    // from the first frame on each is one
+    side_enter(&two.vehicle, -2);
+    side_go(&two.vehicle);
+    side_tells(&two.vehicle, frame);
+    frame[1] += 1e-6;
+    side_tell(launcher, frame);
+    side_step(launcher, -1.98, 1e-3);
+    assert_int_equal(
+        FMU_FUNCTION(&launcher->fmu, fmi3GetFloat64)(launcher->instance, &y, 1, wrench[0], 1),
+        fmi3OK);
+    assert_true(wrench[0][0] == frame[1]);
+    side_tell(launcher, zero);
+    bool event, early;
+    double reached;
+    assert_int_equal(FMU_FUNCTION(&launcher->fmu, fmi3DoStep)(launcher->instance, -1.979, 1e-3,
+                                                              true, &event, &yes, &early, &reached),
+                     fmi3Error);
+    expect_in(logged, "the base is told a place or a motion that is not finite");
+    coupling_close(&two);
+}
+
 // ---- states, version 2, what is refused ----
 
 static void states_come_back(void **state)
@@ -486,6 +541,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(vehicle_as_a_base, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(rest_stays, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(begins_under_its_load, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(a_frame_of_zeros_is_not_told, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(states_come_back, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(speaks_version_2, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(archive_holds_both, shell_make, shell_remove),
