@@ -335,6 +335,43 @@ static void arrays_reach_it(void **state)
     foreign_close(package);
 }
 
+// Velocities and accelerations of the tube off the FMU's frame between two instants, against
+// differences of places and velocities: a frame that turns by 0.4 rad about no axis of its own.
+static void the_tube_moves_as_its_rates_say(void **state)
+{
+    (void)state;
+    on_platform self = begin(ON_PLATFORM_2 "  at: 0.5 0.25 -0.125 m\n", 1e-7, 0.1);
+    base_system base;
+    ld_error error;
+    base_frame at[3];
+    base_found found;
+    double y[BASE_MOST_STATES] = {0, 0.1}, worst[4] = {0};
+    const v3 turn = v3_make(0.2, -0.3, 0.17), rate = v3_make(3, -2, 1);
+    quat q = q_from_matrix(rv_exp(turn));
+    const double h = 1e-5, frames[26] = {0,   0,   0,  1, 0,   0,      0,      1,     2,
+                                         -1,  1,   -4, 2, 0.1, 0.25,   -0.1,   q.w,   q.x,
+                                         q.y, q.z, 2,  1, 0,   rate.x, rate.y, rate.z};
+    memcpy(y + 2, frames, sizeof frames);
+    assert_int_equal(base_build(&base, &self.model, &error), LD_OK);
+    for (double t = 0.01; t < 0.095; t += 0.02) {
+        for (int i = 0; i < 3; i++)
+            base.kind->place(&base, t + (i - 1) * h, y, &at[i], &found);
+        m3 turned = m3_mul(at[2].A, m3_transpose(at[0].A));
+        const v3 of[4][2] = {{v3_sub(at[2].r, at[0].r), at[1].v},
+                             {v3_sub(at[2].v, at[0].v), at[1].a},
+                             {rv_log(turned), at[1].w},
+                             {v3_sub(at[2].w, at[0].w), at[1].alpha}};
+        for (int i = 0; i < 4; i++)
+            worst[i] = fmax(worst[i], v3_norm(v3_sub(v3_scale(0.5 / h, of[i][0]), of[i][1])));
+    }
+    CHECK_BELOW("velocity [m/s]", worst[0], 1e-7);
+    CHECK_BELOW("acceleration [m/s2]", worst[1], 1e-7);
+    CHECK_BELOW("angular velocity [rad/s]", worst[2], 3e-8);
+    CHECK_BELOW("angular acceleration [rad/s2]", worst[3], 1e-7);
+    base_free(&base);
+    end(&self);
+}
+
 // ---- steps that it does not take whole
 
 static void a_step_broken_off_goes_on(void **state)
@@ -571,6 +608,7 @@ int main(void)
         cmocka_unit_test(parameters_reach_it),
         cmocka_unit_test(texts_reach_it),
         cmocka_unit_test(arrays_reach_it),
+        cmocka_unit_test(the_tube_moves_as_its_rates_say),
         cmocka_unit_test(a_step_broken_off_goes_on),
         cmocka_unit_test(what_goes_wrong_is_one_sentence),
         cmocka_unit_test(what_does_not_fit_is_one_sentence),

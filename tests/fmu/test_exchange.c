@@ -329,6 +329,9 @@ static void moves_with_its_base(void **state)
     by.input = tell_swaying;
     tell_swaying(&by, -0.1);
     importer_start(&by, -0.1);
+    // no work is done yet: behind the states of the base stand those
+    assert_true(importer_value(&by, "state.work.thrust") == 0);
+    assert_true(importer_value(&by, "state.work.base") == 0);
     // an input alone moves it
     static double rate[3][IMPORTER_MOST];
     importer_rates(&by, rate[0]);

@@ -47,6 +47,25 @@ static void test_within_a_step(void **state)
     CHECK_NEAR("apogee [m]", flight.apogee, z0 + a * 200 + v * v / (2 * g), 1e-10);
 }
 
+// The same downwards, braked by a: the pressure grows by the density and falls by the speed, and is
+// greatest where 2 a/v = g/(R T) dH/dz v.
+static void test_within_a_step_of_a_fall(void **state)
+{
+    (void)state;
+    ld_flight_summary flight =
+        fly("launchdyn: 1\n"
+            "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2,\n"
+            "  motor: {thrust: [[0 s, 498.0665 N], [20 s, 498.0665 N], [20 s, 0 N]]}}\n"
+            "flight: {position: 0 19500 0 m, velocity: 0 -800 0 m/s, attitude: {pitch: 90 deg}}\n"
+            "run: {end: 6 s}\n");
+    const double a = 40, r = 6356766, H = 8314.32 / 28.9644 * 216.65 / g, v0 = 800;
+    double t = 0;
+    for (int i = 0; i < 50; i++)
+        t = (v0 - sqrt(2 * a * H) * (r + 19500 - v0 * t + a * t * t / 2) / r) / a;
+    CHECK_NEAR("time of the greatest dynamic pressure of a fall [s]", flight.t_max_dynamic_pressure,
+               t, 1e-7);
+}
+
 // A mass that halves: thrust over the mass is greatest where the thrust ends; of a thrust that
 // begins with its peak, at the ignition, which the clock counts from.
 static void test_at_corners(void **state)
@@ -136,9 +155,8 @@ static void test_no_margin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_within_a_step),
-        cmocka_unit_test(test_at_corners),
-        cmocka_unit_test(test_columns),
+        cmocka_unit_test(test_within_a_step), cmocka_unit_test(test_within_a_step_of_a_fall),
+        cmocka_unit_test(test_at_corners),    cmocka_unit_test(test_columns),
         cmocka_unit_test(test_no_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
