@@ -66,8 +66,9 @@ local function code_block(block)
         block.classes = { language }
     end
     local result = { block }
-    if word and word ~= "long" and word ~= "elsewhere" then
-        result = { pandoc.Div({ pandoc.Plain { pandoc.Str(word) }, block }, pandoc.Attr("", { "file" })) }
+    if word and not word:match("^long") and word ~= "elsewhere" then
+        result = { pandoc.Div({ pandoc.Div({ pandoc.Plain { pandoc.Str(word) } }, pandoc.Attr("", { "name" })), block },
+            pandoc.Attr("", { "file" })) }
     end
     if class:match("^sh") or class:match("^console") then
         for _, picture in ipairs(pictures(block.text)) do
