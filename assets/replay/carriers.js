@@ -4,7 +4,7 @@
 import { Group } from "three";
 import { edge, paint } from "./launcher.js";
 import { box, cylinder, loft, place, prism, Sleeve } from "./shapes.js";
-import { apply } from "./vector.js";
+import { add, apply, subtract } from "./vector.js";
 
 // Places of a list of 0 to 1 where curves of hulls and bodies have their points.
 const steps = (count) => Array.from({ length: count + 1 }, (_, i) => i / count);
@@ -34,7 +34,7 @@ class Carrier {
     this.group.add(slide);
   }
   // Corners of the launcher in the base's axes.
-  corners() {
+  launcherCorners() {
     const { envelope: { low, high }, length, mount } = this.motion, ends = [0, length];
     return ends.flatMap((x) => [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => apply(mount, [x, y, z]))));
   }
@@ -54,7 +54,7 @@ class Carrier {
   }
   // Level of what it stands on: below launcher and supports.
   level() {
-    return Math.min(0, ...this.corners().map(([, y]) => y)) - 0.2 * this.motion.length;
+    return Math.min(0, ...this.launcherCorners().map(([, y]) => y)) - 0.2 * this.motion.length;
   }
   show(state, anchor) {
     place(this.group, [0, 1, 2].map((i) => state.base.r[i] - anchor[i]), state.base.A);
@@ -69,8 +69,15 @@ class Plate extends Carrier {
     this.group.add(box([Math.min(...xs) - margin, level - thick, Math.min(...zs) - margin],
       [Math.max(...xs) + margin, level, Math.max(...zs) + margin], paint.vehicle, edge));
     this.stand(level);
+    this.eye = { direction: [4.4, 2.8, 9.9], aim: [0, 0, 0] };
+    this.plate = { xs: [Math.min(...xs), Math.max(...xs)], zs: [Math.min(...zs), Math.max(...zs)], y: level };
     const foot = motion.value("base.y")[0] + level - thick;
     this.ground = foot > 0.3 ? 0 : foot - 0.01;
+  }
+  // Where the supports stand on it, from the anchor.
+  corners(state, anchor) {
+    const { xs, zs, y } = this.plate;
+    return xs.flatMap((x) => zs.map((z) => subtract(add(state.base.r, apply(state.base.A, [x, y, z])), anchor)));
   }
 }
 
@@ -114,7 +121,7 @@ class Ship extends Carrier {
   }
   // Bridge, mast and funnel behind the launcher, or before it.
   house(aft) {
-    const { deck, beam, length, group } = this, u = length / 40, xs = this.corners().map(([x]) => x);
+    const { deck, beam, length, group } = this, u = length / 40, xs = this.launcherCorners().map(([x]) => x);
     const front = aft ? Math.max(...xs) + 0.32 * length : Math.min(...xs) - 1.5 * u, half = 0.36 * beam;
     const tier = (from, to, low, high, share) =>
       group.add(box([front - to, deck + low, -share * half], [front - from, deck + high, share * half], paint.bright, edge));
@@ -134,7 +141,7 @@ class Aircraft extends Carrier {
   constructor(motion, scene) {
     super(motion, scene);
     const length = Math.max(4.4 * motion.length, 6), radius = 0.062 * length, above = !motion.hangs;
-    const ys = this.corners().map(([, y]) => y), gap = 0.45 * radius;
+    const ys = this.launcherCorners().map(([, y]) => y), gap = 0.45 * radius;
     const axis = above ? Math.min(...ys) - gap - radius : Math.max(...ys) + gap + radius;
     const middle = apply(motion.mount, [0.5 * motion.length, 0, 0]);
     Object.assign(this, { length, radius, axis, nose: middle[0] + 0.5 * length, side: middle[2] });

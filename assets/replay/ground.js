@@ -1,6 +1,9 @@
 // What a launcher stands on: a road with its heights, a grid, and the way of a rocket in flight.
 import { BufferAttribute, BufferGeometry, CircleGeometry, Float32BufferAttribute, Group, Line, LineLoop, LineSegments, Mesh,
   MeshBasicMaterial, Points, PointsMaterial } from "three";
+import { Line2 } from "three/examples/jsm/lines/Line2.js";
+import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { COLOURS } from "./launcher.js";
 import { line, material } from "./shapes.js";
 
@@ -158,8 +161,10 @@ export class Path {
       made.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
       return made;
     };
-    this.whole = new Line(geometry(), line(COLOURS.rocket, { transparent: true, opacity: 0.35 }));
+    this.whole = new Line(geometry(), line(COLOURS.rocket, { transparent: true, opacity: 0.6 }));
     this.flown = new Line(geometry(), line(COLOURS.rocket));
+    this.wide = new Line2(new LineGeometry().setPositions(points), new LineMaterial({ color: COLOURS.rocket, linewidth: 2.5, transparent: true, opacity: 0.6 }));
+    this.wide.frustumCulled = false;
     const track = new BufferGeometry(), ground = Math.min(0, ...y) - y[0];
     track.setAttribute("position", new Float32BufferAttribute(points.map((v, i) => (i % 3 === 1 ? ground : v)), 3));
     this.track = new Line(track, line(COLOURS.other, { transparent: true, opacity: 0.7 }));
@@ -168,7 +173,7 @@ export class Path {
     this.dot = new Points(dot, new PointsMaterial({ color: COLOURS.rocket, size: 7, sizeAttenuation: false }));
     this.track.frustumCulled = this.whole.frustumCulled = this.flown.frustumCulled = this.dot.frustumCulled = false;
     this.group = new Group();
-    this.group.add(this.track, this.whole, this.flown, this.dot);
+    this.group.add(this.track, this.whole, this.flown, this.wide, this.dot);
     group.add(this.group);
   }
   show(anchor, state, afar) {

@@ -1,7 +1,7 @@
 // The vehicle with its platforms, and what all bodies are painted with.
 import { Group } from "three";
 import { box, cylinder, line, material, place, prism } from "./shapes.js";
-import { add, subtract } from "./vector.js";
+import { add, apply, subtract } from "./vector.js";
 
 export const RING = 32; // points of a circle
 export const COLOURS = {
@@ -36,9 +36,15 @@ export class Vehicle {
       this.azimuth.add(box([e[0] - 0.16, 0.1, z - 0.04], [e[0] + 0.16, e[1] + 0.12, z + 0.04], paint.platform, edge));
     this.azimuth.add(box([Math.min(0, e[0]) - 0.2, 0.05, -width], [Math.max(0, e[0]) + 0.3, 0.16, width], paint.platform, edge));
     this.wheels = mounts.map(() => wheel(R));
-    const high = Math.max(1, (motion.length * Math.sin(motion.value("base.pitch")[0])) / 2.8);
-    this.eye = { distance: high, direction: [4.4, 2.8, 9.9], aim: [0.1, 1.7 * high - 1, 0] };
+    this.eye = { direction: [4.4, 2.8, 9.9], aim: [0, 0, 0] };
+    this.ends = [-R, R].map((room) => [(room < 0 ? rear : front) + 1.3 * room, Math.min(...mounts.map((m) => m[1])) - R]);
+    this.side = side;
     group.add(this.chassis, this.azimuth, ...this.wheels);
+  }
+  // Corners of all of it, from the anchor.
+  corners(state, anchor) {
+    return this.ends.flatMap(([x, y]) => [-this.side, this.side].map((z) =>
+      subtract(add(state.chassis.r, apply(state.chassis.A, [x, y, z])), anchor)));
   }
   width() {
     const zs = this.motion.places.map(([, , z]) => z);

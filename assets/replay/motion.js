@@ -210,6 +210,28 @@ export class Motion {
   }
 }
 
+// A flight alone: no launcher, a rocket whose sizes are made up.
+export class FreeMotion {
+  constructor(table, { filled, rowAt }) {
+    const thrust = table.column.get("thrust");
+    Object.assign(this, {
+      free: true, t: table.t, rowAt, length: 3, adaptors: [0, 1.9], center: 1.1, slides: [], clamps: [], adaptorNames: [],
+      segments: [{ name: "flight", first: 0, end: table.t.length, number: 0 }], vehicle: false, empty: [],
+      thrust: thrust ? filled(thrust.value, table.t) : [],
+      guide: { body: 0.08, mostGap: 0, room: 0, clearances: [], ring: () => null, pads: () => [], words: { guide: "tube", shoes: "adaptors" } },
+    });
+  }
+  largest(name) {
+    return name === "thrust" ? this.thrust.reduce((most, v) => Math.max(most, v || 0), 0) : 0;
+  }
+  place(time) {
+    return { row: Math.min(this.t.length - 1, Math.max(0, this.rowAt(this.t, time))) };
+  }
+  at(time) {
+    return { time, number: 0, rocket: null, tube: { r: [0, 0, 0], A: IDENTITY }, read: () => NaN };
+  }
+}
+
 // Which rocket's turn it is in each phase, from 0.
 function numbered(segments) {
   let number = 0;

@@ -1,6 +1,7 @@
 // The replay of a launch: its stage, its clock, what leads them. A bundle of its own, which the
 // report takes in where the results can be replayed and the browser has WebGL.
-import { Flight, Motion } from "./motion.js";
+import { drawGauge } from "./gauge.js";
+import { Flight, FreeMotion, Motion } from "./motion.js";
 import { Stage } from "./stage.js";
 
 const SLIDER = 10000, LARGEST = 1000;
@@ -49,11 +50,13 @@ class Replay {
   // `zero`, the page's helpers, and what to tell of a new instant.
   constructor(host, given) {
     Object.assign(this, given);
-    this.motion = new Motion(this.table, this.geometry, this.rockets, this.tools);
+    this.motion = this.table.kind === "flight" ? new FreeMotion(this.table, this.tools)
+      : new Motion(this.table, this.geometry, this.rockets, this.tools);
     this.ways = this.rockets.map((_, i) => this.flights[i] && new Flight(this.flights[i], this.tools));
     this.clock = new Clock(this.motion, this.ways);
     this.build(host);
     this.stage = new Stage(this.canvas, this.motion, this.ways, this.rockets);
+    this.stage.rendered = () => this.measure();
     this.speed = "auto";
     this.playing = null;
     this.setScale(usualScale(this.motion));
@@ -72,6 +75,7 @@ class Replay {
   // shortly before ignition then, as after its end.
   opening() {
     const { ignition, rear } = this.rockets[0] ?? {};
+    if (this.motion.free) return this.clock.time(0.3);
     return Number.isFinite(ignition) ? ignition + 0.75 * (rear ?? 0) : this.clock.first;
   }
 
@@ -84,6 +88,8 @@ class Replay {
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "Replay of the launch in three dimensions");
     this.canvas.addEventListener("keydown", (event) => this.key(event));
+    this.gauge = element("canvas", { className: "gauge" });
+    this.gauge.setAttribute("aria-hidden", "true");
     this.photo = element("img", { className: "photo", alt: "The launch at the instant shown" });
     this.play = button("Play", () => this.toggle(), { className: "play" });
     this.slider = element("input", { type: "range", min: 0, max: SLIDER, step: 1, className: "time",
@@ -95,21 +101,29 @@ class Replay {
     this.amount = element("input", { type: "range", min: 0, max: 3, step: 0.01, className: "amount",
       oninput: () => { this.setScale(10 ** Number(this.amount.value)); this.redraw(); } });
     this.amountText = element("output", { className: "scale" });
-    this.views = ["launcher", "tube", "rocket", ...(this.ways.some(Boolean) ? ["path"] : [])].map((view) =>
+    this.views = [...(this.motion.free ? [] : ["launcher", "tube"]), "rocket", ...(this.ways.some(Boolean) ? ["path"] : [])].map((view) =>
       button(capital(view === "tube" ? this.motion.guide.words.guide : view), () => this.look(view), { value: view }));
     this.reading = element("output", { className: "reading" });
     host.append(
-      element("div", { className: "screen" }, this.canvas, this.photo, this.legend()),
+      element("div", { className: "screen" }, this.canvas, this.gauge, this.photo, this.legend(), this.saving(button)),
       this.reading,
       element("div", { className: "timeline" }, this.play, element("div", { className: "track" }, this.slider, this.ticks)),
       element("div", { className: "controls" },
         element("span", { role: "group" }, "Look at ", ...this.views),
         element("label", {}, "Speed ", speed),
-        element("label", {}, "Deflection ", this.amount, this.amountText)));
+        this.motion.free ? null : element("label", {}, "Deflection ", this.amount, this.amountText)));
+  }
+  // Buttons in the picture's corner.
+  saving(button) {
+    return this.tools.element("div", { className: "saving", role: "group", ariaLabel: "Save" },
+      button("PNG", () => this.savePicture(), { title: "Save the picture that is shown" }),
+      window.MediaRecorder ? this.filming = button("WebM", () => this.toggleFilm(), { title: "Save a film of the replay, to its end or a second click" }) : null,
+      button("glTF", () => this.saveScene(), { title: "Save the bodies that are shown, for programs that draw in three dimensions" }));
   }
   legend() {
     const { element } = this.tools, item = (name, text) =>
       element("span", {}, element("i", { className: name }), text);
+    if (this.motion.free) return element("div", { className: "key" }, item("rocket", "rocket, of a size made up, and its way"));
     const { guide, shoes } = this.motion.guide.words;
     return element("div", { className: "key" }, item("tube", guide), item("rocket", "rocket"),
       item("adaptor", shoes), item("force", "contact forces"), ...(this.motion.clamps.length > 0 ? [item("clamp", "clamps")] : []));
@@ -195,7 +209,9 @@ class Replay {
       passed -= used;
     }
     this.show(Math.min(this.clock.last, time));
-    if (time >= this.clock.last) this.pause();
+    if (time < this.clock.last) return;
+    this.pause();
+    if (this.film?.recorder.state === "recording") this.film.recorder.stop();
   }
   // Shows an instant on the run's clock; `quiet`: tells nobody.
   show(time, quiet = false) {
@@ -229,6 +245,8 @@ class Replay {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     this.stage.resize(width, height);
+    const scale = Math.min(devicePixelRatio, 2);
+    Object.assign(this.gauge, { width: width * scale, height: height * scale });
     this.nameInstants(this.ticks.clientWidth);
     this.show(this.time, true);
   }
@@ -239,10 +257,57 @@ class Replay {
   redraw() {
     if (this.stage.state) this.show(this.time, true);
   }
+  // Axes, length and force over what has just been drawn; a film takes both.
+  measure() {
+    const { colour } = this.tools;
+    drawGauge(this.gauge, this.stage.measured(), { ink: colour("ink"), paper: colour("card") }, Math.min(devicePixelRatio, 2));
+    if (this.film) this.compose(this.film.canvas);
+  }
+
+  // ---- what is handed out ----
+
+  // The picture with what is drawn over it, on a canvas of its own or a given one.
+  compose(canvas = document.createElement("canvas")) {
+    const { width, height } = this.canvas, ctx = canvas.getContext("2d");
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    ctx.drawImage(this.canvas, 0, 0);
+    ctx.drawImage(this.gauge, 0, 0, width, height);
+    return canvas;
+  }
+  name(ending) {
+    return `launch-${(this.time - this.zero).toFixed(4)}s.${ending}`;
+  }
+  savePicture() {
+    this.stage.render();
+    this.compose().toBlob((blob) => this.tools.download(this.name("png"), blob, "image/png"), "image/png");
+  }
+  saveScene() {
+    this.tools.download(this.name("gltf"), JSON.stringify(this.stage.gltf(`launchdyn ${this.version}`)), "model/gltf+json");
+  }
+  // Records what is played from here, or from the start where it stands at first or at its end.
+  toggleFilm() {
+    if (this.film) {
+      this.film.recorder.stop();
+      return;
+    }
+    this.stage.render();
+    const canvas = this.compose(), recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: "video/webm" }), parts = [];
+    recorder.ondataavailable = ({ data }) => parts.push(data);
+    recorder.onstop = () => {
+      this.film = null;
+      this.filming.textContent = "WebM";
+      this.pause();
+      this.tools.download("launch.webm", new Blob(parts, { type: "video/webm" }), "video/webm");
+    };
+    this.film = { canvas, recorder, parts };
+    this.filming.textContent = "Stop";
+    recorder.onstart = () => { if (!this.playing) this.start(); };
+    recorder.start(200); // hands out what it has each 200 ms
+  }
   // A picture for paper, where a canvas would stay empty.
   photograph() {
     this.stage.render();
-    this.photo.src = this.canvas.toDataURL("image/png");
+    this.photo.src = this.compose().toDataURL("image/png");
   }
 }
 

@@ -1,5 +1,5 @@
 // A rocket with its adaptors or shoes, and the forces on it.
-import { ConeGeometry, CylinderGeometry, BufferGeometry, Float32BufferAttribute, Group, Mesh } from "three";
+import { ConeGeometry, CylinderGeometry, BufferGeometry, DoubleSide, Float32BufferAttribute, Group, Mesh, MeshBasicMaterial } from "three";
 import { COLOURS, edge, RING } from "./launcher.js";
 import { angular, Beams, material, place, point, Sleeve } from "./shapes.js";
 import { add, scaled, subtract } from "./vector.js";
@@ -17,6 +17,7 @@ export class Rocket {
     this.body.geometry.setAttribute("color", stripes(this.profile.length));
     this.rings = adaptors.map(() => new Sleeve(7, RING, material(COLOURS.adaptor)));
     this.shoes = adaptors.map(() => new Beams(guide.pads(0, 0).length, 2, angular(COLOURS.adaptor), edge));
+    this.ghosts = [...this.rings.map(({ mesh }) => mesh), ...this.shoes.map((shoe) => shoe.group.children[0])].map(ghostOf);
     this.half = Math.min(0.01 * motion.length, 0.15 * front); // half the length of an adaptor
     this.flame = new Mesh(new ConeGeometry(1, 1, 20, 1, true), material(COLOURS.flame,
       { transparent: true, opacity: 0.75, depthWrite: false, emissive: 0xff7a00 }));
@@ -25,7 +26,7 @@ export class Rocket {
     for (let i = 0; i < 4; i++) this.fins.add(fin(body, (Math.PI * i) / 2));
     this.group = new Group();
     this.group.add(this.body.mesh, this.flame, this.fins, ...this.rings.map(({ mesh }) => mesh),
-      ...this.shoes.map((shoe) => shoe.group));
+      ...this.shoes.map((shoe) => shoe.group), ...this.ghosts.map(({ ghost }) => ghost));
     group.add(this.group);
     this.straight = false;
   }
@@ -70,6 +71,7 @@ export class Rocket {
       ring.draw([[-half, low], [-half, high], [-half / 2, high], [0, high], [half / 2, high], [half, high], [half, low]]
         .map(([step, r]) => ({ at: at(l + step), radius: r })));
     });
+    for (const { ghost, of } of this.ghosts) ghost.visible = of.visible;
     const rear = at(this.profile[0].l), ahead = at(this.profile[1].l + 0.1);
     this.burn(rear, subtract(rear, ahead), burning);
   }
@@ -95,6 +97,15 @@ export class Rocket {
     if (ring.mesh.visible) return { centre: ring.centre(3), radius: ring.radius(3) };
     return { centre: scaled(0.5, add(shoe.centre(0, 0), shoe.centre(0, 1))), radius: 0 };
   }
+}
+
+// What is seen of an adaptor or shoe through whatever stands before it.
+function ghostOf(mesh) {
+  const ghost = new Mesh(mesh.geometry, new MeshBasicMaterial({ color: COLOURS.adaptor, transparent: true, opacity: 0.45,
+    depthTest: false, depthWrite: false, side: DoubleSide }));
+  ghost.renderOrder = 3;
+  ghost.frustumCulled = false;
+  return { ghost, of: mesh };
 }
 
 // Radius over the length: nozzle, body, ogive.
@@ -134,6 +145,7 @@ export class Forces {
     this.motion = motion;
     this.group = new Group();
     this.most = Math.max(1e-9, ...motion.adaptorNames.map((name) => motion.largest(`contact.${name}.force`)));
+    this.metresPerNewton = (0.28 * motion.length) / this.most; // an arrow is as long as its force
     this.arrows = motion.adaptors.map(() => {
       const arrow = new Group(), paintIt = material(COLOURS.force, { emissive: 0x0b5c35 });
       arrow.shaft = new Mesh(new CylinderGeometry(0.013, 0.013, 1, 12), paintIt);
@@ -151,12 +163,14 @@ export class Forces {
       arrow.visible = Boolean(rocket) && force > 1e-3 * this.most && e > 0;
       if (!arrow.visible) return;
       const inward = [0, y / e, z / e], { centre } = rocket.adaptor(i);
-      const tip = subtract(centre, scaled(this.reach(centre, inward), inward)), length = 0.09 + 0.75 * (force / this.most);
-      arrow.scale.setScalar(this.motion.length / 3);
+      const tip = subtract(centre, scaled(this.reach(centre, inward), inward)), size = this.motion.length / 3;
+      const length = (this.metresPerNewton * force) / size, head = Math.min(1, length / 0.18);
+      arrow.scale.setScalar(size);
       point(arrow, tip, inward);
-      arrow.head.position.set(0, -0.045, 0);
-      arrow.shaft.position.set(0, -0.09 - (length - 0.09) / 2, 0);
-      arrow.shaft.scale.set(1, Math.max(1e-3, length - 0.09), 1);
+      arrow.head.scale.setScalar(head);
+      arrow.head.position.set(0, -0.045 * head, 0);
+      arrow.shaft.position.set(0, -0.09 * head - (length - 0.09 * head) / 2, 0);
+      arrow.shaft.scale.set(1, Math.max(1e-3, length - 0.09 * head), 1);
     });
   }
   // Where the force at an adaptor points across the guide: as a shoe's surfaces push, in a bore towards its axis.

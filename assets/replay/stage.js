@@ -5,12 +5,25 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { carrierOf } from "./carriers.js";
 import { Clamps } from "./clamps.js";
 import { Grid, Horizon, Map, Path, Road, Sea } from "./ground.js";
+import { gltfOf } from "./gltf.js";
 import { Vehicle } from "./launcher.js";
 import { Forces, Rocket } from "./rocket.js";
 import { Pack, Rail, Tube } from "./tubes.js";
-import { add, apply, scaled, subtract, turnedBack } from "./vector.js";
+import { add, apply, cross, dot, scaled, subtract, turnedBack, unit } from "./vector.js";
 
 const FIELD = 32; // degrees that the eye takes in from top to bottom
+const FILLED = 0.88; // of that what is looked at may take
+
+// Where an eye that looks along -`towards` sees all of the points, as near as it may: the middle it looks at, and how far
+// from it it is. `half`: tangents of half the field, to the side and up.
+function fitted(points, towards, half) {
+  const d = unit(towards), right = unit(cross([0, 1, 0], d)), up = cross(d, right);
+  const along = (axis) => points.map((p) => dot(p, axis)), [a, b, c] = [right, up, d].map(along);
+  const middle = (v) => 0.5 * (Math.min(...v) + Math.max(...v)), centre = [middle(a), middle(b), middle(c)];
+  const distance = Math.max(...points.map((_, i) => c[i] - centre[2] +
+    Math.max(Math.abs(a[i] - centre[0]) / half[0], Math.abs(b[i] - centre[1]) / half[1]) / FILLED));
+  return { aim: add(add(scaled(centre[0], right), scaled(centre[1], up)), scaled(centre[2], d)), distance, d };
+}
 
 export class Stage {
   constructor(canvas, motion, flights, rockets) {
@@ -23,23 +36,27 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => { if (!this.following) this.draw(); });
     this.light();
-    this.base = motion.vehicle ? new Vehicle(motion, this.scene) : carrierOf(motion, this.scene);
-    this.road = motion.vehicle ? new Road(motion, this.scene) : null;
-    this.grid = new Grid(motion.vehicle ? -0.02 : this.base.ground, this.base.sea, this.scene);
-    this.sea = this.base.sea ? new Sea(this.base.ground, this.scene) : null;
-    this.horizon = this.base.horizon ? new Horizon(this.scene) : null;
-    this.pack = new Pack(motion, this.scene);
-    this.tube = new (motion.guide.kind === "bore" ? Tube : Rail)(motion, this.scene);
-    this.clamps = new Clamps(motion, this.scene);
+    if (!motion.free) this.buildLauncher();
     this.bodies = rockets.map(() => new Rocket(motion, this.scene));
-    this.forces = new Forces(motion, this.scene);
+    this.forces = motion.free ? null : new Forces(motion, this.scene);
     this.paths = flights.map((flight) => flight && new Path(flight, this.scene));
     this.map = this.paths.some(Boolean) ? new Map(this.extent(), this.scene) : null;
     this.thrust = Math.max(motion.largest("thrust"), 1e-9);
     this.scale = this.gap = 1;
-    this.view = "launcher";
+    this.view = motion.free ? "path" : "launcher";
     this.target = null;
     this.seen = false; // nothing is drawn while the canvas is out of sight
+  }
+  buildLauncher() {
+    const { motion, scene } = this;
+    this.base = motion.vehicle ? new Vehicle(motion, scene) : carrierOf(motion, scene);
+    this.road = motion.vehicle ? new Road(motion, scene) : null;
+    this.grid = new Grid(motion.vehicle ? -0.02 : this.base.ground, this.base.sea, scene);
+    this.sea = this.base.sea ? new Sea(this.base.ground, scene) : null;
+    this.horizon = this.base.horizon ? new Horizon(scene) : null;
+    this.pack = new Pack(motion, scene);
+    this.tube = new (motion.guide.kind === "bore" ? Tube : Rail)(motion, scene);
+    this.clamps = new Clamps(motion, scene);
   }
   light() {
     const sun = new DirectionalLight(0xffffff, 2.1);
@@ -55,13 +72,14 @@ export class Stage {
   resize(width, height) {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
+    if (this.camera.aspect !== width / height) this.target = null; // the view begins again
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
   }
   paint(colour) {
     this.scene.background = null;
     this.renderer.setClearColor(colour("card"), 1);
-    this.grid.paint(colour);
+    this.grid?.paint(colour);
     this.road?.paint(colour);
     this.map?.paint(colour);
     this.sea?.paint(colour);
@@ -74,7 +92,7 @@ export class Stage {
     const { motion } = this, state = motion.at(time);
     this.state = state;
     const fired = new Set(motion.empty), launching = this.rockets[state.number]?.tube ?? 1;
-    this.anchor = motion.vehicle ? [state.chassis.r[0], 0, state.chassis.r[2]] : state.base.r;
+    this.anchor = motion.free ? this.flights[0].points().map((values) => values[0]) : motion.vehicle ? [state.chassis.r[0], 0, state.chassis.r[2]] : state.base.r;
     this.flying = this.flights.map((flight) =>
       flight && time >= flight.t[0] ? flight.at(time) : null);
     this.bodies.forEach((body, i) => {
@@ -86,13 +104,7 @@ export class Stage {
         body.showInTube(state, this.anchor, this.scale, this.gap, clearances, state.thrust / this.thrust);
       } else body.hide();
     });
-    this.base.show(state, this.anchor);
-    this.road?.show(this.anchor);
-    this.grid.show(this.anchor);
-    this.pack.show(state, this.anchor, launching, fired, this.view === "tube" || this.view === "rocket");
-    this.clamps.show(state, this.anchor);
-    const current = this.bodies[state.number];
-    this.forces.show(state, this.anchor, state.rocket && !this.flying[state.number] ? current : null);
+    if (!motion.free) this.showLauncher(state, launching, fired);
     const afar = this.view === "path";
     this.paths.forEach((path, i) => path?.show(this.anchor, this.flying[i], afar));
     this.map?.show(this.anchor, afar);
@@ -100,17 +112,34 @@ export class Stage {
     this.follow();
     this.draw();
   }
+  showLauncher(state, launching, fired) {
+    this.base.show(state, this.anchor);
+    this.road?.show(this.anchor);
+    this.grid.show(this.anchor);
+    this.pack.show(state, this.anchor, launching, fired, this.view === "tube" || this.view === "rocket");
+    this.clamps.show(state, this.anchor);
+    const current = this.bodies[state.number];
+    this.forces.show(state, this.anchor, state.rocket && !this.flying[state.number] ? current : null);
+  }
   // Draws what is there as the eye sees it, where somebody can; the cut of the tube turns to the eye.
   draw() {
     const { state } = this, middle = apply(state.tube.A, [0.6 * this.motion.length, 0, 0]);
     const to = subtract(subtract(this.camera.position.toArray(), middle), subtract(state.tube.r, this.anchor));
     const [, y, z] = turnedBack(state.tube.A, to);
-    this.tube.show(state, this.anchor, this.scale, Math.atan2(z, y));
+    this.tube?.show(state, this.anchor, this.scale, Math.atan2(z, y));
     this.horizon?.show(this.camera.position, this.view !== "path");
     if (this.seen) this.render();
   }
   render() {
     this.renderer.render(this.scene, this.camera);
+    this.rendered?.();
+  }
+  // The scene as glTF, without what stands for the ground, the far away and what is seen through others.
+  gltf(generator) {
+    const left = new Set([this.grid?.lines, this.sea?.disc, this.horizon?.circle, this.map?.lines,
+      ...this.bodies.flatMap(({ ghosts }) => ghosts.map(({ ghost }) => ghost)), ...this.paths.map((path) => path?.wide)]);
+    this.scene.updateMatrixWorld();
+    return gltfOf(this.scene, (object) => !left.has(object), generator);
   }
 
   // ---- the eye ----
@@ -122,7 +151,7 @@ export class Stage {
     const flying = this.flying.map((flight, i) => (flight ? i : -1)).filter((i) => i >= 0);
     return flying.length > 0 ? flying.at(-1) : state.number;
   }
-  // What a view looks at, from the anchor.
+  // What a view looks at, from the anchor; the view follows it.
   aim() {
     const { motion, state, anchor } = this, inTube = (x) =>
       subtract(add(state.tube.r, apply(state.tube.A, [x, 0, 0])), anchor);
@@ -139,15 +168,24 @@ export class Stage {
     const { motion, state } = this, wide = Math.max(1, 1.5 / this.camera.aspect);
     if (this.view === "path" && this.paths.some(Boolean)) {
       const { size } = this.pathBox();
-      return scaled(1.05 * wide * Math.max(size, 1), [-0.3, 0.42, 1]);
+      return scaled(0.9 * wide * Math.max(size, 1), [-0.3, 0.42, 1]);
     }
     const across = (v) => apply(state.tube.A, v);
     if (this.view === "rocket")
       return this.flying[this.watched()] ? scaled(wide * 2.2 * motion.length / 3, [-1.7, 0.9, 3.1])
         : across(scaled(wide * motion.length / 3, [0.5, 1.3, 3.2]));
-    if (this.view === "tube") return across(scaled(wide * motion.length / 3, [0.6, 1.6, 6.4]));
+    if (this.view === "tube") return across([0.6, 1.6, 6.4]);
     const { distance, direction } = this.base.eye;
-    return scaled(wide * distance, direction);
+    return scaled(wide * (distance ?? 1), direction);
+  }
+  // What a view has to show all of, from the anchor: nothing where it has a distance of its own.
+  shownPoints() {
+    if (this.motion.free) return null;
+    const { motion, state, anchor } = this, { low, high } = motion.envelope, corners = (from, to) => [from, to].flatMap((x) =>
+      [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => subtract(add(state.tube.r, apply(state.tube.A, [x, y, z])), anchor))));
+    if (this.view === "tube") return corners(-0.02 * motion.length, 1.12 * motion.length);
+    if (this.view !== "launcher" || this.base.eye.distance !== undefined) return null;
+    return [...corners(0, 1.02 * motion.length), ...this.base.corners(state, anchor)];
   }
   // Corners of all flights together.
   extent() {
@@ -167,21 +205,34 @@ export class Stage {
     this.view = view;
     this.target = null;
   }
+  // Eye and aim of a view that begins, from what it follows.
+  begin(aim) {
+    const half = Math.tan((FIELD * Math.PI) / 360), points = this.shownPoints();
+    const { aim: seen, distance, d } = points ? fitted(points, this.stand(), [half * this.camera.aspect, half]) : {};
+    this.offset = points ? subtract(seen, aim) : [0, 0, 0];
+    this.camera.position.set(...(points ? add(seen, scaled(distance, d)) : add(aim, this.stand())));
+    const far = Math.max(400, 6 * this.camera.position.distanceTo(new Vector3(...aim)));
+    this.camera.near = this.view === "path" ? far * 1e-4 : 0.05;
+    this.camera.far = far;
+    this.camera.updateProjectionMatrix();
+  }
   // Moves eye and aim together with what the view follows.
   follow() {
     const aim = this.aim(), { position } = this.camera, flew = Boolean(this.flying[this.watched()]);
-    if (!this.target || (this.view === "rocket" && flew !== this.flew)) {
-      position.set(...add(aim, this.stand()));
-      const far = Math.max(400, 6 * position.distanceTo(new Vector3(...aim)));
-      this.camera.near = this.view === "path" ? far * 1e-4 : 0.05;
-      this.camera.far = far;
-      this.camera.updateProjectionMatrix();
-    } else position.add(new Vector3(...subtract(aim, this.target)));
+    if (!this.target || (this.view === "rocket" && flew !== this.flew)) this.begin(aim);
+    else position.add(new Vector3(...subtract(aim, this.target)));
     this.flew = flew;
     this.target = aim;
-    this.controls.target.set(...aim);
+    this.controls.target.set(...add(aim, this.offset));
     this.following = true; // the eye that we move ourselves asks for no other picture
     this.controls.update();
     this.following = false;
+  }
+  // What the gauge shows: axes of I in the picture, pixels a metre and a newton where the view looks at.
+  measured() {
+    const { camera, controls } = this, d = camera.position.distanceTo(controls.target), e = camera.matrixWorldInverse.elements;
+    const perMetre = this.renderer.domElement.clientHeight / (2 * Math.tan((FIELD * Math.PI) / 360) * d);
+    const forces = this.view !== "path" && this.forces ? perMetre * this.forces.metresPerNewton : 0;
+    return { axes: [0, 1, 2].map((i) => [e[4 * i], e[4 * i + 1]]), perMetre, perNewton: forces };
   }
 }

@@ -22,9 +22,9 @@ export function curveColour(index) {
   return colour(`curve${index % 8}`);
 }
 
-// Hands a text to the user as a file.
-export function download(name, text) {
-  const url = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+// Hands a text, or a blob, to the user as a file.
+export function download(name, content, type = "text/csv") {
+  const url = URL.createObjectURL(new Blob([content], { type }));
   const link = element("a", { href: url, download: name });
   document.body.append(link);
   link.click();

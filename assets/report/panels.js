@@ -1,7 +1,7 @@
 // What a figure's panels show of a table: curves ready to be drawn.
 import { filled, matching, rowAt } from "./data.js";
 
-const TOLD = 190, FOLDED = 240; // heights of plots [px]
+const TOLD = 186, FOLDED = 240; // heights of plots [px]
 
 const hasValues = (column) => column.value.some((v) => typeof v === "number");
 

@@ -1,7 +1,7 @@
 // The report of a run: replay, launcher and answer first, then the plots of each table of numbers, then all numbers.
 import { answerCard } from "./answer.js";
 import { decodeTable, filled, inflated, readable, rowAt } from "./data.js";
-import { colour, element, onColours, themeSwitch } from "./page.js";
+import { colour, download, element, onColours, themeSwitch } from "./page.js";
 import { drawingCard } from "./drawing.js";
 import { originBlock } from "./origin.js";
 import { namedFigures, namingOf } from "./naming.js";
@@ -76,7 +76,7 @@ function startReplay(place, shown, flights) {
   let leading = false, last = 0, wanted = null;
   const replay = window.launchdyn.replay(place, {
     table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets,
-    tools: { colour, element, filled, onColours, readable, rowAt },
+    tools: { colour, download, element, filled, onColours, readable, rowAt }, version: data.version,
     shown: (time) => {
       const now = performance.now();
       if (now - last < 400 && replay?.playing) return;
@@ -120,6 +120,7 @@ function state(summary) {
 const { summary, tables: summaryTables, notes: summaryNotes = [] } = readSummary();
 const tables = data.tables.map(decodeTable);
 const launch = tables.find((table) => table.kind === "launch" && table.t.length > 0);
+const replayed = launch ?? tables.find((table) => table.kind === "flight" && table.t.length > 0); // a flight alone has one, too
 const place = element("section", { className: "card replay", id: "replay-card" });
 const nav = element("nav", {}, element("a", { href: "#answer" }, "Answer"));
 
@@ -127,7 +128,7 @@ const nav = element("nav", {}, element("a", { href: "#answer" }, "Answer"));
 function overview() {
   const ignition = data.rockets[0]?.ignition ?? launch?.t[0] ?? 0;
   const answer = answerCard({ summary, state: state(summary), notes: [...data.notes, ...summaryNotes], table: launch, ignition, named });
-  return element("div", { className: `overview${launch ? "" : " alone"}` }, launch ? place : null, answer, launch ? drawing() : null);
+  return element("div", { className: `overview${replayed ? "" : " alone"}` }, replayed ? place : null, answer, launch ? drawing() : null);
 }
 
 // Nothing where an earlier version has kept no geometry.
@@ -142,9 +143,9 @@ function drawing() {
 host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
   themeSwitch()), overview());
 const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, summary, nav));
-if (launch)
-  showReplay(place, shown[tables.indexOf(launch)],
-    data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && table.rocket === i + 1 && table.t.length > 0)));
+if (replayed)
+  showReplay(place, shown[tables.indexOf(replayed)],
+    data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && (!launch || table.rocket === i + 1) && table.t.length > 0)));
 if (summary) {
   host.append(element("h2", { id: "summary-tables" }, "All numbers"), summaryTables);
   nav.append(element("a", { href: "#summary-tables" }, "Numbers"));

@@ -87,7 +87,7 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
 // unpacks.
 static ld_status write_replay(FILE *page, const report_source *source, ld_error *error)
 {
-    if (!report_has_replay(&source->history))
+    if (!report_has_replay(&source->history) && !report_is_flight(&source->history))
         return LD_OK;
     fputs("<script type=\"text/plain\" id=\"replay\">", page);
     ld_status status = report_write_bytes(page, replay_script, replay_script_size, error);

@@ -37,7 +37,7 @@ async function checkOrigin(page, run) {
 // Every figure that the command lists stands on the page, but for those of which this launch has nothing.
 async function checkAllFigures(page) {
   const none = ["pressure", "recoil", "loads"];
-  const listed = launchdyn("plot", "--help").split("Figures for --what")[1].matchAll(/^  ([a-z][a-z-]*) /gm);
+  const listed = launchdyn("plot", "--help").split("Figures for --what")[1].split("Examples:")[0].matchAll(/^  ([a-z][a-z-]*) /gm);
   const names = [...listed].map(([, name]) => name).filter((name) => name !== "all" && !none.includes(name));
   const there = await page.$$eval(".figure", (list) => list.map(({ id }) => id.replace(/^table\d+-/, "")));
   check("the figures of plot, in its order", names.length >= 24 && there.join() === names.join(), there.join(" "));
@@ -230,6 +230,130 @@ async function checkDrawn(page, run, adaptors) {
   }
 }
 
+// How much of the rear adaptor is seen, of what would be if it stood there alone: points of the picture that change with it.
+async function checkRearAdaptor(page) {
+  for (const view of ["launcher", "tube", "rocket"]) {
+    const [seen, alone] = await page.evaluate(([name, time]) => {
+      const replay = window.launchdyn.current, { stage } = replay, gl = stage.renderer.getContext();
+      replay.look(name);
+      replay.show(time + replay.zero, true);
+      const body = stage.bodies[0], ring = [body.rings[0].mesh, body.ghosts[0].ghost];
+      const picture = () => {
+        stage.render();
+        const { drawingBufferWidth: width, drawingBufferHeight: height } = gl, data = new Uint8Array(4 * width * height);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
+        return data;
+      };
+      const changed = () => {
+        const whole = picture();
+        for (const mesh of ring) mesh.visible = false;
+        const without = picture();
+        for (const mesh of ring) mesh.visible = true;
+        let count = 0;
+        for (let i = 0; i < whole.length; i += 4)
+          count += Math.abs(whole[i] - without[i]) + Math.abs(whole[i + 1] - without[i + 1]) + Math.abs(whole[i + 2] - without[i + 2]) > 40;
+        return count;
+      };
+      const others = [...stage.scene.children, ...body.group.children].filter((child) => (child.isGroup || child.isMesh) && child !== body.group && !ring.includes(child));
+      const now = changed(), visible = others.map((child) => child.visible);
+      others.forEach((child) => { child.visible = false; });
+      const bare = changed();
+      others.forEach((child, i) => { child.visible = visible[i]; });
+      return [now, bare];
+    }, [view, 0.02]);
+    check(`nothing hides the rear adaptor: ${view}`, alone > 8 && seen > 0.8 * alone, `${seen} of ${alone} points`);
+  }
+}
+
+// The gauge's pixels a metre are those of the camera, its lengths and forces round and of a size that can be read.
+async function checkGauge(page) {
+  const { found, wanted, least, points } = await page.evaluate(() => {
+    const { stage, gauge } = window.launchdyn.current, { camera, controls } = stage, seen = stage.measured();
+    const at = (v) => {
+      const p = v.clone().project(camera);
+      return [(p.x / 2) * stage.renderer.domElement.clientWidth, (p.y / 2) * stage.renderer.domElement.clientHeight];
+    };
+    const right = controls.target.clone().fromArray(camera.matrixWorld.elements, 0), [a, b] = [controls.target, controls.target.clone().add(right)].map(at);
+    const { data } = gauge.getContext("2d").getImageData(0, 0, gauge.width, gauge.height);
+    let count = 0;
+    for (let i = 3; i < data.length; i += 4) count += data[i] > 100;
+    const length = seen.axes.map(([x, y]) => x * x + y * y).reduce((sum, v) => sum + v);
+    return { found: seen.perMetre, wanted: Math.hypot(b[0] - a[0], b[1] - a[1]), least: length, points: count };
+  });
+  check("the scale is the camera's", near(found, wanted, 1e-3), `${found} and ${wanted} pixels a metre`);
+  check("the axes are", near(least, 2, 1e-6), least); // of three axes at right angles as seen
+  check("both are drawn", points > 300, points);
+}
+
+async function saved(page, name) {
+  const [file] = await Promise.all([page.waitForEvent("download"), page.click(`.saving button:text-is("${name}")`)]);
+  return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+}
+
+// What glTF 2.0 asks of a file, for those parts of it that ours has.
+function gltfFaults(g, buffer) {
+  const faults = [], size = { SCALAR: 1, VEC3: 3 }, need = (fine, what) => { if (!fine) faults.push(what); };
+  need(g.asset.version === "2.0" && g.scenes[g.scene].nodes.length === g.nodes.length, "asset, scene");
+  need(buffer.length === g.buffers[0].byteLength, "length of the buffer");
+  const read = (index) => {
+    const a = g.accessors[index], view = g.bufferViews[a.bufferView], whole = new (a.componentType === 5126 ? Float32Array : Uint32Array)(
+      buffer.buffer.slice(buffer.byteOffset + view.byteOffset, buffer.byteOffset + view.byteOffset + view.byteLength));
+    need([5126, 5125].includes(a.componentType) && whole.length === a.count * size[a.type] && view.byteOffset % 4 === 0, `accessor ${index}`);
+    need(whole.every(Number.isFinite), `numbers of accessor ${index}`);
+    return whole;
+  };
+  for (const { mesh, matrix } of g.nodes) {
+    need(matrix.length === 16 && matrix.every(Number.isFinite) && matrix[15] === 1, "matrix");
+    for (const { attributes, indices, material, mode } of g.meshes[mesh].primitives) {
+      const position = read(attributes.POSITION), count = position.length / 3, { min, max } = g.accessors[attributes.POSITION];
+      need([0, 1, 2].every((k) => position.every((v, i) => i % 3 !== k || (v >= min[k] && v <= max[k]))), "bounds");
+      for (const other of Object.values(attributes)) need(g.accessors[other].count === count, "attributes of one length");
+      if (attributes.NORMAL !== undefined) read(attributes.NORMAL).forEach((v, i, all) =>
+        i % 3 === 0 && need(Math.abs(Math.hypot(v, all[i + 1], all[i + 2]) - 1) < 5e-3, "a normal's length"));
+      if (indices !== undefined) need(read(indices).every((i) => i < count), "an index");
+      need([1, 2, 3, 4].includes(mode) && (mode !== 4 || (indices === undefined ? count : g.accessors[indices].count) % 3 === 0), "mode");
+      need(g.materials[material].pbrMetallicRoughness.baseColorFactor.every((v) => v >= 0 && v <= 1), "colour");
+    }
+  }
+  return [...new Set(faults)];
+}
+
+// The picture, the bodies and a film, as files.
+async function checkSaved(page) {
+  const png = await saved(page, "PNG"), [width, height] = [16, 20].map((at) => png.bytes.readUInt32BE(at));
+  const canvas = await page.$eval(".stage", ({ width: w, height: h }) => [w, h]);
+  check("the picture as PNG", png.name.endsWith(".png") && png.bytes.subarray(1, 4).toString() === "PNG" && width === canvas[0] && height === canvas[1] &&
+    png.bytes.length > 5000, `${png.name}, ${width} by ${height}`);
+  const gltf = await saved(page, "glTF"), g = JSON.parse(gltf.bytes), buffer = Buffer.from(g.buffers[0].uri.split(",")[1], "base64");
+  const faults = gltfFaults(g, buffer);
+  check("the scene as glTF 2.0", gltf.name.endsWith(".gltf") && g.nodes.length > 20 && faults.length === 0, `${g.nodes.length} nodes, ${gltf.bytes.length} bytes ${faults}`);
+  const tip = await page.evaluate(() => {
+    const { tube } = window.launchdyn.current.stage, at = tube.whole.mesh.position.clone().fromArray(tube.whole.centre(tube.whole.rings - 1));
+    return at.applyMatrix4(tube.group.matrixWorld).toArray();
+  });
+  const found = g.nodes.some(({ mesh, matrix: m }) => {
+    const a = g.accessors[g.meshes[mesh].primitives[0].attributes.POSITION], from = g.bufferViews[a.bufferView].byteOffset, ring = 33;
+    if (a.count % ring !== 0 || a.count < 10 * ring) return false;
+    const at = [0, 0, 0];
+    for (let i = a.count - ring; i < a.count - 1; i++)
+      for (let k = 0; k < 3; k++) at[k] += buffer.readFloatLE(from + 4 * (3 * i + k)) / (ring - 1);
+    const seen = [0, 1, 2].map((k) => m[k] * at[0] + m[4 + k] * at[1] + m[8 + k] * at[2] + m[12 + k]);
+    return Math.hypot(...seen.map((v, k) => v - tip[k])) < 1e-5;
+  });
+  check("with the tube's tip where it is drawn", found, tip);
+  await page.selectOption(".controls select", String(1 / 1000));
+  await page.click('.saving button:text-is("WebM")');
+  await page.waitForFunction(() => window.launchdyn.current.film?.parts.reduce((sum, { size }) => sum + size, 0) > 2000);
+  const [film] = await Promise.all([page.waitForEvent("download"), page.evaluate(() => {
+    const replay = window.launchdyn.current;
+    replay.show(replay.clock.last);
+    replay.advance(0.01);
+  })]);
+  const bytes = readFileSync(await film.path());
+  check("a film as WebM, to the end of the replay", film.suggestedFilename() === "launch.webm" && bytes.readUInt32BE(0) === 0x1a45dfa3 && bytes.length > 2000, bytes.length);
+  await page.selectOption(".controls select", "auto");
+}
+
 async function checkControls(page, run) {
   const now = () => page.evaluate(() => window.launchdyn.current.time - window.launchdyn.current.zero);
   await page.evaluate(() => {
@@ -301,7 +425,10 @@ async function checkReplay(browser) {
   const run = runOf("fixed.yaml"), page = await open(browser, run.file, { width: 700 });
   await checkPicture(page);
   await checkDrawn(page, run, ["rear", "middle", "front"]);
+  await checkRearAdaptor(page);
+  await checkGauge(page);
   await checkControls(page, run);
+  await checkSaved(page);
   await leave(page);
   await checkFallbacks(browser, run);
 }
@@ -360,7 +487,7 @@ async function checkShip(browser) {
 async function checkRail(browser) {
   console.log("a rail with a T-slot");
   const sets = ["tubes.guide={line: 160 0 mm, t_slot: {at: -90 0 mm, lips: 60 mm, gap: 0.5 mm, side_gap: 0.3 mm}}", "tubes.slot=none",
-    "tubes.layout={rows: 1, columns: 1}", "firing.1.tube=1"];
+    "tubes.layout={rows: 1, columns: 1}", "firing.1.tube=1", "base.elevation=80 deg"];
   const run = runOf("fixed.yaml", ...sets.flatMap((set) => ["--set", set])), page = await open(browser, run.file, { width: 700 });
   const t = run.column.get("t"), row = rowNear(t, 0.09), at = (name) => run.column.get(name)[row];
   const shown = await page.evaluate((now) => {
@@ -380,6 +507,15 @@ async function checkRail(browser) {
   const words = await page.$eval("main", (main) => main.textContent);
   check("it is a rail with shoes, not a tube with adaptors", /Rocket on|Contact between shoes and rail/.test(words) &&
     !/between adaptors|rear adaptor leaves/.test(words));
+  const span = await page.evaluate(() => {
+    const { stage } = window.launchdyn.current, { motion, state, camera } = stage;
+    const ups = [0, motion.length].map((x) => {
+      const at = camera.position.clone().set(...[0, 3, 6].map((k, i) => state.tube.r[i] - stage.anchor[i] + state.tube.A[k] * x));
+      return at.project(camera).y / 2;
+    });
+    return [Math.min(...ups), Math.max(...ups)];
+  });
+  check("a steep one fills the picture", span[1] - span[0] > 0.6 && span[0] > -0.5 && span[1] < 0.5, span);
   const seen = await look(page, "replay.look('rocket');");
   check("rail and rocket are seen", seen.tube > 500 && seen.rocket > 500, `${seen.tube} and ${seen.rocket}`);
   await picture(page, "rail.png");
@@ -453,6 +589,21 @@ async function checkLooks(browser) {
   await leave(page);
 }
 
+// A flight alone: its way, and the rocket where the results have it.
+async function checkFlight(browser) {
+  console.log("flight.yaml");
+  const run = runOf("flight.yaml"), page = await open(browser, run.file, { width: 700 });
+  const before = await look(page), bare = await look(page, "replay.stage.paths[0].group.visible = false;");
+  check("its way is seen", before.rocket > 200 && bare.rocket < 0.2 * before.rocket, `${before.rocket} points, ${bare.rocket} without`);
+  const said = await page.textContent(".replay .reading");
+  const views = await page.$$eval(".controls button[value]", (list) => list.map(({ value }) => value));
+  check("it is looked at by its way and from beside it", views.join() === "rocket,path" && /height .* squares of/.test(said), `${views}: ${said}`);
+  await page.keyboard.press("Tab");
+  const rocket = await look(page, "replay.stage.paths[0].group.visible = true; replay.look('rocket');");
+  check("the rocket is seen", rocket.rocket > 500, rocket.rocket);
+  await leave(page);
+}
+
 async function checkHostile(browser) {
   console.log("a title that would be code");
   const title = "</title></script><script>window.owned=1</script><img src=x onerror=window.owned=1>";
@@ -475,5 +626,6 @@ await inBrowser(async (browser) => {
   await checkShip(browser);
   await checkRail(browser);
   await checkLooks(browser);
+  await checkFlight(browser);
   await checkHostile(browser);
 });

@@ -1,0 +1,79 @@
+// What the eye measures by, drawn over the picture: the axes of I, a length and a force, both as long as they are at the
+// place that is looked at.
+const MARGIN = 12, AXIS = 24, FORCE_COLOUR = "#17a05d";
+
+// The largest of 1, 2, 5 times a power of ten that is not above a value.
+export function roundBelow(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [5, 2, 1].map((f) => f * power).find((v) => v <= value * (1 + 1e-9));
+}
+
+const said = (value, sizes) => {
+  const [unit, factor] = sizes.find(([, f]) => value * f >= 0.9995) ?? sizes.at(-1);
+  return `${Number((value * factor).toPrecision(3))} ${unit}`;
+};
+const LENGTHS = [["km", 1e-3], ["m", 1], ["cm", 1e2], ["mm", 1e3]], FORCES = [["MN", 1e-6], ["kN", 1e-3], ["N", 1]];
+
+// A length and a force with the pixels that they take: about `wanted` of them, or fewer.
+export function measures({ perMetre, perNewton }, wanted = 120) {
+  const length = roundBelow(wanted / perMetre), force = perNewton > 0 ? roundBelow((0.6 * wanted) / perNewton) : 0;
+  return { length: { value: length, pixels: length * perMetre, text: said(length, LENGTHS) },
+    force: force > 0 ? { value: force, pixels: force * perNewton, text: said(force, FORCES) } : null };
+}
+
+function drawAxes(ctx, axes, x, y, ink, paper) {
+  axes.forEach(([right, up], i) => {
+    const [dx, dy] = [AXIS * right, -AXIS * up], far = Math.hypot(dx, dy);
+    ctx.beginPath();
+    ctx.moveTo(x, y);
+    ctx.lineTo(x + dx, y + dy);
+    ctx.strokeStyle = ctx.fillStyle = ink;
+    ctx.stroke();
+    if (far > 6) write(ctx, "xyz"[i], x + dx * (1 + 8 / far), y + dy * (1 + 8 / far), paper);
+  });
+}
+
+// A text that is read on whatever is below it.
+function write(ctx, text, x, y, paper) {
+  const ink = ctx.strokeStyle, width = ctx.lineWidth;
+  Object.assign(ctx, { strokeStyle: paper, lineWidth: 3, lineJoin: "round" });
+  ctx.strokeText(text, x, y);
+  Object.assign(ctx, { strokeStyle: ink, lineWidth: width });
+  ctx.fillText(text, x, y);
+}
+
+function drawBar(ctx, x, y, { pixels, text }, arrow, paper) {
+  ctx.beginPath();
+  ctx.moveTo(x, y);
+  ctx.lineTo(x + pixels, y);
+  if (!arrow) for (const end of [x, x + pixels]) { ctx.moveTo(end, y - 4); ctx.lineTo(end, y + 4); }
+  ctx.stroke();
+  if (arrow) {
+    ctx.beginPath();
+    ctx.moveTo(x + pixels, y);
+    ctx.lineTo(x + pixels - 8, y - 4);
+    ctx.lineTo(x + pixels - 8, y + 4);
+    ctx.fill();
+  }
+  write(ctx, text, x + pixels / 2, y - 10, paper);
+}
+
+// `seen`: axes as [right, up] of the picture, pixels a metre and a newton; `ink`, `paper`: colours of lines and
+// of what is about their texts.
+export function drawGauge(canvas, seen, { ink, paper }, scale) {
+  const ctx = canvas.getContext("2d"), width = canvas.width / scale, height = canvas.height / scale;
+  ctx.setTransform(scale, 0, 0, scale, 0, 0);
+  ctx.clearRect(0, 0, width, height);
+  ctx.font = "12px sans-serif";
+  ctx.textAlign = "center";
+  ctx.textBaseline = "middle";
+  ctx.lineWidth = 1.5;
+  ctx.lineCap = "round";
+  drawAxes(ctx, seen.axes, MARGIN + 30, height - MARGIN - 28, ink, paper);
+  const { length, force } = measures(seen, Math.min(120, 0.25 * width));
+  ctx.strokeStyle = ctx.fillStyle = ink;
+  drawBar(ctx, MARGIN + 90, height - MARGIN - 4, length, false, paper);
+  if (!force) return;
+  ctx.strokeStyle = ctx.fillStyle = FORCE_COLOUR;
+  drawBar(ctx, MARGIN + 90 + length.pixels + 36, height - MARGIN - 4, force, true, paper);
+}
