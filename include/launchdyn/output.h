@@ -88,10 +88,12 @@ typedef struct ld_picture {
                                ///< columns for; none: tip, contact and relative, or of a flight
                                ///< alone trajectory and flight
     size_t figure_count;
-    double from, to;         ///< [s] from ignition; NaN: what the figure shows by itself
-    char *note;              ///< NULL, or [LD_ERROR_TEXT]: becomes "", or why it is not known
-                             ///< whether a history that was drawn is whole
-    const void *reserved[3]; ///< NULL: room for what later versions may be asked
+    double from, to;   ///< [s] from ignition; NaN: what the figure shows by itself
+    char *note;        ///< NULL, or [LD_ERROR_TEXT]: becomes "", or why it is not known
+                       ///< whether a history that was drawn is whole
+    const char *style; ///< "screen" (NULL), "dark", or "paper": 84 mm wide, without a title
+    double width;      ///< [m] 0: as the style has it; else 0.05 to 0.5, letters stay as large
+    const void *reserved[1]; ///< NULL: room for what later versions may be asked
 } ld_picture;
 
 /// Draws a page with gnuplot, which must be in PATH.

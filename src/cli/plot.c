@@ -28,21 +28,29 @@ static size_t split(char *list, const char *names[MOST])
     return count;
 }
 
-static int draw(const command_line *line, char *what, double from, double to, const char *file)
+// What the options ask for; lengths in mm, times in ms.
+typedef struct wishes {
+    char *what, *file, *style;
+    double from, to, width;
+} wishes;
+
+static int draw(const command_line *line, const wishes *asked)
 {
     const char *names[MOST];
     char note[LD_ERROR_TEXT];
     ld_picture picture = {.folder = line->word,
                           .folder_count = line->count,
                           .figure = names,
-                          .figure_count = split(what, names),
-                          .from = from * 1e-3,
-                          .to = to * 1e-3,
+                          .figure_count = split(asked->what, names),
+                          .from = asked->from * 1e-3,
+                          .to = asked->to * 1e-3,
+                          .style = asked->style,
+                          .width = asked->width * 1e-3,
                           .note = note};
     ld_error error;
-    ld_status status = ld_plot(&picture, file, &error);
+    ld_status status = ld_plot(&picture, asked->file, &error);
     if (!status)
-        command_step("drew %s", file);
+        command_step("drew %s", asked->file);
     if (!status && *note && !command_is_quiet())
         command_complain("note: %s", note);
     return status ? command_fail(status, &error) : 0;
@@ -50,14 +58,19 @@ static int draw(const command_line *line, char *what, double from, double to, co
 
 int command_plot(const command *self, int argc, char **argv)
 {
-    char *what = NULL, *file = NULL;
-    double from = NAN, to = NAN;
+    wishes asked = {.from = NAN, .to = NAN};
     const command_option options[] = {
-        {"what", 'w', OPTION_TEXT, &what,
+        {"what", 'w', OPTION_TEXT, &asked.what,
          "Figures to draw (tip,contact,relative; of a flight alone trajectory,flight)", "NAME,..."},
-        {"output", 'o', OPTION_TEXT, &file, "The picture: FILE.svg, FILE.pdf or FILE.png", "FILE"},
-        {"from", '\0', OPTION_NUMBER, &from, "Draw from this time after ignition [ms] on", "MS"},
-        {"to", '\0', OPTION_NUMBER, &to, "Draw up to this time after ignition [ms]", "MS"},
+        {"output", 'o', OPTION_TEXT, &asked.file, "The picture: FILE.svg, FILE.pdf or FILE.png",
+         "FILE"},
+        {"from", '\0', OPTION_NUMBER, &asked.from, "Draw from this time after ignition [ms] on",
+         "MS"},
+        {"to", '\0', OPTION_NUMBER, &asked.to, "Draw up to this time after ignition [ms]", "MS"},
+        {"style", '\0', OPTION_TEXT, &asked.style,
+         "Looks: screen (default), dark, or paper, 84 mm wide", "NAME"},
+        {"width", '\0', OPTION_NUMBER, &asked.width,
+         "Width of the picture [mm]; letters stay as large", "MM"},
         COMMAND_QUIET,
         COMMAND_VERBOSE,
         COMMAND_HELP,
@@ -65,11 +78,11 @@ int command_plot(const command *self, int argc, char **argv)
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
-        if (!file) {
+        if (!asked.file) {
             command_complain("plot wants -o FILE.svg, FILE.pdf or FILE.png");
             code = EXIT_INPUT;
         } else {
-            code = draw(&line, what, from, to, file);
+            code = draw(&line, &asked);
         }
         options_end(&line);
     }

@@ -177,7 +177,8 @@ static ld_status write_charts(FILE *script, const void *what, plot_format format
     if (!status) {
         double height = HEADING + HEIGHT * (double)page->count;
         locale_t before = numeric_locale_enter();
-        plot_begin(script, format, height);
+        const plot_style *style = plot_style_find(NULL, error);
+        plot_begin(script, format, style, plot_width(style, 0), height);
         fputs("set clip two\n", script);
         for (size_t i = 0; i < page->count; i++) {
             write_chart(script, &page->charts[i], i, &drawn);

@@ -264,11 +264,12 @@ static ld_status add_usual(const plot_figure **figure, size_t *count, const hist
 static ld_status draw_runs(const ld_picture *picture, const history_data *run, plot_format format,
                            const char *file, ld_error *error)
 {
+    const plot_style *style = plot_style_find(picture->style, error);
     const plot_figure *figure[MOST_FIGURES];
     const char *name[PLOT_RUNS];
     size_t count = 0;
-    ld_status status = LD_OK;
-    if (picture->figure_count == 0)
+    ld_status status = style ? LD_OK : LD_ERR_INPUT;
+    if (!status && picture->figure_count == 0)
         status = add_usual(figure, &count, run, error);
     for (size_t i = 0; i < picture->figure_count && !status; i++)
         if (strcmp(picture->figure[i], "all") == 0)
@@ -286,7 +287,9 @@ static ld_status draw_runs(const ld_picture *picture, const history_data *run, p
                       .figure = figure,
                       .figures = count,
                       .from = picture->from,
-                      .to = picture->to};
+                      .to = picture->to,
+                      .style = style,
+                      .width = plot_width(style, picture->width)};
     return plot_draw(plot_write_script, &page, format, file, error);
 }
 
@@ -297,6 +300,11 @@ static ld_status check_picture(const ld_picture *picture, ld_error *error)
     for (size_t i = 0; i < picture->figure_count; i++)
         if (strcmp(picture->figure[i], "all") != 0 && !plot_figure_find(picture->figure[i]))
             return unknown_figure(picture->figure[i], error);
+    if (!plot_style_find(picture->style, error))
+        return LD_ERR_INPUT;
+    if (picture->width != 0 && !(picture->width >= 0.05 && picture->width <= 0.5))
+        return ld_fail(error, LD_ERR_INPUT, "a picture is 50 mm to 500 mm wide, not %g mm",
+                       picture->width * 1e3);
     if (picture->from >= picture->to)
         return ld_fail(error, LD_ERR_INPUT, "there is nothing to draw from %g ms to %g ms",
                        picture->from * 1e3, picture->to * 1e3);

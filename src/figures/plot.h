@@ -66,6 +66,22 @@ void plot_write_json(FILE *json);
 
 typedef enum plot_format { PLOT_SVG, PLOT_PDF, PLOT_PNG } plot_format;
 
+// How a picture looks: colours as rrggbb.
+typedef struct plot_style {
+    const char *name;
+    const char *paper, *ink, *soft, *grid; // background; text and axes; instants; lines behind
+    const char *colour[PLOT_RUNS];         // of curves, to be told apart by the colour-blind
+    double millimetres;                    // width where none is asked for; 0: that of a screen
+    bool caption;                          // stands above a caption: has no title
+    bool dashed;                           // curves are told apart without colours, too
+} plot_style;
+
+// The style of a name, the first for NULL; NULL, with the error, where there is none.
+const plot_style *plot_style_find(const char *name, ld_error *error);
+
+// Width of a page in pixels of 1/96 inch for a picture so wide [m], 0: as the style has it.
+double plot_width(const plot_style *style, double metres);
+
 // What stands on a page.
 typedef struct plot_page {
     const history_data *run; // [runs], laid one over the other
@@ -74,6 +90,8 @@ typedef struct plot_page {
     const plot_figure *const *figure; // [figures]
     size_t figures;
     double from, to; // [s] from ignition, NaN: what the figure shows by itself
+    const plot_style *style;
+    double width; // [pixels]
 } plot_page;
 
 // Whether `name` is the pattern, whose one '*' stands for any text; that text becomes the label.
@@ -98,9 +116,11 @@ ld_status plot_format_of(const char *file, plot_format *format, ld_error *error)
 ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
                     ld_error *error);
 
-// Sets terminal and styles 1 to 6 of lines, and begins a page of this height: pixels of an
-// svg 1000 wide, points of a pdf, half pixels of a png.
-void plot_begin(FILE *script, plot_format format, double height);
+// Sets terminal and styles of lines, and begins a page of these pixels: of an svg. A pdf takes one
+// for a point, a png makes two of it; of a page with a width of its own they are 1/96 inch, and a
+// png has 300 dots an inch.
+void plot_begin(FILE *script, plot_format format, const plot_style *style, double width,
+                double height);
 
 // Text between the single quotes of gnuplot, as a terminal may show it.
 void plot_write_quoted(FILE *script, const char *text);

@@ -7,9 +7,8 @@
 #include "base/printed.h"
 #include "figures/plot.h"
 
-// Lengths of the page in pixels of the svg; pdf takes one for a point, png makes two of it.
+// Lengths of the page in pixels of the svg (plot_begin).
 enum {
-    WIDTH = 1000,
     TITLE = 34,
     NAMES = 24,
     HEADING = 34,
@@ -17,7 +16,9 @@ enum {
     LEFT = 75,
     RIGHT = 25,
     TOP = 44,
-    BOTTOM = 50
+    TOP_NARROW = 60, // where title and legend have a line each
+    BOTTOM = 50,
+    TWO_COLUMNS = 640 // width from which two panels stand in a row
 };
 enum { MOST_CURVES = 64, DASHES = 5, COLOURS = PLOT_RUNS };
 
@@ -68,13 +69,43 @@ typedef struct plot_drawing {
     double x_range[2], y_range[2];
 } plot_drawing;
 
-static const char *const colour[COLOURS] = {"0072B2", "D55E00", "009E73", "CC79A7",
-                                            "E69F00", "56B4E9", "000000", "999999"};
 static const char *const dash[DASHES] = {"solid", "(8,4)", "(2,3)", "(8,3,2,3)", "(14,4)"};
 
 static bool several(const plot_drawing *drawing)
 {
     return drawing->page->runs > 1;
+}
+
+static const plot_style *style_of(const plot_drawing *drawing)
+{
+    return drawing->page->style;
+}
+
+static const char *run_colour(const plot_drawing *drawing, size_t run)
+{
+    return style_of(drawing)->colour[run];
+}
+
+static bool is_narrow(const plot_page *page)
+{
+    return page->width < TWO_COLUMNS;
+}
+
+// Room above a panel's axes.
+static double top_room(const plot_drawing *drawing)
+{
+    return is_narrow(drawing->page) ? TOP_NARROW : TOP;
+}
+
+// In a paper the caption says what the page is: no title, a heading only where there are several.
+static double title_height(const plot_page *page)
+{
+    return page->style->caption ? 0 : TITLE;
+}
+
+static double heading_height(const plot_page *page)
+{
+    return page->style->caption && page->figures == 1 ? 0 : HEADING;
 }
 
 // ---- words ----
@@ -380,11 +411,12 @@ static void write_instant_names(const plot_drawing *drawing, const double place[
         double at = (place[i] - drawing->x_range[0]) * pixels;
         raised = !raised && !vehicle && at - before < 45;
         before = at;
-        fprintf(drawing->script, "set label '%s' at %.8g, graph %g %s font ',9' tc rgb '#606060'\n",
+        fprintf(drawing->script, "set label '%s' at %.8g, graph %g %s font ',9' tc rgb '#%s'\n",
                 drawing->source[0].instant[i].name, place[i], raised ? 1.10 : 1.03,
                 vehicle   ? sides[i > 0]
                 : at < 20 ? "left"
-                          : "center");
+                          : "center",
+                style_of(drawing)->soft);
     }
 }
 
@@ -402,7 +434,8 @@ static void write_instants_in_time(const plot_drawing *drawing)
                 fprintf(drawing->script,
                         "set arrow from %.8g, graph 0 to %.8g, graph 1 nohead lw 1 dt (4,3) lc rgb "
                         "'#%s' back\n",
-                        place[i], place[i], run == 0 ? "808080" : colour[run]);
+                        place[i], place[i],
+                        run == 0 ? style_of(drawing)->soft : run_colour(drawing, run));
     }
 }
 
@@ -429,9 +462,10 @@ static void write_instants_on_curve(plot_drawing *drawing, const found_curve *cu
             continue;
         fprintf(drawing->script,
                 "set label '%s' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#%s' offset %s "
-                "font ',9' tc rgb '#606060' front\n",
+                "font ',9' tc rgb '#%s' front\n",
                 several(drawing) ? "" : at->name, drawing->x[row], drawing->y[row],
-                several(drawing) ? colour[curve->run] : "404040", at->offset);
+                several(drawing) ? run_colour(drawing, (size_t)curve->run) : style_of(drawing)->ink,
+                at->offset, style_of(drawing)->soft);
     }
 }
 
@@ -441,8 +475,8 @@ static void write_text(const plot_drawing *drawing, const char *text, double lef
 {
     fputs("set label ", drawing->script);
     plot_write_quoted(drawing->script, text);
-    fprintf(drawing->script, " at screen %.6f, screen %.6f %s\n", left / WIDTH,
-            1 - top / drawing->height, style);
+    fprintf(drawing->script, " at screen %.6f, screen %.6f tc rgb '#%s' %s\n",
+            left / drawing->page->width, 1 - top / drawing->height, style_of(drawing)->ink, style);
 }
 
 // The runs' colours and names in rows above the figures; returns the height that they take.
@@ -452,7 +486,7 @@ static double place_run_names(const plot_drawing *drawing, const plot_page *page
     double left = 16, top = 0;
     for (size_t run = 0; run < page->runs; run++) {
         double width = line + 28 + letter * (double)strlen(page->name[run]);
-        if (left > 16 && left + width > WIDTH) {
+        if (left > 16 && left + width > page->width) {
             left = 16;
             top += NAMES;
         }
@@ -461,7 +495,8 @@ static double place_run_names(const plot_drawing *drawing, const plot_page *page
             fprintf(drawing->script,
                     "set arrow from screen %.6f, screen %.6f to screen %.6f, screen %.6f nohead "
                     "lw 2.5 lc rgb '#%s'\n",
-                    left / WIDTH, middle, (left + line) / WIDTH, middle, colour[run]);
+                    left / page->width, middle, (left + line) / page->width, middle,
+                    run_colour(drawing, run));
             write_text(drawing, page->name[run], left + line + 6, top + NAMES * 0.6,
                        "left font ',12'");
         }
@@ -475,14 +510,14 @@ static void write_headings(plot_drawing *drawing)
     const plot_page *page = drawing->page;
     if (drawing->index == 0 && several(drawing))
         place_run_names(drawing, page);
-    else if (drawing->index == 0 && page->run[0].title)
+    else if (drawing->index == 0 && page->run[0].title && title_height(page) > 0)
         write_text(drawing, page->run[0].title, 16, TITLE * 0.55, "left font ',17'");
-    if (!drawing->headed) {
+    if (!drawing->headed && heading_height(page) > 0) {
         double above = 1 - (drawing->top - HEADING) / drawing->height;
         fprintf(drawing->script,
-                "set arrow from screen 0.016, screen %.6f to screen 0.984, screen %.6f nohead lw 1 "
-                "lc rgb '#c0c0c0'\n",
-                above, above);
+                "set arrow from screen %.6f, screen %.6f to screen %.6f, screen %.6f nohead lw 1 "
+                "lc rgb '#%s'\n",
+                16 / page->width, above, 1 - 16 / page->width, above, style_of(drawing)->grid);
         char heading[WORDS];
         put_words(&page->run[0], drawing->figure->about.description, heading);
         write_text(drawing, heading, 16, drawing->top - HEADING * 0.35, "left font ',14'");
@@ -494,20 +529,24 @@ static void write_axes(plot_drawing *drawing)
 {
     const plot_panel *panel = drawing->panel;
     FILE *script = drawing->script;
-    double top = drawing->top + TOP, bottom = drawing->top + PANEL - BOTTOM;
+    double top = drawing->top + top_room(drawing), bottom = drawing->top + PANEL - BOTTOM;
     char y_text[64], x_text[64] = "time from ignition [s]";
     fprintf(script, "set lmargin at screen %.6f\nset rmargin at screen %.6f\n",
-            (drawing->left + LEFT) / WIDTH, (drawing->left + drawing->width - RIGHT) / WIDTH);
+            (drawing->left + LEFT) / drawing->page->width,
+            (drawing->left + drawing->width - RIGHT) / drawing->page->width);
     fprintf(script, "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
             1 - top / drawing->height, 1 - bottom / drawing->height);
     fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", drawing->x_range[0],
             drawing->x_range[1], drawing->y_range[0], drawing->y_range[1]);
+    if (is_narrow(drawing->page))
+        fputs("set key at graph 1, 1.27\n", script);
     plot_axis_text(&panel->y, y_text, sizeof y_text);
     if (panel->x_column)
         plot_axis_text(&panel->x, x_text, sizeof x_text);
     else if (drawing->figure->time == PLOT_LAUNCH)
         snprintf(x_text, sizeof x_text, "time from ignition [ms]");
-    write_text(drawing, panel->title, drawing->left + LEFT, top - 26, "left font ',11'");
+    write_text(drawing, panel->title, drawing->left + LEFT,
+               top - (is_narrow(drawing->page) ? 48 : 26), "left font ',11'");
     write_text(drawing, y_text, drawing->left + 18, (top + bottom) / 2,
                "center rotate by 90 font ',10'");
     write_text(drawing, x_text, drawing->left + (LEFT + drawing->width - RIGHT) / 2, bottom + 34,
@@ -531,19 +570,22 @@ static void write_plot(const plot_drawing *drawing)
         int lines = several(drawing) ? curve->run : curve->column;
         fprintf(script, "%s $p%dc%d using 1:2 with lines ls %d ", i ? ", \\\n    " : "plot",
                 drawing->index, i, lines % COLOURS + 1);
-        if (several(drawing))
+        if (several(drawing) || style_of(drawing)->dashed)
             fprintf(script, "dt %s ", dash[curve->column % DASHES]);
         write_title(script, several(drawing) ? "" : curve->label);
     }
     int shown = 0;
     for (int i = 0; i < drawing->count && several(drawing) && drawing->columns > 1; i++)
         if (drawing->curve[i].column == shown) {
-            fprintf(script, ", \\\n     keyentry with lines lw 1.5 lc rgb '#404040' dt %s ",
-                    dash[shown++ % DASHES]);
+            fprintf(script, ", \\\n     keyentry with lines lw 1.5 lc rgb '#%s' dt %s ",
+                    style_of(drawing)->ink, dash[shown++ % DASHES]);
             write_title(script, drawing->curve[i].label);
         }
     if (drawing->count == 0)
-        fputs("set label 'nothing to show' at graph 0.5, 0.5 center\nplot NaN notitle", script);
+        fprintf(
+            script,
+            "set label 'nothing to show' at graph 0.5, 0.5 center tc rgb '#%s'\nplot NaN notitle",
+            style_of(drawing)->ink);
     fputc('\n', script);
 }
 
@@ -595,22 +637,24 @@ static bool panel_copy(const plot_panel *panel, const history_data *history, int
 
 static void draw_panel(plot_drawing *drawing, const plot_panel *panel, bool right, double top)
 {
+    double all = drawing->page->width, half = is_narrow(drawing->page) ? all : all / 2;
     drawing->panel = panel;
-    drawing->left = right ? WIDTH / 2.0 : 0;
-    drawing->width = panel->wide ? WIDTH : WIDTH / 2.0;
+    drawing->left = right ? half : 0;
+    drawing->width = panel->wide ? all : half;
     drawing->top = top;
     write_panel(drawing);
 }
 
 // Places of the panels of a figure from `top` on; returns where the next figure begins. Draws them
 // if `drawing` is not NULL.
-static double place_panels(const plot_figure *figure, const history_data *history, double top,
+static double place_panels(const plot_page *page, const plot_figure *figure, double top,
                            plot_drawing *drawing)
 {
+    const history_data *history = &page->run[0];
     bool right = false;
     plot_panel made;
     char text[2][WORDS];
-    top += HEADING;
+    top += heading_height(page);
     if (drawing) {
         drawing->figure = figure;
         drawing->headed = false;
@@ -619,7 +663,7 @@ static double place_panels(const plot_figure *figure, const history_data *histor
         for (int copy = 0; panel_copy(&figure->panel[i], history, copy, &made, text); copy++) {
             if (drawing)
                 draw_panel(drawing, &made, right, top);
-            right = !right && !made.wide;
+            right = !right && !made.wide && !is_narrow(page);
             if (!right)
                 top += PANEL;
         }
@@ -628,33 +672,10 @@ static double place_panels(const plot_figure *figure, const history_data *histor
 
 static double place_figures(const plot_page *page, plot_drawing *drawing)
 {
-    double top = page->runs > 1 ? place_run_names(NULL, page) : TITLE;
+    double top = page->runs > 1 ? place_run_names(NULL, page) : title_height(page);
     for (size_t i = 0; i < page->figures; i++)
-        top = place_panels(page->figure[i], &page->run[0], top, drawing);
+        top = place_panels(page, page->figure[i], top, drawing);
     return top;
-}
-
-void plot_begin(FILE *script, plot_format format, double height)
-{
-    if (format == PLOT_SVG)
-        fprintf(script, "set terminal svg size %d,%.0f font 'sans-serif,12' background 'white'",
-                WIDTH, height);
-    else if (format == PLOT_PDF)
-        fprintf(script,
-                "set terminal pdfcairo size %.4fin,%.4fin font 'sans-serif,12' fontscale 0.75",
-                WIDTH / 72.0, height / 72);
-    else
-        fprintf(script,
-                "set terminal pngcairo size %d,%.0f font 'sans-serif,12' fontscale 1.5 linewidth "
-                "2 pointscale 2 background 'white'",
-                2 * WIDTH, 2 * height);
-    fputs(" noenhanced\nset encoding utf8\nset multiplot\n"
-          "set key at graph 1, 1.15 right center horizontal Left reverse samplen 2 font ',10'\n"
-          "set grid lc rgb '#e0e0e0' lw 0.8\nset border 3 lc rgb '#404040'\n"
-          "set tics nomirror font ',10'\nset format '%g'\n",
-          script);
-    for (int i = 0; i < COLOURS; i++)
-        fprintf(script, "set style line %d lw 1.5 lc rgb '#%s'\n", i + 1, colour[i]);
 }
 
 static void set_source(plot_source *source, const history_data *history)
@@ -720,7 +741,7 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
         status = set_sources(&drawing, i, error);
     if (!status) {
         locale_t before = numeric_locale_enter();
-        plot_begin(script, format, drawing.height);
+        plot_begin(script, format, page->style, page->width, drawing.height);
         place_figures(page, &drawing);
         fputs("unset multiplot\nunset output\n", script);
         numeric_locale_leave(before);

@@ -34,6 +34,10 @@ static int run(const char *format, const char *path)
 
 // The script of one figure of the made-up run, `runs` times over, from `from` [s] on, with a column
 // of a shoe or without, to be freed.
+// Of the scripts made next; the width [m] as the style has it: 0.
+static const char *style;
+static double width;
+
 static char *script_with(const char *name, size_t runs, double from, bool shoes)
 {
     history_data history[2];
@@ -46,6 +50,8 @@ static char *script_with(const char *name, size_t runs, double from, bool shoes)
     assert_non_null(figure);
     const char *names[] = {"the one", "the other's"};
     plot_page page = {.run = history,
+                      .style = plot_style_find(style, NULL),
+                      .width = plot_width(plot_style_find(style, NULL), width),
                       .name = names,
                       .runs = runs,
                       .figure = &figure,
@@ -176,12 +182,54 @@ static void test_several_runs(void **state)
         "$p0c1 using 1:2 with lines ls 2 dt solid notitle",
         "$p0c2 using 1:2 with lines ls 1 dt (8,4) notitle",
         "$p0c3 using 1:2 with lines ls 2 dt (8,4) notitle",
-        "keyentry with lines lw 1.5 lc rgb '#404040' dt solid title 'y'",
-        "keyentry with lines lw 1.5 lc rgb '#404040' dt (8,4) title 'z'",
+        "keyentry with lines lw 1.5 lc rgb '#303030' dt solid title 'y'",
+        "keyentry with lines lw 1.5 lc rgb '#303030' dt (8,4) title 'z'",
     };
     expect_in(script, expected, sizeof expected / sizeof *expected);
     assert_null(strstr(script, "Made-up launch"));
     free(script);
+}
+
+// The terminal of a style, its colours, one panel or two in a row, dashes; a paper's page has no
+// title.
+static void check_style(const char *name, double metres, bool title, bool two,
+                        const char *const *expected, size_t count)
+{
+    style = name;
+    width = metres;
+    char *script = script_of("tip");
+    style = NULL;
+    width = 0;
+    expect_in(script, expected, count);
+    assert_int_equal(strstr(script, "Made-up launch") != NULL, title);
+    double first = 0, second = 0;
+    const char *margin = strstr(script, "set lmargin at screen ");
+    assert_int_equal(sscanf(margin, "set lmargin at screen %lf", &first), 1);
+    margin = strstr(margin + 1, "set lmargin at screen ");
+    assert_int_equal(sscanf(margin, "set lmargin at screen %lf", &second), 1);
+    CHECK_NEAR("left ends of two panels apart, of the page", second - first, two ? 0.5 : 0, 1e-5);
+    free(script);
+}
+
+static void test_styles(void **state)
+{
+    (void)state;
+    static const char *const screen[] = {"svg size 1000,308 ", "background '#ffffff'",
+                                         "lc rgb '#0072B2'",
+                                         "$p0c1 using 1:2 with lines ls 2 title 'z'"};
+    static const char *const dark[] = {"svg size 1000,308 ", "background '#1b2025'",
+                                       "lc rgb '#56B4E9'", "textcolor rgb '#e6eaee'",
+                                       "tc rgb '#e6eaee' center rotate by 90"};
+    static const char *const paper[] = {"svg size 317,480 ", "background '#ffffff'",
+                                        "$p0c0 using 1:2 with lines ls 1 dt solid title 'y'",
+                                        "$p0c1 using 1:2 with lines ls 2 dt (8,4) title 'z'"};
+    static const char *const wide[] = {"svg size 680,240 "};
+    check_style(NULL, 0, true, true, screen, sizeof screen / sizeof *screen);
+    check_style("dark", 0, true, true, dark, sizeof dark / sizeof *dark);
+    check_style("paper", 0, false, false, paper, sizeof paper / sizeof *paper);
+    check_style("paper", 0.18, false, true, wide, 1);
+    CHECK_NEAR("84 mm in pixels of 1/96 inch", plot_width(plot_style_find("paper", NULL), 0),
+               84 / 25.4 * 96, 1e-9);
 }
 
 // A diagram for each adaptor, and no more.
@@ -313,6 +361,14 @@ static void test_what_can_be_wrong(void **state)
     picture.folder_count = 9;
     assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
     assert_string_equal(error.text, "name 1 to 8 folders with results");
+    picture = (ld_picture){&run_folder, 1, &figure, 1, .from = NAN, .to = NAN, .style = "papr"};
+    assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "there is no style \"papr\" (did you mean paper?); there are "
+                                    "screen, dark and paper");
+    picture.style = "paper";
+    picture.width = 0.01;
+    assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "a picture is 50 mm to 500 mm wide, not 10 mm");
     assert_int_not_equal(access(in("x.svg"), F_OK), 0);
 }
 
@@ -346,6 +402,7 @@ int main(void)
         TEST(test_instants_titles_and_names),
         TEST(test_several_runs),
         TEST(test_each_of_a_kind),
+        TEST(test_styles),
         TEST(test_words_on_surfaces),
         TEST(test_window_of_time),
         TEST(test_every_figure_in_every_format),

@@ -136,7 +136,7 @@ static char *script_of(const plot_figure *figure, const history_data *history)
     size_t length = 0;
     FILE *script = open_memstream(&text, &length);
     const char *name = "run";
-    plot_page page = {history, &name, 1, &figure, 1, NAN, NAN};
+    plot_page page = {history, &name, 1, &figure, 1, NAN, NAN, plot_style_find(NULL, NULL), 1000};
     assert_int_equal(plot_write_script(script, &page, PLOT_SVG, NULL), LD_OK);
     fclose(script);
     return text;

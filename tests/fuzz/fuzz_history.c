@@ -321,6 +321,8 @@ static void show(history_data *history)
     for (size_t i = 0; count < 64 && (figure[count] = plot_figure_at(i)) != NULL; i++)
         count += plot_figure_has_columns(figure[count], history);
     plot_page page = {.run = history,
+                      .style = plot_style_find(NULL, NULL),
+                      .width = 1000,
                       .name = name,
                       .runs = 1,
                       .figure = figure,

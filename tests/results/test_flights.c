@@ -311,6 +311,8 @@ static const char *script_of(const history_data *history, size_t runs, const cha
     static const char *const names[] = {"the one", "the other"};
     const plot_figure *figure = plot_figure_find(name);
     plot_page page = {.run = history,
+                      .style = plot_style_find(NULL, NULL),
+                      .width = 1000,
                       .name = names,
                       .runs = runs,
                       .figure = &figure,
@@ -357,7 +359,7 @@ static void test_figures_of_flights(void **state)
     // of several runs a colour each, and a dash for each rocket
     script = script_of(read, 2, "trajectory");
     assert_non_null(strstr(script, "$p0c3 << EOD\n"));
-    assert_non_null(strstr(script, "'#404040' dt (8,4) title 'rocket 2, tube 9'"));
+    assert_non_null(strstr(script, "'#303030' dt (8,4) title 'rocket 2, tube 9'"));
     history_free(&read[0]);
     history_free(&read[1]);
 }
