@@ -26,7 +26,8 @@ local function inlines(list)
             after.text:sub(1, 1) == "$" then
             local put = { pandoc.Math("InlineMath", code.text) }
             if #before.text > 1 then table.insert(put, 1, pandoc.Str(before.text:sub(1, -2))) end
-            if #after.text > 1 then table.insert(put, pandoc.Str(after.text:sub(2))) end
+            -- a word joiner: what follows a formula without a space stays on its line
+            if #after.text > 1 then table.insert(put, pandoc.Str("\u{2060}" .. after.text:sub(2))) end
             for _ = 1, 3 do list:remove(i) end
             for k, part in ipairs(put) do list:insert(i + k - 1, part) end
             i = i + math.max(#put - 1, 1) -- what follows the formula may begin another one
