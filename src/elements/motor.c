@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/masses.h"
+
 // The shortest rotation of x onto (1, y, z): of columns in the turned axes to B.
 static m3 turned(double y, double z)
 {
@@ -29,21 +31,80 @@ static rocket_mass mass_of(const ld_rocket *rocket, const ld_mass_data *data)
     return mass;
 }
 
+static rocket_mass between(const rocket_mass *a, const rocket_mass *b, double share)
+{
+    rocket_mass out = *a;
+    out.m += share * (b->m - a->m);
+    out.c = v3_axpy(a->c, share, v3_sub(b->c, a->c));
+    out.J = m3_add(a->J, m3_scale(share, m3_sub(b->J, a->J)));
+    return out;
+}
+
+// The mass data at a time, unscaled, from ignition.
+static rocket_mass masses_in_table(const ld_rocket *rocket, double t)
+{
+    const ld_table *table = &rocket->motor.masses;
+    size_t k = 0;
+    while (k < table->rows && table->data[k * table->columns] <= t)
+        k++;
+    ld_mass_data after = masses_at(rocket, k < table->rows ? k : table->rows - 1);
+    ld_mass_data before = masses_at(rocket, k > 0 ? k - 1 : 0);
+    rocket_mass first = mass_of(rocket, &before), last = mass_of(rocket, &after);
+    if (k == 0 || k == table->rows)
+        return last;
+    double t0 = table->data[(k - 1) * table->columns], t1 = table->data[k * table->columns];
+    return between(&first, &last, (t - t0) / (t1 - t0));
+}
+
+// What a stand measured below 0 counts as 0.
+static double pushing(double thrust)
+{
+    return thrust < 0 ? 0 : thrust;
+}
+
+// Corners of the thrust, and those of the masses that lie between them; unscaled.
+static void find_corners(motor *self, const ld_motor *given)
+{
+    const ld_table *thrust = &given->thrust, *masses = &given->masses;
+    size_t n = 0, k = 0;
+    for (size_t i = 0; i < thrust->rows; i++) {
+        const double *now = &thrust->data[i * thrust->columns];
+        double force = pushing(now[1]), before = i > 0 ? pushing(now[-1]) : 0;
+        for (; k < masses->rows && masses->data[k * masses->columns] <= now[0]; k++) {
+            double t = masses->data[k * masses->columns];
+            if (i == 0 || t == now[0])
+                continue;
+            self->t[n] = t;
+            self->thrust[n++] = before + (force - before) * (t - now[-2]) / (now[0] - now[-2]);
+        }
+        self->t[n] = now[0];
+        self->thrust[n++] = force;
+    }
+    self->corner_count = n;
+}
+
 ld_status motor_build(motor *self, const ld_rocket *rocket, ld_error *error)
 {
-    const ld_table *table = &rocket->motor.thrust;
-    size_t n = table->rows;
-    *self = (motor){.corner_count = n, .propellant = rocket->propellant};
+    const ld_motor *given = &rocket->motor;
+    size_t most = given->thrust.rows + given->masses.rows;
+    bool by_table = given->masses.rows > 0;
+    *self = (motor){.propellant = rocket->propellant};
     self->full = mass_of(rocket, &rocket->full);
     self->empty = mass_of(rocket, &rocket->empty);
-    self->t = malloc((3 * n + 1) * sizeof(double));
-    if (!self->t)
+    self->t = malloc((3 * most + 1) * sizeof(double));
+    self->at = by_table ? malloc(most * sizeof *self->at) : NULL;
+    if (!self->t || (by_table && !self->at)) {
+        motor_free(self);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the thrust table");
-    self->thrust = self->t + n;
-    self->impulse = self->t + 2 * n;
-    for (size_t k = 0; k < n; k++) {
-        self->t[k] = rocket->motor.time_scale * table->data[k * table->columns];
-        self->thrust[k] = rocket->motor.thrust_scale * table->data[k * table->columns + 1];
+    }
+    self->thrust = self->t + most;
+    self->impulse = self->t + 2 * most;
+    find_corners(self, given);
+    for (size_t k = 0; k < self->corner_count; k++) {
+        if (by_table)
+            self->at[k] = masses_in_table(rocket, self->t[k]);
+        self->t[k] *= given->time_scale;
+        self->thrust[k] *= given->thrust_scale;
         self->impulse[k] =
             k == 0 ? 0
                    : self->impulse[k - 1] + 0.5 * (self->thrust[k] + self->thrust[k - 1]) *
@@ -55,6 +116,7 @@ ld_status motor_build(motor *self, const ld_rocket *rocket, ld_error *error)
 void motor_free(motor *self)
 {
     free(self->t);
+    free(self->at);
     *self = (motor){0};
 }
 
@@ -95,8 +157,26 @@ double motor_total_impulse(const motor *self)
     return self->corner_count ? self->impulse[self->corner_count - 1] : 0;
 }
 
+// Between two corners of which the masses are known they go evenly in time.
+static void mass_by_table(const motor *self, int piece, double t, rocket_mass *mass)
+{
+    *mass = self->at[piece < 0 ? 0 : piece];
+    if (!burning(self, piece))
+        return;
+    const rocket_mass *next = &self->at[piece + 1];
+    double rate = 1 / (self->t[piece + 1] - self->t[piece]);
+    mass->m_dot = rate * (next->m - mass->m);
+    mass->c_dot = v3_scale(rate, v3_sub(next->c, mass->c));
+    mass->J_dot = m3_scale(rate, m3_sub(next->J, mass->J));
+    *mass = between(mass, next, rate * (t - self->t[piece]));
+}
+
 void motor_mass(const motor *self, int piece, double t, rocket_mass *mass)
 {
+    if (self->at) {
+        mass_by_table(self, piece, t, mass);
+        return;
+    }
     double total = motor_total_impulse(self);
     double share = total > 0 ? motor_impulse(self, piece, t) / total : 0;
     double share_dot = total > 0 ? motor_thrust(self, piece, t) / total : 0;

@@ -16,7 +16,8 @@ typedef struct rocket_mass {
     m3 J_dot;
 } rocket_mass;
 
-// The thrust curve, scaled, cut into pieces between its corners; and what burns.
+// The thrust curve, scaled, cut into pieces between its corners, and those of the masses where they
+// are given; and what burns: with the impulse, or between masses evenly in time.
 typedef struct motor {
     size_t corner_count;
     double *t;               // [corner_count] s after ignition, owned
@@ -24,6 +25,7 @@ typedef struct motor {
     double *impulse;         // [corner_count] N s burnt up to the corner
     double propellant;       // [kg]
     rocket_mass full, empty; // with mass error and eccentricity; rates unused
+    rocket_mass *at;         // [corner_count] likewise, where a table says it; else NULL. Owned
 } motor;
 
 ld_status motor_build(motor *self, const ld_rocket *rocket, ld_error *error);

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/masses.h"
+
 void model_init(ld_model *model)
 {
     memset(model, 0, sizeof *model);
@@ -69,15 +71,17 @@ static void complete_number(double *number, double value, bool *completed)
     *completed = true;
 }
 
-// What is not said of the empty rocket is as of the full one.
+// What is not said of the empty rocket is as in the last row of its masses, or as of the full one.
 static void complete_empty(ld_model *model)
 {
     ld_mass_data *empty = &model->rocket.empty;
-    const ld_mass_data *full = &model->rocket.full;
-    complete_number(&empty->mass, full->mass, &model->completed.empty_mass);
+    const ld_rocket *rocket = &model->rocket;
+    size_t rows = rocket->motor.masses.rows;
+    ld_mass_data last = rows > 0 ? masses_at(rocket, rows - 1) : rocket->full;
+    complete_number(&empty->mass, last.mass, &model->completed.empty_mass);
     for (int i = 0; i < 3; i++) {
-        complete_number(&empty->center[i], full->center[i], &model->completed.empty_center[i]);
-        complete_number(&empty->inertia[i], full->inertia[i], &model->completed.empty_inertia[i]);
+        complete_number(&empty->center[i], last.center[i], &model->completed.empty_center[i]);
+        complete_number(&empty->inertia[i], last.inertia[i], &model->completed.empty_inertia[i]);
     }
 }
 

@@ -57,6 +57,7 @@ enum table_source {
     TABLE_ENGINE = 4,    // a RASP .eng file
     TABLE_BARE = 8,      // the CSV file may do without a header: numbers in SI
     TABLE_SOUNDING = 16, // a sounding (scenario/sounding_file.c)
+    TABLE_ROCKSIM = 32,  // a RockSim .rse file (scenario/rocksim_file.c)
 };
 
 enum { FIELD_MAX_COLUMNS = 8 };

@@ -654,6 +654,7 @@ typedef enum ld_hold { LD_HOLD_BY_GUIDE, LD_HOLD_YES, LD_HOLD_NO } ld_hold;
 typedef struct ld_lock {
     bool present;         ///< false: the rocket is free from the start
     double release_force; ///< [N]
+    double hold_down;     ///< [s] from ignition, before which it lets go under no force; 0: never
     double x, radius,
         angle;          ///< [m], [m], [rad] of the point held, in B: (x, radius cos, radius sin)
     ld_hold holds_roll; ///< by the guide: yes without slot and flat surfaces
@@ -671,6 +672,10 @@ typedef struct ld_motor {
     double time_scale;      ///< [-]
     ld_jet_damping jet_damping;
     double exit_radius; ///< [m] of the nozzle, for jet damping
+    ld_table masses;    ///< t [s], m [kg], x [m], J_x, J_t [kg m2] of the part of the rocket that
+                        ///< loses mass; linear between, constant before and after. Empty: what
+                        ///< burns goes with the impulse
+    double masses_at;   ///< [m] x of B from which the table counts its centres
 } ld_motor;
 
 typedef enum ld_aerodynamic_model {
@@ -771,6 +776,17 @@ typedef struct ld_parachute {
     double filling; ///< [s] in which the drag area grows, linearly
 } ld_parachute;
 
+typedef enum ld_brakes_form { LD_BRAKES_OVER_TIME, LD_BRAKES_OVER_HEIGHT } ld_brakes_form;
+
+/// Drag of surfaces that are put out by a schedule, in free flight: model.md, section 8.
+typedef struct ld_air_brakes {
+    bool present;
+    ld_brakes_form form;
+    ld_table over_time;   ///< t [s] from ignition, A [m2]; linear between, constant outside
+    ld_table over_height; ///< h [m] of the mass centre above the ground, A [m2]; likewise
+    double scale;         ///< [-] on the area
+} ld_air_brakes;
+
 typedef struct ld_rocket {
     double start_at; ///< [m] s of the rear adaptor at the start
     ld_mass_data full;
@@ -788,6 +804,7 @@ typedef struct ld_rocket {
     ld_lock lock;
     ld_motor motor;
     ld_aerodynamics aerodynamics;
+    ld_air_brakes air_brakes;
     int parachute_count;
     ld_parachute parachute[LD_MAX_PARACHUTES];
 } ld_rocket;

@@ -42,7 +42,7 @@ double plausible_impulse(const ld_motor *motor)
     double impulse = 0;
     for (size_t i = 1; i < motor->thrust.rows; i++) {
         const double *a = &motor->thrust.data[2 * (i - 1)], *b = &motor->thrust.data[2 * i];
-        impulse += (b[0] - a[0]) * (a[1] + b[1]) / 2;
+        impulse += (b[0] - a[0]) * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
     }
     return impulse * motor->thrust_scale * motor->time_scale;
 }

@@ -91,6 +91,14 @@ FIND(release_force)
                              plausible_peak_thrust(&rocket->motor));
 }
 
+FIND(hold_down)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    bool by_motor = rocket->lock.hold_down > 0 && !model_has_pressure(at->model);
+    return plausible_compare(by_motor ? rocket->lock.hold_down : NAN,
+                             plausible_burn_time(&rocket->motor));
+}
+
 FIND(release_by_pressure)
 {
     const ld_model *model = at->model;
@@ -125,6 +133,19 @@ FIND(thrust_at_end)
     plausible_pair pair = plausible_compare(last, plausible_peak_thrust(motor));
     pair.row = (int)rows;
     return pair;
+}
+
+// The first row below 0.
+FIND(negative_thrust)
+{
+    const ld_table *thrust = &at->model->rocket.motor.thrust;
+    for (size_t k = 0; k < thrust->rows; k++)
+        if (thrust->data[2 * k + 1] < 0) {
+            plausible_pair pair = plausible_alone(thrust->data[2 * k + 1]);
+            pair.row = (int)k + 1;
+            return pair;
+        }
+    return plausible_nothing();
 }
 
 FIND(thrust_by_weight)
@@ -300,10 +321,14 @@ const plausible_rule plausible_of_rocket[] = {
      NO_LOW, .high = 1, .find = release_by_pressure, .why = "the lock never lets go"},
     {"rocket.lock.release_force", .unit = "N", .other = "the weight towards the tip", .low = 1,
      NO_HIGH, .find = release_by_weight, .why = "the lock lets go before the ignition"},
+    {"rocket.lock.hold_down", .unit = "s", .other = "the time that the motor burns", NO_LOW,
+     .high = 0.5, .find = hold_down, .why = "what burns before the lock lets go drives nothing"},
     {"rocket.lock.at.x", .unit = "m", FRONT, .low = -1, .high = 1.5, .find = lock_along,
      .of = "rocket.adaptors", .why = "the lock holds the rocket's body"},
     {"rocket.lock.at.radius", .unit = "m", BORE, NO_LOW, .high = 1.1, .find = lock_across,
      .why = "the lock holds the rocket's body"},
+    {"rocket.motor.thrust.#", "the thrust", .unit = "N", .low = 0, NO_HIGH, .find = negative_thrust,
+     .why = "a motor does not pull; it counts as 0 N"},
     {"rocket.motor.thrust.#", "the thrust at its end", .unit = "N", .other = "the greatest thrust",
      NO_LOW, .high = 0.1, .find = thrust_at_end,
      .why = "a motor burns out, and the curve ends near 0 N"},

@@ -4,6 +4,7 @@
 
 #include <strings.h>
 
+#include "model/masses.h"
 #include "model/moist_air.h"
 
 // A station must lie on the tube.
@@ -403,21 +404,81 @@ static void base_rules(const rule_set *rules)
     motion_span_rule(rules);
 }
 
+// At every row the rocket must be a body, lighter than before or as heavy.
+static void table_of_masses_rows(const rule_set *rules, const ld_table *table)
+{
+    const char *path = "rocket.motor.masses.#";
+    const ld_rocket *rocket = &rules->model->rocket;
+    for (size_t k = 0; k < table->rows; k++) {
+        const double *row = &table->data[k * table->columns];
+        char row_path[64];
+        snprintf(row_path, sizeof row_path, "rocket.motor.masses.%zu", k + 1);
+        if (k > 0 && row[MASSES_MASS] > row[MASSES_MASS - (int)table->columns]) {
+            broken(rules, path, (int)k + 1, "%g kg is more than the %g kg of the row before",
+                   row[MASSES_MASS], row[MASSES_MASS - (int)table->columns]);
+            return;
+        }
+        ld_mass_data now = masses_at(rocket, k);
+        if (now.mass <= 0) {
+            broken(rules, path, (int)k + 1, "leaves nothing of the rocket");
+            return;
+        }
+        if (now.inertia[0] <= 0 || now.inertia[1] <= 0 || now.inertia[2] <= 0) {
+            broken(rules, path, (int)k + 1,
+                   "leaves the rocket moments of inertia of %g %g %g kg.m2 about its mass centre",
+                   now.inertia[0], now.inertia[1], now.inertia[2]);
+            return;
+        }
+        inertia_rule(rules, row_path, now.inertia, rocket->products);
+    }
+}
+
+static void table_of_masses_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    const ld_table *table = &model->rocket.motor.masses, *thrust = &model->rocket.motor.thrust;
+    const char *path = "rocket.motor.masses";
+    const double *last = &table->data[(table->rows - 1) * table->columns];
+    double end = thrust->rows ? thrust->data[(thrust->rows - 1) * thrust->columns] : 0;
+    rising_rule(rules, "rocket.motor.masses.#", table, "s", false);
+    if (!model->completed.empty_mass || !model->completed.empty_center[0] ||
+        !model->completed.empty_inertia[0])
+        broken(rules, "rocket.empty", 0,
+               "given together with motor.masses, whose last row says it; give one of them");
+    if (!model->completed.propellant)
+        broken(rules, "rocket.propellant", 0,
+               "given together with motor.masses, which says it; give one of them");
+    if (last[MASSES_TIME] > end)
+        broken(rules, path, 0,
+               "ends at %g s, after the thrust, at %g s; let the thrust have a last row of 0 N "
+               "there",
+               last[MASSES_TIME], end);
+    if (table->data[MASSES_MASS] > model->rocket.full.mass * (1 + 1e-9))
+        broken(rules, "rocket.motor.masses.1", 0, "%g kg is more than the whole rocket, of %g kg",
+               table->data[MASSES_MASS], model->rocket.full.mass);
+    else
+        table_of_masses_rows(rules, table);
+}
+
 static void mass_rules(const rule_set *rules)
 {
     const ld_rocket *rocket = &rules->model->rocket;
-    if (rocket->empty.mass > rocket->full.mass && !rocket->motor.absent)
+    bool by_table = rocket->motor.masses.rows > 0;
+    if (rocket->empty.mass > rocket->full.mass && !rocket->motor.absent && !by_table)
         broken(rules, "rocket.empty.mass", 0, "%g kg is more than the full mass, %g kg",
                rocket->empty.mass, rocket->full.mass);
-    if (rocket->empty.mass + rocket->mass_error <= 0)
+    if (rocket->empty.mass + rocket->mass_error <= 0 && (rocket->empty.mass > 0 || !by_table))
         broken(rules, "rocket.mass_error", 0, "%g kg leaves nothing of the empty mass, %g kg",
                rocket->mass_error, rocket->empty.mass);
-    if (rocket->propellant >= rocket->full.mass + rocket->mass_error)
+    if (rocket->propellant >= rocket->full.mass + rocket->mass_error && !by_table)
         broken(rules, "rocket.propellant", 0,
                "%g kg must be less than the full mass with its error, %g kg", rocket->propellant,
                rocket->full.mass + rocket->mass_error);
     inertia_rule(rules, "rocket.inertia", rocket->full.inertia, rocket->products);
-    inertia_rule(rules, "rocket.empty.inertia", rocket->empty.inertia, rocket->products);
+    if (by_table)
+        table_of_masses_rules(rules);
+    else
+        inertia_rule(rules, "rocket.empty.inertia", rocket->empty.inertia, rocket->products);
 }
 
 static void adaptor_rules(const rule_set *rules)
@@ -485,7 +546,7 @@ static void contact_rules(const rule_set *rules)
 static void thrust_rules(const rule_set *rules)
 {
     const ld_table *thrust = &rules->model->rocket.motor.thrust;
-    double impulse = 0;
+    double impulse = 0, greatest = 0;
     if (thrust->rows == 0)
         return;
     rising_rule(rules, "rocket.motor.thrust.#", thrust, "s", true);
@@ -494,8 +555,16 @@ static void thrust_rules(const rule_set *rules)
                thrust->data[0]);
     for (size_t i = 1; i < thrust->rows; i++) {
         const double *a = &thrust->data[2 * (i - 1)], *b = &thrust->data[2 * i];
-        impulse += (b[0] - a[0]) * (a[1] + b[1]) / 2;
+        impulse += (b[0] - a[0]) * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
+        greatest = fmax(greatest, fmax(a[1], b[1]));
     }
+    for (size_t i = 0; i < thrust->rows; i++)
+        if (thrust->data[2 * i + 1] < -0.1 * greatest) {
+            broken(rules, "rocket.motor.thrust.#", (int)i + 1,
+                   "%g N; at most a tenth of the greatest thrust may be measured below 0, as 0",
+                   thrust->data[2 * i + 1]);
+            return;
+        }
     if (impulse == 0)
         broken(rules, "rocket.motor.thrust", 0, "its impulse is 0 N.s");
     if (impulse > 1e100)
@@ -599,6 +668,17 @@ static void environment_rules(const rule_set *rules)
         broken(rules, "environment.wind.speed", 0, "given together with profile; give one of them");
 }
 
+static void brakes_rules(const rule_set *rules)
+{
+    const ld_air_brakes *brakes = &rules->model->rocket.air_brakes;
+    if (!brakes->present)
+        return;
+    if (rules->model->environment.atmosphere.kind == LD_ATMOSPHERE_NONE)
+        broken(rules, "rocket.air_brakes", 0, "without air nothing brakes");
+    rising_rule(rules, "rocket.air_brakes.over_time.#", &brakes->over_time, "s", false);
+    rising_rule(rules, "rocket.air_brakes.over_height.#", &brakes->over_height, "m", false);
+}
+
 static void parachute_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
@@ -691,6 +771,7 @@ void model_check_rules(const ld_model *model, rule_report *report, void *self)
     thrust_rules(&all);
     environment_rules(&all);
     aerodynamics_rules(&all);
+    brakes_rules(&all);
     parachute_rules(&all);
     end_rules(&all);
     coupling_rules(&all);

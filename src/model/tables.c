@@ -1031,6 +1031,9 @@ static const field_word hold_words[] = {
 static const field_row lock_fields[] = {
     {"release_force", NUMBER(ld_lock, release_force, "N"), POSITIVE, REQUIRED,
      .doc = "carried force at which it lets go"},
+    {"hold_down", NUMBER(ld_lock, hold_down, "s"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "from ignition, before which it lets go under no force; 0 s: under the release force "
+            "at any time"},
     {"at", SAME_STRUCT(lock_at_block), .initial_doc = "the rear adaptor's centre",
      .doc = "point of the rocket that it holds along the tube"},
     {"holds_roll", CHOICE(ld_lock, holds_roll, hold_words), DEFAULT(LD_HOLD_BY_GUIDE),
@@ -1042,15 +1045,21 @@ static const field_word lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 
 static const field_row thrust_columns[] = {
     {"time", .unit = "s", FROM_TO(0, 10000)},
-    {"thrust", .unit = "N", NOT_NEGATIVE},
+    {"thrust", .unit = "N", ANY},
 };
-static const table_format thrust_table = {TABLE_ENGINE, 2, thrust_columns, NULL};
+static const table_format thrust_table = {TABLE_ENGINE | TABLE_ROCKSIM, 2, thrust_columns, NULL};
+static const field_row masses_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)},     {"mass", .unit = "kg", NOT_NEGATIVE},
+    {"center", .unit = "m", FROM_TO(-100, 100)},  {"inertia_x", .unit = "kg.m2", NOT_NEGATIVE},
+    {"inertia_y", .unit = "kg.m2", NOT_NEGATIVE},
+};
+static const table_format masses_table = {TABLE_CSV | TABLE_ROCKSIM, 5, masses_columns, NULL};
 static const field_word jet_damping_words[] = {
     {"no", LD_JET_DAMPING_NO}, {"yes", LD_JET_DAMPING_YES}, {NULL, 0}};
 static const field_row motor_fields[] = {
     {"thrust", TABLE(ld_motor, thrust, thrust_table), .required = true,
      .doc = "over time from ignition, linear between rows, 0 after the last; a time given twice is "
-            "a jump"},
+            "a jump; what was measured below 0 counts as 0"},
     {"at", VECTOR(ld_motor, at, "m", 3), FROM_TO(-100, 100), DEFAULT(0),
      .doc = "point of B where the thrust acts"},
     {"misalignment", VECTOR(ld_motor, misalignment, "rad", 2), FROM_TO(-1, 1), DEFAULT(0),
@@ -1064,6 +1073,13 @@ static const field_row motor_fields[] = {
             "rates of mass, centre and inertia"},
     {"exit_radius", NUMBER(ld_motor, exit_radius, "m"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "of the nozzle, for jet damping"},
+    {"masses", TABLE(ld_motor, masses, masses_table), .initial_doc = "none",
+     .doc = "over time from ignition, linear between rows, of the part of the rocket that loses "
+            "mass: propellant, tanks, motor or all of it, its moments of inertia about its own "
+            "centre; in place of rocket.empty and rocket.propellant"},
+    {"masses_at", NUMBER(ld_motor, masses_at, "m"), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "x of B from which `masses` counts its centres forward; for an .rse file that of the "
+            "motor's front end"},
     {0}};
 static const field_block motor_block = {.fields = motor_fields};
 
@@ -1286,6 +1302,37 @@ static const field_block parachute_block = {.fields = parachute_fields,
                                             .form_offset = offsetof(ld_parachute, trigger),
                                             .form_key = "trigger"};
 
+static const field_word brakes_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word brakes_forms[] = {{"brakes over time", LD_BRAKES_OVER_TIME},
+                                          {"brakes over height", LD_BRAKES_OVER_HEIGHT},
+                                          {NULL, 0}};
+static const field_row brakes_time_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)},
+    {"drag_area", .unit = "m2", FROM_TO(0, 1e5)},
+};
+static const field_row brakes_height_columns[] = {
+    {"height", .unit = "m", FROM_TO(-1e6, 1e6)},
+    {"drag_area", .unit = "m2", FROM_TO(0, 1e5)},
+};
+static const table_format brakes_time_table = {TABLE_CSV, 2, brakes_time_columns, NULL};
+static const table_format brakes_height_table = {TABLE_CSV, 2, brakes_height_columns, NULL};
+static const field_row air_brakes_fields[] = {
+    {"over_time", TABLE(ld_air_brakes, over_time, brakes_time_table), .required = true,
+     .forms = FORM(LD_BRAKES_OVER_TIME),
+     .doc =
+         "drag coefficient times area over the time from ignition, linear between rows, constant "
+         "before the first and after the last"},
+    {"over_height", TABLE(ld_air_brakes, over_height, brakes_height_table), .required = true,
+     .forms = FORM(LD_BRAKES_OVER_HEIGHT),
+     .doc = "the same over the height of the mass centre above the ground"},
+    {"scale", NUMBER(ld_air_brakes, scale, ""), FROM_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the drag area"},
+    {0}};
+static const field_block air_brakes_block = {.fields = air_brakes_fields,
+                                             .form = brakes_forms,
+                                             .form_offset = offsetof(ld_air_brakes, form),
+                                             .form_from_keys = true};
+
 // What carries the rocket: the form of the whole scenario and of the rocket.
 static const field_word kind_words[] = {{"base.kind: fixed", LD_BASE_FIXED},
                                         {"base.kind: prescribed", LD_BASE_PRESCRIBED},
@@ -1340,6 +1387,10 @@ static const field_row rocket_fields[] = {
           LD_MAX_PARACHUTES),
      .silent = true, .initial_doc = "none",
      .doc = "under which the rocket comes down, each in the place of the one before it"},
+    {"air_brakes", BLOCK(ld_model, rocket.air_brakes, air_brakes_block), .initial_doc = "none",
+     SWITCH(ld_model, rocket.air_brakes.present, brakes_words), .other_is_bool = true,
+     .doc = "drag along the rocket's axis, at the mass centre, besides that of `aerodynamics`, in "
+            "free flight"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
      .other_is_bool = true,

@@ -4,11 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+void line_refuse_at(line_reader *lines, int line, int column, const char *text)
+{
+    reader_refuse(lines->reader, (text_place){lines->source, line, column}, lines->path, "%s",
+                  text);
+    lines->failed = true;
+}
+
 void line_refuse(line_reader *lines, int field, const char *text)
 {
-    text_place at = {lines->source, lines->at.number, text_lines_column(&lines->at, field)};
-    reader_refuse(lines->reader, at, lines->path, "%s", text);
-    lines->failed = true;
+    line_refuse_at(lines, lines->at.number, text_lines_column(&lines->at, field), text);
 }
 
 bool line_next(line_reader *lines, char comment, bool commas)

@@ -16,6 +16,8 @@ typedef struct line_reader {
 
 // Refuses what stands in a field of the line at hand, from 0; 0 where it has none: the line.
 void line_refuse(line_reader *lines, int field, const char *text);
+// Refuses what stands at a place of the text, both from 1.
+void line_refuse_at(line_reader *lines, int line, int column, const char *text);
 
 // The next line that is neither blank nor a comment, its fields cut at blanks or at commas.
 bool line_next(line_reader *lines, char comment, bool commas);

@@ -190,9 +190,9 @@ void sweep_fill(scenario_reader *reader, const scenario_sweep *sweep, ld_model *
 bool quantity_read(scenario_reader *reader, const struct field_row *f, text_place place,
                    const char *path, const char *text, double *values, int count);
 
-// Reads the table `f` from the file `name` (beside the file that names it), a RASP .eng file, a CSV
-// file or a sounding's text by the ending of its name; `sounding`: whether it was one. Messages
-// about what it holds point into it. False after a message.
+// Reads the table `f` from the file `name` (beside the file that names it), a RASP .eng file, a
+// RockSim .rse file, a CSV file or a sounding's text by the ending of its name; `sounding`: whether
+// it was one. Messages about what it holds point into it. False after a message.
 bool table_file_read(scenario_reader *reader, const struct field_row *f, text_place place,
                      const char *path, const char *name, ld_table *table, bool *sounding);
 // The file that the text at `place` names, read once in a run and kept in reader->source; NULL

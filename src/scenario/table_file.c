@@ -1,10 +1,11 @@
-// Tables in files of their own: RASP .eng thrust curves, CSV.
+// Tables in files of their own: RASP .eng thrust curves, CSV; RockSim's and soundings elsewhere.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "model/field.h"
 #include "scenario/line_reader.h"
+#include "scenario/rocksim_file.h"
 #include "scenario/sounding_file.h"
 
 // ---- RASP .eng: comments, a header of seven fields, lines "time thrust" up to thrust 0
@@ -46,8 +47,6 @@ static bool read_rasp_point(line_reader *lines, ld_table *table)
                                 : "a time before ignition");
     else if (row[0] > 10000)
         line_refuse(lines, 0, "a time of more than 10000 s");
-    else if (row[1] < 0)
-        line_refuse(lines, 1, "a negative thrust");
     else if (table->rows >= 2 && row[0] == before && table->data[2 * (table->rows - 2)] == before)
         line_refuse(lines, 0, "a time that stands there a third time");
     if (lines->failed)
@@ -71,8 +70,6 @@ static void read_rasp(line_reader *lines, ld_table *table)
         return;
     if (table->rows == 0)
         line_refuse(lines, 0, "an engine without a thrust curve");
-    else if (table->data[2 * table->rows - 1] != 0)
-        line_refuse(lines, 0, "the last thrust of a curve must be 0");
     else if (line_next(lines, ';', false))
         line_refuse(lines, 0, "the curve ends at thrust 0; more lines (a second engine?) follow");
 }
@@ -178,6 +175,8 @@ bool table_file_read(scenario_reader *reader, const field_row *f, text_place pla
     size_t length = strlen(name);
     if (strcmp(name + length - 4, ".eng") == 0)
         read_rasp(&lines, table);
+    else if (strcmp(name + length - 4, ".rse") == 0)
+        rocksim_read(&lines, f->table, table);
     else if (strcmp(name + length - 4, ".txt") == 0)
         sounding_read_text(&lines, f->table, table);
     else

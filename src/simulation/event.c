@@ -66,8 +66,9 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
         return away;
     switch (one.kind) {
     case EVENT_RELEASE:
-        return phase->locked ? 1 - out->launching.lock_force / self->rocket->lock.release_force
-                             : away;
+        return phase->locked && !self->held_down
+                   ? 1 - out->launching.lock_force / self->rocket->lock.release_force
+                   : away;
     case EVENT_EXIT: {
         double length = launching->tube.flexible.length;
         return phase->passed[one.index] ? away : (length - adaptor[one.index].s) / length;

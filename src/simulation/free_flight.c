@@ -563,6 +563,12 @@ static void open_parachute(flight_run *run, int i, double t, double *y)
                         "parachute %s opened at t = %.4f s while the motor was burning: its thrust "
                         "counts no more",
                         one->name, t);
+    if (run->phase.hangs && one->drag_area < run->area)
+        simulation_note(
+            run->summary,
+            "parachute %s, of %.4g m2, opened at t = %.4f s in the place of one of %.4g "
+            "m2: it brakes less",
+            one->name, one->drag_area, t, run->area);
     bool at_once = one->filling == 0 || one->drag_area == before;
     flight_hang(system, &run->phase, t, one->drag_area,
                 at_once ? 0 : (one->drag_area - before) / one->filling);
@@ -612,6 +618,16 @@ static void note_closed(flight_run *run)
 
 // ---- the loop ----
 
+// The next row of the brakes' schedule, from ignition, that lies after t by the run's clock.
+static double next_brake_row(const flight_run *run, double t)
+{
+    const free_flight *job = run->job;
+    double row = flight_next_brake_row(job->system, t - job->t_ignition);
+    while (job->t_ignition + row <= t)
+        row = flight_next_brake_row(job->system, row);
+    return row;
+}
+
 // The next instant at which a step must end: a corner of the thrust or of a gust, the end.
 static double next_stop(const flight_run *run)
 {
@@ -622,6 +638,7 @@ static double next_stop(const flight_run *run)
     int next = run->phase.piece + 1;
     if (next < (int)thrust->corner_count)
         stop = fmin(stop, job->t_ignition + thrust->t[next]);
+    stop = fmin(stop, job->t_ignition + next_brake_row(run, t));
     stop = fmin(stop, next_opening(run));
     return fmin(stop, isinf(job->t_end) ? run->t_limit : INFINITY);
 }

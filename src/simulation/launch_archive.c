@@ -38,6 +38,7 @@ static void archive_launch(archive *bytes, launch_state *self)
                        : 1;
         archive_int(bytes, &self->pressure_piece, 0, most);
     }
+    archive_bool(bytes, &self->held_down);
     archive_phase(bytes, &self->phase);
     archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_bool(bytes, &self->on_breech);

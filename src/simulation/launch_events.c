@@ -158,7 +158,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
 void launch_let_go_at_once(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
-    if (!self->phase.locked)
+    if (!self->phase.locked || self->held_down)
         return;
     const launcher_output *at = simulation_output(self, t, y);
     const launching_output *out = at ? &at->launching : NULL;
@@ -193,6 +193,8 @@ static double next_stop(const ld_run *run, double t, double none)
     if (self->current + 1 < self->model->firing_count)
         stop = fmin(stop, self->phase.rocket ? self->model->firing[self->current + 1].at
                                              : launch_change_instant(self));
+    if (self->held_down)
+        stop = fmin(stop, self->t_ignition + self->rocket->lock.hold_down);
     int next = self->piece + 1;
     if (next < (int)self->motor->corner_count)
         stop = fmin(stop, self->t_ignition + self->motor->t[next]);
@@ -225,7 +227,7 @@ static int pressure_piece_at(const launch_state *self, double t)
 }
 
 // At a stop: ignition lights the motor or lets the pressure on, a corner begins the next piece of
-// the curve of either, or of what drives the base.
+// the curve of either, or of what drives the base; the lock may let go.
 bool launch_pass_stop(ld_run *run, double t)
 {
     launch_state *self = &run->launch;
@@ -237,9 +239,11 @@ bool launch_pass_stop(ld_run *run, double t)
     int pressed = self->pressure_piece;
     self->pressure_piece = pressure_piece_at(self, t);
     bool burning = self->piece != before || self->pressure_piece != pressed;
+    bool held = self->held_down;
+    self->held_down &= t < self->t_ignition + self->rocket->lock.hold_down;
     bool driven = base->kind->next_corner != NULL;
     bool base_corner = driven && base->kind->next_corner(base, nextafter(t, -INFINITY)) == t;
     if (base_corner || (burning && t > self->t_ignition))
         launch_tell(run, LD_EVENT_CORNER, t, -1);
-    return jets_pass_corners(&self->jets, t) || burning || driven;
+    return jets_pass_corners(&self->jets, t) || burning || driven || held != self->held_down;
 }

@@ -34,5 +34,6 @@ void launch_state_select(launch_state *self, int i)
     self->phase = simulation_start_phase(self);
     self->piece = -1;
     self->pressure_piece = 0;
+    self->held_down = self->rocket->lock.present && self->rocket->lock.hold_down > 0;
     self->jammed = false;
 }

@@ -33,6 +33,7 @@ typedef struct launch_state {
     m3 aim;                 // A_IT, the undeformed tube on its base, as it stood at that ignition
     int piece;              // of the thrust curve
     int pressure_piece;     // of the pressure behind the rocket; 0: not lit
+    bool held_down;         // the lock lets go under no force
     bool jammed;
     jets jets; // of the rockets that have left, where the platform feels them
     struct {   // the latest evaluation, which at a step's end is that of the step's end

@@ -13,6 +13,19 @@ static bool is_symmetric_mass(const rocket_mass *mass)
            J[1][2] == 0;
 }
 
+// What goes evenly with the burnt share, from one to the other.
+static void set_masses(const rocket_mass *from, const rocket_mass *to, double burnt,
+                       flight_numbers *number)
+{
+    m3 J_change = m3_sub(to->J, from->J);
+    number->mass = from->m;
+    number->propellant = burnt;
+    v3_store(number->c, from->c);
+    v3_store(number->c_change, v3_sub(to->c, from->c));
+    memcpy(number->J, from->J.a, sizeof number->J);
+    memcpy(number->J_change, J_change.a, sizeof number->J_change);
+}
+
 // The numbers that no piece of the thrust curve changes.
 static flight_numbers numbers_of(const flight_system *self)
 {
@@ -22,8 +35,6 @@ static flight_numbers numbers_of(const flight_system *self)
     bool uniform = above->kind == LD_ATMOSPHERE_UNIFORM;
     double exit_radius = self->rocket->motor.exit_radius;
     flight_numbers number = {
-        .mass = self->motor.full.m,
-        .propellant = self->motor.propellant,
         .exit_square = 0.25 * exit_radius * exit_radius,
         .air = {.density = uniform ? above->density_scale * above->density : 0,
                 .speed_of_sound = uniform ? above->speed_of_sound : 1,
@@ -45,10 +56,7 @@ static flight_numbers numbers_of(const flight_system *self)
     memcpy(number.air.across, body->surfaces.across, sizeof number.air.across);
     v3_store(number.thrust_point, self->thrust_point);
     v3_store(number.thrust_direction, self->thrust_direction);
-    v3_store(number.c, self->motor.full.c);
-    v3_store(number.c_change, self->c_change);
-    memcpy(number.J, self->motor.full.J.a, sizeof number.J);
-    memcpy(number.J_change, self->J_change.a, sizeof number.J_change);
+    set_masses(&self->motor.full, &self->motor.empty, self->motor.propellant, &number);
     return number;
 }
 
@@ -70,7 +78,8 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
         status = wind_build(&self->wind, &model->environment.wind, error);
     if (!status)
         status = aerodynamics_build(&self->aerodynamics, &flying->aerodynamics, error);
-    if (!status && self->wind.present && (self->aerodynamics.present || self->parachutes))
+    self->feels_air = self->aerodynamics.present || self->parachutes || flying->air_brakes.present;
+    if (!status && self->wind.present && self->feels_air)
         status =
             turbulence_build(&self->turbulence, &model->environment.wind.turbulence, rocket, error);
     self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;
@@ -80,8 +89,6 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
         flight_free(self);
         return status;
     }
-    self->c_change = v3_sub(self->motor.empty.c, self->motor.full.c);
-    self->J_change = m3_sub(self->motor.empty.J, self->motor.full.J);
     self->symmetric = is_symmetric_mass(&self->motor.full) &&
                       is_symmetric_mass(&self->motor.empty) && direction.y == 0 &&
                       direction.z == 0 && self->thrust_point.y == 0 && self->thrust_point.z == 0 &&
@@ -115,6 +122,15 @@ static void set_numbers(const flight_system *self, flight_phase *phase)
     phase->changes++;
 }
 
+// Masses by a table are those of the piece alone.
+static void set_piece_of_masses(const motor *thrust, flight_phase *phase)
+{
+    const rocket_mass *from = &thrust->at[phase->piece < 0 ? 0 : phase->piece];
+    const rocket_mass *to = phase->burning ? from + 1 : from;
+    set_masses(from, to, from->m - to->m, &phase->number);
+    phase->number.burn.share = 0;
+}
+
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
 {
     const motor *thrust = &self->motor;
@@ -125,6 +141,8 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
     set_numbers(self, phase);
     phase->number.burn.power = piece + 1 < corners;
     phase->number.burn.share = piece >= 0 && total > 0 ? thrust->impulse[piece] / total : 0;
+    if (thrust->at)
+        set_piece_of_masses(thrust, phase);
     if (!phase->burning)
         return;
     double length = thrust->t[piece + 1] - thrust->t[piece];
@@ -132,7 +150,10 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
     phase->number.burn.t0 = phase->t_ignition + thrust->t[piece];
     phase->number.burn.thrust = thrust->thrust[piece];
     phase->number.burn.slope = (thrust->thrust[piece + 1] - thrust->thrust[piece]) / length;
-    phase->number.burn.share = thrust->impulse[piece] * phase->number.burn.rate;
+    if (thrust->at)
+        phase->number.burn.rate = 1 / length;
+    else
+        phase->number.burn.share = thrust->impulse[piece] * phase->number.burn.rate;
 }
 
 void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
@@ -148,6 +169,34 @@ void flight_hang(const flight_system *self, flight_phase *phase, double t, doubl
 double flight_drag_area(const flight_phase *phase, double t)
 {
     return phase->area + phase->slope * (t - phase->hangs_since);
+}
+
+static const ld_table *brakes_table(const ld_air_brakes *brakes)
+{
+    return brakes->form == LD_BRAKES_OVER_TIME ? &brakes->over_time : &brakes->over_height;
+}
+
+double flight_brake_area(const flight_system *self, double since, double height)
+{
+    const ld_air_brakes *brakes = &self->rocket->air_brakes;
+    const ld_table *table = brakes_table(brakes);
+    double at = brakes->form == LD_BRAKES_OVER_TIME ? since : height;
+    size_t k = 0;
+    while (k < table->rows && table->data[2 * k] <= at)
+        k++;
+    if (k == 0 || k == table->rows)
+        return brakes->scale * table->data[2 * (k ? k - 1 : 0) + 1];
+    const double *a = &table->data[2 * (k - 1)], *b = a + 2;
+    return brakes->scale * (a[1] + (b[1] - a[1]) * (at - a[0]) / (b[0] - a[0]));
+}
+
+double flight_next_brake_row(const flight_system *self, double since)
+{
+    const ld_air_brakes *brakes = &self->rocket->air_brakes;
+    for (size_t k = 0; brakes->present && k < brakes->over_time.rows; k++)
+        if (brakes->over_time.data[2 * k] > since)
+            return brakes->over_time.data[2 * k];
+    return INFINITY;
 }
 
 rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t)
@@ -236,11 +285,12 @@ bool flight_is_like(const flight_system *self, const flight_system *other)
            self->turbulence.present == other->turbulence.present &&
            self->aerodynamics.present == other->aerodynamics.present &&
            self->parachutes == other->parachutes &&
+           self->rocket->air_brakes.present == other->rocket->air_brakes.present &&
            self->aerodynamics.model == other->aerodynamics.model &&
            self->aerodynamics.surfaces.slopes == other->aerodynamics.surfaces.slopes &&
            self->aerodynamics.surfaces.acrosses == other->aerodynamics.surfaces.acrosses &&
-           self->feels_shear == other->feels_shear && self->jet_damping == other->jet_damping &&
-           self->symmetric == other->symmetric;
+           !self->motor.at == !other->motor.at && self->feels_shear == other->feels_shear &&
+           self->jet_damping == other->jet_damping && self->symmetric == other->symmetric;
 }
 
 // ---- in and out

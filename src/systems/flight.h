@@ -12,8 +12,9 @@
 // With jet damping (docs/flight.md) besides, in B, mu = -m_dot what leaves at r_e = r_T, R the
 // radius there, and e = r_e - c:
 //   f -= 2 w x (m c_dot + mu e),   M_C -= J_dot w + mu (e x (w x e) + R^2/4 (2 w_x, w_y, w_z))
-// Below a parachute the rocket is a point of its mass: with v_a its velocity through the air and A
-// the drag area, v_dot = g - rho A |v_a| v_a/(2 m), r_dot = v; the attitude stays as it was.
+// Air brakes of drag area A add -1/2 rho A |v_a| v_a.x along x of B, v_a the velocity through the
+// air. Below a parachute the rocket is a point of its mass: with v_a its velocity through the air
+// and A the drag area, v_dot = g - rho A |v_a| v_a/(2 m), r_dot = v; the attitude stays as it was.
 // In turbulence two more states: xi_dot = V_m/L_u and V_m/L_w, V_m the speed through the air
 // without it.
 #ifndef LD_SYSTEMS_FLIGHT_H
@@ -45,12 +46,13 @@ typedef struct flight_numbers {
     struct {
         double t0;            // [s] where the piece of the thrust curve begins
         double thrust, slope; // [N] there, [N/s]
-        double share, rate;   // burnt share of the propellant there; 1 over the total impulse
+        double share, rate;   // burnt share of the propellant there; 1 over the total impulse, or
+                              // of the piece's own where a table says the masses: 1 over its time
         double power;         // 1: the thrust table has not ended
     } burn;
     double thrust_point[3], thrust_direction[3];
     double exit_square;      // [m2] R^2/4 of the nozzle's exit
-    double mass, propellant; // [kg] full; what burns
+    double mass, propellant; // [kg] full; what burns: in all, or in the piece
     double c[3], c_change[3];
     double J[9], J_change[9];
     struct {
@@ -79,12 +81,11 @@ typedef struct flight_system {
     int states;            // 14, or FLIGHT_STATES in turbulence
     aerodynamics aerodynamics;
     motor motor;
-    v3 c_change;         // [m] of the mass centre from full to empty
-    m3 J_change;         // [kg m2] of the inertia likewise
     v3 thrust_point;     // [m] in B
     v3 thrust_direction; // unit vector, in B
     bool jet_damping;
     bool parachutes;  // there are some
+    bool feels_air;   // of aerodynamics, brakes or parachutes
     bool symmetric;   // the same all around its x axis: nothing depends on the roll angle
     bool feels_shear; // surfaces in a wind that changes with height
     double ground;    // [m] its height: of the plane y, else above sphere or ellipsoid
@@ -119,6 +120,11 @@ void flight_hang(const flight_system *self, flight_phase *phase, double t, doubl
                  double slope);
 // Its value at t; 0 where the rocket flies by itself.
 double flight_drag_area(const flight_phase *phase, double t);
+
+// Drag area of the air brakes [m2], `since` [s] the ignition, at the height [m] above the ground.
+double flight_brake_area(const flight_system *self, double since, double height);
+// The next time [s] from ignition after `since` at which a schedule over time has a row; infinity.
+double flight_next_brake_row(const flight_system *self, double since);
 
 // Derivative of the state.
 void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,

@@ -18,6 +18,7 @@
 // What burns, and the mass data; of a symmetric rocket only the two moments of inertia.
 typedef struct burning {
     real thrust, mass;
+    real flow; // what the burnt share grows with
     real3 c, c_dot;
     real33 J;
 } burning;
@@ -28,11 +29,16 @@ LD_INLINE burning burning_at(const flight_lanes *lanes, real t, bool symmetric)
     real since = t - OF(burn.t0);
     out.thrust = OF(burn.thrust) + OF(burn.slope) * since;
     real burnt = 0.5 * (OF(burn.thrust) + out.thrust) * since;
+    out.flow = out.thrust;
+    if (lanes->system[0]->motor.at) {
+        burnt = since;
+        out.flow = real_all(1);
+    }
     real share = OF(burn.share) + OF(burn.rate) * burnt;
     real3 change = THREE_OF(c_change);
     out.mass = OF(mass) - share * OF(propellant);
     out.c = real3_axpy(THREE_OF(c), share, change);
-    out.c_dot = real3_scale(OF(burn.rate) * out.thrust, change);
+    out.c_dot = real3_scale(OF(burn.rate) * out.flow, change);
     const real *J = REALS(lanes->number, flight_numbers, J),
                *J_change = REALS(lanes->number, flight_numbers, J_change);
     for (int i = 0; i < 3; i++)
@@ -46,7 +52,7 @@ LD_INLINE burning burning_at(const flight_lanes *lanes, real t, bool symmetric)
 // centre and inertia (systems/flight.h).
 LD_INLINE real_wrench jet_damping(const flight_lanes *lanes, const burning *mass, real3 w)
 {
-    real gone = OF(burn.rate) * mass->thrust, leaving = gone * OF(propellant);
+    real gone = OF(burn.rate) * mass->flow, leaving = gone * OF(propellant);
     real3 arm = real3_sub(THREE_OF(thrust_point), mass->c);
     real3 inside = real3_axpy(real3_scale(mass->mass, mass->c_dot), leaving, arm);
     real3 turned = real3_cross(arm, real3_cross(w, arm));
@@ -256,6 +262,20 @@ LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, real t, real3 r
                                         rocket->center, here->density);
 }
 
+// Force of the air brakes, along the rocket's axis.
+LD_INLINE real brakes(const flight_lanes *lanes, real t, real3 r, const real33 *A, const flow *here)
+{
+    real area;
+    for (int i = 0; i < LANES; i++) {
+        const flight_system *system = lanes->system[i];
+        double height = system->earth.flat ? REAL_LANE(r.y, i) : REAL_LANE(here->altitude, i);
+        REAL_LANE(area, i) = flight_brake_area(
+            system, REAL_LANE(t, i) - lanes->phase[i]->t_ignition, height - system->ground);
+    }
+    real along = real33_apply_transposed(A, here->v).x;
+    return -0.5 * here->density * area * real3_norm(here->v) * along;
+}
+
 // What becomes of the rates where the rocket hangs below a parachute: those of a point.
 LD_INLINE void hang(const flight_lanes *lanes, real t, const flow *here, real mass, real3 gravity,
                     const real *y, real *y_dot)
@@ -299,7 +319,7 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     // air
     y_dot[FLIGHT_XI] = y_dot[FLIGHT_XI + 1] = real_all(0);
     flow here;
-    if (first->aerodynamics.present || first->parachutes)
+    if (first->feels_air)
         here = flow_at(lanes, t, r, v, y + FLIGHT_XI);
     if (first->turbulence.present) {
         y_dot[FLIGHT_XI] = here.xi_dot[0];
@@ -311,6 +331,8 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
         force = real3_add(force, wrench.f);
         moment = real3_add(moment, wrench.m);
     }
+    if (first->rocket->air_brakes.present)
+        force.x = force.x + brakes(lanes, t, r, &A, &here);
     // Newton and Euler
     real3 alpha, a = real3_scale(1.0 / mass.mass, force);
     if (symmetric) {

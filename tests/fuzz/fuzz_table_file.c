@@ -19,6 +19,9 @@ static const struct {
     {TRUE_FLIGHT, "table.csv", "rocket.aerodynamics.table=%s"},
     {TRUE_FLIGHT, "table.csv", "environment.atmosphere={profile: %s}"},
     {TRUE_FLIGHT, "table.txt", "environment.atmosphere={profile: %s}"},
+    {TRUE_FIXED, "table.rse", "rocket.motor.thrust=%s"},
+    {TRUE_FIXED, "table.rse", "rocket.motor.masses=%s"},
+    {TRUE_FIXED, "table.csv", "rocket.air_brakes={over_height: %s}"},
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -28,7 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ld_model model;
     if (size < 1)
         return 0;
-    size_t chosen = data[0] % (sizeof tables / sizeof *tables); // '0': the first
+    size_t chosen = (uint8_t)(data[0] - '0') % (sizeof tables / sizeof *tables); // '0': the first
     write_in_memory(tables[chosen].name, data + 1, size - 1);
     snprintf(text, sizeof text, tables[chosen].set, in_memory(tables[chosen].name));
     if (read_with_sets(tables[chosen].scenario, &set, 1, &model))

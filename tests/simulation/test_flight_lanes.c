@@ -25,6 +25,12 @@ enum { FLIGHTS = 11, MOST_SETTINGS = 6 };
         "root_chord: 0.2 "                                                                         \
         "m, tip_chord: 0.1 m, span: 0.15 m, sweep_length: 0.1 m, radius: 82 mm, cant: 0.5 deg}"
 
+// Three rows of what burns, of which one lies within a piece of the thrust.
+#define MASSES                                                                                     \
+    "rocket.empty=",                                                                               \
+        "rocket.motor.masses=[[0 s, 20 kg, 0.9 m, 0.06 kg.m2, 2 kg.m2], [1 s, 13 kg, 0.8 m, 0.04 " \
+        "kg.m2, 1 kg.m2], [2.5 s, 1 kg, 0.7 m, 0.01 kg.m2, 0.1 kg.m2]]"
+
 // What is set beside examples/flight.yaml; "body": a plain body in the place of its table.
 static const char *const options[][MOST_SETTINGS] = {
     {NULL},
@@ -79,6 +85,13 @@ static const char *const options[][MOST_SETTINGS] = {
     {"rocket.parachutes=[{name: low, drag_area: 3 m2, trigger: height, height: 400 m}, {name: top, "
      "drag_area: 0.2 m2, trigger: apogee}]",
      "rocket.eccentricity=0.3 -0.2 mm", "environment.earth=round"},
+    {MASSES},
+    {MASSES, "rocket.motor.jet_damping=yes", "rocket.eccentricity=0.3 -0.2 mm"},
+    {"rocket.air_brakes={over_time: [[3 s, 0 m2], [3.5 s, 0.02 m2], [8 s, 0.02 m2]]}"},
+    {"rocket.air_brakes={over_height: [[100 m, 0 m2], [300 m, 0.02 m2]], scale: 0.9}",
+     "environment={earth: wgs84, ground: -5 m, site: {latitude: 45 deg}, wind: {speed: 4 m/s, "
+     "turbulence: {wind_at_6m: 8 m/s, harmonics: 20}}}",
+     "rocket.aerodynamics=none"},
     {"measures=[{name: fastest, of: airspeed, take: peak, from: start, to: t_apogee}]"},
 };
 

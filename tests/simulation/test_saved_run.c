@@ -25,7 +25,10 @@ static const struct saved_case {
     double ignite; // [s] an input: when it is lit in place of its firing time; 0: none
 } cases[] = {
     {"fixed", "fixed.yaml", {"run.output_step.tube=0.5 ms"}, 0},
-    {"ship", "ship.yaml", {"run.lead_in=50 ms", "run.output_step.tube=0.5 ms"}, 0},
+    {"ship",
+     "ship.yaml",
+     {"run.lead_in=50 ms", "run.output_step.tube=0.5 ms", "rocket.lock.hold_down=20 ms"},
+     0},
     {"marching",
      "marching/30-kmh.yaml",
      {"run.lead_in=50 ms", "run.output_step.tube=0.5 ms",

@@ -35,14 +35,17 @@ typedef struct inside {
 static inside inside_at(const flight_system *system, double t)
 {
     const double burn = 2, share = t / burn;
+    const motor *burns = &system->motor;
+    v3 c_change = v3_sub(burns->empty.c, burns->full.c);
+    m3 J_change = m3_sub(burns->empty.J, burns->full.J);
     inside now = {.m = 60 - 20 * share, .mu = 20 / burn, .R2 = 0.04 * 0.04};
-    now.c = v3_axpy(system->motor.full.c, share, system->c_change);
-    now.c_dot = v3_scale(1 / burn, system->c_change);
+    now.c = v3_axpy(system->motor.full.c, share, c_change);
+    now.c_dot = v3_scale(1 / burn, c_change);
     now.exit = system->thrust_point;
     // d(m c)/dt = flow - mu exit
     now.flow =
         v3_add(v3_axpy(v3_scale(-now.mu, now.c), now.m, now.c_dot), v3_scale(now.mu, now.exit));
-    now.J = m3_add(system->motor.full.J, m3_scale(share, system->J_change));
+    now.J = m3_add(system->motor.full.J, m3_scale(share, J_change));
     return now;
 }
 

@@ -106,6 +106,28 @@ static void test_filling_in_another(void **state)
                1 / (1 / 50.0 + 1.2 / 8 * area), 1e-9);
 }
 
+// A drogue that opens in the place of the main is told.
+static void test_lesser(void **state)
+{
+    (void)state;
+    static const char *const order[] = {"main", "drogue"};
+    for (int i = 0; i < 2; i++) {
+        char parachutes[256];
+        snprintf(parachutes, sizeof parachutes,
+                 "{name: %s, drag_area: 3 m2, trigger: time, time: %d s},"
+                 "{name: %s, drag_area: 0.2 m2, trigger: time, time: %d s}",
+                 order[0], 1 + i, order[1], 2 - i);
+        ld_model model =
+            model_of(UNIFORM ", gravity: 0 m/s2, ground: none", parachutes,
+                     "flight: {position: 0 0 0 m, velocity: 50 0 0 m/s}\nrun: {end: 3 s}\n");
+        ld_summary summary = summary_of_run(&model);
+        assert_int_equal(summary.note_count, i == 0);
+        if (i == 0)
+            assert_non_null(strstr(summary.note[0], "brakes less"));
+        model_clear(&model);
+    }
+}
+
 // In air that hardly brakes: up v^2/(2 g) in v/g; the height's trigger where the way down has come
 // there, or at the highest point where that is not above it.
 static void test_triggers(void **state)
@@ -164,9 +186,13 @@ static void test_end_at_apogee(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_terminal_speed),     cmocka_unit_test(test_filling),
-        cmocka_unit_test(test_filling_in_another), cmocka_unit_test(test_triggers),
-        cmocka_unit_test(test_standard_air),       cmocka_unit_test(test_end_at_apogee),
+        cmocka_unit_test(test_terminal_speed),
+        cmocka_unit_test(test_filling),
+        cmocka_unit_test(test_filling_in_another),
+        cmocka_unit_test(test_triggers),
+        cmocka_unit_test(test_standard_air),
+        cmocka_unit_test(test_end_at_apogee),
+        cmocka_unit_test(test_lesser),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,17 @@
+// The rocket's mass data at the rows of rocket.motor.masses: model.md, section 5.
+#ifndef LD_MODEL_MASSES_H
+#define LD_MODEL_MASSES_H
+
+#include "model/model.h"
+
+enum { MASSES_TIME, MASSES_MASS, MASSES_CENTER, MASSES_AXIAL, MASSES_TRANSVERSE, MASSES_COLUMNS };
+
+// At row `row` of the table, from 0: what the part of the rocket that it tells of has lost since
+// the first row is taken from the rocket at ignition, without mass error and eccentricity. With the
+// part's mass p at x, its moments of inertia I about its own centre, and X = x - c_0:
+//   m = m_0 + p - p_0,  c = c_0 + (p X - p_0 X_0)/m,
+//   J = J_0 + I - I_0 + p X^2 - p_0 X_0^2 - m (c - c_0)^2, of the axial one without the squares
+// (Huygens and Steiner).
+ld_mass_data masses_at(const ld_rocket *rocket, size_t row);
+
+#endif
