@@ -9,6 +9,7 @@
 #ifndef LD_MODEL_MODEL_H
 #define LD_MODEL_MODEL_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -1026,8 +1027,8 @@ struct ld_source {
     size_t file_count;
     ld_source_file **file; ///< [file_count] the scenario first
     size_t set_count;
-    char **set; ///< [set_count] overrides (as of --set)
-    int users;  ///< models that share it
+    char **set;       ///< [set_count] overrides (as of --set)
+    atomic_int users; ///< models that share it, on any threads
 };
 
 // Gives one share of it up; the last one frees it. May be NULL.

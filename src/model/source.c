@@ -57,7 +57,7 @@ const ld_source_file *source_find(const ld_source *self, const char *name)
 ld_source *source_hold(ld_source *self)
 {
     if (self)
-        self->users++;
+        atomic_fetch_add(&self->users, 1);
     return self;
 }
 
@@ -81,7 +81,7 @@ ld_source *source_copy(const ld_source *self)
 
 void source_free(ld_source *self)
 {
-    if (!self || --self->users > 0)
+    if (!self || atomic_fetch_sub(&self->users, 1) > 1)
         return;
     for (size_t i = 0; i < self->file_count; i++) {
         free(self->file[i]->name);

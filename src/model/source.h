@@ -15,7 +15,7 @@ bool source_add_set(ld_source *self, const char *text);
 ld_source *source_copy(const ld_source *self);
 // The file of that name beside the scenario itself, or NULL.
 const ld_source_file *source_find(const ld_source *self, const char *name);
-// One user more, who frees it too; not from several threads at once.
+// One user more, who frees it too.
 ld_source *source_hold(ld_source *self);
 
 #endif
