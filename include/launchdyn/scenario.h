@@ -77,6 +77,14 @@ ld_status ld_model_set(ld_model *model, const char *path, const char *value, ld_
 ld_status ld_model_set_all(ld_model *model, const char *const *sets, size_t count,
                            ld_messages *messages);
 
+/// A model of its own with several keys set, as ld_model_set_all() would; `model` and what is made
+/// of it stay as they are.
+/// @param sets    `count` texts "path=value"; without any the new model is equal
+/// @param derived filled on success (free with ld_model_free()); NULL on failure
+/// @return as ld_model_set()
+ld_status ld_model_derive(const ld_model *model, const char *const *sets, size_t count,
+                          ld_model **derived, ld_messages *messages);
+
 /// A number of the model by the path of its key ("rocket.mass"; of a vector a component:
 /// "rocket.center.x"; of a list a member by its name or number: "rocket.adaptors.rear.at"), in SI.
 /// @param value NaN on failure, and where it is not given

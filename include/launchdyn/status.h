@@ -53,6 +53,12 @@ char *ld_visible_text(const char *text, char *visible, size_t size);
 /// none is near.
 const char *ld_nearest_name(const char *word, const char *const *names, size_t count);
 
+/// The name that the text of an error or of a message suggests ("..., did you mean "mass"?"), for
+/// programs that offer it by itself.
+/// @param name of `size` bytes, always ended; what is too long is cut
+/// @return `name`; NULL: the text suggests none
+const char *ld_suggested_name(const char *text, char *name, size_t size);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,4 +76,17 @@ const char *ld_nearest_name(const char *word, const char *const *names, size_t c
     for (size_t i = 0; i < count; i++)
         suggestion_offer(&nearest, names[i]);
     return nearest.name;
+}
+
+const char *ld_suggested_name(const char *text, char *name, size_t size)
+{
+    static const char question[] = "did you mean \"";
+    const char *found = NULL; // the last one: what stands before it may quote anything
+    for (const char *at = text; (at = strstr(at, question)); found = at)
+        at += sizeof question - 1;
+    const char *end = found ? strchr(found, '"') : NULL;
+    if (!end)
+        return NULL;
+    snprintf(name, size, "%.*s", (int)(end - found), found);
+    return name;
 }

@@ -34,23 +34,43 @@ static bool lay_over(ld_source *source, const char *set)
     return source_add_set(source, set);
 }
 
-ld_status ld_model_set_all(ld_model *model, const char *const *sets, size_t count,
-                           ld_messages *messages)
+// Reads a model's texts again with overrides laid over them; `model` stays as it is.
+static ld_status read_again(const ld_model *model, const char *const *sets, size_t count,
+                            ld_model *fresh, ld_messages *messages)
 {
-    ld_model fresh;
     ld_source *source = source_copy(model->source);
     bool fine = source != NULL;
     *messages = (ld_messages){0};
     for (size_t i = 0; i < count && fine; i++)
         fine = lay_over(source, sets[i]);
     ld_status status =
-        fine ? scenario_read_source(source, model->point, &fresh, messages) : LD_ERR_MEMORY;
+        fine ? scenario_read_source(source, model->point, fresh, messages) : LD_ERR_MEMORY;
     source_free(source);
+    return status;
+}
+
+ld_status ld_model_set_all(ld_model *model, const char *const *sets, size_t count,
+                           ld_messages *messages)
+{
+    ld_model fresh;
+    ld_status status = read_again(model, sets, count, &fresh, messages);
     if (status)
         return status;
     model_clear(model);
     *model = fresh;
     return LD_OK;
+}
+
+ld_status ld_model_derive(const ld_model *model, const char *const *sets, size_t count,
+                          ld_model **derived, ld_messages *messages)
+{
+    ld_model *fresh = malloc(sizeof *fresh);
+    *messages = (ld_messages){0};
+    ld_status status = fresh ? read_again(model, sets, count, fresh, messages) : LD_ERR_MEMORY;
+    if (status)
+        free(fresh);
+    *derived = status ? NULL : fresh;
+    return status;
 }
 
 ld_status ld_model_set(ld_model *model, const char *path, const char *value, ld_messages *messages)

@@ -117,6 +117,28 @@ static void test_several_at_once(void **state)
     ld_model_free(model);
 }
 
+static void test_a_derived_model_leaves_the_first_one(void **state)
+{
+    (void)state;
+    ld_messages messages;
+    ld_model *model = read_fixed("rocket.mass=61 kg"), *derived, *same, *none;
+    const char *sets[] = {"rocket.mass=62 kg", "tubes.length=2.9 m"}, *wrong = "rocket.mas=1 kg";
+    assert_int_equal(ld_model_derive(model, sets, 2, &derived, &messages), LD_OK);
+    assert_int_equal(ld_model_derive(model, NULL, 0, &same, &messages), LD_OK);
+    check_same(same, model);
+    CHECK_BELOW("the first one's mass [kg]", number(model, "rocket.mass") - 61, 0);
+    ld_model_free(model);
+    CHECK_BELOW("the derived one's mass [kg]", number(derived, "rocket.mass") - 62, 0);
+    CHECK_BELOW("and length of tube [m]", number(derived, "tubes.length") - 2.9, 0);
+    assert_int_equal(ld_model_derive(same, &wrong, 1, &none, &messages), LD_ERR_INPUT);
+    assert_null(none);
+    char name[16];
+    assert_string_equal(ld_suggested_name(messages.item[0].text, name, sizeof name), "mass");
+    ld_messages_free(&messages);
+    ld_model_free(same);
+    ld_model_free(derived);
+}
+
 static void test_a_key_set_often_is_kept_once(void **state)
 {
     (void)state;
@@ -255,6 +277,7 @@ int main(void)
         cmocka_unit_test(test_set_is_as_an_override),
         cmocka_unit_test(test_wrong_values_are_refused),
         cmocka_unit_test(test_several_at_once),
+        cmocka_unit_test(test_a_derived_model_leaves_the_first_one),
         cmocka_unit_test(test_a_key_set_often_is_kept_once),
         cmocka_unit_test(test_values_are_told),
         cmocka_unit_test(test_a_dot_at_the_end_is_no_path),

@@ -1,0 +1,54 @@
+// The name that a text suggests, taken out of it.
+#include "support/check.h"
+
+#include <string.h>
+
+#include "launchdyn/status.h"
+
+static void check_name(const char *text, size_t size, const char *expected)
+{
+    char name[32];
+    memset(name, '#', sizeof name);
+    const char *found = ld_suggested_name(text, name, size);
+    if (!expected) {
+        assert_null(found);
+        return;
+    }
+    assert_ptr_equal(found, name);
+    assert_string_equal(name, expected);
+}
+
+static void test_names_are_taken_out(void **state)
+{
+    (void)state;
+    check_name("unknown key, did you mean \"mass\"?", 32, "mass");
+    check_name("found \"reduce\", did you mean \"reduced\"? expected a word", 32, "reduced");
+    check_name("no statistic, did you mean \"range.mean\" or \"range.deviation\"?", 32,
+               "range.mean");
+    check_name("unknown key, did you mean \"mass\"?", 4, "mas");
+}
+
+static void test_others_suggest_none(void **state)
+{
+    (void)state;
+    check_name("", 32, NULL);
+    check_name("found \"mass\"; expected a number", 32, NULL);
+    check_name("unknown key, did you mean \"mas", 32, NULL); // cut
+}
+
+// What was found may look like a suggestion itself: the one that counts is the last.
+static void test_what_was_found_is_not_what_is_meant(void **state)
+{
+    (void)state;
+    check_name("found \"did you mean \"x\"?\", did you mean \"fixed\"?", 32, "fixed");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_names_are_taken_out),
+        cmocka_unit_test(test_others_suggest_none),
+        cmocka_unit_test(test_what_was_found_is_not_what_is_meant),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
