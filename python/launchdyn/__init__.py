@@ -1,0 +1,40 @@
+"""Launch dynamics: a rocket that leaves a flexible tube, or a rail, on a moving base.
+
+    import launchdyn as ld
+    scenario = ld.Scenario.read("fixed.yaml")
+    scenario["rocket.mass"] = "61 kg"
+    result = scenario.run()
+    result.summary["rocket.1.muzzle_speed"]     # a number in SI
+    result["tip.y"]                             # a numpy array
+    result.plot("tip.y", "tip.z")               # a figure
+
+Numbers are in SI and radians throughout. Keys of a scenario: keys(); names of columns and numbers:
+docs/quantities.md. Errors are LaunchdynError, with code, place and suggestion.
+"""
+
+from ._library import VERSION as __version__
+from ._library import library as _found
+from ._values import Key, keys
+from .errors import (FileError, InputError, Interrupted, LaunchdynError, LaunchError, Message,
+                     MissingError, NumericError, OutOfMemory, Status, UnknownName)
+from .result import Column, History, Quantity, Result, Summary
+from .scenario import Scenario
+from .simulation import (BaseFrame, Event, EventKind, Mode, Pole, Run, Simulation, VehicleRun,
+                         Wrench)
+from .study import (Counts, Estimate, Point, Statistics, Study, StudyColumn, StudyData,
+                    write_report)
+
+
+def library_version() -> str:
+    """The version of the library that was found, "0.1.0"."""
+    return str(_found.ld_version().decode())
+
+
+__all__ = [
+    "BaseFrame", "Column", "Counts", "Estimate", "Event", "EventKind", "FileError", "History",
+    "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError", "Message",
+    "MissingError", "Mode", "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Result",
+    "Run", "Scenario", "Simulation", "Statistics", "Status", "Study", "StudyColumn", "StudyData",
+    "Summary", "UnknownName", "VehicleRun", "Wrench", "__version__", "keys", "library_version",
+    "write_report",
+]

@@ -1,0 +1,312 @@
+"""The C library: where it is found, its structs, and what its functions take and return.
+
+Everything here mirrors include/launchdyn/*.h; a test compares both.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sysconfig
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_int,
+                    c_int64, c_size_t, c_void_p)
+from pathlib import Path
+from typing import Any, Iterator
+
+#: Of the interface that this package was written for; the shared library's name carries it.
+INTERFACE = 1
+#: The version of this package, which is that of the library it goes with.
+VERSION = "0.1.0"
+
+
+# ---- structs, named as in the headers
+
+class ld_error(Structure):
+    _fields_ = [("status", c_int), ("text", c_char * 640)]
+
+
+class ld_message(Structure):
+    _fields_ = [("file", c_char_p), ("line", c_int), ("column", c_int), ("path", c_char_p),
+                ("text", c_char_p), ("source", c_char_p)]
+
+
+class ld_messages(Structure):
+    _fields_ = [("count", c_size_t), ("item", POINTER(ld_message))]
+
+
+class ld_key(Structure):
+    _fields_ = [("path", c_char_p), ("unit", c_char_p), ("description", c_char_p),
+                ("expected", c_char_p), ("low", c_double), ("high", c_double),
+                ("required", c_int)]
+
+
+class ld_column(Structure):
+    _fields_ = [("name", c_char_p), ("unit", c_char_p), ("description", c_char_p)]
+
+
+class ld_quantity(Structure):
+    _fields_ = [("name", c_char_p), ("unit", c_char_p), ("description", c_char_p),
+                ("value", c_double)]
+
+
+class ld_mode(Structure):
+    _fields_ = [("frequency", c_double), ("damping", c_double), ("real", c_double),
+                ("shape", c_char * 64)]
+
+
+class ld_pole(Structure):
+    _fields_ = [("real", c_double), ("imaginary", c_double), ("shape", c_char * 64)]
+
+
+class ld_base_frame(Structure):
+    _fields_ = [("position", c_double * 3), ("quaternion", c_double * 4),
+                ("velocity", c_double * 3), ("rate", c_double * 3)]
+
+
+class ld_base_wrench(Structure):
+    _fields_ = [("force", c_double * 3), ("moment", c_double * 3)]
+
+
+class ld_event(Structure):
+    _fields_ = [("kind", c_int), ("t", c_double), ("rocket", c_int), ("part", c_int)]
+
+
+#: Of ld_run_options: told the share done, returns whether to go on.
+SHARE_TOLD = CFUNCTYPE(c_bool, c_void_p, c_double)
+
+
+class ld_run_options(Structure):
+    _fields_ = [("sink", c_void_p), ("self", c_void_p), ("progress", SHARE_TOLD),
+                ("base", POINTER(ld_base_frame)), ("reserved", c_void_p * 4)]
+
+
+class ld_study_counts(Structure):
+    _fields_ = [("samples", c_int64), ("look", c_int64), ("enough", c_bool), ("done", c_int64),
+                ("failed", c_int64), ("now", c_int64)]
+
+
+#: Of ld_study_options: told how far it is; asked whether to go on.
+COUNTS_TOLD = CFUNCTYPE(None, c_void_p, POINTER(ld_study_counts))
+GO_ON = CFUNCTYPE(c_bool, c_void_p)
+
+
+class ld_study_options(Structure):
+    _fields_ = [("threads", c_int), ("shard", c_int), ("shards", c_int), ("self", c_void_p),
+                ("progress", COUNTS_TOLD), ("go_on", GO_ON), ("reserved", c_void_p * 4)]
+
+
+class ld_study_view(Structure):
+    _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
+                ("measured", c_char_p), ("against", c_char_p), ("csv", c_char_p),
+                ("reserved", c_void_p * 1)]
+
+
+class ld_study_column(Structure):
+    _fields_ = [("name", c_char_p), ("unit", c_char_p), ("factor", c_bool),
+                ("per_rocket", c_bool), ("seed", c_bool)]
+
+
+class ld_study_point(Structure):
+    _fields_ = [("number", c_int64), ("text", POINTER(c_char_p)), ("asked", c_int64),
+                ("done", c_int64), ("failed", c_int64)]
+
+
+class ld_study_values(Structure):
+    _fields_ = [("count", c_size_t), ("sample", POINTER(c_int64)), ("rocket", POINTER(c_int)),
+                ("value", POINTER(POINTER(c_double)))]
+
+
+class ld_estimate(Structure):
+    _fields_ = [("value", c_double), ("low", c_double), ("high", c_double)]
+
+
+class ld_study_statistics(Structure):
+    _fields_ = [("count", c_size_t), ("groups", c_size_t), ("mean", ld_estimate),
+                ("deviation", ld_estimate), ("skewness", c_double), ("least", c_double),
+                ("greatest", c_double), ("quantile", ld_estimate * 3)]
+
+
+class ld_report(Structure):
+    _fields_ = [("bytes", c_size_t), ("pixels", c_double), ("note_count", c_int),
+                ("note", (c_char * 256) * 8)]
+
+
+KEY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_key))
+QUANTITY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_quantity))
+
+
+# ---- functions: what they return, what they take; every handle and FILE is a c_void_p
+
+_handle, _handles = c_void_p, POINTER(c_void_p)
+_text, _texts, _number = c_char_p, POINTER(c_char_p), POINTER(c_double)
+_error, _messages = POINTER(ld_error), POINTER(ld_messages)
+
+FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
+    "ld_version": (_text, []),
+    "ld_version_number": (c_int, []),
+    "ld_suggested_name": (_text, [_text, c_void_p, c_size_t]),
+    "ld_nearest_name": (_text, [_text, _texts, c_size_t]),
+    # scenario.h
+    "ld_messages_free": (None, [_messages]),
+    "ld_scenario_explain": (c_bool, [_handle, _error, _messages]),
+    "ld_scenario_read": (c_int, [_text, _texts, c_size_t, _handles, _messages]),
+    "ld_scenario_read_text": (c_int, [_text, c_size_t, _text, _text, _texts, c_size_t, _handles,
+                                      _messages]),
+    "ld_scenario_read_source": (c_int, [_handle, c_int, _handles, _messages]),
+    "ld_scenario_notes": (c_int, [_handle, c_int, c_int, _messages]),
+    "ld_scenario_keys": (None, [KEY_TAKER, c_void_p]),
+    "ld_scenario_points": (c_int, [_handle]),
+    "ld_scenario_point_name": (None, [_handle, c_int, c_void_p, c_size_t]),
+    "ld_model_new": (c_int, [_texts, c_size_t, _handles, _messages]),
+    "ld_model_derive": (c_int, [_handle, _texts, c_size_t, _handles, _messages]),
+    "ld_model_number": (c_int, [_handle, _text, _number, _error]),
+    "ld_model_text": (c_int, [_handle, _text, c_void_p, c_size_t, _error]),
+    "ld_model_table": (c_int, [_handle, _text, POINTER(_number), POINTER(c_size_t),
+                               POINTER(c_size_t), _error]),
+    "ld_model_source": (_handle, [_handle]),
+    "ld_model_has_launcher": (c_bool, [_handle]),
+    "ld_model_has_vehicle": (c_bool, [_handle]),
+    "ld_model_print": (None, [_handle, c_void_p]),
+    "ld_model_describe": (None, [_handle, c_void_p]),
+    "ld_model_free": (None, [_handle]),
+    # simulation.h
+    "ld_simulation_create": (c_int, [_handle, _handles, _error]),
+    "ld_simulation_free": (None, [_handle]),
+    "ld_simulation_run": (c_int, [_handle, POINTER(ld_run_options), _handle, _error]),
+    "ld_simulation_tube_modes": (c_int, [_handle, POINTER(ld_mode), c_int]),
+    "ld_simulation_system_modes": (c_int, [_handle, POINTER(ld_mode), c_int, POINTER(c_int),
+                                           POINTER(ld_pole), c_int, POINTER(c_int), _error]),
+    "ld_simulation_columns": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
+    # run.h
+    "ld_run_begin": (c_int, [_handle, POINTER(ld_run_options), _handles, _error]),
+    "ld_run_advance": (c_int, [_handle, c_double, _error]),
+    "ld_run_advance_to_event": (c_int, [_handle, c_double, POINTER(ld_event), _error]),
+    "ld_run_time": (c_double, [_handle]),
+    "ld_run_is_finished": (c_bool, [_handle]),
+    "ld_run_number": (c_int, [_handle, _text, _number, _error]),
+    "ld_run_row": (c_int, [_handle, _number, _error]),
+    "ld_run_summary": (_handle, [_handle]),
+    "ld_run_ignite": (c_int, [_handle, c_double, _error]),
+    "ld_run_tell_base": (c_int, [_handle, POINTER(ld_base_frame), _error]),
+    "ld_run_base_wrench": (c_int, [_handle, POINTER(ld_base_wrench), _error]),
+    "ld_run_save": (c_int, [_handle, c_void_p, c_size_t, POINTER(c_size_t), _error]),
+    "ld_run_load": (c_int, [_handle, POINTER(ld_run_options), c_void_p, c_size_t, _handles,
+                            _error]),
+    "ld_run_end": (c_int, [_handle, _handle, _error]),
+    # vehicle_run.h
+    "ld_vehicle_run_begin": (c_int, [_handle, _handles, _error]),
+    "ld_vehicle_run_end": (None, [_handle]),
+    "ld_vehicle_run_advance": (c_int, [_handle, c_double, _error]),
+    "ld_vehicle_run_time": (c_double, [_handle]),
+    "ld_vehicle_run_tell_wrench": (c_int, [_handle, POINTER(ld_base_wrench), _error]),
+    "ld_vehicle_run_wrench": (c_int, [_handle, POINTER(ld_base_wrench), _error]),
+    "ld_vehicle_run_frame": (c_int, [_handle, POINTER(ld_base_frame), _error]),
+    "ld_vehicle_run_columns": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
+    "ld_vehicle_run_row": (c_int, [_handle, _number, _error]),
+    # summary.h, history.h
+    "ld_summary_new": (_handle, []),
+    "ld_summary_free": (None, [_handle]),
+    "ld_summary_number": (c_int, [_handle, _text, _number, _error]),
+    "ld_summary_each": (None, [_handle, QUANTITY_TAKER, c_void_p]),
+    "ld_summary_rockets": (c_int, [_handle]),
+    "ld_summary_stopped": (_text, [_handle]),
+    "ld_summary_note": (_text, [_handle, c_int]),
+    "ld_history_new": (_handle, [c_void_p]),
+    "ld_history_free": (None, [_handle]),
+    "ld_history_sink": (c_void_p, [_handle]),
+    "ld_history_rows": (c_size_t, [_handle]),
+    "ld_history_columns": (POINTER(ld_column), [_handle, POINTER(c_size_t)]),
+    "ld_history_column": (c_void_p, [_handle, _text, POINTER(c_size_t)]),
+    "ld_history_flight": (_handle, [_handle, c_int]),
+    # output.h, report.h, fmu.h
+    "ld_output_open": (c_int, [_text, _handle, c_bool, _handles, _error]),
+    "ld_output_sink": (c_void_p, [_handle]),
+    "ld_output_finish": (c_int, [_handle, _handle, _error]),
+    "ld_output_discard": (None, [_handle]),
+    "ld_summary_print": (None, [_handle, _handle, c_void_p]),
+    "ld_report_write": (c_int, [_text, _text, POINTER(ld_report), _error]),
+    "ld_report_write_studies": (c_int, [_texts, c_size_t, _text, POINTER(ld_report), _error]),
+    "ld_fmu_export": (c_int, [_handle, c_int, c_int, _text, _error]),
+    # study.h, study_data.h
+    "ld_study_read": (c_int, [_text, _texts, c_size_t, _handles, _messages]),
+    "ld_study_read_text": (c_int, [_text, c_size_t, _text, _text, _texts, c_size_t, _handles,
+                                   _messages]),
+    "ld_study_read_source": (c_int, [_handle, _handles, _messages]),
+    "ld_study_free": (None, [_handle]),
+    "ld_study_model": (_handle, [_handle]),
+    "ld_study_run": (c_int, [_handle, _text, POINTER(ld_study_options),
+                             POINTER(ld_study_counts), _error]),
+    "ld_study_show": (c_int, [_text, POINTER(ld_study_view), c_void_p, _error]),
+    "ld_study_data_open": (c_int, [_text, _handles, _error]),
+    "ld_study_data_close": (None, [_handle]),
+    "ld_study_data_column": (POINTER(ld_study_column), [_handle, c_int]),
+    "ld_study_data_swept": (_text, [_handle, c_int]),
+    "ld_study_data_point": (POINTER(ld_study_point), [_handle, c_int]),
+    "ld_study_data_values": (c_int, [_handle, c_int, _texts, c_size_t,
+                                     POINTER(POINTER(ld_study_values)), _error]),
+    "ld_study_data_statistics": (c_int, [_handle, c_int, _text,
+                                         POINTER(POINTER(ld_study_statistics)), _error]),
+    "ld_study_data_sensitivity": (c_int, [_handle, c_int, _text, _text, POINTER(ld_estimate),
+                                          _error]),
+}
+
+
+# ---- where it is
+
+def candidates() -> Iterator[str]:
+    """Where the library is looked for, in this order: where LAUNCHDYN_LIBRARY says, in the
+    package's folder, in the build folder of the tree that holds it, in the installation that
+    holds it, where the system finds it."""
+    named = os.environ.get("LAUNCHDYN_LIBRARY")
+    if named:
+        yield named
+        return
+    name = f"liblaunchdyn.so.{INTERFACE}"
+    package = Path(__file__).resolve().parent
+    yield str(package / name)
+    if (package.parent / "pyproject.toml").exists():
+        yield str(package.parents[1] / "build" / name)
+    multiarch = sysconfig.get_config_var("MULTIARCH") or ""
+    for above in package.parents:
+        if above.name in ("lib", "lib64"):
+            yield str(above / multiarch / name)
+            yield str(above / name)
+    yield name
+
+
+def check_version(number: int, text: str) -> None:
+    """Refuses a library of another minor version: names of keys and numbers follow that."""
+    major, minor, _ = (int(part) for part in VERSION.split("."))
+    if number // 100 != 100 * major + minor:
+        raise ImportError(f"this package goes with launchdyn {major}.{minor}, and the library "
+                          f"found is {text}; LAUNCHDYN_LIBRARY names another one")
+
+
+def load() -> ctypes.CDLL:
+    """Loads the first library that is there and tells ctypes its functions."""
+    tried = []
+    for path in candidates():
+        try:
+            found = ctypes.CDLL(path)
+        except OSError as reason:
+            tried.append(f"  {path}: {reason}")
+            continue
+        for name, (result, arguments) in FUNCTIONS.items():
+            try:
+                function = getattr(found, name)
+            except AttributeError:
+                raise ImportError(f"{path} has no {name}: it is older than this package, or no "
+                                  "launchdyn") from None
+            function.restype, function.argtypes = result, arguments
+        check_version(found.ld_version_number(), found.ld_version().decode())
+        return found
+    raise ImportError("the library of launchdyn was not found; LAUNCHDYN_LIBRARY may name it. "
+                      "Looked for:\n" + "\n".join(tried))
+
+
+library = load()
+libc = ctypes.CDLL(None)
+libc.open_memstream.restype = c_void_p
+libc.open_memstream.argtypes = [POINTER(c_void_p), POINTER(c_size_t)]
+libc.fclose.argtypes = [c_void_p]
+libc.free.argtypes = [c_void_p]

@@ -1,0 +1,79 @@
+"""Memory of the library: handles that live as long as anything needs them, arrays, texts."""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from typing import Any, Callable, Iterable, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import libc
+
+Array = npt.NDArray[np.float64]
+
+
+def _free(free: Callable[[int], Any], pointer: int, parents: tuple[Handle, ...]) -> None:
+    free(pointer)  # while `parents`, held by the caller, still are
+
+
+class Handle:
+    """An object of the library: freed once nothing refers to it, before those it is made of."""
+
+    def __init__(self, pointer: Optional[int], free: Callable[[int], Any],
+                 *parents: Handle) -> None:
+        if not pointer:
+            raise MemoryError("no memory for an object of launchdyn")
+        self.pointer = pointer
+        self._freed = weakref.finalize(self, _free, free, pointer, parents)
+        self._freed.atexit = False  # the end of the program frees what is left
+
+    def let_go(self) -> int:
+        """The pointer, which somebody else frees from now on."""
+        self._freed.detach()
+        return self.pointer
+
+
+class _Memory:
+    """Some doubles of the library, kept by `owner`: what an array of them refers to."""
+
+    def __init__(self, address: int, count: int, owner: Any) -> None:
+        self.owner = owner
+        self.__array_interface__ = {"shape": (count,), "typestr": np.dtype(np.float64).str,
+                                    "data": (address, True), "version": 3}
+
+
+def array_at(address: Optional[int], count: int, owner: Any) -> Array:
+    """A read-only array over the library's memory, without a copy; it keeps `owner`."""
+    if not address or not count:
+        return np.empty(0)
+    return np.asarray(_Memory(address, count, owner))
+
+
+def text_of(text: Optional[bytes]) -> str:
+    """A text of the library; "" for NULL."""
+    return text.decode("utf-8", "replace") if text else ""
+
+
+def texts(items: Iterable[str]) -> Any:
+    """An array of C strings."""
+    encoded = [item.encode() for item in items]
+    return (ctypes.c_char_p * len(encoded))(*encoded)
+
+
+def printed(write: Callable[[int], Any]) -> str:
+    """What `write` prints to the FILE that it is given."""
+    text, size = ctypes.c_void_p(), ctypes.c_size_t()
+    stream = libc.open_memstream(ctypes.byref(text), ctypes.byref(size))
+    if not stream:
+        raise MemoryError("no memory for a text")
+    try:
+        write(stream)
+    finally:
+        libc.fclose(stream)
+        whole = ctypes.string_at(text.value or 0, size.value) if text.value else b""
+        libc.free(text)
+    return text_of(whole)
+
+

@@ -1,0 +1,230 @@
+"""What came of a run: columns over time, numbers by name."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING, Any, Optional
+
+from ._library import QUANTITY_TAKER, ld_error, library
+from ._memory import Array, Handle, array_at, printed, text_of, texts
+from .errors import UnknownName, check_name
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a history."""
+
+    name: str  #: e.g. "tip.y"
+    unit: str  #: SI, e.g. "m"
+    description: str  #: one line, with frame
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number of a summary."""
+
+    name: str  #: e.g. "rocket.1.muzzle_speed"
+    unit: str  #: SI; "" or "1": none
+    description: str  #: one line, with frame
+    value: float  #: NaN where there is none
+
+
+def nearest(name: str, names: list[str]) -> Optional[str]:
+    """The one of some names that is nearest to `name`; None if none is near."""
+    return text_of(library.ld_nearest_name(name.encode(), texts(names), len(names))) or None
+
+
+class History(Mapping[str, Array]):
+    """Columns of a launch or of a flight over time, by their names (docs/quantities.md), in SI;
+    NaN where a row has no value. The arrays are the library's memory, read-only and not copied."""
+
+    def __init__(self, handle: Handle, pointer: int) -> None:
+        self._handle, self._pointer = handle, pointer
+
+    @functools.cached_property
+    def columns(self) -> dict[str, Column]:
+        """Name, unit and description of each column, in order."""
+        count = ctypes.c_size_t()
+        columns = library.ld_history_columns(self._pointer, ctypes.byref(count))
+        found = (Column(text_of(c.name), text_of(c.unit), text_of(c.description))
+                 for c in columns[:count.value])
+        return {column.name: column for column in found}
+
+    def __getitem__(self, name: str) -> Array:
+        rows = ctypes.c_size_t()
+        found = library.ld_history_column(self._pointer, name.encode(), ctypes.byref(rows))
+        if not found and name not in self.columns:
+            near = nearest(name, list(self.columns))
+            raise UnknownName(f'there is no column "{name}"'
+                              + (f', did you mean "{near}"?' if near else ""))
+        return array_at(found, rows.value, self._handle)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        return len(self.columns)
+
+    @property
+    def rows(self) -> int:
+        return int(library.ld_history_rows(self._pointer))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame over t [s]; units in `attrs["units"]`."""
+        import pandas
+        frame = pandas.DataFrame(dict(self))
+        frame.attrs["units"] = {name: column.unit for name, column in self.columns.items()}
+        return frame.set_index("t")
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A data set over t [s], whose variables have `units` and `long_name`."""
+        import xarray
+        told = {name: {"units": column.unit, "long_name": column.description}
+                for name, column in self.columns.items()}
+        values = {name: ("t", self[name], told[name]) for name in self if name != "t"}
+        return xarray.Dataset(values, coords={"t": ("t", self["t"], told["t"])})
+
+    def plot(self, *names: str, over: str = "t", ax: Any = None, **style: Any) -> Any:
+        """Draws columns by matplotlib over another one: `history.plot("tip.y", "tip.z")`.
+
+        Columns of one unit share axes, others get axes of their own, one below the other.
+        Returns the axes, or a list of them where units differ.
+        """
+        from .plotting import plot_columns
+        return plot_columns(self, names, over, ax, style)
+
+    def __repr__(self) -> str:
+        return f"<launchdyn.History: {len(self)} columns, {self.rows} rows>"
+
+
+class Summary(Mapping[str, float]):
+    """Numbers of a run by their names (docs/quantities.md), in SI: "rocket.1.muzzle_speed",
+    "energy.residual_relative", "mode.1.frequency"; NaN where there is none."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+    @functools.cached_property
+    def quantities(self) -> dict[str, Quantity]:
+        """Name, unit, description and value of each number."""
+        return {quantity.name: quantity for quantity in quantities_at(self._handle.pointer)}
+
+    def __getitem__(self, name: str) -> float:
+        error, value = ld_error(), ctypes.c_double()
+        check_name(library.ld_summary_number(self._handle.pointer, name.encode(),
+                                             ctypes.byref(value), ctypes.byref(error)), error)
+        return value.value
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.quantities)
+
+    def __len__(self) -> int:
+        return len(self.quantities)
+
+    def __repr__(self) -> str:
+        return f"<launchdyn.Summary: {len(self)} numbers>"
+
+
+def quantities_at(pointer: int) -> list[Quantity]:
+    """The numbers of the library's summary."""
+    found: list[Quantity] = []
+
+    def take(_: Any, offered: Any) -> None:
+        q = offered[0]
+        found.append(Quantity(text_of(q.name), text_of(q.unit), text_of(q.description), q.value))
+
+    library.ld_summary_each(pointer, QUANTITY_TAKER(take), None)
+    return found
+
+
+class Result:
+    """What came of a run. `result["tip.y"]` is a column, `result.summary["rocket.1.muzzle_speed"]`
+    a number, `result.flight(1)` a rocket's flight; of a flight alone the columns are those of the
+    flight. A context manager; it need not be closed."""
+
+    def __init__(self, model: Handle, summary: Handle, history: Handle) -> None:
+        self._model, self._handle, self._rows = model, summary, history
+        self.summary = Summary(summary)
+        launch = History(history, history.pointer)
+        #: Columns of the launch, or of a flight alone.
+        self.history = launch if len(launch) else self.flights.get(1, launch)
+
+    @property
+    def rockets(self) -> int:
+        """Number of rockets fired."""
+        return int(library.ld_summary_rockets(self._handle.pointer))
+
+    @property
+    def stopped(self) -> Optional[str]:
+        """Why the run ended early; None: it did not."""
+        return text_of(library.ld_summary_stopped(self._handle.pointer)) or None
+
+    @property
+    def notes(self) -> list[str]:
+        """Remarks that the user should see."""
+        found: list[str] = []
+        while note := library.ld_summary_note(self._handle.pointer, len(found)):
+            found.append(text_of(note))
+        return found
+
+    @property
+    def flights(self) -> dict[int, History]:
+        """Columns of the flights, by the number of the rocket in the order of firing."""
+        found = {}
+        for rocket in range(1, self.rockets + 1):
+            pointer = library.ld_history_flight(self._rows.pointer, rocket)
+            if pointer:
+                found[rocket] = History(self._rows, pointer)
+        return found
+
+    def flight(self, rocket: int = 1) -> History:
+        """Columns of the flight of a rocket, from 1. Raises KeyError where it has not flown."""
+        flights = self.flights
+        if rocket not in flights:
+            raise KeyError(f"rocket {rocket} has not flown")
+        return flights[rocket]
+
+    def __getitem__(self, name: str) -> Array:
+        return self.history[name]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The columns as a data frame over t [s]."""
+        return self.history.to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The columns as a data set over t [s]."""
+        return self.history.to_xarray()
+
+    def plot(self, *names: str, over: str = "t", ax: Any = None, **style: Any) -> Any:
+        """Draws columns; see History.plot()."""
+        return self.history.plot(*names, over=over, ax=ax, **style)
+
+    def close(self) -> None:
+        """Gives it up; arrays that are still used keep their memory."""
+        del self._model, self._handle, self._rows, self.summary, self.history
+
+    def __enter__(self) -> Result:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()
+
+    def __str__(self) -> str:
+        """The table that the command prints."""
+        return printed(lambda to: library.ld_summary_print(self._model.pointer,
+                                                           self._handle.pointer, to))
+
+    def __repr__(self) -> str:
+        stopped = f", stopped: {self.stopped}" if self.stopped else ""
+        return f"<launchdyn.Result: rockets {self.rockets}, rows {self.history.rows}{stopped}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"

@@ -1,0 +1,252 @@
+"""Scenarios: read, set, looked at, run."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+from collections.abc import Iterator, Mapping
+from types import TracebackType
+from typing import Any, Callable, Optional, Type, Union
+
+import numpy as np
+
+from ._library import ld_error, ld_messages, library
+from ._memory import Array, Handle, printed, text_of, texts
+from ._values import Key, Sets, key_of, scenario_text, set_texts
+from .errors import (InputError, Message, UnknownName, check, check_messages, check_name,
+                     take_messages)
+from .result import Result
+from .simulation import BaseFrame, Run, Simulation
+
+PathLike = Union[str, "os.PathLike[str]"]
+Value = Union[float, str, Array]
+
+
+def read_model(read: Callable[..., int], *arguments: Any,
+               free: Callable[[int], Any] = library.ld_model_free) -> Handle:
+    """The model, or the study, that one of the library's reading functions makes."""
+    pointer, messages = ctypes.c_void_p(), ld_messages()
+    check_messages(read(*arguments, ctypes.byref(pointer), ctypes.byref(messages)), messages)
+    return Handle(pointer.value, free)
+
+
+class Scenario:
+    """What a scenario says (docs/scenario.md), checked and whole.
+
+    `scenario["rocket.mass"]` is a value in SI (numbers, vectors and tables as floats and arrays,
+    words as texts), `scenario["rocket.mass"] = "61 kg"` sets it; a bare number is in SI. Setting
+    changes nothing of what was made of it before. A context manager; it need not be closed.
+    """
+
+    def __init__(self, model: Handle) -> None:
+        """Of a model's handle: use read(), from_text(), from_dict() or defaults()."""
+        self._model: Optional[Handle] = model
+        self._simulation: Optional[Simulation] = None
+
+    # ---- made
+
+    @classmethod
+    def read(cls, path: PathLike, sets: Sets = None) -> Scenario:
+        """Reads a file; `sets` override it: {"rocket.mass": "61 kg"}."""
+        items = texts(set_texts(sets))
+        return cls(read_model(library.ld_scenario_read, os.fsencode(path), items, len(items)))
+
+    @classmethod
+    def from_text(cls, text: str, sets: Sets = None, name: str = "text",
+                  folder: PathLike = ".") -> Scenario:
+        """Reads a text; `name` stands for the file in messages, `folder` is where files that it
+        names are looked for."""
+        items, coded = texts(set_texts(sets)), text.encode()
+        return cls(read_model(library.ld_scenario_read_text, coded, len(coded), name.encode(),
+                              os.fsencode(folder), items, len(items)))
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any], sets: Sets = None, name: str = "dict",
+                  folder: PathLike = ".") -> Scenario:
+        """Of nested mappings as the file's blocks: {"rocket": {"mass": "61 kg", ...}, ...};
+        "launchdyn": 1 may be left out."""
+        return cls.from_text(dict_text(values), sets, name, folder)
+
+    @classmethod
+    def defaults(cls, sets: Sets) -> Scenario:
+        """Of values alone, by their paths; all else has the language's defaults."""
+        items = texts(set_texts(sets))
+        return cls(read_model(library.ld_model_new, items, len(items)))
+
+    @property
+    def handle(self) -> Handle:
+        """The library's object."""
+        if self._model is None:
+            raise ValueError("the scenario is closed")
+        return self._model
+
+    def close(self) -> None:
+        """Gives the model up; results that need it keep it."""
+        self._model = self._simulation = None
+
+    def __enter__(self) -> Scenario:
+        return self
+
+    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        self.close()
+
+    # ---- values
+
+    def __getitem__(self, path: str) -> Value:
+        """A value in SI; NaN or "" where it is not given. Raises UnknownName."""
+        key = key_of(path)
+        if key and key.components and key.path.rpartition(".")[2] == path.rpartition(".")[2]:
+            return np.array([self._number(f"{path}.{name}") for name in key.components])
+        table = self._table(path) if key and "rows [" in key.expected else None
+        if table is not None:
+            return table
+        error, value = ld_error(), ctypes.c_double()
+        if not library.ld_model_number(self.handle.pointer, path.encode(), ctypes.byref(value),
+                                       ctypes.byref(error)):
+            return value.value
+        try:
+            text = self.text(path)
+        except InputError:
+            raise UnknownName(text_of(error.text)) from None
+        return str(json.loads(text)) if text.startswith('"') else text
+
+    def __setitem__(self, path: str, value: Any) -> None:
+        """Sets a key: a text as in the file, a number in SI, or (61, "kg")."""
+        self.set({path: value})
+
+    def set(self, sets: Sets) -> None:
+        """Sets several keys at once, for those that fit only together. Raises InputError with all
+        that is wrong; then the scenario is as before."""
+        self._model = self._derived(sets)
+        self._simulation = None
+
+    def derive(self, sets: Sets = None) -> Scenario:
+        """Another scenario with some values set; this one stays as it is."""
+        return Scenario(self._derived(sets))
+
+    def _derived(self, sets: Sets) -> Handle:
+        items = texts(set_texts(sets))
+        return read_model(library.ld_model_derive, self.handle.pointer, items, len(items))
+
+    def _number(self, path: str) -> float:
+        error, value = ld_error(), ctypes.c_double()
+        check_name(library.ld_model_number(self.handle.pointer, path.encode(),
+                                           ctypes.byref(value), ctypes.byref(error)), error)
+        return value.value
+
+    def _table(self, path: str) -> Optional[Array]:
+        error = ld_error()
+        table = ctypes.POINTER(ctypes.c_double)()
+        rows, columns = ctypes.c_size_t(), ctypes.c_size_t()
+        if library.ld_model_table(self.handle.pointer, path.encode(), ctypes.byref(table),
+                                  ctypes.byref(rows), ctypes.byref(columns), ctypes.byref(error)):
+            return None
+        shape = rows.value, columns.value
+        return np.ctypeslib.as_array(table, shape).copy() if table else np.empty((0, 0))
+
+    def text(self, path: str) -> str:
+        """A value as a text that can be set again: "61 kg"; "" where it is not given."""
+        error, text = ld_error(), ctypes.create_string_buffer(4096)
+        check_name(library.ld_model_text(self.handle.pointer, path.encode(), text, len(text),
+                                         ctypes.byref(error)), error)
+        return text_of(text.value)
+
+    def key(self, path: str) -> Optional[Key]:
+        """Unit, range and description of a key."""
+        return key_of(path)
+
+    # ---- as a whole
+
+    @property
+    def title(self) -> str:
+        return str(self["title"])
+
+    @property
+    def has_launcher(self) -> bool:
+        """Whether it is more than a flight alone."""
+        return bool(library.ld_model_has_launcher(self.handle.pointer))
+
+    @property
+    def has_vehicle(self) -> bool:
+        return bool(library.ld_model_has_vehicle(self.handle.pointer))
+
+    def to_yaml(self) -> str:
+        """Every key with its value in SI, as a scenario that can be read again."""
+        return printed(lambda to: library.ld_model_print(self.handle.pointer, to))
+
+    def describe(self) -> str:
+        """What carries, guides, holds and drives the rocket, in words."""
+        return printed(lambda to: library.ld_model_describe(self.handle.pointer, to))
+
+    def notes(self) -> list[Message]:
+        """What is allowed but hardly meant."""
+        messages = ld_messages()
+        source = library.ld_model_source(self.handle.pointer)
+        check_messages(library.ld_scenario_notes(source, 0, 0, ctypes.byref(messages)), messages)
+        return take_messages(messages)
+
+    @property
+    def points(self) -> int:
+        """Number of points of its sweep; 1 without."""
+        return int(library.ld_scenario_points(self.handle.pointer))
+
+    def point(self, number: int) -> Scenario:
+        """The scenario at a point of its sweep, from 1."""
+        source = library.ld_model_source(self.handle.pointer)
+        return Scenario(read_model(library.ld_scenario_read_source, source, number))
+
+    def point_name(self, number: int) -> str:
+        """Keys and values of a point of its sweep, from 1."""
+        text = ctypes.create_string_buffer(1024)
+        library.ld_scenario_point_name(self.handle.pointer, number, text, len(text))
+        return text_of(text.value)
+
+    def __repr__(self) -> str:
+        return f"<launchdyn.Scenario {self.title!r}>" if self._model else "<closed Scenario>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+        words = self.describe().replace("# ", "")
+        return f"<b>{escape(self.title)}</b><pre>{escape(words)}</pre>"
+
+    # ---- run
+
+    def simulation(self) -> Simulation:
+        """What is computed from it once: modes, coefficients, tables. Runs may share it."""
+        if self._simulation is None:
+            self._simulation = Simulation(self.handle)
+        return self._simulation
+
+    def run(self, out: Optional[PathLike] = None, csv: bool = False,
+            progress: Optional[Callable[[float], Any]] = None,
+            base: Optional[BaseFrame] = None) -> Result:
+        """Runs from start to end; see Simulation.run()."""
+        return self.simulation().run(out, csv, progress, base)
+
+    def begin(self, base: Optional[BaseFrame] = None, out: Optional[PathLike] = None,
+              csv: bool = False) -> Run:
+        """Begins a run that is stepped; see Simulation.begin()."""
+        return self.simulation().begin(base, out, csv)
+
+    def export_fmu(self, file: PathLike, part: str = "all", version: int = 3) -> None:
+        """Writes a Functional Mock-up Unit (docs/fmi.md) of the launch: `part` "all", "vehicle"
+        or "launcher", `version` of FMI 2 or 3."""
+        error = ld_error()
+        parts = ("all", "vehicle", "launcher")
+        if part not in parts:
+            raise ValueError(f"a part is one of {', '.join(parts)}; found {part!r}")
+        check(library.ld_fmu_export(self.handle.pointer, parts.index(part), version,
+                                    os.fsencode(file), ctypes.byref(error)), error,
+              self.handle.pointer)
+
+
+def dict_text(values: Mapping[str, Any]) -> str:
+    """A nested mapping as the text of a scenario."""
+    return scenario_text({"launchdyn": 1, **values} if "include" not in values else values)
+
+
+def each_point(scenario: Scenario) -> Iterator[Scenario]:
+    """The scenario at each point of its sweep."""
+    return map(scenario.point, range(1, scenario.points + 1))

@@ -1,0 +1,467 @@
+"""Simulations and their runs, in one go or stepped."""
+
+from __future__ import annotations
+
+import ctypes
+import enum
+import math
+import os
+import threading
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Callable, NamedTuple, Optional, Union
+
+import numpy as np
+
+from ._interrupt import Interrupt
+from ._library import (SHARE_TOLD, ld_base_frame, ld_base_wrench, ld_column, ld_error, ld_event,
+                       ld_mode, ld_pole, ld_run_options, library)
+from ._memory import Array, Handle, text_of
+from .errors import InputError, Status, check, check_name, failure
+from .result import Column, Quantity, Result, quantities_at
+
+PathLike = Union[str, "os.PathLike[str]"]
+#: Statuses of runs that ended early for reasons of their own, and leave results up to there.
+EARLY = (Status.LAUNCH, Status.NUMERIC, Status.INTERRUPTED)
+
+
+@dataclass(frozen=True)
+class BaseFrame:
+    """Where the undeformed tube is on its base, and how that moves: its rear end, and axes of
+    which x goes along it."""
+
+    position: Sequence[float]  #: [m] of the rear end in I
+    quaternion: Sequence[float] = (1, 0, 0, 0)  #: tube axes against I, scalar part first
+    velocity: Sequence[float] = (0, 0, 0)  #: [m/s] of the rear end, in I
+    rate: Sequence[float] = (0, 0, 0)  #: [rad/s] angular velocity, in I
+
+    def _struct(self) -> ld_base_frame:
+        return ld_base_frame(tuple(self.position), tuple(self.quaternion), tuple(self.velocity),
+                             tuple(self.rate))
+
+
+class Wrench(NamedTuple):
+    """What the launching tube does to its base, in I."""
+
+    force: Array  #: [N]
+    moment: Array  #: [N m] about the undeformed tube's rear end
+
+
+class EventKind(enum.IntEnum):
+    """What happens in a run, in the order in which it can come."""
+
+    NONE = 0
+    IGNITION = 1  #: of the rocket
+    RELEASE = 2  #: the lock lets the rocket go
+    CORNER = 3  #: of the thrust curve, or of a commanded angle
+    TOUCH = 4  #: adaptor `part` comes to the tube's wall
+    BREECH = 5  #: the rocket comes to the breech
+    LIFT = 6  #: wheel `part` leaves the road
+    LAND = 7  #: wheel `part` comes back to it
+    LEAVE = 8  #: the tube leaves stop `part` of its recoil slides
+    STOP = 9  #: the tube comes to it
+    EXIT = 10  #: adaptor `part` passes the tube's tip
+    TUBE = 11  #: the rocket's tube takes the place of the one before
+    END = 12  #: of the launch
+
+
+class Event(NamedTuple):
+    """An event of a run."""
+
+    kind: EventKind
+    t: float  #: [s] on the run's clock
+    rocket: int  #: from 1, in the order of firing
+    part: int  #: adaptor, wheel or stop, from 1; 0: of none
+
+
+class Mode(NamedTuple):
+    """A natural frequency and what moves most in it."""
+
+    frequency: float  #: [Hz]
+    damping: float  #: [-] ratio
+    real: float  #: [1/s]
+    shape: str
+
+
+class Pole(NamedTuple):
+    """An eigenvalue of the linearised system with its dampers; one of each conjugate pair."""
+
+    real: float  #: [1/s]
+    imaginary: float  #: [rad/s] >= 0
+    shape: str
+
+
+class _Recording:
+    """Where the rows of a run go: into memory and, where wanted, into a folder."""
+
+    def __init__(self, model: Handle, out: Optional[PathLike], csv: bool) -> None:
+        self._model, self._output = model, None
+        error = ld_error()
+        if csv and out is None:
+            raise ValueError("csv needs a folder: out")
+        if out is not None:
+            output = ctypes.c_void_p()
+            check(library.ld_output_open(os.fsencode(out), model.pointer, csv,
+                                         ctypes.byref(output), ctypes.byref(error)), error)
+            self._output = Handle(output.value, library.ld_output_discard, model)
+        sink = library.ld_output_sink(self._output.pointer) if self._output else None
+        parents = (self._output,) if self._output else ()
+        self.history = Handle(library.ld_history_new(sink), library.ld_history_free, *parents)
+        self.summary = Handle(library.ld_summary_new(), library.ld_summary_free, model)
+
+    def options(self, base: Optional[BaseFrame], progress: Any = None) -> ld_run_options:
+        options = ld_run_options(sink=library.ld_history_sink(self.history.pointer))
+        if progress:
+            options.progress = progress
+        if base:
+            options.base = ctypes.pointer(base._struct())
+        return options
+
+    def finish(self, status: int, error: ld_error) -> Result:
+        """Writes the files. Raises what the run said, with what it had until then."""
+        kept = not status or status in EARLY
+        if self._output and kept:
+            problem = ld_error()
+            check(library.ld_output_finish(self._output.let_go(), self.summary.pointer,
+                                           ctypes.byref(problem)), problem)
+        elif self._output:
+            library.ld_output_discard(self._output.let_go())
+        if not kept:
+            raise failure(status, error, self._model.pointer)
+        result = Result(self._model, self.summary, self.history)
+        if status:
+            raised = failure(status, error, self._model.pointer)
+            raised.result = result
+            raise raised
+        return result
+
+
+class Simulation:
+    """What is computed once from a scenario: modes, inertia coefficients, tables. It does not
+    change: several threads may run it at a time."""
+
+    def __init__(self, model: Handle) -> None:
+        error, pointer = ld_error(), ctypes.c_void_p()
+        check(library.ld_simulation_create(model.pointer, ctypes.byref(pointer),
+                                           ctypes.byref(error)), error, model.pointer)
+        self.model = model
+        self.handle = Handle(pointer.value, library.ld_simulation_free, model)
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """Columns of the launch's history, in order."""
+        return _columns(library.ld_simulation_columns, self.handle)
+
+    def run(self, out: Optional[PathLike] = None, csv: bool = False,
+            progress: Optional[Callable[[float], Any]] = None,
+            base: Optional[BaseFrame] = None) -> Result:
+        """Runs from the start to the end that the scenario asks for.
+
+        `out` is a folder for results (docs/results.md), with `csv` as CSV too; `progress` is told
+        the share done, 0 to 1; `base` is where the base is at the start (base.kind: external).
+        Raises LaunchError, NumericError with what it had until then as `result`; InputError.
+        Ctrl-C raises KeyboardInterrupt; results in the folder are those up to there.
+        """
+        recording, error = _Recording(self.model, out, csv), ld_error()
+        with Interrupt() as interrupt:
+            told = SHARE_TOLD(interrupt.asking(progress))
+            options = recording.options(base, told)
+            status = library.ld_simulation_run(self.handle.pointer, ctypes.byref(options),
+                                               recording.summary.pointer, ctypes.byref(error))
+            if interrupt.asked and status in (Status.OK, Status.INTERRUPTED):
+                recording.finish(Status.OK, error)
+        return recording.finish(status, error)
+
+    def begin(self, base: Optional[BaseFrame] = None, out: Optional[PathLike] = None,
+              csv: bool = False) -> Run:
+        """Begins a run that is stepped."""
+        return Run(self, base, out, csv)
+
+    def load(self, saved: bytes) -> Run:
+        """Goes on where a run that was saved stood (Run.save()), with the same bits."""
+        return Run(self, saved=saved)
+
+    def begin_vehicle(self) -> VehicleRun:
+        """Begins a run of the scenario's vehicle alone, stepped under a wrench that it is told."""
+        return VehicleRun(self)
+
+    def tube_modes(self, most: int = 64) -> list[Mode]:
+        """Natural frequencies of tube and tail on their supports, base held, ascending."""
+        modes = (ld_mode * most)()
+        count = library.ld_simulation_tube_modes(self.handle.pointer, modes, most)
+        return [Mode(m.frequency, m.damping, m.real, text_of(m.shape)) for m in modes[:count]]
+
+    def system_modes(self, most: int = 256) -> tuple[list[Mode], list[Pole]]:
+        """Modes and eigenvalues of the whole about its static equilibrium."""
+        error, modes, poles = ld_error(), (ld_mode * most)(), (ld_pole * most)()
+        count, pole_count = ctypes.c_int(), ctypes.c_int()
+        check(library.ld_simulation_system_modes(
+            self.handle.pointer, modes, most, ctypes.byref(count), poles, most,
+            ctypes.byref(pole_count), ctypes.byref(error)), error, self.model.pointer)
+        return ([Mode(m.frequency, m.damping, m.real, text_of(m.shape))
+                 for m in modes[:count.value]],
+                [Pole(p.real, p.imaginary, text_of(p.shape)) for p in poles[:pole_count.value]])
+
+    def __repr__(self) -> str:
+        return f"<launchdyn.Simulation: {len(self.columns)} columns>"
+
+
+def _columns(tell: Any, simulation: Handle) -> dict[str, Column]:
+    columns = ctypes.POINTER(ld_column)()
+    count = tell(simulation.pointer, ctypes.byref(columns))
+    return {text_of(c.name): Column(text_of(c.name), text_of(c.unit), text_of(c.description))
+            for c in columns[:count]}
+
+
+def _give_up(pointer: int) -> None:
+    library.ld_run_end(pointer, None, None)
+
+
+class Run:
+    """A run that is stepped: taken forward to a time or to the next event, looked at, told when to
+    ignite or where its base is, saved, ended. `run["tip.y"]` is a column at the present time.
+    A context manager that gives up what was not ended. One thread at a time: others wait."""
+
+    def __init__(self, simulation: Simulation, base: Optional[BaseFrame] = None,
+                 out: Optional[PathLike] = None, csv: bool = False,
+                 saved: Optional[bytes] = None) -> None:
+        """Begins it at the start of its lead-in, or where the one that was saved stood."""
+        error, pointer = ld_error(), ctypes.c_void_p()
+        self.simulation = simulation
+        self._lock = threading.Lock()
+        self._told_end = False
+        self._recording = _Recording(simulation.model, out, csv)
+        self._options = self._recording.options(base)  # what it points to outlives the run
+        told = ctypes.byref(self._options)
+        if saved is None:
+            status = library.ld_run_begin(simulation.handle.pointer, told, ctypes.byref(pointer),
+                                          ctypes.byref(error))
+        else:
+            status = library.ld_run_load(simulation.handle.pointer, told, saved, len(saved),
+                                         ctypes.byref(pointer), ctypes.byref(error))
+        if status and pointer.value:
+            _give_up(pointer.value)
+        self._check(status, error)
+        self._handle: Optional[Handle] = Handle(pointer.value, _give_up, simulation.handle,
+                                                self._recording.history)
+
+    @property
+    def _pointer(self) -> int:
+        if self._handle is None:
+            raise ValueError("the run has ended")
+        return self._handle.pointer
+
+    def _check(self, status: int, error: ld_error) -> None:
+        check(status, error, self.simulation.model.pointer)
+
+    # ---- forward
+
+    def advance(self, t: float = math.inf) -> None:
+        """Goes on to time t [s], or to the end of the launch where that comes before."""
+        error = ld_error()
+        with self._lock:
+            status = library.ld_run_advance(self._pointer, t, ctypes.byref(error))
+        self._check(status, error)
+
+    def advance_to_event(self, t: float = math.inf) -> Optional[Event]:
+        """Goes on to the next event, but not beyond time t [s]; None: there was none up to t, or
+        the end has been told."""
+        error, event = ld_error(), ld_event()
+        with self._lock:
+            if self._told_end:
+                return None
+            status = library.ld_run_advance_to_event(self._pointer, t, ctypes.byref(event),
+                                                     ctypes.byref(error))
+        self._check(status, error)
+        kind = EventKind(event.kind)
+        self._told_end = kind is EventKind.END
+        return Event(kind, event.t, event.rocket, event.part) if kind else None
+
+    def events(self, t: float = math.inf) -> Iterator[Event]:
+        """Goes on from event to event up to time t [s], or to the end of the launch: within the
+        loop the run stands at the event."""
+        while event := self.advance_to_event(t):
+            yield event
+
+    @property
+    def time(self) -> float:
+        """Present time [s] on the run's clock."""
+        with self._lock:
+            return float(library.ld_run_time(self._pointer))
+
+    @property
+    def finished(self) -> bool:
+        """Whether the launch is over: what is left are the flights, by end()."""
+        with self._lock:
+            return bool(library.ld_run_is_finished(self._pointer))
+
+    # ---- looked at
+
+    def __getitem__(self, name: str) -> float:
+        """A column at the present time, in SI."""
+        error, value = ld_error(), ctypes.c_double()
+        with self._lock:
+            status = library.ld_run_number(self._pointer, name.encode(), ctypes.byref(value),
+                                           ctypes.byref(error))
+        if status == Status.INPUT:
+            check_name(status, error)
+        self._check(status, error)
+        return value.value
+
+    def row(self) -> Array:
+        """All columns at the present time, in the order of Simulation.columns."""
+        error, values = ld_error(), np.empty(len(self.simulation.columns))
+        with self._lock:
+            status = library.ld_run_row(
+                self._pointer, values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)),
+                ctypes.byref(error))
+        self._check(status, error)
+        return values
+
+    def quantities(self) -> dict[str, Quantity]:
+        """What came of it so far; energies, notes, flights are there at the end alone."""
+        with self._lock:
+            found = quantities_at(library.ld_run_summary(self._pointer))
+        return {quantity.name: quantity for quantity in found}
+
+    def wrench(self) -> Wrench:
+        """What the tube does to its base at the present time."""
+        error, wrench = ld_error(), ld_base_wrench()
+        with self._lock:
+            status = library.ld_run_base_wrench(self._pointer, ctypes.byref(wrench),
+                                                ctypes.byref(error))
+        self._check(status, error)
+        return Wrench(np.array(wrench.force), np.array(wrench.moment))
+
+    # ---- inputs
+
+    def ignite(self, t: float) -> None:
+        """Lights the rocket that stands in the tube at time t [s]; inf: not until told anew."""
+        error = ld_error()
+        with self._lock:
+            status = library.ld_run_ignite(self._pointer, t, ctypes.byref(error))
+        self._check(status, error)
+
+    def tell_base(self, base: BaseFrame) -> None:
+        """Tells where the base is at the present time and how it moves (base.kind: external)."""
+        error, frame = ld_error(), base._struct()
+        with self._lock:
+            status = library.ld_run_tell_base(self._pointer, ctypes.byref(frame),
+                                              ctypes.byref(error))
+        self._check(status, error)
+
+    # ---- saved, ended
+
+    def save(self) -> bytes:
+        """All that the rest depends on, for Simulation.load() here or in another process."""
+        error, size = ld_error(), ctypes.c_size_t()
+        room = 1 << 16
+        with self._lock:
+            while True:
+                saved = ctypes.create_string_buffer(room)
+                status = library.ld_run_save(self._pointer, saved, room, ctypes.byref(size),
+                                             ctypes.byref(error))
+                if not status or size.value <= room:
+                    break
+                room = size.value
+        self._check(status, error)
+        return saved.raw[:size.value]
+
+    def end(self) -> Result:
+        """Ends it: flies the rockets that left their tubes where the scenario wants it. A launch
+        that is not over ends where it is, and Result.stopped says so."""
+        error = ld_error()
+        with self._lock:
+            pointer = self._pointer
+            over = library.ld_run_is_finished(pointer)
+            handle, self._handle = self._handle, None
+            if handle:
+                handle.let_go()
+            status = library.ld_run_end(pointer, self._recording.summary.pointer,
+                                        ctypes.byref(error))
+        if status == Status.INTERRUPTED and not over:
+            status = Status.OK
+        return self._recording.finish(status, error)
+
+    def close(self) -> None:
+        """Gives it up where it was not ended."""
+        with self._lock:
+            self._handle = None
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<launchdyn.Run at {self.time:g} s>" if self._handle else "<ended Run>"
+
+
+class VehicleRun:
+    """A run of a scenario's vehicle alone, stepped under a wrench that it is told. A context
+    manager; it need not be closed. One thread at a time: others wait."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        error, pointer = ld_error(), ctypes.c_void_p()
+        check(library.ld_vehicle_run_begin(simulation.handle.pointer, ctypes.byref(pointer),
+                                           ctypes.byref(error)), error, simulation.model.pointer)
+        self.simulation = simulation
+        self._lock = threading.Lock()
+        self._handle: Optional[Handle] = Handle(pointer.value, library.ld_vehicle_run_end,
+                                                simulation.handle)
+
+    def _call(self, function: Any, *arguments: Any) -> None:
+        error = ld_error()
+        with self._lock:
+            if self._handle is None:
+                raise ValueError("the run has ended")
+            status = function(self._handle.pointer, *arguments, ctypes.byref(error))
+        check(status, error, self.simulation.model.pointer)
+
+    def advance(self, t: float) -> None:
+        """Goes on to time t [s]; it has no end of its own."""
+        self._call(library.ld_vehicle_run_advance, t)
+
+    @property
+    def time(self) -> float:
+        """Present time [s] on the clock of the launch."""
+        with self._lock:
+            if self._handle is None:
+                raise ValueError("the run has ended")
+            return float(library.ld_vehicle_run_time(self._handle.pointer))
+
+    def frame(self) -> BaseFrame:
+        """Where the vehicle holds the undeformed tube, for Run.tell_base()."""
+        frame = ld_base_frame()
+        self._call(library.ld_vehicle_run_frame, ctypes.byref(frame))
+        return BaseFrame(tuple(frame.position), tuple(frame.quaternion), tuple(frame.velocity),
+                         tuple(frame.rate))
+
+    def tell_wrench(self, wrench: Wrench) -> None:
+        """What the tube does to the vehicle at the present time."""
+        told = ld_base_wrench(tuple(wrench.force), tuple(wrench.moment))
+        self._call(library.ld_vehicle_run_tell_wrench, ctypes.byref(told))
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """Columns of a vehicle alone."""
+        return _columns(library.ld_vehicle_run_columns, self.simulation.handle)
+
+    def row(self) -> Array:
+        """All columns at the present time, in the order of `columns`."""
+        values = np.empty(len(self.columns))
+        self._call(library.ld_vehicle_run_row,
+                   values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))
+        return values
+
+    def close(self) -> None:
+        """Ends it."""
+        with self._lock:
+            self._handle = None
+
+    def __enter__(self) -> VehicleRun:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()

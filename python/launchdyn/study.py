@@ -1,0 +1,382 @@
+"""Studies: many samples of a scattered scenario, kept in a folder, and what they found."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._interrupt import Interrupt
+from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_study_counts,
+                       ld_study_options, ld_study_statistics, ld_study_values, ld_study_view,
+                       library)
+from ._memory import Array, Handle, printed, text_of, texts
+from ._values import Sets, set_texts
+from .errors import Status, check, check_name
+from .scenario import Scenario, dict_text, read_model
+
+if TYPE_CHECKING:
+    import pandas
+
+PathLike = Union[str, "os.PathLike[str]"]
+#: How often, in seconds, the program that waits for a study looks up.
+LOOK_UP = 0.1
+
+
+class Counts(NamedTuple):
+    """How far a study is."""
+
+    samples: int  #: that the scenario asks for, or that its stopping rule found enough
+    done: int  #: that are kept, failed ones included
+    failed: int
+    now: int  #: of `done`, those of this run
+
+
+class Estimate(NamedTuple):
+    """A number with its interval of 95 %, NaN where none can be stated."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Statistics of a column, in SI (docs/study.md)."""
+
+    count: int  #: values
+    groups: int  #: independent ones
+    mean: Estimate
+    deviation: Estimate  #: of all values
+    skewness: float
+    least: float
+    greatest: float
+    quantiles: tuple[Estimate, Estimate, Estimate]  #: 5 %, 50 %, 95 %
+
+
+@dataclass(frozen=True)
+class StudyColumn:
+    """A number of each rocket, or of each sample."""
+
+    name: str  #: of a result, or path of a factor
+    unit: str  #: SI; "" without
+    factor: bool  #: drawn; else a result
+    per_rocket: bool  #: else one for all rockets of a sample
+    seed: bool  #: a factor that is another seed in each sample
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of the sweep; a study without one has a single point."""
+
+    number: int  #: from 1
+    values: dict[str, str]  #: of each swept key, as in the scenario
+    asked: int  #: samples; of all, `done` are kept, of which `failed`
+    done: int
+    failed: int
+
+
+class Study:
+    """A scenario with all points of its sweep, whose samples are run into a folder. A context
+    manager; it need not be closed."""
+
+    def __init__(self, handle: Handle) -> None:
+        """Of a study's handle: use read(), from_text(), from_dict() or of()."""
+        self._handle: Optional[Handle] = handle
+
+    @classmethod
+    def read(cls, path: PathLike, sets: Sets = None) -> Study:
+        """Reads a file; `sets` override it."""
+        items = texts(set_texts(sets))
+        return cls(_read_study(library.ld_study_read, os.fsencode(path), items, len(items)))
+
+    @classmethod
+    def from_text(cls, text: str, sets: Sets = None, name: str = "text",
+                  folder: PathLike = ".") -> Study:
+        """Reads a text, as Scenario.from_text()."""
+        items, coded = texts(set_texts(sets)), text.encode()
+        return cls(_read_study(library.ld_study_read_text, coded, len(coded), name.encode(),
+                               os.fsencode(folder), items, len(items)))
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any], sets: Sets = None, name: str = "dict",
+                  folder: PathLike = ".") -> Study:
+        """Of nested mappings, as Scenario.from_dict()."""
+        return cls.from_text(dict_text(values), sets, name, folder)
+
+    @classmethod
+    def of(cls, scenario: Scenario) -> Study:
+        """Of a scenario as it is now, with its scatter and sweep."""
+        source = library.ld_model_source(scenario.handle.pointer)
+        return cls(_read_study(library.ld_study_read_source, source))
+
+    def run(self, folder: PathLike, threads: int = 1,
+            progress: Optional[Callable[[Counts], Any]] = None) -> StudyData:
+        """Runs the samples that the folder does not hold yet, and opens what it then holds.
+
+        `progress` is told the counts now and then, on the caller's thread. Ctrl-C, or whatever
+        `progress` raises, stops the study, which keeps what it has: run again, it goes on. The
+        results have the same bits for any number of threads and any interruption.
+        """
+        if self._handle is None:
+            raise ValueError("the study is closed")
+        work = _Work(self._handle, folder, threads)
+        with Interrupt() as interrupt:
+            work.start()
+            try:
+                told = -1
+                while work.goes_on(LOOK_UP) and not interrupt.asked:
+                    if progress and work.done != told:
+                        told = work.done
+                        progress(_counts(work.latest))
+            finally:
+                work.end()
+            if not interrupt.asked:
+                check(work.status, work.error)
+        if progress:
+            progress(_counts(work.counts))
+        return StudyData(folder)
+
+    def close(self) -> None:
+        """Gives it up."""
+        self._handle = None
+
+    def __enter__(self) -> Study:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()
+
+
+def _read_study(read: Callable[..., int], *arguments: Any) -> Handle:
+    return read_model(read, *arguments, free=library.ld_study_free)
+
+
+def _counts(counts: ld_study_counts) -> Counts:
+    return Counts(counts.samples, counts.done, counts.failed, counts.now)
+
+
+class _Work:
+    """A study on a thread of its own, so that the one that began it hears Ctrl-C."""
+
+    def __init__(self, study: Handle, folder: PathLike, threads: int) -> None:
+        self.latest, self.counts, self.error = ld_study_counts(), ld_study_counts(), ld_error()
+        self.status = int(Status.OK)
+        self.done = 0
+        self._stopped = False
+
+        def told(_: Any, counts: Any) -> None:
+            latest = ld_study_counts()
+            ctypes.pointer(latest)[0] = counts[0]
+            self.latest, self.done = latest, latest.done
+
+        def may_go_on(_: Any) -> bool:
+            return not self._stopped
+
+        self._options = ld_study_options(threads=threads, progress=COUNTS_TOLD(told),
+                                         go_on=GO_ON(may_go_on))
+        self._thread = threading.Thread(target=self._run, args=(study, os.fsencode(folder)))
+
+    def _run(self, study: Handle, folder: bytes) -> None:
+        self.status = library.ld_study_run(study.pointer, folder, ctypes.byref(self._options),
+                                           ctypes.byref(self.counts), ctypes.byref(self.error))
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def goes_on(self, patience: float) -> bool:
+        self._thread.join(patience)
+        return self._thread.is_alive()
+
+    def end(self) -> None:
+        """Stops it where it still runs, and waits until it has."""
+        self._stopped = True
+        self._thread.join()
+
+
+class StudyData:
+    """A snapshot of what a study's folder holds, which may still be running. A context manager; it
+    need not be closed. One thread at a time: others wait."""
+
+    def __init__(self, folder: PathLike) -> None:
+        """Opens the folder of a study."""
+        error, pointer = ld_error(), ctypes.c_void_p()
+        check(library.ld_study_data_open(os.fsencode(folder), ctypes.byref(pointer),
+                                         ctypes.byref(error)), error)
+        self.folder = Path(folder)
+        self._lock = threading.Lock()
+        self._handle: Optional[Handle] = Handle(pointer.value, library.ld_study_data_close)
+
+    @property
+    def _pointer(self) -> int:
+        if self._handle is None:
+            raise ValueError("the study's data are closed")
+        return self._handle.pointer
+
+    # ---- what is there
+
+    @property
+    def columns(self) -> dict[str, StudyColumn]:
+        """Results, then factors, by their names."""
+        found: dict[str, StudyColumn] = {}
+        while column := library.ld_study_data_column(self._pointer, len(found)):
+            c = column[0]
+            found[text_of(c.name)] = StudyColumn(text_of(c.name), text_of(c.unit), c.factor,
+                                                 c.per_rocket, c.seed)
+        return found
+
+    @property
+    def results(self) -> list[str]:
+        """Names of the results."""
+        return [name for name, column in self.columns.items() if not column.factor]
+
+    @property
+    def factors(self) -> list[str]:
+        """Paths of the factors that are drawn."""
+        return [name for name, column in self.columns.items() if column.factor]
+
+    @property
+    def swept(self) -> list[str]:
+        """Paths of the swept keys."""
+        found: list[str] = []
+        while path := library.ld_study_data_swept(self._pointer, len(found)):
+            found.append(text_of(path))
+        return found
+
+    @property
+    def points(self) -> list[Point]:
+        """Points of the sweep."""
+        swept = self.swept
+        found: list[Point] = []
+        while point := library.ld_study_data_point(self._pointer, len(found) + 1):
+            p = point[0]
+            values = {path: text_of(p.text[axis]) for axis, path in enumerate(swept)}
+            found.append(Point(p.number, values, p.asked, p.done, p.failed))
+        return found
+
+    # ---- numbers
+
+    def values(self, *names: str, point: int = 1) -> dict[str, npt.NDArray[Any]]:
+        """Columns by name, in SI, of the samples of a point that went well, with "sample" and
+        "rocket" (both from 1); rockets that lack one of the values are left out. Copies."""
+        error = ld_error()
+        found = ctypes.POINTER(ld_study_values)()
+        with self._lock:
+            check_name(library.ld_study_data_values(self._pointer, point, texts(names),
+                                                    len(names), ctypes.byref(found),
+                                                    ctypes.byref(error)), error)
+            v, count = found[0], found[0].count
+            taken: dict[str, npt.NDArray[Any]] = {
+                "sample": _copy(v.sample, count, np.int64),
+                "rocket": _copy(v.rocket, count, np.intc)}
+            for column, name in enumerate(names):
+                taken[name] = _copy(v.value[column], count, np.float64)
+        return taken
+
+    def __getitem__(self, name: str) -> Array:
+        """A column at the first point, in SI."""
+        return self.values(name)[name]
+
+    def statistics(self, name: str, point: int = 1) -> Statistics:
+        """Statistics of a column at a point."""
+        error = ld_error()
+        found = ctypes.POINTER(ld_study_statistics)()
+        with self._lock:
+            check_name(library.ld_study_data_statistics(self._pointer, point, name.encode(),
+                                                        ctypes.byref(found),
+                                                        ctypes.byref(error)), error)
+            s = found[0]
+            low, middle, high = map(_estimate, s.quantile)
+            return Statistics(s.count, s.groups, _estimate(s.mean), _estimate(s.deviation),
+                              s.skewness, s.least, s.greatest, (low, middle, high))
+
+    def sensitivity(self, result: str, factor: str, point: int = 1) -> Estimate:
+        """What share of the variance of a result a factor explains alone; NaN where the result
+        does not scatter, or with too few samples."""
+        error, share = ld_error(), ld_estimate()
+        with self._lock:
+            check_name(library.ld_study_data_sensitivity(
+                self._pointer, point, result.encode(), factor.encode(), ctypes.byref(share),
+                ctypes.byref(error)), error)
+        return _estimate(share)
+
+    def to_pandas(self, *names: str) -> pandas.DataFrame:
+        """Columns (all, without names) of all points as a data frame: swept keys as texts, sample,
+        rocket, then the columns."""
+        import pandas
+        wanted = names or tuple(self.columns)
+        frames = []
+        for point in self.points:
+            frame = pandas.DataFrame(self.values(*wanted, point=point.number))
+            for at, (path, text) in enumerate(point.values.items()):
+                frame.insert(at, path, text)
+            frames.append(frame)
+        return pandas.concat(frames, ignore_index=True)
+
+    # ---- to look at
+
+    def show(self, what: Optional[str] = None, sensitivity: bool = False) -> str:
+        """The tables that `launchdyn study show` prints, of results by name or "all"."""
+        error, view = ld_error(), ld_study_view(what=what.encode() if what else None,
+                                                sensitivity=sensitivity)
+        status = []
+        text = printed(lambda to: status.append(library.ld_study_show(
+            os.fsencode(self.folder), ctypes.byref(view), to, ctypes.byref(error))))
+        check_name(status[0], error) if what else check(status[0], error)
+        return text
+
+    def plot(self, *names: str, over: Optional[str] = None, ax: Any = None, **style: Any) -> Any:
+        """Draws, by matplotlib, how results scatter: histograms, a colour for each point of the
+        sweep; `over` a factor as points. Returns the axes, or a list of them."""
+        from .plotting import plot_study
+        return plot_study(self, names, over, ax, style)
+
+    def write_report(self, file: PathLike) -> None:
+        """Writes one HTML file that shows the study in any browser, offline."""
+        error, report = ld_error(), ld_report()
+        check(library.ld_report_write_studies(texts([str(self.folder)]), 1, os.fsencode(file),
+                                              ctypes.byref(report), ctypes.byref(error)), error)
+
+    def close(self) -> None:
+        """Closes it."""
+        with self._lock:
+            self._handle = None
+
+    def __enter__(self) -> StudyData:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        points = self.points
+        return (f"<launchdyn.StudyData {str(self.folder)!r}: points {len(points)}, samples "
+                f"{sum(p.done for p in points)} of {sum(p.asked for p in points)}>")
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(self.show())}</pre>"
+
+
+def _copy(pointer: Any, count: int, kind: Any) -> npt.NDArray[Any]:
+    return np.array(pointer[:count], kind) if count else np.empty(0, kind)
+
+
+def _estimate(e: ld_estimate) -> Estimate:
+    return Estimate(e.value, e.low, e.high)
+
+
+def write_report(folder: PathLike, file: Optional[PathLike] = None) -> Path:
+    """Writes one HTML file that shows the run in a folder in any browser, offline: report.html
+    there, or `file`."""
+    error, report = ld_error(), ld_report()
+    check(library.ld_report_write(os.fsencode(folder), os.fsencode(file) if file else None,
+                                  ctypes.byref(report), ctypes.byref(error)), error)
+    return Path(file) if file else Path(folder) / "report.html"

@@ -1,0 +1,55 @@
+"""What the tests of the Python package share: places, the command, an external base."""
+
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import launchdyn as ld
+
+SOURCE = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("LAUNCHDYN_BUILD", SOURCE / "build"))
+EXAMPLES = SOURCE / "examples"
+FIXED = EXAMPLES / "fixed.yaml"
+
+ELEVATION = math.radians(19.8)
+
+
+def command(*arguments):
+    """What the command prints."""
+    words = [str(BUILD / "launchdyn"), *map(str, arguments)]
+    return subprocess.run(words, check=True, capture_output=True, text=True).stdout
+
+
+def scattered(samples, **more):
+    """The fixed launcher with a scattered mass."""
+    return ld.Scenario.read(FIXED, {"scatter.samples": samples,
+                                    "scatter.factors": {"rocket.mass": {"normal": "1 kg"}}, **more})
+
+
+def flights(samples):
+    """A flight alone with a scattered mass: a study of many samples in little time."""
+    return ld.Scenario.read(EXAMPLES / "flight.yaml", {
+        "scatter.samples": samples, "scatter.factors": {"rocket.mass": {"normal": "0.1 kg"}}})
+
+
+def resting_frame(height=0.0):
+    """A base that does not move, at the elevation of the fixed launcher."""
+    half = ELEVATION / 2
+    return ld.BaseFrame((0, height, 0), (math.cos(half), 0, 0, math.sin(half)))
+
+
+def external():
+    """The fixed launcher on a base that is told."""
+    return ld.Scenario.read(FIXED, {"base.kind": "external", "base.elevation": None})
+
+
+class Case(unittest.TestCase):
+    """A test with a folder of its own that goes with it."""
+
+    def setUp(self):
+        held = tempfile.TemporaryDirectory()
+        self.addCleanup(held.cleanup)
+        self.folder = Path(held.name)

@@ -1,0 +1,139 @@
+"""Nothing leaks, and threads do not disturb each other."""
+
+import ctypes
+import gc
+import threading
+import unittest
+
+import launchdyn as ld
+import numpy as np
+from launchdyn._library import libc
+from support import FIXED, Case, external, resting_frame, scattered
+
+
+class Heap(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_size_t) for name in
+                ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks",
+                 "uordblks", "fordblks", "keepcost")]
+
+
+libc.mallinfo2.restype = Heap
+
+
+def in_use():
+    """Bytes that are allocated now, of the main thread's heap and of mapped blocks."""
+    gc.collect()
+    heap = libc.mallinfo2()
+    return heap.uordblks + heap.hblkhd
+
+
+class TestLeaks(Case):
+    def grows(self, work, repeats=15):
+        """Bytes that a repeat leaves behind: the median of the last ones, since the first ones
+        fill caches."""
+        used = []
+        for _ in range(repeats):
+            work()
+            used.append(in_use())
+        grown = np.median(np.diff(used[-10:]))
+        print(f"{self.id().rpartition('.')[2]}: {grown:.0f} bytes a repeat")
+        return grown
+
+    def test_launches(self):
+        read = ld.Scenario.read(FIXED, {"run.output_step": "1 ms"})
+
+        def work():
+            read["rocket.mass"] = 61
+            result = read.run()
+            return result["tip.y"].sum() + result.summary["rocket.1.muzzle_speed"]
+        self.assertLess(self.grows(work), 100)
+
+    def test_steps(self):
+        moved = external()
+
+        def work():
+            with moved.begin(resting_frame()) as run:
+                run.advance(1e-3)
+                run.tell_base(resting_frame())
+                moved.simulation().load(run.save())
+        self.assertLess(self.grows(work), 100)
+
+    def test_refusals(self):
+        read = ld.Scenario.read(FIXED)
+
+        def work():
+            for wrong in ({"rocket.mas": 1}, {"rocket.mass": "1 m"}):
+                with self.assertRaises(ld.InputError):
+                    read.set(wrong)
+            with self.assertRaises(ld.InputError):
+                external().begin()
+        self.assertLess(self.grows(work), 100)
+
+    def test_studies(self):
+        study = ld.Study.of(scattered(2, **{"run.output_step": "1 ms"}))
+        study.run(self.folder / "study")
+
+        def work():
+            with study.run(self.folder / "study") as data:
+                data.statistics("muzzle_speed")
+        self.assertLess(self.grows(work, 60), 100)  # each on a thread with caches of its own
+
+    def test_an_array_keeps_its_memory_and_no_more(self):
+        def arrays(count):
+            return [ld.Scenario.read(FIXED).run()["tip.y"] for _ in range(count)]
+        arrays(2)
+        before = in_use()
+        kept = arrays(2)
+        self.assertGreater(in_use() - before, 2 * kept[0].nbytes)
+        del kept
+        self.assertLess(in_use() - before, 10000)
+
+
+class TestThreads(Case):
+    def test_two_threads_over_one_simulation(self):
+        simulation = ld.Scenario.read(FIXED).simulation()
+        expected = simulation.run()
+        found, failed = [], []
+
+        def work(number):
+            try:
+                for repeat in range(2):
+                    found.append(simulation.run(out=self.folder / f"{number}-{repeat}"))
+            except BaseException as error:
+                failed.append(error)
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual((failed, len(found)), ([], 4))
+        for result in found:
+            for name in expected.history:
+                np.testing.assert_array_equal(result[name], expected[name], name)
+
+    def test_two_threads_over_one_run(self):
+        read = ld.Scenario.read(FIXED)
+        expected, failed = read.run(), []
+        with read.begin() as run:
+            def work():
+                try:
+                    while not run.finished:
+                        try:
+                            run.advance(run.time + 1e-3)
+                        except ld.InputError:
+                            pass  # the other one has been faster
+                        run["tip.y"], run.row(), run.wrench()
+                except BaseException as error:
+                    failed.append(error)
+            threads = [threading.Thread(target=work) for _ in range(2)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(failed, [])
+            result = run.end()
+        np.testing.assert_array_equal(result["tip.y"], expected["tip.y"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,68 @@
+"""Figures by matplotlib."""
+
+import sys
+import unittest
+from unittest import mock
+
+import launchdyn as ld
+import numpy as np
+from support import FIXED, Case, scattered
+
+try:
+    from matplotlib import pyplot
+except ImportError:
+    pyplot = None
+
+
+class TestWithout(unittest.TestCase):
+    def test_without_matplotlib_it_says_so(self):
+        result = ld.Scenario.read(FIXED).run()
+        with mock.patch.dict(sys.modules, {"matplotlib": None, "matplotlib.pyplot": None}), \
+                self.assertRaisesRegex(ld.MissingError, "python3-matplotlib") as caught:
+            result.plot("tip.y")
+        self.assertEqual(caught.exception.code, ld.Status.MISSING)
+
+
+@unittest.skipUnless(pyplot, "matplotlib is not here")
+class TestPlot(Case):
+    def tearDown(self):
+        pyplot.close("all")
+
+    def test_a_column_in_one_line(self):
+        result = ld.Scenario.read(FIXED).run()
+        axes = result.plot("tip.y", color="black")
+        line, = axes.lines
+        np.testing.assert_array_equal(line.get_ydata(), result["tip.y"])
+        np.testing.assert_array_equal(line.get_xdata(), result["t"])
+        self.assertEqual((line.get_color(), axes.get_ylabel()), ("black", "tip.y"))
+        axes.figure.canvas.draw()
+        self.assertTrue(axes.get_yticklabels()[0].get_text().endswith("µm"))
+
+    def test_units_apart(self):
+        result = ld.Scenario.read(FIXED).run()
+        tip, rate = result.plot("tip.y", "tip.pitch_rate", "tip.z")
+        self.assertEqual((len(tip.lines), len(rate.lines)), (2, 1))
+        self.assertEqual([text.get_text() for text in tip.get_legend().get_texts()],
+                         ["tip.y", "tip.z"])
+        again = result.plot("tip.y", over="rocket.s", ax=tip)
+        self.assertIs(again, tip)
+        self.assertEqual(len(tip.lines), 3)
+        with self.assertRaisesRegex(ValueError, "2 units"):
+            result.plot("tip.y", "tip.pitch_rate", ax=tip)
+        with self.assertRaisesRegex(ValueError, "name the columns"):
+            result.plot()
+        with self.assertRaises(ld.UnknownName):
+            result.plot("tip.yy")
+
+    def test_studies(self):
+        data = ld.Study.of(scattered(4, sweep={"base.elevation": ["10 deg", "20 deg"]})).run(
+            self.folder / "study")
+        axes = data.plot("muzzle_speed", over="rocket.mass")
+        self.assertEqual([len(line.get_xdata()) for line in axes.lines], [4, 4])
+        self.assertEqual(axes.get_legend().get_texts()[1].get_text(), "base.elevation 20 deg")
+        histograms = data.plot("muzzle_speed", "pitch_rate")
+        self.assertEqual(sum(bar.get_height() for bar in histograms[0].patches), 8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,194 @@
+"""Runs in one go: the bits of the command, columns, numbers, what ends them early."""
+
+import csv
+import json
+import os
+import signal
+import threading
+import unittest
+
+import launchdyn as ld
+import numpy as np
+from support import EXAMPLES, FIXED, Case, command
+
+
+def written(path):
+    """The columns of a CSV file of results, whose numbers have all their digits."""
+    with path.open() as file:
+        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    names = [name.split(" [")[0] for name in rows[0]]
+    values = np.array([[float(x) if x else np.nan for x in row] for row in rows[1:]])
+    return dict(zip(names, values.T))
+
+
+class TestBits(Case):
+    def compare(self, example, *sets):
+        """The same launch by the command and by the package, in memory and in files."""
+        theirs, ours = self.folder / "command", self.folder / "package"
+        options = [word for text in sets for word in ("--set", text)]
+        command("run", EXAMPLES / example, "--csv", "-q", "--out", theirs, *options)
+        result = ld.Scenario.read(EXAMPLES / example, sets).run(out=ours, csv=True)
+        self.assertEqual(sorted(os.listdir(theirs)), sorted(os.listdir(ours)))
+        for file in ("history.csv", "history.h5"):
+            self.assertEqual((theirs / file).read_bytes(), (ours / file).read_bytes())
+        expected = written(theirs / "history.csv")
+        if expected:
+            self.assertEqual(list(expected), list(result.history))
+            for name, values in expected.items():
+                np.testing.assert_array_equal(result[name], values, name)
+        return result, json.loads((theirs / "summary.json").read_text())
+
+    def test_a_launch(self):
+        result, summary = self.compare("fixed.yaml", "run.end=tip")
+        rocket = summary["rockets"][0]
+        self.assertEqual(result.summary["rocket.1.muzzle_speed"], rocket["muzzle_speed"])
+        self.assertGreater(len(result["t"]), 1000)
+        self.assertEqual(len(result.history), len(result.history.columns))
+
+    def test_a_vehicle_and_its_rocket_to_the_ground(self):
+        result, summary = self.compare("reference.yaml", "run.output_step=1 ms")
+        flight = result.flight(1)
+        self.assertEqual(list(result.flights), [1])
+        expected = written(self.folder / "command/flights.csv")
+        for name in flight:
+            np.testing.assert_array_equal(flight[name], expected[name], name)
+        self.assertEqual(result.summary["rocket.1.range"], summary["rockets"][0]["flight"]["range"])
+
+    def test_a_flight_alone(self):
+        result = ld.Scenario.read(EXAMPLES / "flight.yaml").run()
+        self.assertEqual(result.rockets, 1)
+        self.assertIs(type(result["altitude"]), np.ndarray)
+        self.assertAlmostEqual(result["altitude"].max(), result.summary["rocket.1.apogee"], 0)
+
+
+class TestResult(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.result = ld.Scenario.read(FIXED).run()
+
+    def test_columns_are_the_librarys_memory(self):
+        one, two = self.result["tip.y"], self.result["tip.y"]
+        self.assertTrue(np.shares_memory(one, two))
+        self.assertFalse(one.flags.writeable or one.flags.owndata)
+        column = self.result.history.columns["tip.y"]
+        self.assertEqual((column.name, column.unit), ("tip.y", "m"))
+        self.assertGreater(len(column.description), 10)
+
+    def test_arrays_outlive_what_they_are_of(self):
+        with ld.Scenario.read(FIXED).run() as result:
+            tip = result["tip.y"]
+            expected = tip.copy()
+        for _ in range(3):
+            ld.Scenario.read(FIXED).run()
+        np.testing.assert_array_equal(tip, expected)
+        np.testing.assert_array_equal(tip, self.result["tip.y"])
+        with self.assertRaises(AttributeError):
+            result["tip.y"]
+
+    def test_names_that_are_not_there(self):
+        for get, name, near in ((self.result.__getitem__, "tip.yy", "tip.y"),
+                                (self.result.summary.__getitem__, "rocket.1.muzle_speed",
+                                 "rocket.1.muzzle_speed"),
+                                (self.result.__getitem__, "nothing of the kind", None)):
+            with self.assertRaises(ld.UnknownName) as caught:
+                get(name)
+            self.assertEqual(caught.exception.suggestion, near)
+        with self.assertRaisesRegex(KeyError, "rocket 1 has not flown"):
+            self.result.flight(1)
+        self.assertNotIn("nothing", self.result.summary)
+        self.assertIn("tip.y", self.result.history)
+
+    def test_summary_is_a_mapping(self):
+        summary = self.result.summary
+        self.assertEqual(set(summary), set(summary.quantities))
+        for name, quantity in summary.quantities.items():
+            np.testing.assert_equal(summary[name], quantity.value)
+        self.assertEqual(summary.quantities["rocket.1.muzzle_speed"].unit, "m/s")
+        self.assertAlmostEqual(summary["mode.1.frequency"],
+                               ld.Scenario.read(FIXED).simulation().tube_modes()[0].frequency)
+
+    def test_shown(self):
+        self.assertIn("muzzle speed", str(self.result))
+        self.assertIn("<pre>", self.result._repr_html_())
+        self.assertEqual(repr(self.result),
+                         f"<launchdyn.Result: rockets 1, rows {len(self.result['t'])}>")
+        self.assertIn("bores", ld.Scenario.read(FIXED)._repr_html_())
+
+    def test_tables_of_other_libraries(self):
+        for name, to in (("pandas", self.result.to_pandas), ("xarray", self.result.to_xarray)):
+            try:
+                __import__(name)
+            except ImportError:
+                with self.assertRaises(ImportError):
+                    to()
+                continue
+            table = to()
+            np.testing.assert_array_equal(table["tip.y"], self.result["tip.y"])
+            np.testing.assert_array_equal(table["t" if name == "xarray" else "tip.z"],
+                                          self.result["t" if name == "xarray" else "tip.z"])
+
+    def test_modes(self):
+        modes, poles = ld.Scenario.read(FIXED).simulation().system_modes()
+        self.assertGreater(len(modes), 5)
+        self.assertTrue(all(pole.real <= 0 for pole in poles))
+        frequencies = [mode.frequency for mode in modes]
+        self.assertEqual(frequencies, sorted(frequencies))
+
+
+class TestEarlyEnds(Case):
+    def test_a_launch_that_fails_leaves_what_it_had(self):
+        stuck = ld.Scenario.read(FIXED, {"rocket.lock.release_force": "100 kN",
+                                         "run.stuck_time": "0.3 s"})
+        with self.assertRaises(ld.LaunchError) as caught:
+            stuck.run(out=self.folder / "out")
+        error = caught.exception
+        self.assertIn("the lock never let go", str(error))
+        self.assertEqual(error.code, ld.Status.LAUNCH)
+        self.assertGreater(error.result["t"][-1], 0.1)
+        self.assertIn("the lock never let go", error.result.stopped)
+        self.assertTrue((self.folder / "out/summary.json").exists())
+
+    def test_what_progress_raises_comes_back(self):
+        shares = []
+
+        def progress(share):
+            shares.append(share)
+            if len(shares) == 3:
+                raise ZeroDivisionError
+        with self.assertRaises(ZeroDivisionError):
+            ld.Scenario.read(FIXED).run(progress=progress)
+        self.assertEqual(len(shares), 3)
+        shares.append(None)
+        ld.Scenario.read(FIXED).run(progress=progress)
+        self.assertEqual(shares[4:], sorted(shares[4:]))
+
+    def test_interrupted(self):
+        def progress(share):
+            if share > 0.5:
+                os.kill(os.getpid(), signal.SIGINT)
+        before = signal.getsignal(signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt):
+            ld.Scenario.read(FIXED).run(out=self.folder / "out", progress=progress)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+        self.assertIn('"complete": false', (self.folder / "out/summary.json").read_text())
+        self.assertFalse([name for name in os.listdir(self.folder / "out") if "part" in name])
+
+    def test_a_handler_of_the_programs_own_is_left_alone(self):
+        heard = []
+        before = signal.signal(signal.SIGINT, lambda *_: heard.append(1))
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        result = ld.Scenario.read(FIXED).run(
+            progress=lambda share: heard or os.kill(os.getpid(), signal.SIGINT))
+        self.assertEqual((heard, result.stopped), ([1], None))
+
+    def test_runs_on_other_threads_go_on(self):
+        results = []
+        read = ld.Scenario.read(FIXED)
+        thread = threading.Thread(target=lambda: results.append(read.run()))
+        thread.start()
+        thread.join()
+        self.assertIsNone(results[0].stopped)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+"""Studies: the bits of the command, interruption, values and statistics."""
+
+import csv
+import os
+import signal
+import threading
+import unittest
+from unittest import mock
+
+import launchdyn as ld
+import numpy as np
+from launchdyn import study
+from support import FIXED, Case, command, flights, scattered
+
+
+class TestStudy(Case):
+    def hold_the_third_sample(self):
+        """Lets studies wait after two samples until they are stopped, however fast they are."""
+        ended, end, told = threading.Event(), study._Work.end, study.COUNTS_TOLD
+
+        def stop_first(work):
+            work._stopped = True
+            ended.set()
+            end(work)
+
+        def waiting(tell):
+            def wait(self, counts):
+                tell(self, counts)
+                if counts[0].done == 2:
+                    ended.wait(60)
+            return told(wait)
+        for name, other in (("_Work.end", stop_first), ("COUNTS_TOLD", waiting)):
+            patch = mock.patch(f"launchdyn.study.{name}", other)
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def test_the_bits_of_the_command(self):
+        scenario = self.folder / "study.yaml"
+        scenario.write_text(scattered(6, **{"run.output_step": "1 ms"}).to_yaml())
+        command("study", scenario, "-q", "--out", self.folder / "command")
+        command("study", "export", self.folder / "command", "--csv", self.folder / "export.csv")
+        with (self.folder / "export.csv").open() as file:
+            head, *rows = csv.reader(file)
+        with ld.Study.read(scenario) as study:
+            data = study.run(self.folder / "package", threads=2)
+        values = data.values("muzzle_speed", "pitch_rate", "rocket.mass")
+        np.testing.assert_array_equal(values["sample"], np.arange(1, 7))
+        np.testing.assert_array_equal(values["rocket"], 1)
+        for name in ("muzzle_speed", "pitch_rate", "rocket.mass"):
+            column = next(i for i, text in enumerate(head) if text.split(" [")[0] == name)
+            np.testing.assert_array_equal(values[name], [float(row[column]) for row in rows], name)
+        self.assertEqual(data.show("muzzle_speed"),
+                         command("study", "show", self.folder / "command", "--what",
+                                 "muzzle_speed"))
+
+    def test_statistics_are_of_the_values(self):
+        data = ld.Study.of(scattered(8)).run(self.folder / "study")
+        speed, mass = data["muzzle_speed"], data["rocket.mass"]
+        found = data.statistics("muzzle_speed")
+        self.assertEqual((found.count, found.groups), (8, 8))
+        self.assertAlmostEqual(found.mean.value, speed.mean(), 12)
+        self.assertAlmostEqual(found.deviation.value, speed.std(ddof=1), 12)
+        self.assertEqual((found.least, found.greatest), (speed.min(), speed.max()))
+        self.assertAlmostEqual(found.quantiles[1].value, np.median(speed), 12)
+        self.assertLess(found.mean.low, found.mean.value)
+        self.assertLess(np.corrcoef(mass, speed)[0, 1], -0.99)
+        self.assertGreater(data.sensitivity("muzzle_speed", "rocket.mass").value, 0.98)
+        self.assertEqual(data.factors, ["rocket.mass"])
+        self.assertEqual(data.columns["rocket.mass"].unit, "kg")
+        self.assertIn("muzzle_speed", data.results)
+        self.assertIn("8 of 8 samples", data._repr_html_())
+        self.assertIn("points 1, samples 8 of 8", repr(data))
+
+    def test_a_sweep_has_points(self):
+        swept = ld.Study.read(FIXED, {"sweep": {"rocket.mass": [58, 62]}})
+        with swept.run(self.folder / "study") as data:
+            self.assertEqual(data.swept, ["rocket.mass"])
+            self.assertEqual([point.values for point in data.points],
+                             [{"rocket.mass": "58 kg"}, {"rocket.mass": "62 kg"}])
+            speeds = [data.values("muzzle_speed", point=i)["muzzle_speed"][0] for i in (1, 2)]
+            self.assertGreater(*speeds)
+            with self.assertRaises(ld.InputError):
+                data.values("muzzle_speed", point=3)
+            try:
+                import pandas
+            except ImportError:
+                pandas = None
+            if pandas:
+                table = data.to_pandas("muzzle_speed")
+                self.assertEqual(list(table["muzzle_speed"]), speeds)
+
+    def test_interrupted_it_goes_on(self):
+        samples = ld.Study.of(flights(40))
+        self.hold_the_third_sample()
+
+        def interrupt(counts):
+            if counts.done >= 2:
+                os.kill(os.getpid(), signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt):
+            samples.run(self.folder / "study", progress=interrupt)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        kept = ld.StudyData(self.folder / "study").points[0].done
+        self.assertIn(kept, (2, 3))
+        mock.patch.stopall()
+        counts = []
+        data = samples.run(self.folder / "study", threads=2, progress=counts.append)
+        self.assertEqual((counts[-1].done, counts[-1].now), (40, 40 - kept))
+        whole = samples.run(self.folder / "whole", threads=2)
+        np.testing.assert_array_equal(data["range"], whole["range"])
+
+    def test_what_progress_raises_stops_it(self):
+        def fail(counts):
+            raise ZeroDivisionError
+        self.hold_the_third_sample()
+        threads = threading.active_count()
+        with self.assertRaises(ZeroDivisionError):
+            ld.Study.of(flights(40)).run(self.folder / "study", progress=fail)
+        self.assertEqual(threading.active_count(), threads)
+        self.assertLess(ld.StudyData(self.folder / "study").points[0].done, 40)
+
+    def test_errors(self):
+        with self.assertRaises(ld.InputError):
+            ld.StudyData(self.folder / "nowhere")
+        with self.assertRaises(ld.InputError) as caught:
+            ld.Study.read(FIXED, {"scatter.samples": 3, "scatter.factors": {
+                "rocket.mas": {"normal": "1 kg"}}})
+        self.assertEqual(caught.exception.suggestion, "mass")
+        with self.assertRaises(ld.InputError):
+            ld.Study.read(FIXED).run(self.folder / "nothing varies")
+        data = ld.Study.of(scattered(2)).run(self.folder / "study")
+        with self.assertRaises(ld.UnknownName) as caught:
+            data["muzle_speed"]
+        self.assertEqual(caught.exception.suggestion, "muzzle_speed")
+        with self.assertRaises(ld.UnknownName):
+            data.show("muzle_speed")
+        with self.assertRaisesRegex(ld.InputError, "."):
+            ld.Study.of(scattered(2, **{"rocket.mass": 70})).run(self.folder / "study")
+        data.close()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            data["muzzle_speed"]
+
+    def test_reports(self):
+        data = ld.Study.of(scattered(2)).run(self.folder / "study")
+        data.write_report(self.folder / "study.html")
+        ld.Scenario.read(FIXED).run(out=self.folder / "run")
+        written = ld.write_report(self.folder / "run")
+        for file in (self.folder / "study.html", written):
+            self.assertIn("<html", file.read_text()[:500])
+        with self.assertRaises(ld.InputError):
+            ld.write_report(self.folder / "nowhere")
+
+
+if __name__ == "__main__":
+    unittest.main()
