@@ -12,7 +12,7 @@ static void cell(FILE *stream, const char *text)
 
 static void write_kind(FILE *stream, const field_row *f)
 {
-    char text[256];
+    char text[FIELD_EXPECTATION];
     if (f->kind == FIELD_LATER) {
         fprintf(stream, "not simulated yet");
         return;

@@ -60,7 +60,7 @@ enum table_source {
     TABLE_ROCKSIM = 32,  // a RockSim .rse file (scenario/rocksim_file.c)
 };
 
-enum { FIELD_MAX_COLUMNS = 8 };
+enum { FIELD_MAX_COLUMNS = 13 };
 
 typedef struct table_format {
     unsigned sources; // any of table_source
@@ -200,6 +200,7 @@ bool field_in_range(field_range range, double value);
 // "> 0 kg", "0 to 1"; "" where all is allowed. Angles in degrees.
 void field_range_text(const field_row *field, char *text, size_t size);
 // What a value of this key looks like: "a number with a unit of kg, > 0 kg".
+enum { FIELD_EXPECTATION = 384 }; // room that is enough for any
 void field_expectation(const field_row *field, char *text, size_t size);
 // The shortest decimal number that reads back to the same bits.
 void field_number_text(double value, char text[32]);

@@ -29,6 +29,7 @@ enum {
     LD_MAX_SURFACES = 12,
     LD_MAX_AIR_SURFACES = 8, ///< nose, body, tail, fins
     LD_MAX_SINES = 16,
+    LD_MAX_SEA_RESPONSES = 37, ///< headings at which a ship's response is given
     LD_MAX_WHEELS = 32,
     LD_MAX_BUMPS = 16,
     LD_MAX_TUBES = 512,
@@ -381,7 +382,6 @@ typedef struct ld_fmu_base {
     double step;       ///< [s] between two instants at which pose and wrench are exchanged
     double start_time; ///< [s] of its own clock when the run begins
     double time_limit; ///< [s] longest that a call of one of its functions may take
-    double at[3];      ///< [m] T's origin in the frame that the FMU tells
     ld_fmu_inputs inputs;
     ld_fmu_axes rate_axes;
     struct { ///< names of variables with blanks between, owned by the model; NULL: as our vehicle's
@@ -390,6 +390,35 @@ typedef struct ld_fmu_base {
     int parameter_count;
     ld_fmu_parameter parameter[LD_MAX_FMU_PARAMETERS];
 } ld_fmu_base;
+
+typedef enum ld_sea_spectrum {
+    LD_SEA_JONSWAP,
+    LD_SEA_PIERSON_MOSKOWITZ,
+    LD_SEA_REGULAR, ///< one wave
+} ld_sea_spectrum;
+
+/// How a ship moves in a wave of unit amplitude that goes to `heading`: its place and attitude are
+/// those amplitudes, and lead the crest at its reference point by those phases.
+typedef struct ld_sea_response {
+    double heading; ///< [rad] from x, 0 to pi; NaN: the sea's
+    ld_table table; ///< omega [rad/s] of the wave; amplitude [-], phase [rad] of surge, sway,
+                    ///< heave, amplitude [rad/m], phase [rad] of roll, pitch, yaw
+} ld_sea_response;
+
+/// Sea on deep water and the ship's response to it: sea.md.
+typedef struct ld_sea {
+    bool present;
+    ld_sea_spectrum spectrum;
+    double height;     ///< [m] significant, from trough to crest; of one wave its own
+    double period;     ///< [s] of the spectrum's peak, of one wave its own
+    double peakedness; ///< [-] JONSWAP's gamma
+    double heading;    ///< [rad] where it goes to, from x, positive to the right
+    double spreading;  ///< [-] s of cos^2s(angle/2) about the heading; NaN: all go there
+    int waves;
+    int seed;
+    int response_count;
+    ld_sea_response response[LD_MAX_SEA_RESPONSES];
+} ld_sea;
 
 /// The base that carries the tube: model.md, section 2.
 typedef struct ld_base {
@@ -400,6 +429,9 @@ typedef struct ld_base {
     ld_sines surge, heave, sway; ///< [m] along I's x, y, z (prescribed)
     ld_sines yaw, pitch, roll;   ///< [rad] base pose Ry(yaw) Rz(pitch) Rx(roll) (prescribed)
     ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
+    ld_sea sea;      ///< added to sines and velocity (prescribed)
+    double at[3]; ///< [m] T's origin in the frame that moves so, or that an FMU tells (prescribed,
+                  ///< fmu)
     ld_vehicle vehicle;
     ld_extrapolation extrapolation; ///< (external)
     ld_fmu_base fmu;

@@ -266,6 +266,21 @@ FIND(base_speed)
     return plausible_alone(norm(at->model->base.velocity));
 }
 
+// Largest change of phase from row to row of the motion in columns j and j + 1, where in both rows
+// it is more than a twentieth of its largest.
+static double phase_step(const ld_table *table, size_t j)
+{
+    double largest = 0, most = 0;
+    for (size_t i = 0; i < table->rows; i++)
+        largest = fmax(largest, table->data[i * table->columns + j]);
+    for (size_t i = 1; i < table->rows; i++) {
+        const double *row = table->data + i * table->columns + j, *before = row - table->columns;
+        if (fmin(row[0], before[0]) > 0.05 * largest)
+            most = fmax(most, fabs(remainder(row[1] - before[1], 2 * PI)));
+    }
+    return most;
+}
+
 // Sum of amplitude (2 pi f)^power.
 static double greatest_rate(const ld_sines *sines, int power)
 {
@@ -289,6 +304,28 @@ FIND(base_rate)
     const double w[3] = {greatest_rate(&base->yaw, 1), greatest_rate(&base->pitch, 1),
                          greatest_rate(&base->roll, 1)};
     return plausible_alone(norm(w));
+}
+
+// Height over length of waves of the peak's period, 2 pi Hs/(g Tp^2).
+FIND(sea_steepness)
+{
+    const ld_sea *sea = &at->model->base.sea;
+    double length = at->model->gravity * sea->period * sea->period / (2 * PI);
+    return plausible_alone(sea->present ? sea->height / length : NAN);
+}
+
+// Largest change of a motion's phase from row to row where it is more than a twentieth of its
+// largest, in all responses.
+FIND(sea_phase_step)
+{
+    const ld_sea *sea = &at->model->base.sea;
+    double most = 0;
+    for (int i = 0; i < sea->response_count; i++) {
+        const ld_table *table = &sea->response[i].table;
+        for (size_t j = 1; j < table->columns; j += 2)
+            most = fmax(most, phase_step(table, j));
+    }
+    return plausible_alone(sea->present ? most : NAN);
 }
 
 #define NO_LOW .low = -INFINITY
@@ -419,4 +456,9 @@ const plausible_rule plausible_of_tube[] = {
      .find = base_acceleration, .why = "gravity has 9.8 m/s2"},
     {"base.motion", "the angular rate by its sines", .unit = "rad/s", NO_LOW, .high = 10,
      .find = base_rate, .why = "that is more than a turn in a second"},
+    {"base.sea.height", "the steepness of the waves", .unit = "", NO_LOW, .high = 0.07,
+     .find = sea_steepness, .of = "base.sea.period", .why = "steeper waves break"},
+    {"base.sea.responses", "the phase from row to row", .unit = "rad", NO_LOW,
+     .high = 100 * PI / 180, .find = sea_phase_step,
+     .why = "a line between rows so far apart goes past the response"},
     {0}};

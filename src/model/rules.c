@@ -362,48 +362,6 @@ static void slot_rules(const rule_set *rules)
         rising_rule(rules, "tubes.slot.angle.#", &slot->angle, "m", false);
 }
 
-// The table must hold the motion from the start on to the last ignition, or the end asked for.
-static void motion_span_rule(const rule_set *rules)
-{
-    const ld_model *model = rules->model;
-    const ld_table *motion = &model->base.motion;
-    if (motion->rows < 2 || model->firing_count < 1)
-        return;
-    double first = motion->data[0], last = motion->data[(motion->rows - 1) * motion->columns];
-    double start = fmin(model->firing[0].at, -model->run.lead_in);
-    double end = model->firing[model->firing_count - 1].at;
-    bool timed = model->run.end == LD_END_TIME;
-    if (start < first)
-        broken(rules, "base.motion.table", 0, "begins at %g s, after the launch, at %g s", first,
-               start);
-    if (timed && end + model->run.end_time > last)
-        broken(rules, "base.motion.table", 0, "ends at %g s, before the run's end, at %g s", last,
-               end + model->run.end_time);
-    else if (end >= last)
-        broken(rules, "base.motion.table", 0,
-               "ends at %g s; it must go on beyond the last ignition, at %g s", last, end);
-}
-
-static void base_rules(const rule_set *rules)
-{
-    const ld_base *base = &rules->model->base;
-    if (base->kind != LD_BASE_PRESCRIBED)
-        return;
-    rising_rule(rules, "base.motion.table.#", &base->motion, "s", false);
-    if (base->motion.rows == 1)
-        broken(rules, "base.motion.table", 0, "needs at least two rows");
-    if (base->motion.rows == 0)
-        return;
-    if (base->surge.count + base->heave.count + base->sway.count + base->yaw.count +
-            base->pitch.count + base->roll.count >
-        0)
-        broken(rules, "base.motion.table", 0, "given together with sines; give one of them");
-    if (base->velocity[0] != 0 || base->velocity[1] != 0 || base->velocity[2] != 0)
-        broken(rules, "base.velocity", 0,
-               "given together with motion.table, which holds the whole motion");
-    motion_span_rule(rules);
-}
-
 // At every row the rocket must be a body, lighter than before or as heavy.
 static void table_of_masses_rows(const rule_set *rules, const ld_table *table)
 {

@@ -45,6 +45,8 @@ void inertia_rule(const rule_set *rules, const char *path, const double J[3],
 void guide_rules(const rule_set *rules);
 // Rules of the air on the rocket.
 void aerodynamics_rules(const rule_set *rules);
+// Rules of a base whose motion is given.
+void base_rules(const rule_set *rules);
 // Rules of a vehicle and its platforms.
 void vehicle_rules(const rule_set *rules);
 

@@ -248,6 +248,71 @@ static const field_row motion_fields[] = {
     {0}};
 static const field_block motion_block = {.fields = motion_fields};
 
+// ---- sea
+
+#define AMPLITUDE(name_, unit_)                                                                    \
+    {                                                                                              \
+        name_, .unit = unit_, NOT_NEGATIVE                                                         \
+    }
+#define LEAD(name_)                                                                                \
+    {                                                                                              \
+        name_, .unit = "rad", ANY                                                                  \
+    }
+static const field_row response_columns[] = {
+    {"omega", .unit = "rad/s", NOT_NEGATIVE},
+    AMPLITUDE("surge", ""),
+    LEAD("surge_phase"),
+    AMPLITUDE("sway", ""),
+    LEAD("sway_phase"),
+    AMPLITUDE("heave", ""),
+    LEAD("heave_phase"),
+    AMPLITUDE("roll", "rad/m"),
+    LEAD("roll_phase"),
+    AMPLITUDE("pitch", "rad/m"),
+    LEAD("pitch_phase"),
+    AMPLITUDE("yaw", "rad/m"),
+    LEAD("yaw_phase"),
+};
+static const table_format response_table = {TABLE_CSV, 13, response_columns, NULL};
+static const field_row response_fields[] = {
+    {"heading", NUMBER(ld_sea_response, heading, "rad"), FROM_TO(0, PI), NO_DEFAULT("the sea's"),
+     .doc = "where the waves go to that it answers, from x; to the left sway, roll and yaw change "
+            "sides"},
+    {"table", TABLE(ld_sea_response, table, response_table), .required = true,
+     .doc = "over the waves' frequency amplitudes per wave amplitude and leads before the crest at "
+            "the base's origin; linear as complex numbers, constant below, nothing above"},
+    {0}};
+static const field_block response_block = {.fields = response_fields};
+static const field_word spectrum_words[] = {{"jonswap", LD_SEA_JONSWAP},
+                                            {"pierson_moskowitz", LD_SEA_PIERSON_MOSKOWITZ},
+                                            {"regular", LD_SEA_REGULAR},
+                                            {NULL, 0}};
+static const field_word sea_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row sea_fields[] = {
+    {"spectrum", CHOICE(ld_sea, spectrum, spectrum_words), DEFAULT(LD_SEA_JONSWAP),
+     .doc = "of the water's height; `regular`: one wave, its crest at the base's origin at t = 0"},
+    {"height", NUMBER(ld_sea, height, "m"), FROM_TO(0, 100), REQUIRED,
+     .doc = "significant, four times the rms of the water's height; of one wave from trough to "
+            "crest"},
+    {"period", NUMBER(ld_sea, period, "s"), FROM_TO(0.1, 1000), REQUIRED,
+     .doc = "of the spectrum's peak; of one wave its own"},
+    {"peakedness", NUMBER(ld_sea, peakedness, ""), FROM_TO(1, 20), DEFAULT(3.3),
+     .doc = "gamma of JONSWAP"},
+    {"heading", NUMBER(ld_sea, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), REQUIRED,
+     .doc = "where the waves go to, from x of I, positive to the right; 180 deg: a head sea"},
+    {"spreading", NUMBER(ld_sea, spreading, ""), FROM_TO(0.5, 1000),
+     NO_DEFAULT("all waves go there"),
+     .doc = "s of the density cos^2s(angle/2) of the waves' headings"},
+    {"waves", INTEGER(ld_sea, waves, 1, 10000), DEFAULT(200),
+     .doc = "their number, in cells of equal ratio of frequency"},
+    {"seed", INTEGER(ld_sea, seed, 0, 999999999), DEFAULT(1),
+     .doc = "of frequencies, phases and headings; the same seed is the same sea"},
+    {"responses", LIST(ld_sea, response, response_count, response_block, 1, LD_MAX_SEA_RESPONSES),
+     .required = true,
+     .doc = "the ship's, over rising headings; between them linear as complex numbers"},
+    {0}};
+static const field_block sea_block = {.fields = sea_fields};
+
 // ---- vehicle
 
 static const field_word class_words[] = {{"none", LD_ROAD_SMOOTH},
@@ -447,6 +512,9 @@ static const field_row base_fields[] = {
      .forms = FORM(LD_BASE_PRESCRIBED), .doc = "constant velocity along I, added to the sines"},
     {"motion", SAME_STRUCT(motion_block), .forms = FORM(LD_BASE_PRESCRIBED), .initial_doc = "none",
      .doc = "position and orientation Ry(yaw) Rz(pitch) Rx(roll) over time"},
+    {"sea", BLOCK(ld_base, sea, sea_block), .forms = FORM(LD_BASE_PRESCRIBED),
+     .initial_doc = "none", SWITCH(ld_base, sea.present, sea_words), .other_is_bool = true,
+     .doc = "waves on deep water and a ship's response to them, added to velocity and sines"},
     {"speed", NUMBER(ld_base, vehicle.speed, "m/s"), FROM_TO(0, 1000), REQUIRED, .forms = VEHICLE,
      .doc = "marching speed, held by the drive; 0: parked"},
     {"road", BLOCK(ld_base, vehicle.road, road_block), .required = true, .forms = VEHICLE,
@@ -479,8 +547,9 @@ static const field_row base_fields[] = {
      .doc = "names of the FMU's variables, with blanks between"},
     {"rate_axes", CHOICE(ld_base, fmu.rate_axes, axes_words), DEFAULT(LD_FMU_AXES_OF_I),
      .forms = FMU, .doc = "in which it tells its angular velocity: those of I, or its own"},
-    {"at", VECTOR(ld_base, fmu.at, "m", 3), ANY, DEFAULT(0), .forms = FMU,
-     .doc = "rear end of the undeformed tube in the frame that the FMU tells"},
+    {"at", VECTOR(ld_base, at, "m", 3), ANY, DEFAULT(0), .forms = FORM(LD_BASE_PRESCRIBED) | FMU,
+     .doc = "rear end of the undeformed tube in the frame that moves as said, or that the FMU "
+            "tells"},
     {"parameters",
      LIST(ld_base, fmu.parameter, fmu.parameter_count, fmu_parameter_block, 0,
           LD_MAX_FMU_PARAMETERS),

@@ -167,7 +167,7 @@ static void take_block(const key_taker *taker, const field_block *block, const c
 
 static void take_key(const key_taker *taker, const field_row *f, const char *above)
 {
-    char path[LD_MAX_PATH], expected[256] = "";
+    char path[LD_MAX_PATH], expected[FIELD_EXPECTATION] = "";
     snprintf(path, sizeof path, "%s%s%s%s", above, above[0] ? "." : "", f->name,
              f->kind == FIELD_LIST ? ".N" : "");
     if (f->block)

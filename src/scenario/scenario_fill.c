@@ -33,7 +33,7 @@ static void refuse_value(scenario_reader *reader, const field_row *f, const tree
                          const char *path)
 {
     static const char *const kinds[] = {NULL, "a list", "a block"};
-    char expected[256], quoted[64];
+    char expected[FIELD_EXPECTATION], quoted[64];
     field_expectation(f, expected, sizeof expected);
     if (tree_is_empty(value))
         reader_refuse(reader, value->key_at, path, "has no value; expected %s", expected);
@@ -130,7 +130,7 @@ static void read_whole(scenario_reader *reader, const field_row *f, const tree_n
 static void refuse_word(scenario_reader *reader, const field_row *f, const field_word *words,
                         const tree_node *value, const char *path)
 {
-    char expected[256];
+    char expected[FIELD_EXPECTATION];
     const char *meant = NULL;
     if (words && value->kind == NODE_SCALAR && !tree_is_empty(value))
         meant = field_nearest_word(words, value->text);
@@ -233,7 +233,7 @@ static void read_text(scenario_reader *reader, const field_row *f, const tree_no
 static bool read_row(scenario_reader *reader, const field_row *f, const table_format *format,
                      const tree_node *row, const char *path, double *values)
 {
-    char expected[256], cell_path[PATH];
+    char expected[FIELD_EXPECTATION], cell_path[PATH];
     field_expectation(f, expected, sizeof expected);
     if (row->kind != NODE_LIST || row->count != format->columns) {
         reader_refuse(reader, row->at, path, "found %s%d values; expected %d: %s",
@@ -264,7 +264,7 @@ static bool read_rows(scenario_reader *reader, const field_row *f, const tree_no
     // the first row says which form of the table it is
     const table_format *format = field_table_format(f->table, (size_t)rows->first->count);
     if (!format && f->table->other) {
-        char expected[256];
+        char expected[FIELD_EXPECTATION];
         field_expectation(f, expected, sizeof expected);
         reader_refuse(reader, rows->first->at, path, "found a first row of %d values; expected %s",
                       rows->first->count, expected);
@@ -405,7 +405,7 @@ static void entry_path(char path[PATH], const char *parent, const tree_node *ent
 static void read_list(scenario_reader *reader, const field_row *f, const tree_node *list,
                       void *base, const char *path)
 {
-    char expected[256], inner_path[PATH];
+    char expected[FIELD_EXPECTATION], inner_path[PATH];
     int number = 0;
     if (list->kind != NODE_LIST) {
         refuse_value(reader, f, list, path);
@@ -647,7 +647,7 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
     const tree_node *value = tree_member(map, f->name);
     int form = field_form(block, base);
     bool fits = form < 0 || field_has_form(f, form);
-    char key_path[PATH], expected[256];
+    char key_path[PATH], expected[FIELD_EXPECTATION];
     join(key_path, path, f->name);
     if (value && fits) {
         read_field(reader, f, value, base, key_path);

@@ -84,7 +84,7 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
     int end = 0;
     if (!column->unit[0] && i < lines->at.count && strcmp(lines->at.field[i], column->name) == 0)
         return 1;
-    if (column->unit[0] && i < lines->at.count &&
+    if (i < lines->at.count &&
         sscanf(lines->at.field[i], "%31[a-z_] [%31[^]]]%n", name, unit, &end) == 2 && end > 0 &&
         lines->at.field[i][end] == '\0' && strcmp(name, column->name) == 0 &&
         units_factor(unit, column->unit, &factor, unknown) == UNITS_OK)

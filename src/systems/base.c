@@ -111,6 +111,14 @@ void base_frame_at(const double x[6], const double u[6], const double a[6], cons
     tube->alpha = angular_acceleration(u, a, &Ry, &Rz);
 }
 
+void base_frame_go(base_frame *tube, v3 arm)
+{
+    v3 along = m3_apply(tube->A, arm), turning = v3_cross(tube->w, along);
+    tube->r = v3_add(tube->r, along);
+    tube->v = v3_add(tube->v, turning);
+    tube->a = v3_add(tube->a, v3_add(v3_cross(tube->alpha, along), v3_cross(tube->w, turning)));
+}
+
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3])
 {
     if (self->kind->angles)

@@ -213,6 +213,8 @@ void base_span(const base_system *self, double *first, double *last);
 // accelerations a, its tube mounted so: A_base,tube.
 void base_frame_at(const double x[6], const double u[6], const double a[6], const m3 *mount,
                    base_frame *tube);
+// The same frame with its origin elsewhere: `arm` [m] from it, in T.
+void base_frame_go(base_frame *tube, v3 arm);
 
 // Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);

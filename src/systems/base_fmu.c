@@ -606,7 +606,7 @@ static ld_status build(base_system *base, ld_error *error)
     base->state_count = FMU_STATES;
     self->given = &given->fmu;
     self->mount = m3_mul(m3_rotation_y(given->azimuth), m3_rotation_z(given->elevation));
-    self->at = v3_from(given->fmu.at);
+    self->at = v3_from(given->at);
     self->owns_package = true;
     ld_status status = foreign_open(given->fmu.file, &self->package, error);
     if (!status)

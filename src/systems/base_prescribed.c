@@ -1,15 +1,20 @@
-// A base that moves over time as the scenario says, at constant velocity, in sines and by a table.
+// A base that moves over time as the scenario says, at constant velocity, in sines, by a table and
+// as a ship in its sea.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "math/spline.h"
 #include "systems/base.h"
+#include "systems/sea_motion.h"
 
 typedef struct base_motion {
     const ld_base *model;
     m3 mount;       // A_base,tube = Ry(azimuth) Rz(elevation)
+    v3 arm;         // [m] T's origin from the base's, in T
+    bool apart;     // it is not 0
     spline path[6]; // x, y, z, yaw, pitch, roll over time (table)
+    sea_motion sea;
 } base_motion;
 
 static const double TWO_PI = 6.283185307179586476925286766559;
@@ -52,10 +57,11 @@ static double coordinate(const base_motion *self, int i, double t, double *rate,
 static void coordinates(const base_system *base, double t, double x[6], double u[6], double a[6])
 {
     const base_disturbance *disturbed = base->disturbed;
-    for (int i = 0; i < 6; i++) {
-        x[i] = coordinate(base->own, i, t, &u[i], &a[i]);
-        if (!disturbed)
-            continue;
+    const base_motion *self = base->own;
+    for (int i = 0; i < 6; i++)
+        x[i] = coordinate(self, i, t, &u[i], &a[i]);
+    sea_motion_add(&self->sea, t, x, u, a);
+    for (int i = 0; i < 6 && disturbed; i++) {
         x[i] = (i < 3 ? 0 : x[i]) + disturbed->input.motion[i];
         u[i] = disturbed->rate.motion[i];
         a[i] = disturbed->acceleration.motion[i];
@@ -70,6 +76,8 @@ static void place(const base_system *base, double t, const double *state, base_f
     double x[6], u[6], a[6];
     coordinates(base, t, x, u, a);
     base_frame_at(x, u, a, &self->mount, frame);
+    if (self->apart)
+        base_frame_go(frame, self->arm);
 }
 
 static ld_status build_paths(base_motion *self, ld_error *error)
@@ -90,6 +98,18 @@ static ld_status build_paths(base_motion *self, ld_error *error)
     return status;
 }
 
+// When the launch begins and, as far as that is known before, ends.
+static void course(const ld_model *model, double *first, double *last)
+{
+    *first = -model->run.lead_in;
+    *last = 0;
+    for (int i = 0; i < model->firing_count; i++) {
+        *first = fmin(*first, model->firing[i].at);
+        *last = fmax(*last, model->firing[i].at);
+    }
+    *last += model->run.end == LD_END_TIME ? model->run.end_time : model->run.stuck_time;
+}
+
 static ld_status build(base_system *base, ld_error *error)
 {
     base_motion *self = calloc(1, sizeof *self);
@@ -99,7 +119,12 @@ static ld_status build(base_system *base, ld_error *error)
     self->model = &base->model->base;
     self->mount =
         m3_mul(m3_rotation_y(self->model->azimuth), m3_rotation_z(self->model->elevation));
-    return build_paths(self, error);
+    self->arm = m3_apply_transposed(self->mount, v3_from(self->model->at));
+    self->apart = v3_norm(self->arm) > 0;
+    double first, last;
+    course(base->model, &first, &last);
+    ld_status status = sea_motion_build(&self->sea, base->model, first, last, error);
+    return status ? status : build_paths(self, error);
 }
 
 static void release(base_system *base)
@@ -107,6 +132,8 @@ static void release(base_system *base)
     base_motion *self = base->own;
     for (int i = 0; i < 6 && self; i++)
         spline_free(&self->path[i]);
+    if (self)
+        sea_motion_free(&self->sea);
     free(self);
 }
 

@@ -19,7 +19,7 @@ static const char *const examples[] = {
     "unbalanced.yaml", "engine.yaml",         "reference.yaml",    "ship.yaml",
     "aircraft.yaml",   "flight.yaml",         "salvo.yaml",        "marching/stationary.yaml",
     "interval.yaml",   "salvo-marching.yaml", "line-thrower.yaml", "test-barrel.yaml",
-    "rail/truck.yaml", "rail/deck.yaml",      "rail/tower.yaml"};
+    "rail/truck.yaml", "rail/deck.yaml",      "rail/tower.yaml",   "ship-sea.yaml"};
 enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 
 // Reads a file below the source folder; messages fail the test.
@@ -362,6 +362,39 @@ static void test_motion_file(void **state)
     model_clear(&m);
 }
 
+// A ship in its sea, with a response as rows and one from a file.
+static void test_sea(void **state)
+{
+    (void)state;
+    const char *const sets[] = {
+        "base={kind: prescribed, at: 1 2 3 m, sea: {spectrum: pierson_moskowitz, height: 2 m, "
+        "period: 8 s, peakedness: 2, heading: -90 deg, spreading: 4, waves: 50, seed: 9, "
+        "responses: [{heading: 0 deg, table: [[0.5 rad/s, 1, 2 rad, 3, 4 rad, 5, 6 rad, 7 rad/m, "
+        "8 rad, 9 rad/m, 10 rad, 11 rad/m, 12 rad]]}, {heading: 90 deg, table: " LD_BINARY_DIR
+        "/raos.csv}]}}"};
+    ld_model m = read_with_file(
+        "raos.csv",
+        "omega [rad/s], surge [%], surge_phase [deg], sway, sway_phase [deg], heave [m/m], "
+        "heave_phase [deg], roll [deg/m], roll_phase [deg], pitch [mrad/m], pitch_phase [deg], "
+        "yaw [deg/m], yaw_phase [rad]\n0.4, 50, 90, 3, 4, 5, 6, 90, 8, 9, 10, 11, 12\n"
+        "0.8, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12\n",
+        sets, 1);
+    const ld_sea *sea = &m.base.sea;
+    assert_true(sea->present && sea->spectrum == LD_SEA_PIERSON_MOSKOWITZ && sea->height == 2);
+    assert_true(sea->period == 8 && sea->peakedness == 2 && sea->spreading == 4);
+    assert_true(sea->waves == 50 && sea->seed == 9 && m.base.at[2] == 3);
+    CHECK_BELOW("heading, -90 deg", sea->heading + pi / 2, 1e-16);
+    assert_int_equal(sea->response_count, 2);
+    const ld_table *rows = &sea->response[0].table, *file = &sea->response[1].table;
+    assert_true(rows->rows == 1 && file->rows == 2 && file->columns == 13);
+    for (int i = 1; i < 13; i++)
+        assert_true(rows->data[i] == i);
+    assert_true(file->data[1] == 0.5 && file->data[5] == 5 && file->data[9] == 0.009);
+    assert_true(file->data[12] == 12);
+    CHECK_BELOW("roll, 90 deg/m", file->data[7] - pi / 2, 1e-16);
+    model_clear(&m);
+}
+
 // ---- printing and reading again
 
 static void check_round_trip(const ld_model *model)
@@ -536,15 +569,25 @@ static void test_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),           cmocka_unit_test(test_ring),
-        cmocka_unit_test(test_reference_model),  cmocka_unit_test(test_section_forms),
-        cmocka_unit_test(test_include),          cmocka_unit_test(test_point_of_the_lock),
-        cmocka_unit_test(test_overrides),        cmocka_unit_test(test_override_order),
-        cmocka_unit_test(test_parachutes),       cmocka_unit_test(test_engine_file),
-        cmocka_unit_test(test_engine_from_zero), cmocka_unit_test(test_motion_file),
-        cmocka_unit_test(test_round_trip),       cmocka_unit_test(test_round_trip_of_random_bits),
-        cmocka_unit_test(test_awkward_title),    cmocka_unit_test(test_locale),
-        cmocka_unit_test(test_failures),         cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_ring),
+        cmocka_unit_test(test_reference_model),
+        cmocka_unit_test(test_section_forms),
+        cmocka_unit_test(test_include),
+        cmocka_unit_test(test_point_of_the_lock),
+        cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_override_order),
+        cmocka_unit_test(test_parachutes),
+        cmocka_unit_test(test_engine_file),
+        cmocka_unit_test(test_engine_from_zero),
+        cmocka_unit_test(test_motion_file),
+        cmocka_unit_test(test_sea),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_round_trip_of_random_bits),
+        cmocka_unit_test(test_awkward_title),
+        cmocka_unit_test(test_locale),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

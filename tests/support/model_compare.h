@@ -31,6 +31,11 @@ static inline bool same_tables(const field_block *block, void *a, void *b)
     for (const field_row *f = block->fields; f->name; f++) {
         if (f->kind == FIELD_BLOCK) {
             same &= same_tables(f->block, field_at(a, f), field_at(b, f));
+        } else if (f->kind == FIELD_LIST) {
+            int count = field_switch(a, f);
+            same &= count == field_switch(b, f);
+            for (int i = 0; i < count && same; i++)
+                same &= same_tables(f->block, field_entry(a, f, i), field_entry(b, f, i));
         } else if (f->kind == FIELD_TABLE) {
             ld_table *x = field_at(a, f), *y = field_at(b, f);
             same &= same_table(x, y);
