@@ -152,6 +152,62 @@ static void test_gust(void **state)
     check_cases(all, sizeof all / sizeof *all);
 }
 
+// In air without weight m v' = -rho A v^2/2, so 1/v grows by rho/(2 m) A t from when a canopy of A
+// opens, or brakes of that area are out; a fall under a canopy ends at v_t = sqrt(2 m g/(rho A)).
+static void test_drag_areas(void **state)
+{
+    (void)state;
+#define AIR                                                                                        \
+    "launchdyn: 1\nrun: {end: 4 s, flight_tolerance: 1e-12}\nenvironment: {ground: 0 m, "          \
+    "atmosphere: {density: 1.2 kg/m3, speed_of_sound: 340 m/s}"
+#define LIGHT AIR ", gravity: 0 m/s2"
+#define BODY "}\nrocket: {mass: 4 kg, center: 0.3 0 0 m, inertia: 0.1 1 1 kg.m2, "
+#define CANOPY BODY "parachutes: [{name: main, drag_area: 0.5 m2, trigger: "
+#define FROM "\nflight: {point: center, position: 0 300 0 m, velocity: "
+    const double g = 9.80665, v_t = sqrt(2 * 4 * g / (1.2 * 0.7)), per_area = 1.2 / (2 * 4);
+    const factor_case all[] = {
+        {"canopy, 0.7 m2: speed [m/s]",
+         AIR CANOPY "time, time: 0 s}]}" FROM "0 0 0 m/s}\n" SCATTER
+                    "rocket.parachutes.main.drag_area: {discrete: [0.7 m2]}\n",
+         "rocket.vy", -v_t * tanh(g * 4 / v_t), 2e-12},
+        {"1.5 s after its trigger: speed [m/s]",
+         LIGHT CANOPY "time, time: 0.5 s}]}" FROM "50 0 0 m/s}\n" SCATTER
+                      "rocket.parachutes.main.lag: {discrete: [1.5 s]}\n",
+         "rocket.vx", 1 / (1 / 50. + per_area * 0.5 * (4 - 2)), 2e-12},
+        {"at 260 m, 2 s down from 300 m: speed [m/s]",
+         LIGHT CANOPY "height, height: 240 m}]}" FROM "0 -20 0 m/s}\n" SCATTER
+                      "rocket.parachutes.main.height: {discrete: [260 m]}\n",
+         "rocket.vy", -1 / (1 / 20. + per_area * 0.5 * (4 - 2)), 2e-12},
+        {"air brakes, half as much again: speed [m/s]",
+         LIGHT BODY "air_brakes: {over_time: [[0 s, 0.2 m2], [4 s, 0.1 m2]]}}" FROM
+                    "50 0 0 m/s}\n" SCATTER "rocket.air_brakes.scale: {discrete: [1.5]}\n",
+         "rocket.vx", 1 / (1 / 50. + per_area * 1.5 * 0.15 * 4), 2e-12},
+    };
+    check_cases(all, sizeof all / sizeof *all);
+}
+
+// Propellant of 20 kg, 0.1 m before a place drawn as 0.4 m for 0.8 m: burnt, it leaves the centre
+// at c_1 and J_1 about it by Steiner's theorem. Under a thrust out of line J w' = -c F sin, centre
+// and J even in time between both ends.
+static void test_place_of_masses(void **state)
+{
+    (void)state;
+    const double c_0 = 1.1, J_0 = 24, x = 0.1 + 0.4, T = 2;
+    const double c_1 = (60 * c_0 - 20 * x) / 40;
+    const double J_1 = J_0 - 20 * (x - c_0) * (x - c_0) - 40 * (c_1 - c_0) * (c_1 - c_0);
+    const double b = (c_1 - c_0) / T, q = (J_1 - J_0) / T;
+    const double integral = b / q * T + (c_0 - b * J_0 / q) / q * log(J_1 / J_0);
+    const factor_case all[] = {
+        {"0.4 m: rate about z [rad/s]",
+         SPACE ROCKET MOTOR
+         ", misalignment: 2 0 mrad, masses_at: 0.8 m, masses: [[0 s, 20 kg, 0.1 m, "
+         "0 kg.m2, 0 kg.m2], [2 s, 0 kg, 0.1 m, 0 kg.m2, 0 kg.m2]]}}\n" SCATTER
+         "rocket.motor.masses_at: {discrete: [0.4 m]}\n",
+         "rocket.wz", -1e4 * 2e-3 / sqrt(1 + 4e-6) * integral, 1e-14},
+    };
+    check_cases(all, 1);
+}
+
 // At rest the rocket lies on rear and front adaptor: each sinks by what its clearance grows.
 static void test_clearances(void **state)
 {
@@ -223,6 +279,8 @@ int main(void)
         cmocka_unit_test(test_mass_and_thrust),
         cmocka_unit_test(test_dynamic_imbalance),
         cmocka_unit_test(test_gust),
+        cmocka_unit_test(test_drag_areas),
+        cmocka_unit_test(test_place_of_masses),
         cmocka_unit_test(test_clearances),
         cmocka_unit_test(test_rail),
         cmocka_unit_test(test_pressure),
