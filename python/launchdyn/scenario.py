@@ -41,6 +41,8 @@ class Scenario:
 
     def __init__(self, model: Handle) -> None:
         """Of a model's handle: use read(), from_text(), from_dict() or defaults()."""
+        if not isinstance(model, Handle):
+            raise TypeError("a scenario is made by Scenario.read(path), from_text() or from_dict()")
         self._model: Optional[Handle] = model
         self._simulation: Optional[Simulation] = None
 

@@ -240,6 +240,8 @@ class TestErrors(Case):
             read["rocket.mass"] = object()
         with self.assertRaises(TypeError):
             ld.Scenario.read(FIXED, "rocket.mass=61 kg")
+        with self.assertRaisesRegex(TypeError, "made by Scenario.read"):
+            ld.Scenario(FIXED)
         self.assertEqual(value_text("title", {"a": "- b"}), '{a: "- b"}')
         self.assertEqual(value_text("base.road.flat", True), "true")
 
