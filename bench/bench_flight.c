@@ -190,6 +190,21 @@ static void bench_surfaces(void)
     model_clear(&model);
 }
 
+// The reference rocket in measured air, of 14 rows, in place of the standard's.
+static void bench_measured_air(void)
+{
+    static const char *const set[] = {"environment.atmosphere={profile: " LD_SOURCE_DIR
+                                      "/examples/student-rocket/air.csv}"};
+    ld_model model;
+    ld_messages messages = {0};
+    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", set, 1, &model, &messages))
+        exit(1);
+    bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, measured air");
+    bench_flight(&model, "the same in measured air");
+    bench_lanes(&model, 6.3e-4);
+    model_clear(&model);
+}
+
 int main(void)
 {
     ld_model model;
@@ -212,5 +227,6 @@ int main(void)
     model.environment.earth.kind = LD_EARTH_WGS84;
     bench_evaluation(&model, 10, "evaluation, WGS 84, burnt out, not balanced");
     model_clear(&model);
+    bench_measured_air();
     return 0;
 }
