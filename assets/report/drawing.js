@@ -158,11 +158,22 @@ function sideOf(it) {
   return { tubes, angle: it.pitch, wheels: it.wheels, pivot, ground: Math.min(...it.wheels.map(([, height]) => height)) - it.wheelRadius, body };
 }
 
+// How it stands, in words; in two lines where one is too wide.
+function standingWords(it, width) {
+  const turned = it.mount?.[0] ?? 0, up = it.wheels.length === 0 ? (it.mount?.[1] ?? 0) + it.pitch : it.pitch;
+  const degrees = (v) => `${Number(((Math.abs(v) * 180) / Math.PI).toPrecision(3))}°`;
+  const count = it.places.length > 1 ? `${it.places.length} in the pack` : "";
+  const aside = Math.abs(turned) > 1e-6 ? `, ${degrees(turned)} to the ${turned > 0 ? "left" : "right"}` : "";
+  const stands = `${degrees(up)} ${up >= 0 ? "up" : "down"}${aside}`, all = count ? `${stands}, ${count}` : stands;
+  return LETTER * all.length > width && count ? [stands, count] : [all];
+}
+
 function standing(it, left, width, top, height) {
+  const lines = standingWords(it, width), foot = 6 + LINE * lines.length;
   const side = sideOf(it), xs = [...side.tubes.flat().map(([x]) => x), ...(side.body ? side.body.slice(0, 2) : [])];
   const ys = [...side.tubes.flat().map(([, y]) => y), side.ground], w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - side.ground;
-  const scale = Math.min((width - 20) / (1.1 * w), (height - 24) / (1.05 * h)), x0 = Math.min(...xs);
-  const X = (x) => left + 10 + (width - 20 - scale * w) / 2 + scale * (x - x0), Y = (y) => top + height - 20 - scale * (y - side.ground);
+  const scale = Math.min((width - 20) / (1.1 * w), (height - foot - 4) / (1.05 * h)), x0 = Math.min(...xs);
+  const X = (x) => left + 10 + (width - 20 - scale * w) / 2 + scale * (x - x0), Y = (y) => top + height - foot - scale * (y - side.ground);
   const out = [line(left, Y(side.ground), left + width, Y(side.ground), "ground")];
   if (side.body) out.push(shape([[X(side.body[0]), Y(side.body[2])], [X(side.body[1]), Y(side.body[2])], [X(side.body[1]), Y(side.body[3])], [X(side.body[0]), Y(side.body[3])]], "made-up"));
   if (side.body) out.push(shape([[X(side.pivot[0] - 0.2), Y(side.body[3])], [X(side.pivot[0] + 0.2), Y(side.body[3])], [X(side.pivot[0]), Y(side.pivot[1])]], "made-up"));
@@ -171,10 +182,7 @@ function standing(it, left, width, top, height) {
   const [px, py] = [X(side.pivot[0]), Y(side.pivot[1])], reach = Math.min(0.5 * scale * it.end, 46), up = side.angle;
   out.push(circle(px, py, 2.5, "pivot"), line(px, py, px + 1.25 * reach, py, "level"),
     svg("path", { class: "thin", d: `M${px + reach} ${py}A${reach} ${reach} 0 0 ${up > 0 ? 0 : 1} ${px + reach * Math.cos(up)} ${py - reach * Math.sin(up)}` }));
-  const turned = it.mount?.[0] ?? 0, degrees = (v) => `${Number(((Math.abs(v) * 180) / Math.PI).toPrecision(3))}°`;
-  const count = it.places.length > 1 ? `, ${it.places.length} in the pack` : "";
-  const aside = Math.abs(turned) > 1e-6 ? `, ${degrees(turned)} to the ${turned > 0 ? "left" : "right"}` : "";
-  out.push(text(`${degrees(up)} ${up >= 0 ? "up" : "down"}${aside}${count}`, left + width / 2, top + height - 4, "middle"));
+  lines.forEach((words, i) => out.push(text(words, left + width / 2, top + height - 4 - LINE * (lines.length - 1 - i), "middle")));
   return out;
 }
 

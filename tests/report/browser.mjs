@@ -479,6 +479,11 @@ async function checkShip(browser) {
   check("and around the launcher", at.low[0] < at.rear[0] - 3 * at.length && at.high[0] > at.rear[0] + 2 * at.length, text);
   const whole = await look(page), bare = await look(page, "replay.stage.base.group.visible = false;");
   check("it is seen", whole.sum !== bare.sum);
+  const cut = await page.$$eval(".plan text", (list) => list.filter((node) => {
+    const { x, width } = node.getBBox();
+    return x < 0 || x + width > node.ownerSVGElement.viewBox.baseVal.width;
+  }).map((node) => node.textContent));
+  check("no word of the drawing is cut off", cut.length === 0, cut.join("; "));
   await picture(page, "ship.png");
   await leave(page);
 }
