@@ -76,15 +76,16 @@ static const ld_source_file *keep(scenario_reader *reader, const char *digest,
     return kept;
 }
 
+// `*digest`: as take_digest tells it.
 static const ld_source_file *read_first(scenario_reader *reader, text_place place, const char *path,
-                                        const char *file_name, const char *within)
+                                        const char *file_name, const char *within,
+                                        const char **digest)
 {
-    const char *digest = NULL;
     if (reader->source->folder)
-        digest = take_digest(reader, place, path, file_name);
+        *digest = take_digest(reader, place, path, file_name);
     else
         reader_refuse(reader, place, path, "file \"%s\" is not among those that are kept", within);
-    return digest ? keep(reader, digest, file_name, within) : NULL;
+    return *digest ? keep(reader, *digest, file_name, within) : NULL;
 }
 
 // The file is as it was when it was read first, or as the scenario says; false after a message.
@@ -104,15 +105,18 @@ const char *reader_keep(scenario_reader *reader, text_place place, const char *p
     const char *within = reader_beside(reader, place.source->within, name);
     if (!file_name || !within)
         return NULL;
+    const char *now = NULL;
     const ld_source_file *kept = source_find(reader->source, within);
     if (!kept)
-        kept = read_first(reader, place, path, file_name, within);
+        kept = read_first(reader, place, path, file_name, within, &now);
     const char *colon = kept ? strstr(kept->text, ": /") : NULL;
     if (kept && !colon)
         reader_refuse(reader, place, path, "where file \"%s\" is has not been kept", within);
     if (!colon)
         return NULL;
-    const char *whole = colon + 2, *now = take_digest(reader, place, path, whole);
+    const char *whole = colon + 2;
+    if (!now)
+        now = take_digest(reader, place, path, whole);
     const char *then = pool_text(reader, kept->text, (size_t)(colon - kept->text));
     if (!now || !then || !check_digest(reader, place, path, whole, *digest ? *digest : then, now))
         return NULL;
