@@ -167,6 +167,20 @@ static void bench_lanes(ld_model *model, double tolerance)
     free(drawn);
 }
 
+// The reference flight with overrides: one evaluation, the flight, lanes.
+static void bench_other(const char *const *set, size_t sets, const char *evaluation,
+                        const char *flight)
+{
+    ld_model model;
+    ld_messages messages = {0};
+    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", set, sets, &model, &messages))
+        exit(1);
+    bench_evaluation(&model, 10, evaluation);
+    bench_flight(&model, flight);
+    bench_lanes(&model, 6.3e-4);
+    model_clear(&model);
+}
+
 // The reference rocket with its air by surface: nose, tail, fins.
 static void bench_surfaces(void)
 {
@@ -180,14 +194,8 @@ static void bench_surfaces(void)
         "length: 0.1 m, front_radius: 82 mm, rear_radius: 70 mm}, {name: fins, kind: fins, at: 0.3 "
         "m, fin_count: 4, root_chord: 0.2 m, tip_chord: 0.1 m, span: 0.1 m, sweep_length: 0.1 m, "
         "radius: 82 mm, cant: 1 deg}]}"};
-    ld_model model;
-    ld_messages messages = {0};
-    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", set, 3, &model, &messages))
-        exit(1);
-    bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, air by surface");
-    bench_flight(&model, "the same with the air by surface");
-    bench_lanes(&model, 6.3e-4);
-    model_clear(&model);
+    bench_other(set, 3, "evaluation, flat Earth, burnt out, air by surface",
+                "the same with the air by surface");
 }
 
 // The reference rocket in measured air, of 14 rows, in place of the standard's.
@@ -195,14 +203,8 @@ static void bench_measured_air(void)
 {
     static const char *const set[] = {"environment.atmosphere={profile: " LD_SOURCE_DIR
                                       "/examples/student-rocket/air.csv}"};
-    ld_model model;
-    ld_messages messages = {0};
-    if (scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", set, 1, &model, &messages))
-        exit(1);
-    bench_evaluation(&model, 10, "evaluation, flat Earth, burnt out, measured air");
-    bench_flight(&model, "the same in measured air");
-    bench_lanes(&model, 6.3e-4);
-    model_clear(&model);
+    bench_other(set, 1, "evaluation, flat Earth, burnt out, measured air",
+                "the same in measured air");
 }
 
 int main(void)
