@@ -92,10 +92,11 @@ static const ld_source_file *read_first(scenario_reader *reader, text_place plac
 static bool check_digest(scenario_reader *reader, text_place place, const char *path,
                          const char *file_name, const char *then, const char *now)
 {
-    if (strcmp(then, now) != 0)
+    bool same = strcmp(then, now) == 0;
+    if (!same)
         reader_refuse(reader, place, path, "file \"%s\" has changed: expected %s, found %s",
                       file_name, then, now);
-    return strcmp(then, now) == 0;
+    return same;
 }
 
 const char *reader_keep(scenario_reader *reader, text_place place, const char *path,
