@@ -7,6 +7,9 @@
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
 
+// The instant of ignition.
+static double lit_at;
+
 // Thrust that comes, goes again at 0.2 s and comes back from 0.4 s on.
 static double release_of(double hold_down, double elevation, double release_force, double *force)
 {
@@ -19,10 +22,11 @@ static double release_of(double hold_down, double elevation, double release_forc
     model.base.elevation = elevation;
     model.rocket.lock.hold_down = hold_down;
     model.rocket.lock.release_force = release_force;
+    model.firing[0].at = lit_at;
     recorded_run_make(&run, &model);
     double t = run.summary.rocket[0].t_release, last = 0;
     size_t clock = recorded_column(&run, "t"), column = recorded_column(&run, "lock.force");
-    for (size_t i = 0; i < run.rows && recorded_value(&run, i, clock) < t; i++)
+    for (size_t i = 0; i < run.rows && recorded_value(&run, i, clock) < lit_at + t; i++)
         last = recorded_value(&run, i, column);
     if (force)
         *force = last;
@@ -55,11 +59,24 @@ static void test_before_ignition(void **state)
     CHECK_NEAR("held under the weight [s]", release_of(0.05, down, 100, NULL), 0.05, 0);
 }
 
+// It counts from the rocket's own ignition.
+static void test_later_ignition(void **state)
+{
+    (void)state;
+    double force;
+    lit_at = 0.25;
+    double t = release_of(0.1, 0.3456, 5000, &force);
+    lit_at = 0;
+    CHECK_NEAR("lit at 0.25 s: at once when it ends, from then [s]", t, 0.1, 1e-15);
+    assert_true(force > 14e3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_release),
         cmocka_unit_test(test_before_ignition),
+        cmocka_unit_test(test_later_ignition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
