@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from ._library import QUANTITY_TAKER, ld_error, library
 from ._memory import Array, Handle, array_at, printed, text_of, texts
-from .errors import UnknownName, check_name
+from .errors import MissingError, UnknownName, check_name
 
 if TYPE_CHECKING:
     import pandas
@@ -35,6 +35,15 @@ class Quantity:
     unit: str  #: SI; "" or "1": none
     description: str  #: one line, with frame
     value: float  #: NaN where there is none
+
+
+def pandas_here() -> Any:
+    """The module pandas."""
+    try:
+        import pandas
+    except ImportError:
+        raise MissingError("data frames need pandas (Debian: python3-pandas)") from None
+    return pandas
 
 
 def nearest(name: str, names: list[str]) -> Optional[str]:
@@ -78,15 +87,17 @@ class History(Mapping[str, Array]):
         return int(library.ld_history_rows(self._pointer))
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A data frame over t [s]; units in `attrs["units"]`."""
-        import pandas
-        frame = pandas.DataFrame(dict(self))
+        """A data frame over t [s], a copy; units in `attrs["units"]`."""
+        frame = pandas_here().DataFrame(dict(self))
         frame.attrs["units"] = {name: column.unit for name, column in self.columns.items()}
         return frame.set_index("t")
 
     def to_xarray(self) -> xarray.Dataset:
-        """A data set over t [s], whose variables have `units` and `long_name`."""
-        import xarray
+        """A data set over t [s], not copied, whose variables have `units` and `long_name`."""
+        try:
+            import xarray
+        except ImportError:
+            raise MissingError("data sets need xarray (Debian: python3-xarray)") from None
         told = {name: {"units": column.unit, "long_name": column.description}
                 for name, column in self.columns.items()}
         values = {name: ("t", self[name], told[name]) for name in self if name != "t"}

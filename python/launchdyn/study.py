@@ -21,6 +21,7 @@ from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_
 from ._memory import Array, Handle, printed, text_of, texts
 from ._values import Sets, set_texts
 from .errors import Status, check, check_name
+from .result import pandas_here
 from .scenario import Scenario, dict_text, read_model
 
 if TYPE_CHECKING:
@@ -310,16 +311,19 @@ class StudyData:
 
     def to_pandas(self, *names: str) -> pandas.DataFrame:
         """Columns (all, without names) of all points as a data frame: swept keys as texts, sample,
-        rocket, then the columns."""
-        import pandas
-        wanted = names or tuple(self.columns)
+        rocket, then the columns, NaN where a rocket lacks a value; units in `attrs["units"]`."""
+        pandas, wanted = pandas_here(), names or tuple(self.columns)
         frames = []
         for point in self.points:
-            frame = pandas.DataFrame(self.values(*wanted, point=point.number))
+            columns = [pandas.DataFrame(self.values(name, point=point.number))
+                       .set_index(["sample", "rocket"]) for name in wanted]
+            frame = pandas.concat(columns, axis=1).sort_index().reset_index()
             for at, (path, text) in enumerate(point.values.items()):
                 frame.insert(at, path, text)
             frames.append(frame)
-        return pandas.concat(frames, ignore_index=True)
+        whole = pandas.concat(frames, ignore_index=True)
+        whole.attrs["units"] = {name: self.columns[name].unit for name in wanted}
+        return whole
 
     # ---- to look at
 

@@ -1,5 +1,6 @@
 """What the tests of the Python package share: places, the command, an external base."""
 
+import importlib.util
 import math
 import os
 import subprocess
@@ -21,6 +22,15 @@ def command(*arguments):
     """What the command prints."""
     words = [str(BUILD / "launchdyn"), *map(str, arguments)]
     return subprocess.run(words, check=True, capture_output=True, text=True).stdout
+
+
+def needs(name):
+    """Leaves a test out, and says so, where a module is not here; with LAUNCHDYN_ALL_MODULES in
+    the environment it fails there."""
+    here = importlib.util.find_spec(name) or "LAUNCHDYN_ALL_MODULES" in os.environ
+    if not here:
+        print(f"{name} is not here: what needs it is left out")
+    return unittest.skipUnless(here, f"{name} is not here")
 
 
 def scattered(samples, **more):

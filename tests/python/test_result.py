@@ -4,12 +4,14 @@ import csv
 import json
 import os
 import signal
+import sys
 import threading
 import unittest
+from unittest import mock
 
 import launchdyn as ld
 import numpy as np
-from support import EXAMPLES, FIXED, Case, command
+from support import EXAMPLES, FIXED, Case, command, needs
 
 
 def written(path):
@@ -46,7 +48,8 @@ class TestBits(Case):
         self.assertEqual(len(result.history), len(result.history.columns))
 
     def test_a_vehicle_and_its_rocket_to_the_ground(self):
-        result, summary = self.compare("reference.yaml", "run.output_step=1 ms")
+        result, summary = self.compare("reference.yaml", "run.output_step=1 ms",
+                                       "run.lead_in=0.1 s")
         flight = result.flight(1)
         self.assertEqual(list(result.flights), [1])
         expected = written(self.folder / "command/flights.csv")
@@ -114,25 +117,57 @@ class TestResult(Case):
                          f"<launchdyn.Result: rockets 1, rows {len(self.result['t'])}>")
         self.assertIn("bores", ld.Scenario.read(FIXED)._repr_html_())
 
-    def test_tables_of_other_libraries(self):
-        for name, to in (("pandas", self.result.to_pandas), ("xarray", self.result.to_xarray)):
-            try:
-                __import__(name)
-            except ImportError:
-                with self.assertRaises(ImportError):
-                    to()
-                continue
-            table = to()
-            np.testing.assert_array_equal(table["tip.y"], self.result["tip.y"])
-            np.testing.assert_array_equal(table["t" if name == "xarray" else "tip.z"],
-                                          self.result["t" if name == "xarray" else "tip.z"])
-
     def test_modes(self):
         modes, poles = ld.Scenario.read(FIXED).simulation().system_modes()
         self.assertGreater(len(modes), 5)
         self.assertTrue(all(pole.real <= 0 for pole in poles))
         frequencies = [mode.frequency for mode in modes]
         self.assertEqual(frequencies, sorted(frequencies))
+
+
+class TestTables(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.result = ld.Scenario.read(FIXED).run()
+
+    @needs("pandas")
+    def test_a_data_frame(self):
+        frame = self.result.to_pandas()
+        self.assertEqual((frame.index.name, list(frame)),
+                         ("t", [name for name in self.result.history if name != "t"]))
+        np.testing.assert_array_equal(frame.index, self.result["t"])
+        for name in frame:
+            np.testing.assert_array_equal(frame[name], self.result[name], name)
+        self.assertEqual(frame.attrs["units"]["tip.y"], "m")
+        within = (self.result["t"] >= 0.01) & (self.result["t"] <= 0.02)
+        self.assertEqual(len(frame.loc[0.01:0.02]), within.sum())
+        frame["tip.y"] = 0.0
+        frame.iloc[0, 1] = 1.0
+        self.assertNotEqual(self.result["tip.y"].min(), 0)
+        self.assertNotEqual(self.result[frame.columns[1]][0], 1)
+
+    @needs("xarray")
+    def test_a_data_set(self):
+        result = ld.Scenario.read(FIXED).run()
+        data = result.to_xarray()
+        self.assertTrue(np.shares_memory(data["tip.y"].values, result["tip.y"]))
+        del result
+        for name in self.result.history:
+            np.testing.assert_array_equal(data[name], self.result[name], name)
+            self.assertEqual(data[name].dims, ("t",))
+            column = self.result.history.columns[name]
+            self.assertEqual(data[name].attrs,
+                             {"units": column.unit, "long_name": column.description})
+        nearest = np.abs(self.result["t"] - 0.05).argmin()
+        self.assertEqual(data["tip.y"].sel(t=0.05, method="nearest"), self.result["tip.y"][nearest])
+        with self.assertRaises(ValueError):
+            data["tip.y"][:] = 0
+
+    def test_without_them_it_says_so(self):
+        for name, to in (("pandas", self.result.to_pandas), ("xarray", self.result.to_xarray)):
+            with mock.patch.dict(sys.modules, {name: None}), \
+                    self.assertRaisesRegex(ld.MissingError, f"python3-{name}"):
+                to()
 
 
 class TestEarlyEnds(Case):

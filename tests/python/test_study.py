@@ -10,7 +10,7 @@ from unittest import mock
 import launchdyn as ld
 import numpy as np
 from launchdyn import study
-from support import FIXED, Case, command, flights, scattered
+from support import FIXED, Case, command, flights, needs, scattered
 
 
 class TestStudy(Case):
@@ -81,13 +81,23 @@ class TestStudy(Case):
             self.assertGreater(*speeds)
             with self.assertRaises(ld.InputError):
                 data.values("muzzle_speed", point=3)
-            try:
-                import pandas
-            except ImportError:
-                pandas = None
-            if pandas:
-                table = data.to_pandas("muzzle_speed")
-                self.assertEqual(list(table["muzzle_speed"]), speeds)
+
+    @needs("pandas")
+    def test_a_data_frame(self):
+        swept = scattered(3, sweep={"base.elevation": ["10 deg", "20 deg"]})
+        with ld.Study.of(swept).run(self.folder / "study") as data:
+            frame = data.to_pandas()
+            self.assertEqual(list(frame), ["base.elevation", "sample", "rocket", *data.columns])
+            for point, (_, part) in enumerate(frame.groupby("base.elevation"), 1):
+                values = data.values("muzzle_speed", "rocket.mass", point=point)
+                for name, expected in values.items():
+                    np.testing.assert_array_equal(part[name], expected, name)
+            self.assertTrue(frame["range"].isna().all())  # they fly no further than the tip
+            self.assertEqual(frame.attrs["units"]["rocket.mass"], "kg")
+            few = data.to_pandas("range", "muzzle_speed")
+            np.testing.assert_array_equal(few["muzzle_speed"], frame["muzzle_speed"])
+            with self.assertRaises(ld.UnknownName):
+                data.to_pandas("muzle_speed")
 
     def test_interrupted_it_goes_on(self):
         samples = ld.Study.of(flights(40))
