@@ -29,6 +29,13 @@ class Handle:
         self._freed = weakref.finalize(self, _free, free, pointer, parents)
         self._freed.atexit = False  # the end of the program frees what is left
 
+    def __reduce__(self) -> Any:
+        raise TypeError("objects of launchdyn stay in their process; hand over a scenario as the "
+                        "text that to_yaml() gives, results as arrays")
+
+    def __deepcopy__(self, _: Any) -> Handle:
+        return self  # what may be copied does not change
+
     def let_go(self) -> int:
         """The pointer, which somebody else frees from now on."""
         self._freed.detach()

@@ -1,7 +1,9 @@
 """Nothing leaks, and threads do not disturb each other."""
 
+import copy
 import ctypes
 import gc
+import pickle
 import threading
 import unittest
 
@@ -87,6 +89,26 @@ class TestLeaks(Case):
         self.assertGreater(in_use() - before, 2 * kept[0].nbytes)
         del kept
         self.assertLess(in_use() - before, 10000)
+
+
+class TestCopies(Case):
+    def test_what_stands_in_the_librarys_memory_cannot_leave_the_process(self):
+        read = ld.Scenario.read(FIXED)
+        result = read.run()
+        for thing in (read, read.simulation(), result, result.history, result.summary):
+            with self.assertRaisesRegex(TypeError, "stay in their process"):
+                pickle.dumps(thing)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(result["tip.y"])), result["tip.y"])
+
+    def test_a_copy_of_a_scenario_is_one_of_its_own(self):
+        read = ld.Scenario.read(FIXED, {"rocket.mass": 61})
+        for copied in (copy.copy(read), copy.deepcopy(read)):
+            copied["rocket.mass"] = 62
+            self.assertEqual((read["rocket.mass"], copied["rocket.mass"]), (61, 62))
+        result = copy.deepcopy(read.run())
+        del read
+        gc.collect()
+        self.assertEqual(len(result["tip.y"]), result.history.rows)
 
 
 class TestThreads(Case):
