@@ -22,7 +22,7 @@ from .scenario import Scenario
 from .simulation import (BaseFrame, Event, EventKind, Mode, Pole, Run, Simulation, VehicleRun,
                          Wrench)
 from .study import (Counts, Estimate, Point, Statistics, Study, StudyColumn, StudyData,
-                    write_report)
+                    merge_shards, write_report)
 
 
 def library_version() -> str:
@@ -36,5 +36,5 @@ __all__ = [
     "MissingError", "Mode", "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Result",
     "Run", "Scenario", "Simulation", "Statistics", "Status", "Study", "StudyColumn", "StudyData",
     "Summary", "UnknownName", "VehicleRun", "Wrench", "__version__", "keys", "library_version",
-    "write_report",
+    "merge_shards", "write_report",
 ]

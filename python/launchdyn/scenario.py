@@ -45,6 +45,7 @@ class Scenario:
             raise TypeError("a scenario is made by Scenario.read(path), from_text() or from_dict()")
         self._model: Optional[Handle] = model
         self._simulation: Optional[Simulation] = None
+        self._drawn = False  # a sample, whose texts say what it was drawn from
 
     # ---- made
 
@@ -129,6 +130,9 @@ class Scenario:
         return Scenario(self._derived(sets))
 
     def _derived(self, sets: Sets) -> Handle:
+        if self._drawn:
+            raise ValueError("a sample stays as it was drawn; Scenario.from_text(sample.to_yaml()) "
+                             "can be set")
         items = texts(set_texts(sets))
         return read_model(library.ld_model_derive, self.handle.pointer, items, len(items))
 

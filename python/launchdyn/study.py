@@ -127,9 +127,18 @@ class Study:
         `progress` raises, stops the study, which keeps what it has: run again, it goes on. The
         results have the same bits for any number of threads and any interruption.
         """
-        if self._handle is None:
-            raise ValueError("the study is closed")
-        work = _Work(self._handle, folder, threads)
+        self._run(folder, threads, progress, 0, 0)
+        return StudyData(folder)
+
+    def run_shard(self, folder: PathLike, shard: int, shards: int, threads: int = 1,
+                  progress: Optional[Callable[[Counts], Any]] = None) -> Counts:
+        """Runs the samples shard, shard + shards, ... alone, for merge_shards(): several programs,
+        on one machine or on many, share a folder so. Else as run()."""
+        return self._run(folder, threads, progress, shard, shards)
+
+    def _run(self, folder: PathLike, threads: int, progress: Optional[Callable[[Counts], Any]],
+             shard: int, shards: int) -> Counts:
+        work = _Work(self.handle, folder, threads, shard, shards)
         with Interrupt() as interrupt:
             work.start()
             try:
@@ -144,7 +153,24 @@ class Study:
                 check(work.status, work.error)
         if progress:
             progress(_counts(work.counts))
-        return StudyData(folder)
+        return _counts(work.counts)
+
+    def sample(self, number: int) -> Scenario:
+        """A sample, from 1, as a scenario to look at and to run, with what was drawn for it."""
+        error, pointer = ld_error(), ctypes.c_void_p()
+        check(library.ld_study_sample(self.handle.pointer, number, ctypes.byref(pointer),
+                                      ctypes.byref(error)), error)
+        sample = Handle(pointer.value, library.ld_sample_free, self.handle)
+        drawn = Scenario(Handle(library.ld_sample_model(sample.pointer), _keep, sample))
+        drawn._drawn = True
+        return drawn
+
+    @property
+    def handle(self) -> Handle:
+        """The library's object."""
+        if self._handle is None:
+            raise ValueError("the study is closed")
+        return self._handle
 
     def close(self) -> None:
         """Gives it up."""
@@ -155,6 +181,10 @@ class Study:
 
     def __exit__(self, *error: Any) -> None:
         self.close()
+
+
+def _keep(_: int) -> None:
+    pass  # what it is part of is freed
 
 
 def _read_study(read: Callable[..., int], *arguments: Any) -> Handle:
@@ -168,7 +198,8 @@ def _counts(counts: ld_study_counts) -> Counts:
 class _Work:
     """A study on a thread of its own, so that the one that began it hears Ctrl-C."""
 
-    def __init__(self, study: Handle, folder: PathLike, threads: int) -> None:
+    def __init__(self, study: Handle, folder: PathLike, threads: int, shard: int,
+                 shards: int) -> None:
         self.latest, self.counts, self.error = ld_study_counts(), ld_study_counts(), ld_error()
         self.status = int(Status.OK)
         self.done = 0
@@ -182,8 +213,8 @@ class _Work:
         def may_go_on(_: Any) -> bool:
             return not self._stopped
 
-        self._options = ld_study_options(threads=threads, progress=COUNTS_TOLD(told),
-                                         go_on=GO_ON(may_go_on))
+        self._options = ld_study_options(threads=threads, shard=shard, shards=shards,
+                                         progress=COUNTS_TOLD(told), go_on=GO_ON(may_go_on))
         self._thread = threading.Thread(target=self._run, args=(study, os.fsencode(folder)))
 
     def _run(self, study: Handle, folder: bytes) -> None:
@@ -327,15 +358,31 @@ class StudyData:
 
     # ---- to look at
 
-    def show(self, what: Optional[str] = None, sensitivity: bool = False) -> str:
-        """The tables that `launchdyn study show` prints, of results by name or "all"."""
-        error, view = ld_error(), ld_study_view(what=what.encode() if what else None,
-                                                sensitivity=sensitivity)
+    def show(self, what: Optional[str] = None, sensitivity: bool = False,
+             measured: Optional[PathLike] = None, against: Optional[str] = None) -> str:
+        """The tables that `launchdyn study show` prints, of results by name or "all"; beside the
+        `measured` shots of a CSV file; or how far points of the sweep are from one, `against`."""
+        error, view = ld_error(), ld_study_view(
+            what=what.encode() if what else None, sensitivity=sensitivity,
+            measured=os.fsencode(measured) if measured else None,
+            against=against.encode() if against else None)
         status = []
         text = printed(lambda to: status.append(library.ld_study_show(
             os.fsencode(self.folder), ctypes.byref(view), to, ctypes.byref(error))))
-        check_name(status[0], error) if what else check(status[0], error)
+        named = what and not measured and not against
+        check_name(status[0], error) if named else check(status[0], error)
         return text
+
+    def export(self, csv: Optional[PathLike] = None, hdf5: Optional[PathLike] = None) -> None:
+        """Writes all rockets with their factors and results, in full precision, as a CSV file, as
+        an HDF5 file, or as both."""
+        if not csv and not hdf5:
+            raise ValueError("name a file to write: csv, hdf5")
+        error = ld_error()
+        check(library.ld_study_export(os.fsencode(self.folder),
+                                      os.fsencode(csv) if csv else None,
+                                      os.fsencode(hdf5) if hdf5 else None,
+                                      ctypes.byref(error)), error)
 
     def plot(self, *names: str, over: Optional[str] = None, ax: Any = None, **style: Any) -> Any:
         """Draws, by matplotlib, how results scatter: histograms, a colour for each point of the
@@ -375,6 +422,17 @@ def _copy(pointer: Any, count: int, kind: Any) -> npt.NDArray[Any]:
 
 def _estimate(e: ld_estimate) -> Estimate:
     return Estimate(e.value, e.low, e.high)
+
+
+def merge_shards(folder: PathLike) -> StudyData:
+    """Joins what the shards of a study have kept in a folder, and opens it. Harmless however
+    often, and while shards run, but not while StudyData of the folder is open: FileError.
+    Study.run() then runs what is still missing."""
+    error, status = ld_error(), []
+    printed(lambda to: status.append(library.ld_study_merge(os.fsencode(folder), to,
+                                                            ctypes.byref(error))))
+    check(status[0], error)
+    return StudyData(folder)
 
 
 def write_report(folder: PathLike, file: Optional[PathLike] = None) -> Path:

@@ -128,6 +128,50 @@ class TestStudy(Case):
         self.assertEqual(threading.active_count(), threads)
         self.assertLess(ld.StudyData(self.folder / "study").points[0].done, 40)
 
+    def test_shards(self):
+        samples = ld.Study.of(flights(5))
+        whole = samples.run(self.folder / "whole")
+        halves = [samples.run_shard(self.folder / "parts", i, 2) for i in (1, 2)]
+        self.assertEqual([counts.done for counts in halves], [3, 2])
+        with ld.merge_shards(self.folder / "parts") as data:
+            for name in ("range", "rocket.mass"):
+                np.testing.assert_array_equal(data[name], whole[name])
+            data.export(self.folder / "parts.csv", self.folder / "parts.h5")
+        command("study", "export", self.folder / "whole", "--csv", self.folder / "whole.csv")
+        self.assertEqual((self.folder / "parts.csv").read_text(),
+                         (self.folder / "whole.csv").read_text())
+        self.assertTrue((self.folder / "parts.h5").exists())
+        for wrong in (lambda: samples.run_shard(self.folder / "parts", 3, 2),
+                      lambda: ld.merge_shards(self.folder / "nowhere"), whole.export):
+            with self.assertRaises(ValueError):
+                wrong()
+
+    def test_a_sample_by_itself(self):
+        samples = ld.Study.of(flights(3))
+        data = samples.run(self.folder / "study")
+        third = samples.sample(3)
+        with self.assertRaises(ld.InputError):
+            samples.sample(4)
+        del samples
+        self.assertEqual(third["rocket.mass"], data["rocket.mass"][2])
+        self.assertEqual(third.run().summary["rocket.1.range"], data["range"][2])
+        for change in (third.set, third.derive):
+            with self.assertRaisesRegex(ValueError, "as it was drawn"):
+                change({"rocket.spin": 0})
+        again = ld.Scenario.from_text(third.to_yaml(), {"title": "again"})
+        self.assertEqual(again.run().summary["rocket.1.range"], data["range"][2])
+
+    def test_points_beside_each_other(self):
+        with ld.Study.of(scattered(6, sweep={"base.elevation": ["10 deg", "20 deg"]})).run(
+                self.folder / "study") as data:
+            for words in ({"against": "1"}, {"sensitivity": True}, {}):
+                options = [word for name, value in words.items()
+                           for word in (f"--{name}", value) if value is not True] or \
+                    [f"--{name}" for name in words]
+                self.assertEqual(data.show("muzzle_speed", **words),
+                                 command("study", "show", data.folder, "--what", "muzzle_speed",
+                                         *options))
+
     def test_errors(self):
         with self.assertRaises(ld.InputError):
             ld.StudyData(self.folder / "nowhere")
