@@ -17,12 +17,14 @@ from ._library import library as _found
 from ._values import Key, keys
 from .errors import (FileError, InputError, Interrupted, LaunchdynError, LaunchError, Message,
                      MissingError, NumericError, OutOfMemory, Status, UnknownName)
+from .response import Loop, LoopPoints, Margins, Response, Scatter, Strength
 from .result import Column, History, Quantity, Result, Summary
 from .scenario import Scenario
 from .simulation import (BaseFrame, Event, EventKind, Mode, Pole, Run, Simulation, VehicleRun,
                          Wrench)
 from .study import (Counts, Estimate, Point, Statistics, Study, StudyColumn, StudyData,
                     merge_shards, write_report)
+from .views import View, draw, figures
 
 
 def library_version() -> str:
@@ -32,9 +34,10 @@ def library_version() -> str:
 
 __all__ = [
     "BaseFrame", "Column", "Counts", "Estimate", "Event", "EventKind", "FileError", "History",
-    "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError", "Message",
-    "MissingError", "Mode", "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Result",
-    "Run", "Scenario", "Simulation", "Statistics", "Status", "Study", "StudyColumn", "StudyData",
-    "Summary", "UnknownName", "VehicleRun", "Wrench", "__version__", "keys", "library_version",
-    "merge_shards", "write_report",
+    "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError", "Loop", "LoopPoints",
+    "Margins", "Message", "MissingError", "Mode", "NumericError", "OutOfMemory", "Point",
+    "Pole", "Quantity", "Response", "Result", "Run", "Scatter", "Scenario", "Simulation",
+    "Statistics", "Status", "Strength", "Study", "StudyColumn", "StudyData", "Summary",
+    "UnknownName", "VehicleRun", "View", "Wrench", "__version__", "draw", "figures", "keys",
+    "library_version", "merge_shards", "write_report",
 ]

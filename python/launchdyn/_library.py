@@ -131,6 +131,40 @@ class ld_report(Structure):
                 ("note", (c_char * 256) * 8)]
 
 
+class ld_loop_margins(Structure):
+    _fields_ = [(name, c_double) for name in
+                ("raise", "raise_at", "lower", "lower_at", "phase", "crossover", "delay",
+                 "bandwidth", "peak", "peak_at")]
+
+
+class ld_response_wish(Structure):
+    _fields_ = [("what", POINTER(c_char_p)), ("what_count", c_size_t), ("input", c_char_p),
+                ("from", c_double), ("to", c_double), ("slowest", c_double),
+                ("fastest", c_double), ("step", c_double), ("loop", c_char_p),
+                ("density", c_char_p), ("exit", c_bool), ("rub", c_bool), ("draws", c_int),
+                ("reserved", c_void_p * 1)]
+
+
+class ld_stretch(Structure):
+    _fields_ = [("from", c_double), ("to", c_double), ("step", c_double)]
+
+
+class ld_wind_section(Structure):
+    _fields_ = [("height", c_double), ("top", c_double), ("length", c_double),
+                ("step", c_double), ("rocket", c_int)]
+
+
+class ld_figure(Structure):
+    _fields_ = [("name", c_char_p), ("description", c_char_p)]
+
+
+class ld_picture(Structure):
+    _fields_ = [("folder", POINTER(c_char_p)), ("folder_count", c_size_t),
+                ("figure", POINTER(c_char_p)), ("figure_count", c_size_t), ("from", c_double),
+                ("to", c_double), ("note", c_void_p), ("style", c_char_p), ("width", c_double),
+                ("reserved", c_void_p * 1)]
+
+
 KEY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_key))
 QUANTITY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_quantity))
 
@@ -227,6 +261,43 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_report_write": (c_int, [_text, _text, POINTER(ld_report), _error]),
     "ld_report_write_studies": (c_int, [_texts, c_size_t, _text, POINTER(ld_report), _error]),
     "ld_fmu_export": (c_int, [_handle, c_int, c_int, _text, _error]),
+    "ld_figure_at": (POINTER(ld_figure), [c_size_t]),
+    "ld_plot": (c_int, [POINTER(ld_picture), _text, _error]),
+    # response.h, loop.h; arrays of numpy are a c_void_p
+    "ld_response_create": (c_int, [_handle, c_double, c_double, _handles, _error]),
+    "ld_response_free": (None, [_handle]),
+    "ld_response_inputs": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
+    "ld_response_rub": (c_int, [_handle, c_bool, _error]),
+    "ld_response_columns": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
+    "ld_response_choose": (c_int, [_handle, _texts, c_size_t, _error]),
+    "ld_response_gain": (c_int, [_handle, c_double, _text, c_void_p, c_size_t, c_void_p, _error]),
+    "ld_response_on_road": (c_int, [_handle, c_double, c_void_p, c_void_p, _error]),
+    "ld_response_density": (c_int, [_handle, c_double, c_void_p, c_size_t, c_void_p, _error]),
+    "ld_response_random": (c_int, [_handle, c_double, _text, c_void_p, c_void_p, c_size_t,
+                                   c_void_p, c_void_p, _error]),
+    "ld_response_exit": (c_int, [_handle, c_double, c_int, _texts, c_size_t, c_void_p, c_void_p,
+                                 _error]),
+    "ld_loop_create": (c_int, [_handle, _text, _handles, _error]),
+    "ld_loop_free": (None, [_handle]),
+    "ld_loop_points": (c_int, [_handle, c_void_p, c_size_t, c_void_p, _error]),
+    "ld_loop_rejection": (c_int, [_handle, c_void_p, c_size_t, c_void_p, _error]),
+    "ld_loop_margins_of": (None, [_handle, POINTER(ld_loop_margins)]),
+    # response_view.h, environment.h
+    "ld_response_view_create": (c_int, [_handle, POINTER(ld_response_wish), _handles, _error]),
+    "ld_response_view_free": (None, [_handle]),
+    "ld_response_view_print": (None, [_handle, c_void_p]),
+    "ld_response_view_write": (c_int, [_handle, _text, _error]),
+    "ld_response_view_draw": (c_int, [_handle, _text, _error]),
+    "ld_road_view_create": (c_int, [_handle, ld_stretch, _handles, _error]),
+    "ld_road_view_free": (None, [_handle]),
+    "ld_road_view_print": (None, [_handle, c_void_p]),
+    "ld_road_view_write": (c_int, [_handle, _text, _error]),
+    "ld_road_view_draw": (c_int, [_handle, _text, _error]),
+    "ld_wind_view_create": (c_int, [_handle, ld_wind_section, _handles, _error]),
+    "ld_wind_view_free": (None, [_handle]),
+    "ld_wind_view_print": (None, [_handle, c_void_p]),
+    "ld_wind_view_write": (c_int, [_handle, _text, _error]),
+    "ld_wind_view_draw": (c_int, [_handle, _text, _error]),
     # study.h, study_data.h
     "ld_study_read": (c_int, [_text, _texts, c_size_t, _handles, _messages]),
     "ld_study_read_text": (c_int, [_text, c_size_t, _text, _text, _texts, c_size_t, _handles,

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import ctypes
 import json
+import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any, Callable, Optional, Type, Union
 
 import numpy as np
 
-from ._library import ld_error, ld_messages, library
+from ._library import (ld_error, ld_messages, ld_response_wish, ld_stretch, ld_wind_section,
+                       library)
 from ._memory import Array, Handle, printed, text_of, texts
 from ._values import Key, Sets, key_of, scenario_text, set_texts
 from .errors import (InputError, Message, UnknownName, check, check_messages, check_name,
                      take_messages)
+from .response import Loop, Response
 from .result import Result
 from .simulation import BaseFrame, Run, Simulation
+from .views import View
 
 PathLike = Union[str, "os.PathLike[str]"]
 Value = Union[float, str, Array]
@@ -236,6 +240,42 @@ class Scenario:
         """Begins a run that is stepped; see Simulation.begin()."""
         return self.simulation().begin(base, out, csv)
 
+    # ---- looked at without runs
+
+    def response(self, slowest: float = math.nan, fastest: float = math.nan,
+                 rub: bool = False) -> Response:
+        """Its linear response (docs/response.md), of a vehicle at any speed from `slowest` to
+        `fastest` [m/s], NaN: its own; `rub`: hinges rub as the road moves them."""
+        return Response(self.handle, slowest, fastest, rub)
+
+    def loop(self, hinge: str) -> Loop:
+        """The loop that holds a hinge of its vehicle, "azimuth" or "elevation", opened."""
+        return Loop(self.handle, hinge)
+
+    def response_view(self, *what: str, input: Optional[str] = None, start: float = math.nan,
+                      end: float = math.nan, speeds: Optional[Sequence[float]] = None,
+                      loop: Optional[str] = None, density: Optional[PathLike] = None,
+                      exit: bool = False, rub: bool = False, draws: int = 0) -> View:
+        """Its linear response as `launchdyn response` shows it: of columns `what` on the road, or
+        to an `input`, from `start` to `end` [Hz], over `speeds` (slowest, fastest, step) [m/s];
+        of a hinge's `loop`; with the `density` of a random input from a CSV file; of the `exit`."""
+        slowest, fastest, step = speeds or (math.nan,) * 3
+        return View("response", self.handle, ld_response_wish(
+            texts(what), len(what), _coded(input), start, end, slowest, fastest, step,
+            _coded(loop), os.fsencode(density) if density else None, exit, rub, draws))
+
+    def road_view(self, start: float = math.nan, end: float = math.nan,
+                  step: float = math.nan) -> View:
+        """Its vehicle's road as `launchdyn road` shows it, from x = `start` to `end` [m], `step`
+        apart; NaN: the usual."""
+        return View("road", self.handle, ld_stretch(start, end, step))
+
+    def wind_view(self, height: float = 100, top: float = 2000, length: float = math.nan,
+                  step: float = math.nan, rocket: int = 1) -> View:
+        """Its wind as `launchdyn wind` shows it: the profile up to `top`, gusts and turbulence of
+        a rocket at a `height` above ground, along a line of a `length`, `step` apart [m]."""
+        return View("wind", self.handle, ld_wind_section(height, top, length, step, rocket))
+
     def export_fmu(self, file: PathLike, part: str = "all", version: int = 3) -> None:
         """Writes a Functional Mock-up Unit (docs/fmi.md) of the launch: `part` "all", "vehicle"
         or "launcher", `version` of FMI 2 or 3."""
@@ -246,6 +286,10 @@ class Scenario:
         check(library.ld_fmu_export(self.handle.pointer, parts.index(part), version,
                                     os.fsencode(file), ctypes.byref(error)), error,
               self.handle.pointer)
+
+
+def _coded(text: Optional[str]) -> Optional[bytes]:
+    return None if text is None else text.encode()
 
 
 def dict_text(values: Mapping[str, Any]) -> str:

@@ -1,5 +1,6 @@
 """What the tests of the Python package share: places, the command, an external base."""
 
+import csv
 import importlib.util
 import math
 import os
@@ -9,6 +10,7 @@ import unittest
 from pathlib import Path
 
 import launchdyn as ld
+import numpy as np
 
 SOURCE = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("LAUNCHDYN_BUILD", SOURCE / "build"))
@@ -22,6 +24,15 @@ def command(*arguments):
     """What the command prints."""
     words = [str(BUILD / "launchdyn"), *map(str, arguments)]
     return subprocess.run(words, check=True, capture_output=True, text=True).stdout
+
+
+def written(path):
+    """The columns of a CSV file of results, whose numbers have all their digits."""
+    with path.open() as file:
+        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    names = [name.split(" [")[0] for name in rows[0]]
+    values = np.array([[float(x) if x else np.nan for x in row] for row in rows[1:]])
+    return dict(zip(names, values.T))
 
 
 def needs(name):

@@ -29,6 +29,8 @@ def kind_in_ctypes(declared):
     if declared is ctypes.c_void_p or hasattr(declared, "contents") or \
             (isinstance(declared, type) and issubclass(declared, ctypes._CFuncPtr)):
         return POINTER
+    if isinstance(declared, type) and issubclass(declared, ctypes.Structure):
+        return declared.__name__
     return declared
 
 

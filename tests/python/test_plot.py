@@ -6,7 +6,7 @@ from unittest import mock
 
 import launchdyn as ld
 import numpy as np
-from support import FIXED, Case, scattered
+from support import FIXED, Case, command, scattered
 
 try:
     from matplotlib import pyplot
@@ -21,6 +21,25 @@ class TestWithout(unittest.TestCase):
                 self.assertRaisesRegex(ld.MissingError, "python3-matplotlib") as caught:
             result.plot("tip.y")
         self.assertEqual(caught.exception.code, ld.Status.MISSING)
+
+
+class TestGnuplot(Case):
+    def test_the_figures_of_the_command(self):
+        runs = []
+        for name, mass in (("light", 58), ("heavy", 62)):
+            runs.append(self.folder / name)
+            ld.Scenario.read(FIXED, {"rocket.mass": mass}).run(out=runs[-1])
+        theirs, ours = self.folder / "command.svg", self.folder / "package.svg"
+        command("plot", *runs, "--what", "tip,travel", "-o", theirs, "--from", 10, "--to", 120,
+                "--style", "paper", "--width", 120)
+        ld.draw(ours, *runs, figures=["tip", "travel"], start=0.01, end=0.12, style="paper",
+                width=0.12)
+        self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+        with self.assertRaisesRegex(ld.InputError, "did you mean tip"):
+            ld.draw(ours, *runs, figures=["tp"])
+        with self.assertRaises(ld.InputError):
+            ld.draw(ours)
+        self.assertEqual(ld.figures()["tip"], "Tip of the tube against the undeformed tube")
 
 
 @unittest.skipUnless(pyplot, "matplotlib is not here")

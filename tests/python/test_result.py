@@ -1,6 +1,5 @@
 """Runs in one go: the bits of the command, columns, numbers, what ends them early."""
 
-import csv
 import json
 import os
 import signal
@@ -11,16 +10,7 @@ from unittest import mock
 
 import launchdyn as ld
 import numpy as np
-from support import EXAMPLES, FIXED, Case, command, needs
-
-
-def written(path):
-    """The columns of a CSV file of results, whose numbers have all their digits."""
-    with path.open() as file:
-        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
-    names = [name.split(" [")[0] for name in rows[0]]
-    values = np.array([[float(x) if x else np.nan for x in row] for row in rows[1:]])
-    return dict(zip(names, values.T))
+from support import EXAMPLES, FIXED, Case, command, needs, written
 
 
 class TestBits(Case):

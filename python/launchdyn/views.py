@@ -1,0 +1,101 @@
+"""Roads, winds, linear responses as the command shows them; its figures of runs."""
+
+from __future__ import annotations
+
+import csv
+import ctypes
+import math
+import os
+import tempfile
+import warnings
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from ._library import ld_error, ld_picture, library
+from ._memory import Array, Handle, printed, text_of, texts
+from .errors import check
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+class View:
+    """A road, a wind or a linear response to look at: str() is the table of the command,
+    `tables` are its numbers, draw() makes a picture of it by gnuplot. Made by road_view(),
+    wind_view(), response_view() of a scenario."""
+
+    def __init__(self, kind: str, model: Handle, wish: Any) -> None:
+        error, pointer = ld_error(), ctypes.c_void_p()
+        self._kind, self._wish = kind, wish  # what it points to outlives the view
+        check(self._function("create")(model.pointer, wish, ctypes.byref(pointer),
+                                       ctypes.byref(error)), error, model.pointer)
+        self._handle = Handle(pointer.value, self._function("free"), model)
+
+    def _function(self, what: str) -> Any:
+        return getattr(library, f"ld_{self._kind}_view_{what}")
+
+    @property
+    def tables(self) -> dict[str, dict[str, Array]]:
+        """The tables that write() writes, by their names, "road": columns by theirs, in SI."""
+        with tempfile.TemporaryDirectory() as folder:
+            self.write(folder)
+            return {path.stem: _columns(path) for path in sorted(Path(folder).glob("*.csv"))}
+
+    def write(self, folder: PathLike) -> None:
+        """Writes its tables as CSV into a folder."""
+        error = ld_error()
+        check(self._function("write")(self._handle.pointer, os.fsencode(folder),
+                                      ctypes.byref(error)), error)
+
+    def draw(self, file: PathLike) -> None:
+        """Draws it by gnuplot: file.svg, file.pdf or file.png."""
+        error = ld_error()
+        check(self._function("draw")(self._handle.pointer, os.fsencode(file),
+                                     ctypes.byref(error)), error)
+
+    def __str__(self) -> str:
+        return printed(lambda to: self._function("print")(self._handle.pointer, to))
+
+    def __repr__(self) -> str:
+        return f"<launchdyn.View of a {self._kind}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
+
+
+def _columns(path: Path) -> dict[str, Array]:
+    """Columns of a CSV file of the library, "x [m]" as "x"; an empty cell is NaN."""
+    with path.open() as file:
+        head, *rows = csv.reader(file)
+    return {name.split(" [")[0]: np.array([float(row[i] or "nan") for row in rows])
+            for i, name in enumerate(head)}
+
+
+def figures() -> dict[str, str]:
+    """The figures that draw() knows, with a line on each."""
+    found: dict[str, str] = {}
+    while figure := library.ld_figure_at(len(found)):
+        found[text_of(figure[0].name)] = text_of(figure[0].description)
+    return found
+
+
+def draw(file: PathLike, *folders: PathLike, figures: Sequence[str] = (),
+         start: float = math.nan, end: float = math.nan, style: Optional[str] = None,
+         width: float = 0) -> None:
+    """Draws standard figures of the runs in some folders by gnuplot, several laid one over the
+    other: file.svg, file.pdf or file.png.
+
+    `figures` are names of figures(), "all": all that there are columns for; none: a choice.
+    `start` and `end` are times from ignition [s]; `style` is "screen", "dark" or "paper"; `width`
+    is that of the picture [m], 0: as the style has it.
+    """
+    error, note = ld_error(), ctypes.create_string_buffer(ld_error.text.size)
+    wanted = [os.fsdecode(folder) for folder in folders]
+    picture = ld_picture(texts(wanted), len(wanted), texts(figures), len(figures), start, end,
+                         ctypes.addressof(note), style.encode() if style else None, width)
+    check(library.ld_plot(ctypes.byref(picture), os.fsencode(file), ctypes.byref(error)), error)
+    if note.value:
+        warnings.warn(text_of(note.value), stacklevel=2)
