@@ -118,7 +118,7 @@ static void comes_to_what_the_library_comes_to(void **state)
         {"examples/test-barrel", {"run.end=40 ms"}, 2, 1, false, true},
         {"examples/sequence", {TWO, "run.lead_in=0 s"}, 3, 2, true, false},
     };
-    for (int i = 0; i < (int)(sizeof cases / sizeof *cases); i++) {
+    for (int i = 0; i < OF_ALL((int)(sizeof cases / sizeof *cases), 3); i++) {
         double instants, rates;
         if (cases[i].rates) {
             compare(&cases[i], 1e-8, &instants, &rates);

@@ -6,7 +6,7 @@
 static void every_model_ends(void **state)
 {
     (void)state;
-    run_random_models(draw_random_model, 24);
+    run_random_models(draw_random_model, OF_ALL(24, 8));
 }
 
 int main(void)

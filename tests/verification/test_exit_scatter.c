@@ -1,5 +1,6 @@
 // By what a road scatters the exit, from the linear response, against whole runs on a road so low
 // that a launch is linear in it.
+// ctest: slow
 #include <stdlib.h>
 
 #include "launchdyn/response.h"

@@ -1,5 +1,6 @@
 // Motion in time: published trajectories of a pendulum and a heavy top, conservation in a free
 // tree.
+// ctest: slow
 #include "launchdyn/mstmm.h"
 
 #include <string.h>

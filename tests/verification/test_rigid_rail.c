@@ -2,6 +2,7 @@
 // gaps and friction, then on its rear one, about which it pivots (support/rigid_rail.h). Everything
 // is made stiff, and twice as stiff: what the finite stiffness does goes with its inverse, and the
 // two launches give the limit.
+// ctest: slow
 #include <stdlib.h>
 
 #include "simulation/summary.h"
