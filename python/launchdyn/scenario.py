@@ -15,6 +15,7 @@ import numpy as np
 from ._library import (ld_error, ld_messages, ld_response_wish, ld_stretch, ld_wind_section,
                        library)
 from ._memory import Array, Handle, printed, text_of, texts
+from ._progress import Progress
 from ._values import Key, Sets, key_of, scenario_text, set_texts
 from .errors import (InputError, Message, UnknownName, check, check_messages, check_name,
                      take_messages)
@@ -230,8 +231,7 @@ class Scenario:
         return self._simulation
 
     def run(self, out: Optional[PathLike] = None, csv: bool = False,
-            progress: Optional[Callable[[float], Any]] = None,
-            base: Optional[BaseFrame] = None) -> Result:
+            progress: Progress = None, base: Optional[BaseFrame] = None) -> Result:
         """Runs from start to end; see Simulation.run()."""
         return self.simulation().run(out, csv, progress, base)
 

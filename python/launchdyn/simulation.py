@@ -17,10 +17,13 @@ from ._interrupt import Interrupt
 from ._library import (SHARE_TOLD, ld_base_frame, ld_base_wrench, ld_column, ld_error, ld_event,
                        ld_mode, ld_pole, ld_run_options, library)
 from ._memory import Array, Handle, text_of
+from ._progress import Progress, followed
 from .errors import InputError, Status, check, check_name, failure
 from .result import Column, Quantity, Result, quantities_at
 
 PathLike = Union[str, "os.PathLike[str]"]
+#: Simulated time [s] after which a run that is stepped looks whether Ctrl-C was pressed.
+PIECE = 0.01
 #: Statuses of runs that ended early for reasons of their own, and leave results up to there.
 EARLY = (Status.LAUNCH, Status.NUMERIC, Status.INTERRUPTED)
 
@@ -109,10 +112,9 @@ class _Recording:
         self.history = Handle(library.ld_history_new(sink), library.ld_history_free, *parents)
         self.summary = Handle(library.ld_summary_new(), library.ld_summary_free, model)
 
-    def options(self, base: Optional[BaseFrame], progress: Any = None) -> ld_run_options:
-        options = ld_run_options(sink=library.ld_history_sink(self.history.pointer))
-        if progress:
-            options.progress = progress
+    def options(self, base: Optional[BaseFrame], progress: Any) -> ld_run_options:
+        options = ld_run_options(sink=library.ld_history_sink(self.history.pointer),
+                                 progress=progress)
         if base:
             options.base = ctypes.pointer(base._struct())
         return options
@@ -153,19 +155,18 @@ class Simulation:
         return _columns(library.ld_simulation_columns, self.handle)
 
     def run(self, out: Optional[PathLike] = None, csv: bool = False,
-            progress: Optional[Callable[[float], Any]] = None,
-            base: Optional[BaseFrame] = None) -> Result:
+            progress: Progress = None, base: Optional[BaseFrame] = None) -> Result:
         """Runs from the start to the end that the scenario asks for.
 
         `out` is a folder for results (docs/results.md), with `csv` as CSV too; `progress` is told
-        the share done, 0 to 1; `base` is where the base is at the start (base.kind: external).
+        the share done, 0 to 1, of the launch and then of each flight, True: a bar in a terminal or
+        a notebook; `base` is where the base is at the start (base.kind: external).
         Raises LaunchError, NumericError with what it had until then as `result`; InputError.
         Ctrl-C raises KeyboardInterrupt; results in the folder are those up to there.
         """
         recording, error = _Recording(self.model, out, csv), ld_error()
-        with Interrupt() as interrupt:
-            told = SHARE_TOLD(interrupt.asking(progress))
-            options = recording.options(base, told)
+        with Interrupt() as interrupt, followed(progress) as share_told:
+            options = recording.options(base, SHARE_TOLD(interrupt.asking(share_told)))
             status = library.ld_simulation_run(self.handle.pointer, ctypes.byref(options),
                                                recording.summary.pointer, ctypes.byref(error))
             if interrupt.asked and status in (Status.OK, Status.INTERRUPTED):
@@ -213,8 +214,26 @@ def _columns(tell: Any, simulation: Handle) -> dict[str, Column]:
             for c in columns[:count]}
 
 
+def _is_told(model: Handle) -> bool:
+    """Whether its base is told where it is."""
+    error, kind = ld_error(), ctypes.create_string_buffer(64)
+    unknown = library.ld_model_text(model.pointer, b"base.kind", kind, len(kind),
+                                    ctypes.byref(error))  # a flight alone has none
+    return not unknown and kind.value == b"external"
+
+
 def _give_up(pointer: int) -> None:
     library.ld_run_end(pointer, None, None)
+
+
+class _Asked:
+    """What the library asks while it runs: whether to go on."""
+
+    def __init__(self) -> None:
+        self.go_on: Callable[[Any, float], bool] = lambda _, share: True
+
+    def function(self) -> Any:
+        return SHARE_TOLD(lambda self_, share: self.go_on(self_, share))
 
 
 class Run:
@@ -229,9 +248,11 @@ class Run:
         error, pointer = ld_error(), ctypes.c_void_p()
         self.simulation = simulation
         self._lock = threading.Lock()
-        self._told_end = False
+        self._told_end, self._is_told = False, _is_told(simulation.model)
         self._recording = _Recording(simulation.model, out, csv)
-        self._options = self._recording.options(base)  # what it points to outlives the run
+        self._asked, self._event = _Asked(), ld_event()
+        # what it points to outlives the run
+        self._options = self._recording.options(base, self._asked.function())
         told = ctypes.byref(self._options)
         if saved is None:
             status = library.ld_run_begin(simulation.handle.pointer, told, ctypes.byref(pointer),
@@ -256,26 +277,41 @@ class Run:
 
     # ---- forward
 
+    def _next(self, t: float) -> float:
+        """Up to where the library goes in one call: Ctrl-C is heard in between, and steps change
+        nothing, but where a base that is told ends them."""
+        piece = math.inf if self._is_told else float(library.ld_run_time(self._pointer)) + PIECE
+        return min(t, piece)
+
     def advance(self, t: float = math.inf) -> None:
-        """Goes on to time t [s], or to the end of the launch where that comes before."""
-        error = ld_error()
+        """Goes on to time t [s], or to the end of the launch where that comes before. Ctrl-C stops
+        it in between, and it can go on from there."""
+        error, to, status = ld_error(), -math.inf, int(Status.OK)
         with self._lock:
-            status = library.ld_run_advance(self._pointer, t, ctypes.byref(error))
+            self._event = ld_event()
+            while to != t and not status:
+                to = self._next(t)
+                status = library.ld_run_advance(self._pointer, to, ctypes.byref(error))
+                if library.ld_run_is_finished(self._pointer):
+                    break
         self._check(status, error)
 
     def advance_to_event(self, t: float = math.inf) -> Optional[Event]:
         """Goes on to the next event, but not beyond time t [s]; None: there was none up to t, or
-        the end has been told."""
-        error, event = ld_error(), ld_event()
+        the end has been told. Ctrl-C as in advance(): the event is told by the next call."""
+        error, to, status = ld_error(), -math.inf, int(Status.OK)
         with self._lock:
             if self._told_end:
                 return None
-            status = library.ld_run_advance_to_event(self._pointer, t, ctypes.byref(event),
-                                                     ctypes.byref(error))
-        self._check(status, error)
-        kind = EventKind(event.kind)
-        self._told_end = kind is EventKind.END
-        return Event(kind, event.t, event.rocket, event.part) if kind else None
+            while not self._event.kind and to != t and not status:
+                to = self._next(t)
+                status = library.ld_run_advance_to_event(
+                    self._pointer, to, ctypes.byref(self._event), ctypes.byref(error))
+            self._check(status, error)
+            event = Event(EventKind(self._event.kind), self._event.t, self._event.rocket,
+                          self._event.part)
+            self._told_end, self._event = event.kind is EventKind.END, ld_event()
+        return event if event.kind else None
 
     def events(self, t: float = math.inf) -> Iterator[Event]:
         """Goes on from event to event up to time t [s], or to the end of the launch: within the
@@ -367,20 +403,24 @@ class Run:
         self._check(status, error)
         return saved.raw[:size.value]
 
-    def end(self) -> Result:
+    def end(self, progress: Progress = None) -> Result:
         """Ends it: flies the rockets that left their tubes where the scenario wants it. A launch
-        that is not over ends where it is, and Result.stopped says so."""
+        that is not over ends where it is, and Result.stopped says so. `progress` is told the share
+        of each flight, and Ctrl-C stops it, as in Simulation.run()."""
         error = ld_error()
-        with self._lock:
+        with self._lock, Interrupt() as interrupt, followed(progress) as share_told:
             pointer = self._pointer
             over = library.ld_run_is_finished(pointer)
+            self._asked.go_on = interrupt.asking(share_told)
             handle, self._handle = self._handle, None
             if handle:
                 handle.let_go()
             status = library.ld_run_end(pointer, self._recording.summary.pointer,
                                         ctypes.byref(error))
-        if status == Status.INTERRUPTED and not over:
-            status = Status.OK
+            if status == Status.INTERRUPTED and (interrupt.asked or not over):
+                status = Status.OK
+            if interrupt.asked and not status:
+                self._recording.finish(status, error)
         return self._recording.finish(status, error)
 
     def close(self) -> None:

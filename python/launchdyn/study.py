@@ -19,6 +19,7 @@ from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_
                        ld_study_options, ld_study_statistics, ld_study_values, ld_study_view,
                        library)
 from ._memory import Array, Handle, printed, text_of, texts
+from ._progress import Progress, followed
 from ._values import Sets, set_texts
 from .errors import Status, check, check_name
 from .result import pandas_here
@@ -120,10 +121,11 @@ class Study:
         return cls(_read_study(library.ld_study_read_source, source))
 
     def run(self, folder: PathLike, threads: int = 1,
-            progress: Optional[Callable[[Counts], Any]] = None) -> StudyData:
+            progress: Progress = None) -> StudyData:
         """Runs the samples that the folder does not hold yet, and opens what it then holds.
 
-        `progress` is told the counts now and then, on the caller's thread. Ctrl-C, or whatever
+        `progress` is told the Counts now and then, on the caller's thread; True: a line in a
+        terminal or a notebook. Ctrl-C, or whatever
         `progress` raises, stops the study, which keeps what it has: run again, it goes on. The
         results have the same bits for any number of threads and any interruption.
         """
@@ -131,28 +133,28 @@ class Study:
         return StudyData(folder)
 
     def run_shard(self, folder: PathLike, shard: int, shards: int, threads: int = 1,
-                  progress: Optional[Callable[[Counts], Any]] = None) -> Counts:
+                  progress: Progress = None) -> Counts:
         """Runs the samples shard, shard + shards, ... alone, for merge_shards(): several programs,
         on one machine or on many, share a folder so. Else as run()."""
         return self._run(folder, threads, progress, shard, shards)
 
-    def _run(self, folder: PathLike, threads: int, progress: Optional[Callable[[Counts], Any]],
-             shard: int, shards: int) -> Counts:
+    def _run(self, folder: PathLike, threads: int, progress: Progress, shard: int,
+             shards: int) -> Counts:
         work = _Work(self.handle, folder, threads, shard, shards)
-        with Interrupt() as interrupt:
+        with Interrupt() as interrupt, followed(progress) as told:
             work.start()
             try:
-                told = -1
+                done = -1
                 while work.goes_on(LOOK_UP) and not interrupt.asked:
-                    if progress and work.done != told:
-                        told = work.done
-                        progress(_counts(work.latest))
+                    if told and work.done != done:
+                        done = work.done
+                        told(_counts(work.latest))
             finally:
                 work.end()
             if not interrupt.asked:
                 check(work.status, work.error)
-        if progress:
-            progress(_counts(work.counts))
+                if told:
+                    told(_counts(work.counts))
         return _counts(work.counts)
 
     def sample(self, number: int) -> Scenario:

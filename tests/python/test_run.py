@@ -1,11 +1,18 @@
 """Runs that are stepped: the bits of runs in one go, inputs, saving, vehicles alone."""
 
+import io
 import math
+import os
+import signal
+import sys
 import unittest
+from unittest import mock
 
 import launchdyn as ld
 import numpy as np
-from support import EXAMPLES, FIXED, Case, external, resting_frame
+from launchdyn import _progress
+from launchdyn._library import library
+from support import EXAMPLES, FIXED, Case, external, flights, resting_frame
 
 
 class TestRun(Case):
@@ -100,6 +107,122 @@ class TestRun(Case):
         self.assertTrue((self.folder / "early/history.h5").exists())
         with self.assertRaisesRegex(ValueError, "has ended"):
             run.end()
+
+
+class TestInterrupted(Case):
+    """Ctrl-C while the library goes on; it comes at a call of it, however fast that is."""
+
+    def press_at(self, name, call):
+        """Ctrl-C is pressed at that call of a function of the library."""
+        function, calls = getattr(library, name), []
+
+        def pressed(*arguments):
+            calls.append(1)
+            status = function(*arguments)
+            if len(calls) == call:
+                os.kill(os.getpid(), signal.SIGINT)
+            return status
+        patch = mock.patch.object(library, name, pressed)
+        patch.start()
+        self.addCleanup(patch.stop)
+        return patch
+
+    def test_it_stops_a_long_way_and_can_go_on(self):
+        read = ld.Scenario.read(FIXED)
+        whole = read.run()
+        patch = self.press_at("ld_run_advance", 3)
+        with read.begin() as run:
+            with self.assertRaises(KeyboardInterrupt):
+                run.advance()
+            patch.stop()
+            self.assertLess(run.time, 0.04)
+            self.assertGreater(run.time, 0.015)
+            run.advance()
+            result = run.end()
+        for name in whole.history:
+            np.testing.assert_array_equal(result[name], whole[name], name)
+
+    def test_no_event_is_lost(self):
+        read, heard = ld.Scenario.read(FIXED), []
+        with read.begin() as run:
+            expected = list(run.events())
+        for call in range(1, 16):
+            patch, interrupted = self.press_at("ld_run_advance_to_event", call), 0
+            with read.begin() as run:
+                heard.clear()
+                for _ in range(2):
+                    try:
+                        for event in run.events():
+                            heard.append(event)
+                    except KeyboardInterrupt:
+                        interrupted += 1
+            patch.stop()
+            self.assertEqual((heard, interrupted), (expected, 1), call)
+
+    def test_it_stops_flights(self):
+        shares = []
+
+        def progress(share):
+            shares.append(share)
+            if share > 0.3:
+                os.kill(os.getpid(), signal.SIGINT)
+        flight = ld.Scenario.read(EXAMPLES / "flight.yaml")
+        run = flight.begin(out=self.folder / "out")
+        with self.assertRaises(KeyboardInterrupt):
+            run.end(progress)
+        self.assertLess(shares[-1], 0.4)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        self.assertIn('"complete": false', (self.folder / "out/summary.json").read_text())
+        with self.assertRaisesRegex(ValueError, "has ended"):
+            run.end()
+        with self.assertRaises(ZeroDivisionError):
+            flight.begin().end(lambda share: 1 / 0)
+        heard = []
+        self.assertIsNone(flight.begin().end(heard.append).stopped)
+        self.assertGreater(heard[-1], 0.99)
+
+
+class TestProgress(Case):
+    def bar(self):
+        """A bar with its text and with a clock that is set."""
+        stream, now = io.StringIO(), [0.0]
+        return _progress.Bar(stream, lambda: now[0]), stream, now
+
+    def test_of_a_share(self):
+        bar, stream, now = self.bar()
+        for now[0], share in ((0.1, 0.1), (1.0, 0.25), (1.1, 0.3), (2.0, 0.8)):
+            bar(share)
+        self.assertEqual(stream.getvalue().split("\r"), [
+            "", f"[{'#' * 10}{'.' * 30}]  25 %, 3 s left",
+            f"[{'#' * 32}{'.' * 8}]  80 %, 0 s left"])
+        bar.end()
+        self.assertRegex(stream.getvalue(), "\r {50,60}\r$")
+
+    def test_of_counts(self):
+        bar, stream, now = self.bar()
+        now[0] = 2.0
+        bar(ld.Counts(samples=100, done=60, failed=1, now=10))
+        self.assertEqual(stream.getvalue(), "\r60 of 100 samples, 1 failed, 8 s left")
+
+    def test_nobody_sees_it_but_in_terminals_and_notebooks(self):
+        read = ld.Scenario.read(FIXED)
+        for names, modules in (((), {}), (("stderr",), {}), (("stdout",), {"ipykernel": math})):
+            streams = {"stdout": io.StringIO(), "stderr": io.StringIO()}
+            for name in names:
+                streams[name].isatty = lambda: True
+            with mock.patch.multiple(sys, **streams), mock.patch.dict(sys.modules, modules), \
+                    mock.patch("launchdyn._progress.PATIENCE", 0):
+                read.run(progress=True)
+                with read.begin() as run:
+                    run.advance()
+                    run.end(True)
+                ld.Study.of(flights(2)).run(self.folder / f"study{len(names)}{len(modules)}",
+                                            progress=True)
+            shown = [name for name, stream in streams.items() if stream.getvalue()]
+            self.assertEqual(shown, list(names))
+            for name in names:
+                self.assertIn("%, ", streams[name].getvalue())
+                self.assertIn("2 of 2 samples", streams[name].getvalue())
 
 
 class TestExternalBase(Case):
