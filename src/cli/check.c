@@ -143,10 +143,7 @@ int command_check(const command *self, int argc, char **argv)
         COMMAND_STRICT(&wishes.strict),
         {"json", '\0', OPTION_FLAG, &wishes.json,
          "Print as JSON what was understood, notes, and what is wrong", NULL},
-        COMMAND_QUIET,
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (!command_line_read(&line, self, argc, argv, options, 1, &code))

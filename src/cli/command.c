@@ -43,6 +43,14 @@ bool command_is_quiet(void)
     return voice.quiet != 0;
 }
 
+FILE *command_text(void)
+{
+    static FILE *nowhere;
+    if (voice.quiet && !nowhere)
+        nowhere = fopen("/dev/null", "w");
+    return voice.quiet && nowhere ? nowhere : stdout;
+}
+
 static double now(void)
 {
     struct timespec time;

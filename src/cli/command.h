@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "cli/help.h"
 #include "cli/options.h"
@@ -52,15 +53,6 @@ int command_response(const command *self, int argc, char **argv);
 int command_road(const command *self, int argc, char **argv);
 int command_wind(const command *self, int argc, char **argv);
 
-// The options that a command knows end with these two.
-#define COMMAND_HELP                                                                               \
-    {                                                                                              \
-        "help", 'h', OPTION_HELP, NULL, "Show this help and stop", NULL                            \
-    }
-#define COMMAND_END                                                                                \
-    {                                                                                              \
-        NULL, '\0', OPTION_FLAG, NULL, NULL, NULL                                                  \
-    }
 #define COMMAND_SETS(sets)                                                                         \
     {                                                                                              \
         "set", '\0', OPTION_TEXTS, sets, "Set a key of the scenario; may be repeated",             \
@@ -73,19 +65,24 @@ int command_wind(const command *self, int argc, char **argv);
             NULL                                                                                   \
     }
 
-// What is said beside the result: less than usual, or more.
-#define COMMAND_QUIET                                                                              \
+// The options of every command, with which its list ends: what is said beside the result, less than
+// usual or more, and its help.
+#define COMMAND_USUAL                                                                              \
+    {"quiet", 'q', OPTION_FLAG, command_quiet_flag(), "Print nothing but errors", NULL},           \
+        {"verbose",                                                                                \
+         'v',                                                                                      \
+         OPTION_FLAG,                                                                              \
+         command_verbose_flag(),                                                                   \
+         "Say on standard error what is read, done and written, and how long each takes",          \
+         NULL},                                                                                    \
+        {"help", 'h', OPTION_HELP, NULL, "Show this help and stop", NULL},                         \
     {                                                                                              \
-        "quiet", 'q', OPTION_FLAG, command_quiet_flag(), "Print nothing but errors", NULL          \
-    }
-#define COMMAND_VERBOSE                                                                            \
-    {                                                                                              \
-        "verbose", 'v', OPTION_FLAG, command_verbose_flag(),                                       \
-            "Say on standard error what is read, done and written, and how long each takes", NULL  \
+        NULL, '\0', OPTION_FLAG, NULL, NULL, NULL                                                  \
     }
 int *command_quiet_flag(void);
 int *command_verbose_flag(void);
 bool command_is_quiet(void);
+FILE *command_text(void); // stdout; with --quiet one that nobody reads
 
 // With --verbose prints "launchdyn: text: 3.1 ms" on stderr, the time since the last such line or
 // the start.

@@ -56,9 +56,7 @@ int command_fmu(const command *self, int argc, char **argv)
         {"out", 'o', OPTION_TEXT, &out, "The FMU", "FILE"},
         {"ssp", '\0', OPTION_TEXT, &archive, "Instead: an archive of SSP of vehicle and launcher",
          "FILE"},
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {

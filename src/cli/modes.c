@@ -54,8 +54,9 @@ static ld_status list_modes(const ld_model *model, bool json, ld_error *error)
     ld_status status = ld_simulation_create(model, &simulation, error);
     if (status)
         return status;
+    bool text = !json && !command_is_quiet();
     found.tube_count = ld_simulation_tube_modes(simulation, tube, MOST);
-    if (!json)
+    if (text)
         print_modes("Tube and tail on their supports, base held, undamped frequencies", tube,
                     found.tube_count);
     command_step("found the modes of the tube");
@@ -67,7 +68,7 @@ static ld_status list_modes(const ld_model *model, bool json, ld_error *error)
     command_step("found those of the whole about its equilibrium");
     if (json)
         ld_modes_print_json(&found, stdout);
-    else
+    if (text)
         print_system(model, &found);
     return LD_OK;
 }
@@ -87,8 +88,6 @@ int command_modes(const command *self, int argc, char **argv)
     const command_option options[] = {
         COMMAND_SETS(&sets),
         {"json", '\0', OPTION_FLAG, &json, "Print as JSON, in full precision", NULL},
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     return command_on_model(self, argc, argv, options, &sets, print_all_modes, &json);
 }

@@ -137,6 +137,8 @@ static int make(new_wishes *self)
         return 0;
     }
     int code = write_file(self);
+    if (!code)
+        command_step("wrote %s", self->out);
     if (!code && !command_is_quiet())
         tell_next(self->out);
     return code;
@@ -152,9 +154,7 @@ int command_new(const command *self, int argc, char **argv)
          "The file, which must not be there yet (on a terminal it is asked for; else the scenario "
          "is printed)",
          "FILE"},
-        COMMAND_QUIET,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, 0, &code)) {

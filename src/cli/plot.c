@@ -71,10 +71,7 @@ int command_plot(const command *self, int argc, char **argv)
          "Looks: screen (default), dark, or paper, 84 mm wide", "NAME"},
         {"width", '\0', OPTION_NUMBER, &asked.width,
          "Width of the picture [mm]; letters stay as large", "MM"},
-        COMMAND_QUIET,
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {

@@ -73,10 +73,7 @@ int command_report(const command *self, int argc, char **argv)
         {"output", 'o', OPTION_TEXT, &file, "The report (DIR/report.html)", "FILE"},
         {"measured", '\0', OPTION_TEXT, &shots, "Of studies: beside the shots in this CSV file",
          "FILE"},
-        COMMAND_QUIET,
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {

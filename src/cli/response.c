@@ -128,10 +128,7 @@ int command_response(const command *self, int argc, char **argv)
          "DIR"},
         {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw it with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
-        COMMAND_QUIET,
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     static const char *names[MOST];
     command_line line;
     int code = 0;

@@ -44,10 +44,7 @@ int command_road(const command *self, int argc, char **argv)
         {"to", '\0', OPTION_NUMBER, &wishes.stretch.to, "Where it ends, in metres (100)", "X"},
         {"step", '\0', OPTION_NUMBER, &wishes.stretch.step, "From place to place, in metres (0.02)",
          "DX"},
-        COMMAND_QUIET,
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_road, &wishes);
     return code;
 }

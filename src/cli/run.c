@@ -167,11 +167,8 @@ int command_run(const command *self, int argc, char **argv)
         {"csv", '\0', OPTION_FLAG, &wishes.csv,
          "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
         {"report", '\0', OPTION_FLAG, &wishes.report, "Write report.html there too", NULL},
-        COMMAND_QUIET,
-        COMMAND_VERBOSE,
         COMMAND_STRICT(&wishes.strict),
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {

@@ -110,8 +110,10 @@ static int study_again(const char *folder, study_wishes *wishes)
     return code;
 }
 
-static int finish(ld_status status, const ld_error *error)
+static int finish(ld_status status, const ld_error *error, const char *done, const char *folder)
 {
+    if (!status)
+        command_step("%s %s", done, folder);
     return status ? command_fail(status, error) : 0;
 }
 
@@ -144,12 +146,14 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
         return EXIT_INPUT;
     }
     if (strcmp(verb, "show") == 0)
-        return finish(ld_study_show(folder, view, stdout, &error), &error);
+        return finish(ld_study_show(folder, view, view->json ? stdout : command_text(), &error),
+                      &error, "read", folder);
     if (strcmp(verb, "merge") == 0)
-        return finish(ld_study_merge(folder, stdout, &error), &error);
+        return finish(ld_study_merge(folder, command_text(), &error), &error, "merged", folder);
     bool same = wishes->csv && wishes->hdf5 && strcmp(wishes->csv, wishes->hdf5) == 0;
     if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5) && !same)
-        return finish(ld_study_export(folder, wishes->csv, wishes->hdf5, &error), &error);
+        return finish(ld_study_export(folder, wishes->csv, wishes->hdf5, &error), &error,
+                      "exported", folder);
     if (strcmp(verb, "export") == 0)
         command_complain(same ? "study export wants a file each for --csv and --hdf5"
                               : "study export wants --csv FILE or --hdf5 FILE");
@@ -219,8 +223,7 @@ int command_study(const command *self, int argc, char **argv)
         {"csv", '\0', OPTION_TEXT, &wishes.csv,
          "Of export: the table as CSV; of show --against: what it shows", "FILE"},
         {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "Of export: the table as HDF5", "FILE"},
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {

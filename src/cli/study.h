@@ -26,7 +26,7 @@ typedef struct study_wishes {
                                         &(wishes)->run.folder,                                     \
                                         "The folder that keeps the study",                         \
                                         "DIR"},                                                    \
-        COMMAND_QUIET, COMMAND_VERBOSE, COMMAND_STRICT(&(wishes)->run.strict)
+        COMMAND_STRICT(&(wishes)->run.strict)
 
 // Prints notes on all points of the study (command_take_notes()).
 int study_take_notes(const ld_study *study, const study_wishes *wishes);

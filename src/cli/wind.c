@@ -51,10 +51,7 @@ int command_wind(const command *self, int argc, char **argv)
          "From place to place on it, in metres (0.03 of the smaller length scale)", "DS"},
         {"rocket", '\0', OPTION_INTEGER, &wishes.section.rocket,
          "Whose turbulence, by its place in the firing sequence (1)", "N"},
-        COMMAND_QUIET,
-        COMMAND_VERBOSE,
-        COMMAND_HELP,
-        COMMAND_END};
+        COMMAND_USUAL};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_wind, &wishes);
     return code;
 }

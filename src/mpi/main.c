@@ -107,7 +107,7 @@ static int run_study(const char *file, const study_wishes *wishes, int process)
 static int run_command(int argc, char **argv, int process)
 {
     study_wishes wishes = {0};
-    const command_option options[] = {STUDY_OPTIONS(&wishes), COMMAND_HELP, COMMAND_END};
+    const command_option options[] = {STUDY_OPTIONS(&wishes), COMMAND_USUAL};
     command_line line;
     int code = EXIT_INPUT;
     if (argc < 2 || strcmp(argv[1], "study") != 0) {

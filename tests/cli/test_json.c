@@ -161,6 +161,36 @@ static void test_quiet_and_verbose(void **state)
                      "--quiet and --verbose do not go together");
 }
 
+// The same of the commands that print what they find, and of those that write a file: --quiet
+// leaves JSON and files, a scenario on standard output, which is what new has been asked for.
+static void test_every_command_is_quiet_or_verbose(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn new -v -o new.yaml >told; "
+                         "launchdyn fmu -v export new.yaml -o a.fmu; "
+                         "launchdyn study -q examples/fixed.yaml -o v --set run.end=tip --set "
+                         "'scatter={samples: 2, seed: 1, factors: {rocket.mass: {normal: 1 kg}}}'; "
+                         "launchdyn study show -v v >shown; "
+                         "launchdyn study export -v v --csv v.csv"),
+                     0);
+    static const char *const steps[] = {"launchdyn: wrote new.yaml: ", "launchdyn: wrote a.fmu: ",
+                                        "launchdyn: read v: ", "launchdyn: exported v: "};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        expect_in(shell.err, steps[i]);
+    assert_int_equal(run("launchdyn modes -q examples/fixed.yaml; launchdyn study show -q v; "
+                         "launchdyn fmu -q export new.yaml -o b.fmu; cmp -s a.fmu b.fmu; "
+                         "test -s b.fmu; launchdyn new -q -o q.yaml; "
+                         "cmp new.yaml q.yaml"),
+                     0);
+    assert_string_equal(shell.out, "");
+    assert_string_equal(shell.err, "");
+    assert_int_equal(run("launchdyn modes -q --json examples/fixed.yaml | jq .format; "
+                         "launchdyn study show -q --json v | jq .asked; "
+                         "launchdyn new -q | cmp - new.yaml"),
+                     0);
+    assert_string_equal(shell.out, "1\n2\n");
+}
+
 // Each row of the text from the numbers of JSON.
 static void compare_modes(const char *key)
 {
@@ -288,6 +318,7 @@ int main(void)
         cmocka_unit_test(test_check_has_texts),
         cmocka_unit_test(test_check_tells_errors),
         cmocka_unit_test(test_quiet_and_verbose),
+        cmocka_unit_test(test_every_command_is_quiet_or_verbose),
         cmocka_unit_test(test_modes),
         cmocka_unit_test(test_study),
         cmocka_unit_test(test_study_sensitivity_and_ellipses),
