@@ -83,7 +83,7 @@ ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *
 typedef struct ld_study_view {
     const char *what;     ///< names of results, with commas between; "all"; NULL: a choice
     bool sensitivity;     ///< how much of the variance each factor explains, instead of statistics
-    bool json;            ///< as JSON (docs/command.md), in full precision; not of the next two
+    bool json;            ///< as JSON (docs/command.md), in full precision
     const char *measured; ///< a CSV file of measured shots, beside which its results are shown
                           ///< instead (docs/study.md): differences with intervals and p; NULL: none
     const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the

@@ -124,10 +124,6 @@ static const char *wrong_to_show(const study_wishes *wishes)
     if (view->measured && (view->what || view->sensitivity || view->against))
         return "--measured shows what its file has: neither --what nor --sensitivity nor --against "
                "goes with it";
-    if (view->json && (view->measured || view->against))
-        return "--json shows statistics or sensitivities: neither --measured nor --against goes "
-               "with "
-               "it";
     if (view->against && view->sensitivity)
         return "--against and --sensitivity do not go together";
     if (wishes->hdf5 || (wishes->csv && !view->against))

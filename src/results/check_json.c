@@ -184,8 +184,7 @@ ld_status ld_check_print_json(const ld_model *model, const ld_messages *errors,
     locale_t before = numeric_locale_enter();
     bool good = true;
     write_begin(&json);
-    json_key(&json, "ok");
-    fputs(errors && errors->count > 0 ? "false" : "true", stream);
+    json_truth(&json, "ok", !(errors && errors->count > 0));
     write_messages(&json, "errors", errors);
     write_messages(&json, "notes", notes);
     if (model) {

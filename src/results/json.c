@@ -47,6 +47,12 @@ void json_number(json_writer *json, const char *key, double value)
     json_write_number(json->file, value);
 }
 
+void json_truth(json_writer *json, const char *key, bool value)
+{
+    json_key(json, key);
+    fputs(value ? "true" : "false", json->file);
+}
+
 void json_integer(json_writer *json, const char *key, long long value)
 {
     json_key(json, key);

@@ -20,6 +20,7 @@ void json_close(json_writer *json, char bracket);
 
 void json_text(json_writer *json, const char *key, const char *text);
 void json_number(json_writer *json, const char *key, double value);
+void json_truth(json_writer *json, const char *key, bool value);
 void json_integer(json_writer *json, const char *key, long long value);
 
 #endif

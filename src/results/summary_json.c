@@ -143,8 +143,7 @@ static void write_measures(json_writer *json, const ld_model *model)
 static void write_end(json_writer *json, const ld_summary *summary)
 {
     json_number(json, "t_end", summary->t_end);
-    json_key(json, "complete");
-    fputs(summary->complete ? "true" : "false", json->file);
+    json_truth(json, "complete", summary->complete);
     json_key(json, "stopped");
     if (summary->complete)
         fputs("null", json->file);

@@ -102,6 +102,18 @@ static const group_statistics *most_values(const shown *self, const group_statis
 
 // ---- ellipses
 
+static void print_normality(FILE *stream, const normality *of)
+{
+    fputs("    Mardia's test of a normal distribution: ", stream);
+    if (!of->tested) {
+        fprintf(stream, "too few independent rockets, %.3g of %d\n", of->effective,
+                NORMALITY_LEAST);
+        return;
+    }
+    fprintf(stream, "p of skewness %.2g, of kurtosis %.2g: %s at %.3g %%\n", of->chance[0],
+            of->chance[1], of->normal ? "not refused" : "refused", 100 * normality_level);
+}
+
 static void print_ellipse(FILE *stream, const shown_ellipse *e)
 {
     const double degrees = 57.295779513082321;
@@ -117,6 +129,7 @@ static void print_ellipse(FILE *stream, const shown_ellipse *e)
             "towards %s\n",
             ellipse_radius * e->of.semi_axis[0], ellipse_radius * e->of.semi_axis[1],
             e->of.angle * degrees, VISIBLE(pair[0]->name), VISIBLE(pair[1]->name));
+    print_normality(stream, &e->form);
 }
 
 static ld_status print_ellipses(shown *self, const study_point *point, ld_error *error)
@@ -287,7 +300,7 @@ static ld_status prepare(shown *self, ld_error *error)
     const ld_study_view *view = self->view;
     if (view->measured) {
         ld_status status = measured_read(view->measured, self->data, &self->shots, error);
-        if (!status)
+        if (!status && !view->json)
             show_shots(self->stream, view->measured, &self->shots);
         return status;
     }
@@ -309,7 +322,7 @@ static ld_status conclude(shown *self, ld_error *error)
 {
     const ld_study_view *view = self->view;
     if (!view->against) {
-        if (self->data->point_count > 1 && !view->sensitivity && !view->measured)
+        if (self->data->point_count > 1 && !view->sensitivity && !view->measured && !view->json)
             print_side_by_side(self);
         return LD_OK;
     }
@@ -324,14 +337,10 @@ static ld_status print_all(shown *self, ld_error *error)
 {
     const study_data *data = self->data;
     const ld_study_view *view = self->view;
-    if (view->json && (view->measured || view->against))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "--json shows statistics or sensitivities: neither --measured nor --against "
-                       "goes with it");
     ld_status status = prepare(self, error);
     if (!status && view->json)
-        return show_json(self, error);
-    for (int i = 0; i < data->point_count && !status; i++)
+        status = show_json(self, error);
+    for (int i = 0; i < data->point_count && !status && !view->json; i++)
         status = print_point(self, &data->point[i], error);
     return status ? status : conclude(self, error);
 }

@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/printed.h"
@@ -54,6 +55,25 @@ static ld_status compare_item(show_against *self, const study_point *point,
     return status;
 }
 
+ld_status show_against_each(show_against *self, const study_point *point, show_against_sink *take,
+                            void *sink, ld_error *error)
+{
+    ld_status status = LD_OK;
+    if (against_reference(self->of, point) == point)
+        return LD_OK;
+    for (int i = 0; i < items(self) && !status; i++) {
+        const study_column *column[2];
+        paired_statistics of;
+        int columns = item_columns(self, i, column);
+        if (columns == 0)
+            continue;
+        status = compare_item(self, point, column, columns, &of, error);
+        if (!status && of.groups > 0)
+            take(sink, column, columns, &of);
+    }
+    return status;
+}
+
 // ---- as text
 
 enum { NAME = 26, DIFFERENCE = 36, RATIO = 26 };
@@ -64,10 +84,26 @@ static void print_header(FILE *stream)
             "ratio of the deviations", "ratio within samples");
 }
 
-static void print_item(FILE *stream, const study_column *const *column, int columns,
+typedef struct table {
+    FILE *stream;
+    int64_t reference;
+    bool begun;
+} table;
+
+static void print_item(void *self, const study_column *const *column, int columns,
                        const paired_statistics *of)
 {
+    table *into = self;
+    FILE *stream = into->stream;
     char name[2 * 192];
+    if (!into->begun) {
+        fprintf(stream,
+                "against point %" PRId64 ": %zu pairs of rockets, %zu independent groups; 95 "
+                "%% intervals over groups\n",
+                into->reference, of->count, of->groups);
+        print_header(stream);
+    }
+    into->begun = true;
     if (columns == 1) {
         show_name(stream, column[0]->name, column[0]->unit);
         show_estimate(stream, DIFFERENCE, &of->difference, NAN);
@@ -84,32 +120,13 @@ ld_status show_against_point(show_against *self, const study_point *point, FILE 
                              ld_error *error)
 {
     const study_point *reference = against_reference(self->of, point);
-    ld_status status = LD_OK;
-    bool first = true;
+    table into = {.stream = stream, .reference = reference->number};
     if (reference == point) {
         fputs("the reference\n", stream);
         return LD_OK;
     }
-    for (int i = 0; i < items(self) && !status; i++) {
-        const study_column *column[2];
-        paired_statistics of;
-        int columns = item_columns(self, i, column);
-        if (columns == 0)
-            continue;
-        status = compare_item(self, point, column, columns, &of, error);
-        if (status || of.groups == 0)
-            continue;
-        if (first) {
-            fprintf(stream,
-                    "against point %" PRId64 ": %zu pairs of rockets, %zu independent groups; 95 "
-                    "%% intervals over groups\n",
-                    reference->number, of.count, of.groups);
-            print_header(stream);
-        }
-        first = false;
-        print_item(stream, column, columns, &of);
-    }
-    if (!status && first)
+    ld_status status = show_against_each(self, point, print_item, &into, error);
+    if (!status && !into.begun)
         fprintf(stream, "against point %" PRId64 ": less than two pairs of rockets\n",
                 reference->number);
     return status;
@@ -146,17 +163,24 @@ static void csv_header(FILE *stream, const study_data *data)
     fputc('\n', stream);
 }
 
-static void csv_line(FILE *stream, const study_data *data, const study_point *point,
-                     const study_point *reference, const study_column *const *column, int columns,
+typedef struct csv {
+    FILE *stream;
+    const study_data *data;
+    const study_point *point, *reference;
+} csv;
+
+static void csv_line(void *self, const study_column *const *column, int columns,
                      const paired_statistics *of)
 {
     static const estimate none = {NAN, NAN, NAN};
-    fprintf(stream, "%" PRId64, point->number);
-    for (int k = 0; k < data->swept_count; k++) {
+    const csv *into = self;
+    FILE *stream = into->stream;
+    fprintf(stream, "%" PRId64, into->point->number);
+    for (int k = 0; k < into->data->swept_count; k++) {
         fputc(',', stream);
-        csv_text(stream, point->text[k]);
+        csv_text(stream, into->point->text[k]);
     }
-    fprintf(stream, ",%" PRId64 ",", reference->number);
+    fprintf(stream, ",%" PRId64 ",", into->reference->number);
     csv_text(stream, column[0]->name);
     if (columns == 2) {
         fputs(" and ", stream);
@@ -174,18 +198,10 @@ ld_status show_against_csv(show_against *self, FILE *stream, ld_error *error)
     const study_data *data = self->of->data;
     ld_status status = LD_OK;
     csv_header(stream, data);
-    for (int p = 0; p < data->point_count; p++)
-        for (int i = 0; i < items(self) && !status; i++) {
-            const study_column *column[2];
-            paired_statistics of;
-            const study_point *point = &data->point[p];
-            int columns = item_columns(self, i, column);
-            if (columns == 0 || against_reference(self->of, point) == point)
-                continue;
-            status = compare_item(self, point, column, columns, &of, error);
-            if (!status && of.groups > 0)
-                csv_line(stream, data, point, against_reference(self->of, point), column, columns,
-                         &of);
-        }
+    for (int p = 0; p < data->point_count && !status; p++) {
+        const study_point *point = &data->point[p];
+        csv into = {stream, data, point, against_reference(self->of, point)};
+        status = show_against_each(self, point, csv_line, &into, error);
+    }
     return status;
 }

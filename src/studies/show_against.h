@@ -15,6 +15,16 @@ typedef struct show_against {
     int64_t compared;       // results of which there were two pairs or more
 } show_against;
 
+// What is found at a point, item by item: of a result (columns 1), or of the areas of the ellipses
+// of two (columns 2).
+typedef void show_against_sink(void *sink, const study_column *const *column, int columns,
+                               const paired_statistics *of);
+
+// Hands over the differences of a point from its reference, those of less than two pairs left out;
+// of one of reference, none.
+ld_status show_against_each(show_against *self, const study_point *point, show_against_sink *take,
+                            void *sink, ld_error *error);
+
 // Prints how far a point is from its reference: mean differences, ratios of standard deviations, of
 // all pairs and within samples, ratios of the areas of ellipses; with intervals.
 ld_status show_against_point(show_against *self, const study_point *point, FILE *stream,

@@ -45,12 +45,17 @@ static ld_status write_counts(json_writer *json, const shown *self, const study_
     return status;
 }
 
-static void write_statistics(json_writer *json, const group_statistics *of)
+static void write_moments(json_writer *json, const group_statistics *of)
 {
     json_integer(json, "count", (long long)of->count);
     json_integer(json, "groups", (long long)of->groups);
     write_estimate(json, "mean", &of->mean);
     write_estimate(json, "deviation", &of->deviation);
+}
+
+static void write_statistics(json_writer *json, const group_statistics *of)
+{
+    write_moments(json, of);
     json_number(json, "skewness", of->skewness);
     json_number(json, "least", of->least);
     json_number(json, "greatest", of->greatest);
@@ -109,6 +114,21 @@ static ld_status write_results(json_writer *json, shown *self, const study_point
     return status;
 }
 
+static void write_normality(json_writer *json, const normality *of)
+{
+    json_open(json, "normality", '{');
+    json_truth(json, "tested", of->tested);
+    json_truth(json, "normal", of->normal);
+    json_number(json, "effective", of->effective);
+    json_number(json, "skewness", of->skewness);
+    json_number(json, "kurtosis", of->kurtosis);
+    json_open(json, "chance", '[');
+    json_number(json, NULL, of->chance[0]);
+    json_number(json, NULL, of->chance[1]);
+    json_close(json, ']');
+    json_close(json, '}');
+}
+
 static ld_status write_ellipses(json_writer *json, shown *self, const study_point *point,
                                 ld_error *error)
 {
@@ -135,9 +155,101 @@ static ld_status write_ellipses(json_writer *json, shown *self, const study_poin
         write_estimate(json, NULL, &e.axis[1]);
         json_close(json, ']');
         json_number(json, "angle", e.of.angle);
+        write_normality(json, &e.form);
         json_close(json, '}');
     }
     json_close(json, ']');
+    return status;
+}
+
+// ---- against a point
+
+static void write_difference(void *self, const study_column *const *column, int columns,
+                             const paired_statistics *of)
+{
+    json_writer *json = self;
+    json_open(json, NULL, '{');
+    json_open(json, "of", '[');
+    for (int k = 0; k < columns; k++)
+        json_text(json, NULL, column[k]->name);
+    json_close(json, ']');
+    json_text(json, "unit", column[0]->unit);
+    json_integer(json, "pairs", (long long)of->count);
+    json_integer(json, "groups", (long long)of->groups);
+    if (columns == 1)
+        write_estimate(json, "difference", &of->difference);
+    write_estimate(json, "ratio", &of->spread);
+    write_estimate(json, "ratio_within", &of->within);
+    json_close(json, '}');
+}
+
+static ld_status write_against(json_writer *json, shown *self, const study_point *point,
+                               ld_error *error)
+{
+    json_integer(json, "reference", against_reference(&self->reference, point)->number);
+    json_open(json, "differences", '[');
+    ld_status status = show_against_each(&self->pairs, point, write_difference, json, error);
+    json_close(json, ']');
+    return status;
+}
+
+// ---- beside measured shots
+
+static void write_side(json_writer *json, const char *key, const group_statistics *of)
+{
+    json_open(json, key, '{');
+    write_moments(json, of);
+    json_close(json, '}');
+}
+
+// An estimate with its p.
+static void write_tested(json_writer *json, const char *key, const estimate *e, double chance)
+{
+    json_open(json, key, '{');
+    write_interval(json, e);
+    json_number(json, "chance", chance);
+    json_close(json, '}');
+}
+
+static ld_status write_measured(json_writer *json, shown *self, const study_point *point,
+                                ld_error *error)
+{
+    const study_data *data = self->data;
+    ld_status status = LD_OK;
+    json_open(json, "comparisons", '[');
+    for (int i = 0; i < self->shots.results && !status; i++) {
+        const measured_result *result = &self->shots.result[i];
+        const char *nearest;
+        measured_comparison of;
+        status = show_measured_result(result, data, point, &self->values, &of, error);
+        if (status)
+            break;
+        json_open(json, NULL, '{');
+        json_text(json, "name", result->name);
+        json_text(json, "unit", study_data_find(data, result->name, &nearest)->unit);
+        write_side(json, "measured", &of.measured);
+        write_side(json, "simulated", &of.simulated);
+        write_tested(json, "difference", &of.by.mean, of.by.mean_chance);
+        write_tested(json, "ratio", &of.by.deviation, of.by.deviation_chance);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    return status;
+}
+
+// ---- all
+
+// What the view asks for.
+static ld_status write_view(json_writer *json, shown *self, const study_point *point,
+                            ld_error *error)
+{
+    if (self->view->measured)
+        return write_measured(json, self, point, error);
+    if (self->view->against)
+        return write_against(json, self, point, error);
+    ld_status status = write_results(json, self, point, error);
+    if (!status && !self->view->sensitivity)
+        status = write_ellipses(json, self, point, error);
     return status;
 }
 
@@ -153,9 +265,7 @@ static ld_status write_point(json_writer *json, shown *self, const study_point *
     json_close(json, '}');
     ld_status status = write_counts(json, self, point, error);
     if (!status)
-        status = write_results(json, self, point, error);
-    if (!status && !self->view->sensitivity)
-        status = write_ellipses(json, self, point, error);
+        status = write_view(json, self, point, error);
     json_close(json, '}');
     return status;
 }
@@ -170,6 +280,10 @@ ld_status show_json(shown *self, ld_error *error)
     json_text(&json, "version", LD_VERSION);
     json_text(&json, "title", data->title ? data->title : "");
     json_integer(&json, "asked", data->asked);
+    if (self->view->measured) {
+        json_integer(&json, "shots", (long long)self->shots.shots);
+        json_integer(&json, "salvos", (long long)self->shots.salvos);
+    }
     json_open(&json, "points", '[');
     for (int i = 0; i < data->point_count && !status; i++)
         status = write_point(&json, self, &data->point[i], error);

@@ -4,8 +4,8 @@
 
 #include "studies/shown.h"
 
-// Prints counts, failures and statistics, or where the view asks for them sensitivities, of all
-// points.
+// Prints counts, failures and what the view asks for, statistics, sensitivities, differences from a
+// point or from measured shots, of all points.
 ld_status show_json(shown *self, ld_error *error);
 
 #endif

@@ -65,20 +65,16 @@ static void print_result(FILE *stream, const measured_result *result, const meas
     print_chance(stream, of->by.deviation_chance, found);
 }
 
-static ld_status compare_result(FILE *stream, const measured_result *result, const study_data *data,
-                                const study_point *point, study_values *values, verdict *found,
-                                ld_error *error)
+ld_status show_measured_result(const measured_result *result, const study_data *data,
+                               const study_point *point, study_values *values,
+                               measured_comparison *of, ld_error *error)
 {
     const char *nearest;
     const study_column *column = study_data_find(data, result->name, &nearest);
-    measured_comparison of;
     ld_status status = study_data_read(data, point, &column, 1, values, error);
-    if (status)
-        return status;
-    if (measured_compare(result, values, &of))
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
-    print_result(stream, result, &of, found);
-    return LD_OK;
+    if (!status && measured_compare(result, values, of))
+        status = ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
+    return status;
 }
 
 static void print_verdict(FILE *stream, const verdict *of)
@@ -102,8 +98,12 @@ ld_status show_measured(FILE *stream, const measured *shots, const study_data *d
     ld_status status = LD_OK;
     fprintf(stream, "\n%-26s %5s %-22s %-22s   %-30s %6s\n", "mean", "shots", "measured",
             "simulated", "difference, x: ratio", "p");
-    for (int i = 0; i < shots->results && !status; i++)
-        status = compare_result(stream, &shots->result[i], data, point, values, &found, error);
+    for (int i = 0; i < shots->results && !status; i++) {
+        measured_comparison of;
+        status = show_measured_result(&shots->result[i], data, point, values, &of, error);
+        if (!status)
+            print_result(stream, &shots->result[i], &of, &found);
+    }
     if (!status)
         print_verdict(stream, &found);
     return status;

@@ -176,6 +176,7 @@ ld_status shown_ellipse_of(shown *self, const study_point *point, size_t index,
     if (!isfinite(ellipse->of.semi_axis[0])) // a value is infinite
         return LD_OK;
     ellipse->count = values->count;
+    ellipse->form = normality_of(values->value[0], values->value[1], values->group, values->count);
     return covariance_ellipse_intervals(values->value[0], values->value[1], values->group,
                                         values->count, &ellipse->of, ellipse->axis)
                ? no_memory(error)

@@ -3,6 +3,7 @@
 #define LD_STUDIES_SHOWN_H
 
 #include "launchdyn/study.h"
+#include "studies/normality.h"
 #include "studies/show_against.h"
 #include "studies/show_measured.h"
 #include "studies/statistics.h"
@@ -33,11 +34,13 @@ group_statistics *shown_statistics(const shown *self, const study_point *point);
 ld_status shown_sensitivities(shown *self, const study_point *point, int result, estimate *share,
                               ld_error *error);
 
-// The ellipse of two results that go together, with the intervals of its semi-axes.
+// The ellipse of two results that go together, with the intervals of its semi-axes, and whether the
+// cloud may be normal.
 typedef struct shown_ellipse {
     const study_column *column[2];
     covariance_ellipse of;
     estimate axis[2];
+    normality form;
     size_t count; // rockets with both; 0: there is no ellipse
 } shown_ellipse;
 

@@ -305,10 +305,109 @@ static void test_study_sensitivity_and_ellipses(void **state)
                          "[.results[].mean.value]), .ellipses[0].count' a.json"),
                      0);
     assert_string_equal(shell.out, "[\"pitch_rate\",\"yaw_rate\"]\ntrue\n8\n");
-    expect_complaint("launchdyn study show s --json --against 1", 2,
-                     "--json shows statistics or sensitivities: neither --measured nor");
     expect_complaint("launchdyn study examples/salvo.yaml --json --out x", 2,
                      "are options of study show DIR");
+}
+
+// Mardia's b1 and b2 of two columns by their definition, over all pairs.
+static void mardia(const double x[SAMPLES], double mx, const double y[SAMPLES], double my,
+                   double b[2])
+{
+    double xx = 0, xy = 0, yy = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        xx += (x[i] - mx) * (x[i] - mx) / SAMPLES;
+        xy += (x[i] - mx) * (y[i] - my) / SAMPLES;
+        yy += (y[i] - my) * (y[i] - my) / SAMPLES;
+    }
+    b[0] = b[1] = 0;
+    for (int i = 0; i < SAMPLES; i++)
+        for (int j = 0; j < SAMPLES; j++) {
+            double ax = x[i] - mx, ay = y[i] - my, bx = x[j] - mx, by = y[j] - my;
+            double g =
+                (yy * ax * bx - xy * (ax * by + ay * bx) + xx * ay * by) / (xx * yy - xy * xy);
+            b[0] += g * g * g / (SAMPLES * SAMPLES);
+            b[1] += i == j ? g * g / SAMPLES : 0;
+        }
+}
+
+static void test_study_normality(void **state)
+{
+    (void)state;
+    double x[SAMPLES], y[SAMPLES], b[2], found[4];
+    double mx = column_of("pitch_rate", x), my = column_of("yaw_rate", y);
+    mardia(x, mx, y, my, b);
+    assert_int_equal(run("launchdyn study show s --json --what pitch_rate,yaw_rate | jq -r "
+                         "'.points[0].ellipses[0].normality | .tested, .normal, .skewness, "
+                         ".kurtosis, .chance[], .effective'"),
+                     0);
+    double effective;
+    assert_int_equal(sscanf(shell.out, "false false %lf %lf %lf %lf %lf", &found[0], &found[1],
+                            &found[2], &found[3], &effective),
+                     5);
+    CHECK_NEAR("Mardia's b1", found[0], b[0], 1e-6 * b[0]);
+    CHECK_NEAR("his b2", found[1], b[1], 1e-6 * b[1]);
+    CHECK_NEAR("p of b1", found[2], exp(-b[0] * 8 / 12) * (1 + b[0] * 8 / 12), 1e-6);
+    CHECK_NEAR("p of b2", found[3], erfc(fabs(b[1] - 8) / sqrt(64. / SAMPLES) / sqrt(2)), 1e-6);
+    CHECK_NEAR("independent rockets", effective, SAMPLES, 1e-9);
+    assert_int_equal(run("launchdyn study show s --what pitch_rate,yaw_rate"), 0);
+    expect_in(shell.out, "Mardia's test of a normal distribution: too few independent rockets, "
+                         "8 of 20\n");
+}
+
+// Shots that were measured in other units than SI: what JSON has of them, from the two means.
+static void test_study_measured(void **state)
+{
+    (void)state;
+    double value[SAMPLES], mean = column_of("t_rear", value), found[6];
+    assert_int_equal(run("printf 't_rear [ms]\\n150\\n152\\n154\\n160\\n' >shots.csv; "
+                         "launchdyn study show s --measured shots.csv --json >a.json; "
+                         "jq -r '.shots, .salvos, (.points[0].comparisons[0] | "
+                         ".measured.mean.value, .simulated.mean.value, .difference.value, "
+                         ".difference.chance)' a.json"),
+                     0);
+    assert_int_equal(sscanf(shell.out, "%lf %lf %lf %lf %lf %lf", &found[0], &found[1], &found[2],
+                            &found[3], &found[4], &found[5]),
+                     6);
+    CHECK_NEAR("shots", found[0], 4, 0);
+    CHECK_NEAR("salvos", found[1], 0, 0);
+    CHECK_NEAR("their mean [s]", found[2], 0.154, 1e-15);
+    CHECK_NEAR("that of the study [s]", found[3], mean, 1e-15);
+    CHECK_NEAR("difference [s]", found[4], 0.154 - mean, 1e-15);
+    // the table has the same p, and the ratio of the deviations
+    char chance[32], table[64];
+    snprintf(chance, sizeof chance, " %.*g", found[5] < 0.1 ? 2 : 3, found[5]);
+    assert_int_equal(run("launchdyn study show s --measured shots.csv | grep '^t_rear'"), 0);
+    expect_in(shell.out, chance);
+    assert_int_equal(run("jq -r '.points[0].comparisons[0] | .name, .unit, .ratio.value' a.json; "
+                         "launchdyn study show s --measured shots.csv | grep '^    deviation'"),
+                     0);
+    assert_int_equal(sscanf(shell.out, "t_rear s %lf", &found[0]), 1);
+    snprintf(table, sizeof table, " x %.4g [", found[0]);
+    expect_in(shell.out, table);
+}
+
+// What is compared with a point, as the table in CSV has it.
+static void test_study_against(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn study examples/fixed.yaml -q -o w --set run.end=tip --set "
+                         "'scatter={samples: 3, seed: 1, factors: {rocket.mass: {normal: 1 kg}}}' "
+                         "--set 'sweep={rocket.motor.thrust_scale: [1, 1.02]}'; launchdyn study "
+                         "show w --against 1 --json --what pitch,yaw --csv w.csv >a.json; "
+                         "jq -c '[.points[] | .reference, (.differences | length)]' a.json"),
+                     0);
+    assert_string_equal(shell.out, "[1,0,1,3]\n");
+    assert_int_equal(run("jq -r '.points[] | .number as $n | .reference as $r | .differences[] | "
+                         "[$n, $r, (.of | join(\" and \")), .unit, .pairs, .groups, "
+                         "(.difference, .ratio, .ratio_within | .value, .low, .high)] | "
+                         "map(. // \"\") | @tsv' a.json >json; "
+                         "sed 1d w.csv | cut -d, -f1,3- | tr , '\\t' >csv; wc -l <csv; "
+                         "paste -d '\\n' json csv | awk -F'\\t' '{for (i = 1; i <= NF; i++) "
+                         "{if (NR % 2) kept[i] = $i; else if (kept[i] != $i && "
+                         "kept[i] - $i != 0) print kept[i], $i}}'"),
+                     0);
+    assert_string_equal(shell.out, "3\n");
+    expect_complaint("launchdyn study show w --against 3 --json", 2, "the study has no point 3");
 }
 
 int main(void)
@@ -322,6 +421,9 @@ int main(void)
         cmocka_unit_test(test_modes),
         cmocka_unit_test(test_study),
         cmocka_unit_test(test_study_sensitivity_and_ellipses),
+        cmocka_unit_test(test_study_normality),
+        cmocka_unit_test(test_study_measured),
+        cmocka_unit_test(test_study_against),
     };
     return cmocka_run_group_tests(tests, shell_make, shell_remove);
 }
