@@ -62,11 +62,12 @@ static void write_piece(void *self, const double from[2], const double to[2])
 }
 
 // The grid's origin and steps, and a list of pieces for each level.
-static ld_status write_contours(FILE *json, const study_values *values)
+static ld_status write_contours(FILE *json, const study_values *values, double effective)
 {
     density_map *map = malloc(sizeof *map);
     ld_status status =
-        map ? density_of(values->value[0], values->value[1], values->count, map) : LD_ERR_MEMORY;
+        map ? density_of(values->value[0], values->value[1], values->count, effective, map)
+            : LD_ERR_MEMORY;
     if (status) {
         free(map);
         return status;
@@ -97,7 +98,7 @@ static ld_status write_form(FILE *json, const study_values *values, bool contour
     fputc(',', json);
     json_write_number(json, of.chance[1]);
     fputs("]}", json);
-    return of.tested && !of.normal && contours ? write_contours(json, values) : LD_OK;
+    return of.tested && !of.normal && contours ? write_contours(json, values, of.effective) : LD_OK;
 }
 
 static bool all_finite(const study_values *values)

@@ -14,6 +14,7 @@ enum { LAST = DENSITY_GRID - 1 };
 typedef struct placed {
     double *at[2]; // [count]
     size_t count;
+    double effective; // independent points that tell as much
     double kernel[2]; // width in nodes
 } placed;
 
@@ -31,7 +32,7 @@ static void turn(const double *x, const double *y, size_t count, const covarianc
 // Puts the grid about the points, which become places in it.
 static void lay_grid(density_map *map, const covariance_ellipse *e, placed *points)
 {
-    double kernel = pow((double)points->count, -1.0 / 6), low[2], step[2];
+    double kernel = pow(points->effective, -1.0 / 6), low[2], step[2];
     for (int k = 0; k < 2; k++) {
         double *at = points->at[k], high = at[0];
         low[k] = at[0];
@@ -100,14 +101,15 @@ static double value_at(const density_map *map, double a, double b)
            u * ((1 - v) * map->value[i + 1][j] + v * map->value[i + 1][j + 1]);
 }
 
-ld_status density_of(const double *x, const double *y, size_t count, density_map *map)
+ld_status density_of(const double *x, const double *y, size_t count, double effective,
+                     density_map *map)
 {
     covariance_ellipse e;
     covariance_ellipse_of(x, y, count, &e);
     double *room = malloc(2 * count * sizeof *room);
     if (!room)
         return LD_ERR_MEMORY;
-    placed points = {.at = {room, room + count}, .count = count};
+    placed points = {.at = {room, room + count}, .count = count, .effective = effective};
     turn(x, y, count, &e, points.at);
     lay_grid(map, &e, &points);
     share_out(map, &points);

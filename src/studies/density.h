@@ -20,11 +20,13 @@ typedef struct density_map {
 } density_map;
 
 // Gaussian kernels in the axes in which the cloud has the covariance 1, as wide as n^(-1/6) (D. W.
-// Scott, Multivariate density estimation, 1992); a level is the density that a share of the points
-// have at least (R. J. Hyndman, Am. Stat. 50, 1996). Points [count] with finite values, not on one
-// line.
+// Scott, Multivariate density estimation, 1992), where n is `effective`: points that come in groups
+// tell as much as so many independent ones (normality_of()). A level is the density that a share of
+// the points have at least (R. J. Hyndman, Am. Stat. 50, 1996). Points [count] with finite values,
+// not on one line.
 // @return LD_OK, LD_ERR_MEMORY
-ld_status density_of(const double *x, const double *y, size_t count, density_map *map);
+ld_status density_of(const double *x, const double *y, size_t count, double effective,
+                     density_map *map);
 
 // Takes a piece of a contour, from and to in nodes: {i, j}.
 typedef void density_sink(void *self, const double from[2], const double to[2]);

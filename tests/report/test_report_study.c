@@ -9,6 +9,7 @@
 
 #include "launchdyn/study.h"
 #include "report/report_study.h"
+#include "studies/density.h"
 #include "studies/sensitivity.h"
 
 // ---- studies made up
@@ -262,6 +263,39 @@ static void test_numbers_are_those_of_show(void **state)
     expect_line(shown, "] and %.4g [%.4g, %.4g]", e + 3);
     free(page);
     free(shown);
+}
+
+static int result_number(const char *name)
+{
+    for (int k = 0; k < results; k++)
+        if (strcmp(study_name[k], name) == 0)
+            return k;
+    fail_msg("there is no result %s", name);
+    return 0;
+}
+
+// Two rockets of a sample that come down at one place count as one: the contours' grid begins where
+// that of the first ones alone does, three widths of the kernel beside them.
+static void test_contours_count_independent_rockets(void **state)
+{
+    (void)state;
+    enum { COUNT = 200 };
+    static density_map alone;
+    double x[COUNT], y[COUNT], origin[2];
+    make_study("study", "Twins", COUNT,
+               "UPDATE rocket SET downrange = o.downrange, drift = o.drift FROM rocket AS o "
+               "WHERE o.sample = rocket.sample AND o.rocket = 1");
+    for (int i = 0; i < COUNT; i++) {
+        x[i] = value_of(1 + i, 1, result_number("downrange"));
+        y[i] = value_of(1 + i, 1, result_number("drift"));
+    }
+    char *page = report_one("study", NULL);
+    const char *pair = after(page, "\"x\":\"downrange\"");
+    read_numbers(after(after(pair, "\"contours\":"), "\"origin\":"), origin, 2);
+    assert_int_equal(density_of(x, y, COUNT, COUNT, &alone), LD_OK);
+    for (int k = 0; k < 2; k++)
+        CHECK_NEAR("origin of the grid", origin[k] / alone.origin[k], 1, 1.5e-3);
+    free(page);
 }
 
 static double first_number(const char *place, const char *key)
@@ -597,6 +631,7 @@ int main(void)
         TEST(test_numbers_are_those_of_the_values),
         TEST(test_running_estimates),
         TEST(test_numbers_are_those_of_show),
+        TEST(test_contours_count_independent_rockets),
         TEST(test_measured),
         TEST(test_sensitivities),
         TEST(test_bins),

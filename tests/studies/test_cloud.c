@@ -189,7 +189,7 @@ static void test_contours_of_a_normal_cloud(void **state)
 {
     (void)state;
     make_cloud(5, MOST, 1, normal);
-    assert_int_equal(density_of(x, y, MOST, &map), LD_OK);
+    assert_int_equal(density_of(x, y, MOST, MOST, &map), LD_OK);
     double sum = 0;
     for (int i = 0; i < DENSITY_GRID * DENSITY_GRID; i++)
         sum += map.value[i / DENSITY_GRID][i % DENSITY_GRID];
@@ -212,12 +212,99 @@ static void test_contours_of_two_clusters(void **state)
     for (int i = 0; i < COUNT; i += 2)
         y[i] += 120;
     assert_false(normality_of(x, y, group, COUNT).normal);
-    assert_int_equal(density_of(x, y, COUNT, &map), LD_OK);
+    assert_int_equal(density_of(x, y, COUNT, COUNT, &map), LD_OK);
     for (int k = 0; k < DENSITY_LEVELS; k++) {
         contour(&found, &map, k, COUNT);
         CHECK_NEAR("points inside", share_inside(&found, COUNT), density_share[k], 0.01);
         CHECK_WITHIN("between the clusters nothing is inside", found.least, 0.3, 1);
     }
+}
+
+// Six rockets that come down where one does alone: the contours of the one.
+static void test_contours_of_a_salvo_at_one_place(void **state)
+{
+    (void)state;
+    enum { COUNT = 300, ROCKETS = 6 };
+    static density_map alone;
+    make_cloud(7, COUNT, 1, normal);
+    assert_int_equal(density_of(x, y, COUNT, normality_of(x, y, group, COUNT).effective, &alone),
+                     LD_OK);
+    for (size_t i = ROCKETS * COUNT; i-- > 0;) {
+        x[i] = x[i / ROCKETS];
+        y[i] = y[i / ROCKETS];
+        group[i] = (int64_t)i / ROCKETS;
+    }
+    double effective = normality_of(x, y, group, ROCKETS * COUNT).effective, off = 0, most = 0;
+    assert_int_equal(density_of(x, y, ROCKETS * COUNT, effective, &map), LD_OK);
+    // the deviations of 300 points and of 1800 have other denominators: 0.14 % of the width
+    for (int i = 0; i < DENSITY_GRID * DENSITY_GRID; i++) {
+        double one = alone.value[i / DENSITY_GRID][i % DENSITY_GRID];
+        most = fmax(most, one);
+        off = fmax(off, fabs(map.value[i / DENSITY_GRID][i % DENSITY_GRID] / ROCKETS - one));
+    }
+    CHECK_NEAR("density of a salvo, rocket by rocket, less that of one", off / most, 0, 2e-3);
+    for (int k = 0; k < DENSITY_LEVELS; k++)
+        CHECK_NEAR("level", map.level[k] / ROCKETS / alone.level[k], 1, 5e-3);
+}
+
+// Mean integrated squared error of a density of n points of the standard normal cloud in salvos of
+// m that share r of their variance, by Gaussian kernels of width h; all its terms are normal
+// densities at their middle, 1 / (2 pi variance).
+static double expected_error(double h, double n, double m, double r)
+{
+    double own = 1 / (2 * h * h), mates = 1 / (2 * h * h + 2 * (1 - r));
+    double others = 1 / (2 * h * h + 2), truth = 1 / (2 + h * h);
+    return (own / n + (m - 1) / n * mates + (1 - m / n) * others - 2 * truth + 0.5) /
+           (2 * acos(-1));
+}
+
+// The same of a map, whose axes are those of the cloud.
+static double error_of(const density_map *of, size_t count)
+{
+    double cell = fabs(of->step[0][0] * of->step[1][1] - of->step[0][1] * of->step[1][0]), sum = 0;
+    double inside = 0;
+    for (int i = 0; i < DENSITY_GRID; i++)
+        for (int j = 0; j < DENSITY_GRID; j++) {
+            double a = of->origin[0] + i * of->step[0][0] + j * of->step[1][0];
+            double b = of->origin[1] + i * of->step[0][1] + j * of->step[1][1];
+            double truth = exp(-0.5 * (a * a + b * b)) / (2 * acos(-1));
+            double off = of->value[i][j] / ((double)count * cell) - truth;
+            sum += off * off * cell;
+            inside += truth * truth * cell;
+        }
+    return sum + 1 / (4 * acos(-1)) - inside; // of what lies beside the grid
+}
+
+// Salvos of 12 that share 95 %: with as many points as tell as much the error is near the least
+// that any width has; as of independent ones it is half as large again.
+static void test_width_for_salvos(void **state)
+{
+    (void)state;
+    enum { CLOUDS = 60, COUNT = 1200, SALVO = 12 };
+    const double shared = 0.95;
+    double sum[2] = {0}, width[2] = {0}, least = INFINITY;
+    for (int k = 0; k < CLOUDS; k++) {
+        for (size_t i = 0; i < COUNT; i++) {
+            uint64_t g = i / SALVO, c = (uint64_t)k;
+            x[i] = sqrt(1 - shared) * normal(21, c, i) + sqrt(shared) * normal(22, c, g);
+            y[i] = sqrt(1 - shared) * normal(23, c, i) + sqrt(shared) * normal(24, c, g);
+            group[i] = (int64_t)g;
+        }
+        const double points[] = {normality_of(x, y, group, COUNT).effective, COUNT};
+        for (int way = 0; way < 2; way++) {
+            assert_int_equal(density_of(x, y, COUNT, points[way], &map), LD_OK);
+            sum[way] += error_of(&map, COUNT) / CLOUDS;
+            width[way] += pow(points[way], -1.0 / 6) / CLOUDS;
+        }
+    }
+    for (double h = 0.2; h < 1.2; h += 0.01)
+        least = fmin(least, expected_error(h, COUNT, SALVO, shared));
+    double good = expected_error(width[0], COUNT, SALVO, shared);
+    double narrow = expected_error(width[1], COUNT, SALVO, shared);
+    CHECK_WITHIN("error over the least of any width", good / least, 1, 1.01);
+    CHECK_WITHIN("as of independent rockets", narrow / least, 1.4, 1.45);
+    CHECK_NEAR("error found over that expected", sum[0] / good, 1, 0.03);
+    CHECK_NEAR("as of independent rockets", sum[1] / narrow, 1, 0.07);
 }
 
 int main(void)
@@ -228,6 +315,8 @@ int main(void)
         cmocka_unit_test(test_design_effect),
         cmocka_unit_test(test_contours_of_a_normal_cloud),
         cmocka_unit_test(test_contours_of_two_clusters),
+        cmocka_unit_test(test_contours_of_a_salvo_at_one_place),
+        cmocka_unit_test(test_width_for_salvos),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
