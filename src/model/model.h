@@ -1059,8 +1059,9 @@ struct ld_source {
     size_t file_count;
     ld_source_file **file; ///< [file_count] the scenario first
     size_t set_count;
-    char **set;       ///< [set_count] overrides (as of --set)
-    atomic_int users; ///< models that share it, on any threads
+    char **set;        ///< [set_count] overrides (as of --set)
+    size_t set_before; ///< so many of them were there when the others were laid over them
+    atomic_int users;  ///< models that share it, on any threads
 };
 
 // Gives one share of it up; the last one frees it. May be NULL.

@@ -73,8 +73,10 @@ ld_source *source_copy(const ld_source *self)
     }
     for (size_t i = 0; i < self->set_count && fine; i++)
         fine = source_add_set(copy, self->set[i]);
-    if (fine)
+    if (fine) {
+        copy->set_before = self->set_before;
         return copy;
+    }
     source_free(copy);
     return NULL;
 }

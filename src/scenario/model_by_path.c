@@ -17,20 +17,22 @@ static bool has_members(const char *value)
     return strchr("[{", value[strspn(value, " \t\r\n")]) != NULL;
 }
 
-// Adds an override; one of the same key, both of which are plain, takes the place of the earlier
-// one, so that a key may be set over and over.
+// Adds an override; where it is plain, the earlier ones of the same key that are plain, too, go, so
+// that a key may be set over and over.
 static bool lay_over(ld_source *source, const char *set)
 {
-    size_t path = strcspn(set, "=") + 1;
+    size_t path = strcspn(set, "=") + 1, kept = 0, before = source->set_before;
     bool plain = set[path - 1] == '=' && !has_members(set + path);
-    for (size_t i = 0; i < source->set_count && plain; i++)
-        if (strncmp(source->set[i], set, path) == 0 && !has_members(source->set[i] + path)) {
-            free(source->set[i]);
-            source->set_count--;
-            memmove(source->set + i, source->set + i + 1,
-                    (source->set_count - i) * sizeof *source->set);
-            break;
+    for (size_t i = 0; i < source->set_count; i++) {
+        char *other = source->set[i];
+        if (i < before && plain && strncmp(other, set, path) == 0 && !has_members(other + path)) {
+            free(other);
+            source->set_before--;
+        } else {
+            source->set[kept++] = other;
         }
+    }
+    source->set_count = kept;
     return source_add_set(source, set);
 }
 
@@ -41,6 +43,8 @@ static ld_status read_again(const ld_model *model, const char *const *sets, size
     ld_source *source = source_copy(model->source);
     bool fine = source != NULL;
     *messages = (ld_messages){0};
+    if (fine)
+        source->set_before = source->set_count;
     for (size_t i = 0; i < count && fine; i++)
         fine = lay_over(source, sets[i]);
     ld_status status =

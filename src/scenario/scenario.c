@@ -175,14 +175,22 @@ static tree_node *parse_override(scenario_reader *reader, const text_source *sou
     return path && node ? tree_at_path(reader, path, begin, node) : NULL;
 }
 
-static tree_node *apply_override(scenario_reader *reader, tree_node *root, const char *text,
-                                 const char *folder, int number)
+// Override `number`, from 0. In messages it has its place among those that came with it: who sets
+// one key after the other knows no other number.
+static tree_node *apply_override(scenario_reader *reader, tree_node *root, size_t number)
 {
+    const ld_source *from = reader->source;
+    const char *text = from->set[number];
+    bool before = number < from->set_before;
     text_source *source = pool_take(reader, sizeof *source);
     if (!source)
         return root;
-    *source = (text_source){
-        "--set", pool_text(reader, text, strlen(text)), strlen(text), folder, number, ""};
+    *source = (text_source){.name = before ? "set before" : "--set",
+                            .text = pool_text(reader, text, strlen(text)),
+                            .length = strlen(text),
+                            .folder = from->folder,
+                            .first_line = before ? 1 : (int)(number - from->set_before) + 1,
+                            .within = ""};
     tree_node *over = source->text ? parse_override(reader, source) : NULL;
     return over ? tree_merge(reader, root, over, "") : root;
 }
@@ -193,7 +201,7 @@ static tree_node *apply_overrides(scenario_reader *reader, tree_node *root)
 {
     const ld_source *source = reader->source;
     for (size_t i = 0; i < source->set_count; i++)
-        root = apply_override(reader, root, source->set[i], source->folder, (int)i + 1);
+        root = apply_override(reader, root, i);
     return root;
 }
 

@@ -89,6 +89,9 @@ static void one_that_has_changed_is_refused(void **state)
                      "\"digest: \"FNV-1a ");
     expect_complaint("launchdyn run there/platform.yaml --set base.digest=none", 2,
                      "/there/platform2.fmu\" has changed: expected none, found FNV-1a ");
+    // whichever digest is the greater one
+    expect_complaint("launchdyn run there/platform.yaml --set 'base.digest=FNV-1a 0'", 2,
+                     "/there/platform2.fmu\" has changed: expected FNV-1a 0, found FNV-1a ");
     must("rm there/platform2.fmu");
     expect_complaint("launchdyn run --again results --out again", 2,
                      "/there/platform2.fmu\" cannot be read: No such file or directory");

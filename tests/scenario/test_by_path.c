@@ -103,6 +103,38 @@ static void test_wrong_values_are_refused(void **state)
     ld_model_free(model);
 }
 
+// The first message of overrides laid over a model: its source and place.
+static void check_place(const ld_model *model, const char *const *sets, size_t count,
+                        const char *file, int line, const char *source)
+{
+    ld_messages messages;
+    ld_model *none;
+    assert_int_equal(ld_model_derive(model, sets, count, &none, &messages), LD_ERR_INPUT);
+    assert_string_equal(messages.item[0].file, file);
+    assert_int_equal(messages.item[0].line, line);
+    assert_string_equal(messages.item[0].source, source);
+    ld_messages_free(&messages);
+}
+
+// Overrides are numbered as they were given at once; of those before, the text tells which it is.
+static void test_messages_number_what_was_set_at_once(void **state)
+{
+    (void)state;
+    ld_model *model = read_fixed("tubes.length=5 m");
+    const char *wrong[] = {"rocket.mass=64 kg", "rocket.mass=65 kg", "rocket.mas=61 kg"};
+    set(model, "rocket.mass", "62 kg");
+    set(model, "rocket.mass", "63 kg");
+    check_place(model, wrong + 2, 1, "--set", 1, "rocket.mas=61 kg");
+    check_place(model, wrong, 3, "--set", 3, "rocket.mas=61 kg");
+    // what follows makes an earlier one wrong: a speed, of a base that stands now
+    const char *prescribed[] = {"base.kind=prescribed", "base.velocity=3 0 0 m/s"};
+    ld_messages messages;
+    assert_int_equal(ld_model_set_all(model, prescribed, 2, &messages), LD_OK);
+    const char *fixed = "base.kind=fixed";
+    check_place(model, &fixed, 1, "set before", 1, "base.velocity=3 0 0 m/s");
+    ld_model_free(model);
+}
+
 static void test_several_at_once(void **state)
 {
     (void)state;
@@ -149,7 +181,11 @@ static void test_a_key_set_often_is_kept_once(void **state)
         set(model, "rocket.mass", value);
         set(model, "rocket.lock.release_force", "9 kN");
     }
-    CHECK_BELOW("overrides kept", (double)model->source->set_count - 3, 0);
+    const char *twice[] = {"rocket.mass=78 kg", "rocket.mass=79 kg"};
+    ld_messages messages;
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(ld_model_set_all(model, twice, 2, &messages), LD_OK);
+    CHECK_NEAR("overrides kept", (double)model->source->set_count, 4, 0);
     CHECK_BELOW("the last mass [kg]", number(model, "rocket.mass") - 79, 0);
     CHECK_BELOW("another override stays [m]", number(model, "tubes.length") - 5, 0);
     ld_model_free(model);
@@ -276,6 +312,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_set_is_as_an_override),
         cmocka_unit_test(test_wrong_values_are_refused),
+        cmocka_unit_test(test_messages_number_what_was_set_at_once),
         cmocka_unit_test(test_several_at_once),
         cmocka_unit_test(test_a_derived_model_leaves_the_first_one),
         cmocka_unit_test(test_a_key_set_often_is_kept_once),
