@@ -36,18 +36,6 @@ static double shape_between(const ld_sea *model, double from, double to, int pie
 
 enum { PIECES = 2000 };
 
-// Mean square of the water's height, height^2/16, over the shape's integral.
-static double scale_of(const ld_sea *model)
-{
-    return model->height * model->height / 16 / shape_between(model, LOWEST, HIGHEST, PIECES);
-}
-
-double sea_density(const ld_sea *model, double omega)
-{
-    double peak = TWO_PI / model->period, x = omega / peak;
-    return x < LOWEST || x > HIGHEST ? 0 : scale_of(model) * shape(model, x) / peak;
-}
-
 // The angle off the mean heading below which the share u of cos^2s(angle/2) lies: sin(angle/2) has
 // the symmetric distribution whose square is that of Beta(1/2, s + 1/2).
 static double spread_angle(double s, double u)

@@ -15,10 +15,6 @@ typedef struct sea_wave {
     double phase;     // [rad] at t = 0 in I's origin
 } sea_wave;
 
-// Density S(omega) [m2 s/rad] of an irregular sea, one-sided; 0 beyond 0.5 and 10 times the peak's
-// frequency.
-double sea_density(const ld_sea *model, double omega);
-
 // The waves that the seed decides. *waves is to be freed.
 ld_status sea_build(const ld_sea *model, sea_wave **waves, size_t *count, ld_error *error);
 

@@ -201,12 +201,24 @@ static double gain(int column, double omega)
     return omega > 1.6 ? 0 : re * re + im * im;
 }
 
+// JONSWAP's shape over frequencies in those of the peak (Hasselmann et al., 1973), gamma as it is
+// given.
+static double shape(double gamma, double x)
+{
+    double s = x < 1 ? 0.07 : 0.09;
+    return pow(x, -5) * exp(-1.25 * pow(x, -4)) * pow(gamma, exp(-pow((x - 1) / s, 2) / 2));
+}
+
+// Mean square over all waves of Hs^2/16 for the sea's height.
 static double mean_square(const ld_sea *sea, int column)
 {
-    double sum = 0, step = 5e-3;
-    for (double w = 0.3 + step / 2; w < 1.6; w += step)
-        sum += sea_density(sea, w) * gain(column, w) * step;
-    return sum;
+    double sum = 0, all = 0, step = 5e-3, peak = 2 * PI / sea->period;
+    for (double w = 0.5 * peak + step / 2; w < 10 * peak; w += step) {
+        double power = shape(sea->peakedness, w / peak);
+        all += power;
+        sum += power * gain(column, w);
+    }
+    return sea->height * sea->height / 16 * sum / all;
 }
 
 static void test_mean_squares_over_seeds(void **state)
