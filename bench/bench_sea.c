@@ -1,7 +1,8 @@
 // Speed of a ship's motion in its sea: set-up for 6 s with 200 waves, and one evaluation of place,
-// velocity and acceleration.
+// velocity and acceleration; of a measured motion.
 #include "bench_sample.h"
 #include "scenario/scenario.h"
+#include "systems/motion_table.h"
 #include "systems/sea_motion.h"
 
 enum { REPEATS = 15, STEPS = 20000 };
@@ -46,6 +47,33 @@ static double bench_evaluation(const char *what, const sea_motion *self, double 
     return sum;
 }
 
+// Of a table of 2000 rows.
+static double bench_table(void)
+{
+    enum { ROWS = 2000, COLUMNS = 7 };
+    static double rows[ROWS * COLUMNS];
+    ld_base model = {.kind = LD_BASE_PRESCRIBED, .motion = {ROWS, COLUMNS, rows}};
+    motion_table self;
+    double sample[REPEATS], sum = 0;
+    for (int i = 0; i < ROWS; i++)
+        for (int k = 0; k < COLUMNS; k++)
+            rows[i * COLUMNS + k] = k ? sin(0.07 * i + k) : 0.01 * i - 2;
+    if (motion_table_build(&self, &model, NULL))
+        exit(1);
+    for (int i = 0; i < REPEATS; i++) {
+        double start = now();
+        for (int step = 0; step < STEPS; step++) {
+            double x[6] = {0}, u[6] = {0}, a[6] = {0};
+            motion_table_add(&self, 1e-4 * step, x, u, a);
+            sum += x[1] + u[2] + a[3];
+        }
+        sample[i] = (now() - start) / STEPS;
+    }
+    print("place, velocity, acceleration, of a table of 2000 rows", sample, REPEATS, 1e-9, "ns");
+    motion_table_free(&self);
+    return sum;
+}
+
 int main(void)
 {
     ld_model model;
@@ -59,6 +87,7 @@ int main(void)
     printf("%zu of %d waves move it\n", self.count, model.base.sea.waves);
     double sum = bench_evaluation("place, velocity, acceleration, tabulated", &self, 0);
     sum += bench_evaluation("the same, wave by wave", &self, 10);
+    sum += bench_table();
     sea_motion_free(&self);
     model_clear(&model);
     return sum == 0;

@@ -76,6 +76,8 @@ static uint64_t of_field(uint64_t digest, const field_row *f, const void *base)
             digest = of_int(digest, field_marked(base, f, i));
         return digest;
     case FIELD_TABLE:
+        if (f->table->sources & TABLE_CLOCK)
+            digest = digest_bytes(digest, (const char *)base + f->other, sizeof(double));
         return of_table(digest, at);
     default:
         return digest;

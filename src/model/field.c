@@ -109,6 +109,20 @@ void field_set_mark(void *base, const field_row *field, int i, bool mark)
     *((bool *)field_entry(base, field, i) + field->mark) = mark;
 }
 
+double *field_clock(void *base, const field_row *field)
+{
+    bool has = field->kind == FIELD_TABLE && field->table->sources & TABLE_CLOCK;
+    return has ? (double *)((char *)base + field->other) : NULL;
+}
+
+bool field_is_unit(const double quaternion[4])
+{
+    double square = 0;
+    for (int i = 0; i < 4; i++)
+        square += quaternion[i] * quaternion[i];
+    return fabs(sqrt(square) - 1) <= 0.01;
+}
+
 const table_format *field_table_format(const table_format *format, size_t columns)
 {
     while (format && (size_t)format->columns != columns)

@@ -60,10 +60,16 @@ enum table_source {
     TABLE_ROCKSIM = 32,  // a RockSim .rse file (scenario/rocksim_file.c)
 };
 
+// What else holds of a table, in the same word.
+enum table_trait {
+    TABLE_CLOCK = 64,       // its first column is a clock, whose origin stands apart
+    TABLE_QUATERNION = 128, // its last four columns are a unit quaternion
+};
+
 enum { FIELD_MAX_COLUMNS = 13 };
 
 typedef struct table_format {
-    unsigned sources; // any of table_source
+    unsigned sources; // any of table_source and table_trait
     int columns;
     const struct field_row *column;   // name, unit and range of each
     const struct table_format *other; // another form, of more columns, or NULL
@@ -76,7 +82,7 @@ typedef struct field_row {
     unsigned optional;       // bit f: not required in form f
     size_t offset;           // in the block's struct; FIELD_NOWHERE: nothing is stored
     size_t other;            // list: its count; choice: its number; block with words: its switch;
-                             // table of a wind: its axes, read before
+                             // table of a wind: its axes, read before; of a clock: its origin
     bool other_is_bool;      // the switch is a bool, not an enum
     size_t stride;           // list, selection: size of one entry
     size_t mark;             // selection: place of the mark in an entry
@@ -154,6 +160,11 @@ bool field_marked(const void *base, const field_row *field, int i);
 void field_set_mark(void *base, const field_row *field, int i, bool mark);
 // The form of a table that has so many columns, or NULL.
 const table_format *field_table_format(const table_format *format, size_t columns);
+// Where the origin [s] of a table's clock stands; NULL: it has none.
+double *field_clock(void *base, const field_row *field);
+// Whether four numbers are a unit quaternion as measured ones are, to 0.01.
+bool field_is_unit(const double quaternion[4]);
+#define NO_UNIT_QUATERNION "the last four numbers are no unit quaternion: off by more than 0.01"
 
 // A number of a model: any scalar key or component.
 typedef struct field_place {

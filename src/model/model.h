@@ -428,8 +428,11 @@ typedef struct ld_base {
     double velocity[3];          ///< [m/s] constant velocity along I (prescribed)
     ld_sines surge, heave, sway; ///< [m] along I's x, y, z (prescribed)
     ld_sines yaw, pitch, roll;   ///< [rad] base pose Ry(yaw) Rz(pitch) Rx(roll) (prescribed)
-    ld_table motion; ///< t [s], x, y, z [m], yaw, pitch, roll [rad]; cubic spline; empty: none
-    ld_sea sea;      ///< added to sines and velocity (prescribed)
+    ld_table motion;      ///< t [s], x, y, z [m], yaw, pitch, roll [rad] or q0, q1, q2, q3; cubic
+                          ///< spline; empty: none
+    double motion_origin; ///< [s] whole seconds that are left out of its times; 0 but of late ones
+    double motion_start;  ///< [s] of the table's clock: 0 of the run's
+    ld_sea sea;           ///< added to sines and velocity (prescribed)
     double at[3]; ///< [m] T's origin in the frame that moves so, or that an FMU tells (prescribed,
                   ///< fmu)
     ld_vehicle vehicle;

@@ -67,6 +67,22 @@ static void sea_rules(const rule_set *rules)
 
 // ---- motion
 
+#define UNTOLD_START "; motion.start says which of its times is 0 of the run's"
+
+// Times rise; rows of eight numbers end with a quaternion.
+static void motion_rows_rule(const rule_set *rules, const ld_table *motion)
+{
+    size_t columns = motion->columns;
+    for (size_t i = 0; i < motion->rows; i++) {
+        const double *row = motion->data + i * columns;
+        if (i > 0 && row[0] <= motion->data[(i - 1) * columns])
+            broken(rules, "base.motion.table.#", (int)i + 1,
+                   "t does not come after that of the row before");
+        if (columns == 8 && !field_is_unit(row + 4))
+            broken(rules, "base.motion.table.#", (int)i + 1, NO_UNIT_QUATERNION);
+    }
+}
+
 // The table must hold the motion from the start on to the last ignition, or the end asked for.
 static void motion_span_rule(const rule_set *rules)
 {
@@ -74,13 +90,15 @@ static void motion_span_rule(const rule_set *rules)
     const ld_table *motion = &model->base.motion;
     if (motion->rows < 2 || model->firing_count < 1)
         return;
-    double first = motion->data[0], last = motion->data[(motion->rows - 1) * motion->columns];
+    double since = model->base.motion_start - model->base.motion_origin;
+    double first = motion->data[0] - since,
+           last = motion->data[(motion->rows - 1) * motion->columns] - since;
     double start = fmin(model->firing[0].at, -model->run.lead_in);
     double end = model->firing[model->firing_count - 1].at;
     bool timed = model->run.end == LD_END_TIME;
     if (start < first)
-        broken(rules, "base.motion.table", 0, "begins at %g s, after the launch, at %g s", first,
-               start);
+        broken(rules, "base.motion.table", 0, "begins at %g s, after the launch, at %g s%s", first,
+               start, model->base.motion_start == 0 ? UNTOLD_START : "");
     if (timed && end + model->run.end_time > last)
         broken(rules, "base.motion.table", 0, "ends at %g s, before the run's end, at %g s", last,
                end + model->run.end_time);
@@ -95,7 +113,9 @@ void base_rules(const rule_set *rules)
     if (base->kind != LD_BASE_PRESCRIBED)
         return;
     sea_rules(rules);
-    rising_rule(rules, "base.motion.table.#", &base->motion, "s", false);
+    motion_rows_rule(rules, &base->motion);
+    if (base->motion.rows == 0 && base->motion_start != 0)
+        broken(rules, "base.motion.start", 0, "goes with motion.table, whose clock it is on");
     if (base->motion.rows == 1)
         broken(rules, "base.motion.table", 0, "needs at least two rows");
     if (base->motion.rows == 0)

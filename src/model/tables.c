@@ -232,7 +232,15 @@ static const field_row motion_columns[] = {
     {"z", .unit = "m", ANY},      {"yaw", .unit = "rad", ANY}, {"pitch", .unit = "rad", ANY},
     {"roll", .unit = "rad", ANY},
 };
-static const table_format motion_table = {TABLE_CSV, 7, motion_columns, NULL};
+static const field_row turned_columns[] = {
+    {"t", .unit = "s", ANY}, {"x", .unit = "m", ANY}, {"y", .unit = "m", ANY},
+    {"z", .unit = "m", ANY}, {"q0", .unit = "", ANY}, {"q1", .unit = "", ANY},
+    {"q2", .unit = "", ANY}, {"q3", .unit = "", ANY},
+};
+static const table_format turned_table = {TABLE_CSV | TABLE_CLOCK | TABLE_QUATERNION, 8,
+                                          turned_columns, NULL};
+static const table_format motion_table = {TABLE_CSV | TABLE_CLOCK, 7, motion_columns,
+                                          &turned_table};
 
 #define SINES(member, block_)                                                                      \
     LIST(ld_base, member.term, member.count, block_, 0, LD_MAX_SINES), .initial_doc = "none"
@@ -243,8 +251,13 @@ static const field_row motion_fields[] = {
     {"yaw", SINES(yaw, angle_sine_block), .doc = "sum of sines, about +y"},
     {"pitch", SINES(pitch, angle_sine_block), .doc = "sum of sines, about +z"},
     {"roll", SINES(roll, angle_sine_block), .doc = "sum of sines, about +x"},
-    {"table", TABLE(ld_base, motion, motion_table), .initial_doc = "none",
-     .doc = "pose over time in place of sines and velocity, by cubic spline"},
+    {"table", TABLE(ld_base, motion, motion_table), .other = offsetof(ld_base, motion_origin),
+     .initial_doc = "none",
+     .doc =
+         "pose over time in place of sines and velocity, by cubic spline; q0 is the quaternion's "
+         "scalar part"},
+    {"start", NUMBER(ld_base, motion_start, "s"), ANY, DEFAULT(0),
+     .doc = "time of the table's own clock that is 0 of the run's"},
     {0}};
 static const field_block motion_block = {.fields = motion_fields};
 

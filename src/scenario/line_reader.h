@@ -12,6 +12,7 @@ typedef struct line_reader {
     text_lines at; // the line at hand
     bool failed;
     bool sounding; // they are those of one
+    double *clock; // origin of the times in the first column, or NULL
 } line_reader;
 
 // Refuses what stands in a field of the line at hand, from 0; 0 where it has none: the line.

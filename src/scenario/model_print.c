@@ -3,6 +3,7 @@
 
 #include "base/printed.h"
 #include "model/field.h"
+#include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/scenario_text.h"
 #include "simulation/measures.h"
@@ -163,17 +164,32 @@ static const char *word_in_place(const field_row *f, const void *base)
     return f->words ? field_word_of(f->words, field_switch(base, f))->name : "";
 }
 
-// Rows of a table on one line: "[[0, 1], [2, 3]]".
-static void print_rows(FILE *stream, const field_row *f, const ld_table *table)
+// One row: "[0 s, 1 m]".
+static void print_row(FILE *stream, const field_row *f, const void *base, const double *row)
 {
+    const ld_table *table = field_at_const(base, f);
     const table_format *format = field_table_format(f->table, table->columns);
+    size_t first = 0;
+    char text[CLOCK_TEXT];
+    fputc('[', stream);
+    if (f->table->sources & TABLE_CLOCK) {
+        clock_print(row[first++], *(const double *)((const char *)base + f->other), text);
+        fprintf(stream, "%s s", text);
+    }
+    for (size_t k = first; k < table->columns; k++) {
+        fputs(k ? ", " : "", stream);
+        print_number(stream, &row[k], 1, format->column[k].unit);
+    }
+    fputc(']', stream);
+}
+
+// Rows of a table on one line: "[[0, 1], [2, 3]]".
+static void print_rows(FILE *stream, const field_row *f, const void *base)
+{
+    const ld_table *table = field_at_const(base, f);
     for (size_t i = 0; i < table->rows; i++) {
-        fputs(i ? ", [" : "[[", stream);
-        for (size_t k = 0; k < table->columns; k++) {
-            fputs(k ? ", " : "", stream);
-            print_number(stream, &table->data[i * table->columns + k], 1, format->column[k].unit);
-        }
-        fputs("]", stream);
+        fputs(i ? ", " : "[", stream);
+        print_row(stream, f, base, &table->data[i * table->columns]);
     }
     fputs("]", stream);
 }
@@ -191,7 +207,7 @@ static void print_entry(FILE *stream, const field_block *block, const void *base
         if (inner)
             print_entry(stream, f->block, field_at_const(base, f));
         else if (f->kind == FIELD_TABLE)
-            print_rows(stream, f, field_at_const(base, f));
+            print_rows(stream, f, base);
         else
             print_scalar(stream, f, base);
         fputs(inner ? "}" : "", stream);
@@ -212,17 +228,14 @@ static void print_list(FILE *stream, const field_row *f, const void *base, int d
     }
 }
 
-static void print_table(FILE *stream, const field_row *f, const ld_table *table, int depth)
+static void print_table(FILE *stream, const field_row *f, const void *base, int depth)
 {
-    const table_format *format = field_table_format(f->table, table->columns);
+    const ld_table *table = field_at_const(base, f);
     fputc('\n', stream);
     for (size_t i = 0; i < table->rows; i++) {
-        fprintf(stream, "%*s- [", depth * 2, "");
-        for (size_t k = 0; k < table->columns; k++) {
-            fprintf(stream, "%s", k ? ", " : "");
-            print_number(stream, &table->data[i * table->columns + k], 1, format->column[k].unit);
-        }
-        fprintf(stream, "]\n");
+        fprintf(stream, "%*s- ", depth * 2, "");
+        print_row(stream, f, base, &table->data[i * table->columns]);
+        fputc('\n', stream);
     }
 }
 
@@ -399,7 +412,7 @@ static void print_field(FILE *stream, const field_row *f, const void *base, int 
     } else if (f->kind == FIELD_SWEEP) {
         print_sweep(stream, base, depth + 1);
     } else if (f->kind == FIELD_TABLE) {
-        print_table(stream, f, field_at_const(base, f), depth + 1);
+        print_table(stream, f, base, depth + 1);
     } else {
         fputc(' ', stream);
         print_scalar(stream, f, base);

@@ -6,6 +6,7 @@
 
 #include "base/suggestion.h"
 #include "model/field.h"
+#include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"
 #include "simulation/measures.h"
 
@@ -230,6 +231,17 @@ static void read_text(scenario_reader *reader, const field_row *f, const tree_no
 
 // ---- tables
 
+// The time that was read from a cell of the first column less the clock's origin.
+static double clock_of_cell(const char *text, double time, bool first, double *clock)
+{
+    double value, factor;
+    const char *reason, *end = number_parse(text, &value, &reason);
+    char unknown[32];
+    if (!end || units_factor(end + strspn(end, " \t"), "s", &factor, unknown) != UNITS_OK)
+        return clock_read("", time, 1, first, clock);
+    return clock_read(text, value, factor, first, clock);
+}
+
 static bool read_row(scenario_reader *reader, const field_row *f, const table_format *format,
                      const tree_node *row, const char *path, double *values)
 {
@@ -254,7 +266,7 @@ static bool read_row(scenario_reader *reader, const field_row *f, const table_fo
 }
 
 static bool read_rows(scenario_reader *reader, const field_row *f, const tree_node *rows,
-                      const char *path, ld_table *table)
+                      const char *path, ld_table *table, double *clock)
 {
     bool good = true;
     if (rows->count == 0) {
@@ -282,7 +294,10 @@ static bool read_rows(scenario_reader *reader, const field_row *f, const tree_no
         char number[16], row_path[PATH];
         snprintf(number, sizeof number, "%zu", i + 1);
         join(row_path, path, number);
-        good &= read_row(reader, f, format, row, row_path, &table->data[i * columns]);
+        double *values = &table->data[i * columns];
+        good &= read_row(reader, f, format, row, row_path, values);
+        if (good && clock)
+            values[0] = clock_of_cell(row->first->text, values[0], i == 0, clock);
     }
     return good;
 }
@@ -318,7 +333,8 @@ static bool read_table_file(scenario_reader *reader, const field_row *f, const t
                  (f->table->sources & TABLE_SOUNDING && ends_with(value->text, ".txt"));
     if (!known)
         refuse_value(reader, f, value, path);
-    if (!known || !table_file_read(reader, f, value->at, path, value->text, table, &sounding))
+    if (!known || !table_file_read(reader, f, value->at, path, value->text, table,
+                                   field_clock(base, f), &sounding))
         return false;
     if (sounding && f->other && field_switch(base, f) == LD_WIND_LAUNCHER) {
         reader_refuse(reader, value->at, path,
@@ -342,7 +358,7 @@ static void read_table(scenario_reader *reader, const field_row *f, const tree_n
     ld_table *table = field_at(base, f);
     bool good = false;
     if (value->kind == NODE_LIST)
-        good = read_rows(reader, f, value, path, table);
+        good = read_rows(reader, f, value, path, table, field_clock(base, f));
     else if (!is_scalar(reader, f, value, path))
         good = false;
     else if (is_constant(f->table, value->text))

@@ -194,7 +194,8 @@ bool quantity_read(scenario_reader *reader, const struct field_row *f, text_plac
 // RockSim .rse file, a CSV file or a sounding's text by the ending of its name; `sounding`: whether
 // it was one. Messages about what it holds point into it. False after a message.
 bool table_file_read(scenario_reader *reader, const struct field_row *f, text_place place,
-                     const char *path, const char *name, ld_table *table, bool *sounding);
+                     const char *path, const char *name, ld_table *table, double *clock,
+                     bool *sounding);
 // The file that the text at `place` names, read once in a run and kept in reader->source; NULL
 // after a message at `place`.
 text_source *reader_open(scenario_reader *reader, text_place place, const char *path,

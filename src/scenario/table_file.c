@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/field.h"
+#include "scenario/clock_text.h"
 #include "scenario/line_reader.h"
 #include "scenario/rocksim_file.h"
 #include "scenario/sounding_file.h"
@@ -99,14 +100,17 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
     return NAN;
 }
 
-// One number of a row, in SI; checks its range.
-static void read_cell(line_reader *lines, const field_row *column, int i, double factor,
+// One number of a row, in SI; checks its range. `first`: of the first row.
+static void read_cell(line_reader *lines, const field_row *column, int i, double factor, bool first,
                       double *value)
 {
     char text[192], expected[128];
     if (!line_number(lines, i, value))
         return;
-    *value = units_scale(*value, factor);
+    if (i == 0 && lines->clock)
+        *value = clock_read(lines->at.field[i], *value, factor, first, lines->clock);
+    else
+        *value = units_scale(*value, factor);
     if (!isfinite(*value)) {
         line_refuse(lines, i, "too large a number");
     } else if (!field_in_range(column->range, *value)) {
@@ -128,7 +132,10 @@ static void read_csv_row(line_reader *lines, const table_format *format, const d
         return;
     }
     for (int i = 0; i < format->columns && !lines->failed; i++)
-        read_cell(lines, &format->column[i], i, factor[i], &row[i]);
+        read_cell(lines, &format->column[i], i, factor[i], table->rows == 0, &row[i]);
+    int turned = format->columns - 4;
+    if (!lines->failed && format->sources & TABLE_QUATERNION && !field_is_unit(row + turned))
+        line_refuse(lines, turned, NO_UNIT_QUATERNION);
     if (!lines->failed && table->rows > 0 &&
         row[0] <= table->data[(table->rows - 1) * table->columns]) {
         snprintf(text, sizeof text, "%s does not come after that of the row before",
@@ -165,10 +172,11 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
 }
 
 bool table_file_read(scenario_reader *reader, const field_row *f, text_place place,
-                     const char *path, const char *name, ld_table *table, bool *sounding)
+                     const char *path, const char *name, ld_table *table, double *clock,
+                     bool *sounding)
 {
     text_source *opened = reader_open(reader, place, path, name);
-    line_reader lines = {.reader = reader, .path = path, .source = opened};
+    line_reader lines = {.reader = reader, .path = path, .source = opened, .clock = clock};
     if (!opened)
         return false;
     lines.at = text_lines_begin(opened->text, opened->length);

@@ -4,16 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "math/spline.h"
 #include "systems/base.h"
+#include "systems/motion_table.h"
 #include "systems/sea_motion.h"
 
 typedef struct base_motion {
     const ld_base *model;
-    m3 mount;       // A_base,tube = Ry(azimuth) Rz(elevation)
-    v3 arm;         // [m] T's origin from the base's, in T
-    bool apart;     // it is not 0
-    spline path[6]; // x, y, z, yaw, pitch, roll over time (table)
+    m3 mount;   // A_base,tube = Ry(azimuth) Rz(elevation)
+    v3 arm;     // [m] T's origin from the base's, in T
+    bool apart; // it is not 0
+    motion_table table;
     sea_motion sea;
 } base_motion;
 
@@ -44,22 +44,18 @@ static double coordinate(const base_motion *self, int i, double t, double *rate,
         *rate += sines->term[k].amplitude * omega * cos(angle);
         *acceleration -= sines->term[k].amplitude * omega * omega * sin(angle);
     }
-    if (self->path[i].count) {
-        double slope;
-        value += spline_value(&self->path[i], t, &slope);
-        *rate += slope;
-        *acceleration += spline_curvature(&self->path[i], t);
-    }
     return value;
 }
 
-// Where it is at time t; linearised it rests in the attitude of t, in the origin.
+// Where it is at time t, of a table of quaternions without the angles' rates; linearised it rests
+// in the attitude of t, in the origin.
 static void coordinates(const base_system *base, double t, double x[6], double u[6], double a[6])
 {
     const base_disturbance *disturbed = base->disturbed;
     const base_motion *self = base->own;
     for (int i = 0; i < 6; i++)
         x[i] = coordinate(self, i, t, &u[i], &a[i]);
+    motion_table_add(&self->table, t, x, u, a);
     sea_motion_add(&self->sea, t, x, u, a);
     for (int i = 0; i < 6 && disturbed; i++) {
         x[i] = (i < 3 ? 0 : x[i]) + disturbed->input.motion[i];
@@ -74,28 +70,14 @@ static void place(const base_system *base, double t, const double *state, base_f
     (void)state, (void)found;
     const base_motion *self = base->own;
     double x[6], u[6], a[6];
-    coordinates(base, t, x, u, a);
-    base_frame_at(x, u, a, &self->mount, frame);
+    if (self->table.turned && !base->disturbed) {
+        motion_table_place(&self->table, t, &self->mount, frame);
+    } else {
+        coordinates(base, t, x, u, a);
+        base_frame_at(x, u, a, &self->mount, frame);
+    }
     if (self->apart)
         base_frame_go(frame, self->arm);
-}
-
-static ld_status build_paths(base_motion *self, ld_error *error)
-{
-    const ld_table *table = &self->model->motion;
-    if (!table->rows)
-        return LD_OK;
-    double *column = malloc(2 * table->rows * sizeof(double));
-    ld_status status = column ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
-    for (int i = 0; i < 6 && !status; i++) {
-        for (size_t k = 0; k < table->rows; k++) {
-            column[k] = table->data[k * table->columns];
-            column[table->rows + k] = table->data[k * table->columns + 1 + (size_t)i];
-        }
-        status = spline_build(&self->path[i], table->rows, column, column + table->rows, error);
-    }
-    free(column);
-    return status;
 }
 
 // When the launch begins and, as far as that is known before, ends.
@@ -124,16 +106,16 @@ static ld_status build(base_system *base, ld_error *error)
     double first, last;
     course(base->model, &first, &last);
     ld_status status = sea_motion_build(&self->sea, base->model, first, last, error);
-    return status ? status : build_paths(self, error);
+    return status ? status : motion_table_build(&self->table, self->model, error);
 }
 
 static void release(base_system *base)
 {
     base_motion *self = base->own;
-    for (int i = 0; i < 6 && self; i++)
-        spline_free(&self->path[i]);
-    if (self)
+    if (self) {
+        motion_table_free(&self->table);
         sea_motion_free(&self->sea);
+    }
     free(self);
 }
 
@@ -148,9 +130,9 @@ static void angles(const base_system *base, double t, double angles[3])
 static void span(const base_system *base, double *first, double *last)
 {
     const base_motion *self = base->own;
-    const spline *path = &self->path[0];
-    *first = path->count ? path->x[0] : -INFINITY;
-    *last = path->count ? path->x[path->count - 1] : INFINITY;
+    const motion_rows *rows = &self->table.rows;
+    *first = rows->count ? rows->t[0] : -INFINITY;
+    *last = rows->count ? rows->t[rows->count - 1] : INFINITY;
 }
 
 const base_interface base_prescribed = {.kind = LD_BASE_PRESCRIBED,

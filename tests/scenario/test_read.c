@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "model/digest.h"
 #include "model/field.h"
 #include "scenario/scenario.h"
 #include "support/model_compare.h"
@@ -359,6 +360,45 @@ static void test_motion_file(void **state)
     assert_true(motion->data[0] == -0.5 && motion->data[2] == 0.02 && motion->data[5] == 0.005);
     CHECK_BELOW("yaw, 90 deg", motion->data[4] - pi / 2, 1e-16);
     assert_true(motion->data[7] == 0.25 && motion->data[13] == 7);
+    assert_true(m.base.motion_origin == 0 && m.base.motion_start == 0);
+    model_clear(&m);
+}
+
+// A record of quaternions on a clock in nanoseconds, from a file and as it is printed.
+static void test_record_of_quaternions(void **state)
+{
+    (void)state;
+    const char *const sets[] = {
+        "base={kind: prescribed, motion: {start: 1700000002500 ms, table: " LD_BINARY_DIR
+        "/record.csv}}"};
+    ld_model m = read_with_file("record.csv",
+                                "t [ns], x [m], y [m], z [m], q0, q1, q2, q3\n"
+                                "1700000000012345678, 1, 2, 3, 1, 0, 0, 0\n"
+                                "1700000009100000000, 1, 2, 3, -0.6, 0, 0.8, 0\n",
+                                sets, 1);
+    const ld_table *motion = &m.base.motion;
+    assert_true(motion->rows == 2 && motion->columns == 8);
+    assert_true(m.base.motion_origin == 1700000000 && m.base.motion_start == 1700000002.5);
+    assert_true(motion->data[0] == 0.012345678 && motion->data[8] == 9.1);
+    assert_true(motion->data[12] == -0.6 && motion->data[14] == 0.8);
+
+    ld_model again;
+    ld_messages messages;
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    ld_model_print(&m, stream);
+    fclose(stream);
+    assert_non_null(strstr(text, "[1700000000.012345678 s, "));
+    assert_int_equal(scenario_read_text(text, length, "printed", ".", NULL, 0, &again, &messages),
+                     LD_OK);
+    assert_true(again.base.motion_origin == 1700000000);
+    assert_memory_equal(again.base.motion.data, motion->data, 16 * sizeof(double));
+    assert_true(model_digest(&again) == model_digest(&m));
+    again.base.motion_origin += 1;
+    assert_true(model_digest(&again) != model_digest(&m));
+    free(text);
+    model_clear(&again);
     model_clear(&m);
 }
 
@@ -581,6 +621,7 @@ int main(void)
         cmocka_unit_test(test_engine_file),
         cmocka_unit_test(test_engine_from_zero),
         cmocka_unit_test(test_motion_file),
+        cmocka_unit_test(test_record_of_quaternions),
         cmocka_unit_test(test_sea),
         cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_round_trip_of_random_bits),
