@@ -74,9 +74,19 @@ export async function inBrowser(test, ...more) {
 }
 process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 
+// A replay without smoothed edges, which cost a software renderer the most, or none at all, which costs nothing; code
+// of the page.
+function withReplay(wanted) {
+  const { getContext } = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = function (kind, asked, ...more) {
+    if (!kind.startsWith("webgl")) return getContext.call(this, kind, asked, ...more);
+    return wanted ? getContext.call(this, kind, { ...asked, antialias: false }, ...more) : null;
+  };
+}
+
 // Opens a report and waits until it says that it is ready. `before` is code that runs in the page
-// before any of its own.
-export async function open(browser, file, { width = 1200, dark = false, before } = {}) {
+// before any of its own; without `replay` there is no WebGL.
+export async function open(browser, file, { width = 1200, dark = false, replay = true, before } = {}) {
   const context = await browser.newContext(
     { viewport: { width, height: 900 }, colorScheme: dark ? "dark" : "light" });
   const page = await context.newPage();
@@ -92,6 +102,7 @@ export async function open(browser, file, { width = 1200, dark = false, before }
     document.addEventListener("securitypolicyviolation", ({ effectiveDirective, blockedURI }) =>
       window.violations.push(`${effectiveDirective} ${blockedURI}`));
   });
+  if (!replay || !LD_SCREENSHOTS) await page.addInitScript(withReplay, replay);
   if (before) await page.addInitScript(before);
   await page.goto(`file://${file}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready === "yes");
@@ -128,7 +139,7 @@ export async function checkInjected(browser, file) {
   const text = readFileSync(file, "utf8"), name = file.replace(/\.html$/, "-injected.html");
   const place = text.indexOf("<main ");
   writeFileSync(name, text.slice(0, place) + Object.values(injected).join("\n") + text.slice(place));
-  const page = await open(browser, name);
+  const page = await open(browser, name, { replay: false });
   await page.evaluate(() => {
     document.getElementById("injected-link").click();
     document.getElementById("injected-form").submit();
