@@ -6,6 +6,9 @@ import { edge, paint } from "./launcher.js";
 import { box, cylinder, loft, place, prism, Sleeve } from "./shapes.js";
 import { add, apply, subtract } from "./vector.js";
 
+// Corners of a box.
+const cornersOf = (xs, ys, zs) => xs.flatMap((x) => ys.flatMap((y) => zs.map((z) => [x, y, z])));
+
 // Places of a list of 0 to 1 where curves of hulls and bodies have their points.
 const steps = (count) => Array.from({ length: count + 1 }, (_, i) => i / count);
 
@@ -17,7 +20,7 @@ class Carrier {
     const { length, slides, outer } = motion, low = motion.envelope.low[0] - (slides.length > 0 ? outer + 0.02 * length : 0);
     this.feet = motion.supports.map((x) => this.foot(x, low));
     if (slides.length > 0) this.cradle(low);
-    this.eye = { distance: motion.length / 4.6, direction: [4.4, 2.8, 9.9], aim: [0, -0.1, 0] };
+    this.seenFrom = [4.4, 2.8, 9.9];
     scene.add(this.group);
   }
   // A point of the launcher's lower or upper side at a station, in the base's axes.
@@ -54,7 +57,11 @@ class Carrier {
   }
   // Level of what it stands on: below launcher and supports.
   level() {
-    return Math.min(0, ...this.launcherCorners().map(([, y]) => y)) - 0.2 * this.motion.length;
+    return Math.min(0, ...this.launcherCorners().map(([, y]) => y)) - 0.12 * this.motion.length;
+  }
+  // What of it a picture of the whole has to show, from the anchor: `ends` in the axes of the base.
+  corners(state, anchor) {
+    return this.ends.map((point) => subtract(add(state.base.r, apply(state.base.A, point)), anchor));
   }
   show(state, anchor) {
     place(this.group, [0, 1, 2].map((i) => state.base.r[i] - anchor[i]), state.base.A);
@@ -65,19 +72,13 @@ class Plate extends Carrier {
   constructor(motion, scene) {
     super(motion, scene);
     const level = this.level(), xs = this.feet.map(([x]) => x), zs = this.feet.map(([, , z]) => z);
-    const margin = 0.23 * motion.length, thick = 0.04 * motion.length;
-    this.group.add(box([Math.min(...xs) - margin, level - thick, Math.min(...zs) - margin],
-      [Math.max(...xs) + margin, level, Math.max(...zs) + margin], paint.vehicle, edge));
+    const margin = 0.16 * motion.length, thick = 0.04 * motion.length;
+    const ends = (places) => [Math.min(...places) - margin, Math.max(...places) + margin], [x, z] = [ends(xs), ends(zs)];
+    this.group.add(box([x[0], level - thick, z[0]], [x[1], level, z[1]], paint.vehicle, edge));
     this.stand(level);
-    this.eye = { direction: [4.4, 2.8, 9.9], aim: [0, 0, 0] };
-    this.plate = { xs: [Math.min(...xs), Math.max(...xs)], zs: [Math.min(...zs), Math.max(...zs)], y: level };
+    this.ends = cornersOf(x, [level - thick], z);
     const foot = motion.value("base.y")[0] + level - thick;
     this.ground = foot > 0.3 ? 0 : foot - 0.01;
-  }
-  // Where the supports stand on it, from the anchor.
-  corners(state, anchor) {
-    const { xs, zs, y } = this.plate;
-    return xs.flatMap((x) => zs.map((z) => subtract(add(state.base.r, apply(state.base.A, [x, y, z])), anchor)));
   }
 }
 
@@ -88,24 +89,41 @@ class Ship extends Carrier {
     super(motion, scene);
     const deck = this.level(), height = motion.value("base.y")[0] + deck;
     const freeboard = height > 0.8 ? height : 0.5 * motion.length;
-    const length = Math.max(5.5 * freeboard, 9 * motion.length), aft = motion.mount[0] < -0.2;
+    const length = Math.max(4.6 * freeboard, 7 * motion.length), aft = motion.mount[0] < -0.2;
     Object.assign(this, { deck, freeboard, length, beam: 0.17 * length, stern: (aft ? -0.2 : -0.68) * length });
     this.ground = height - freeboard;
     this.sea = true;
     this.hull();
     this.house(aft);
     this.stand(deck);
-    this.eye = { distance: length / 15.5, direction: [6.6, 3, 8.2], aim: [-0.06 * length, -0.06 * length, 0] };
+    const side = [0, 0.5, 0.75, 1].flatMap((share) => [1, 2].map((line) => this.point(share, line)));
+    this.ends = [...side.flatMap(({ x, y, half }) => [[x, y, -half], [x, y, half]]), this.top];
+    this.seenFrom = [aft ? -4.6 : 4.6, 2.5, 9.2];
   }
   // The side at a share of the length, from the stern: half the breadth and the height of a line of
-  // the hull (0 the keel, 1 the water, 2 the deck), which ends the nearer to the stern the lower it is.
+  // the hull (0 the keel, 1 the water, 2 the deck, or between them), which ends the nearer to the stern the lower it is.
   point(share, line) {
-    const { length, beam, stern, deck, freeboard } = this;
+    const { length, beam, stern, deck, freeboard } = this, low = Math.min(1, Math.floor(line)), part = line - low;
+    const of = (values) => values[low] + part * (values[low + 1] - values[low]);
     const fore = Math.max(0, (share - 0.55) / 0.45), after = Math.max(0, (0.15 - share) / 0.15);
-    const breadth = 0.5 * beam * [0.35, 0.9, 1][line] * (1 - fore ** [1.3, 1.7, 2.6][line]) * (1 - 0.15 * after ** 2);
-    const rise = line === 2 ? 0.3 * freeboard * Math.max(0, (share - 0.78) / 0.22) ** 2 : 0;
-    const y = [deck - freeboard - 0.05 * length, deck - freeboard, deck][line] + rise;
-    return { x: stern + share * length * [0.9, 0.95, 1][line], y, half: breadth };
+    const breadth = 0.5 * beam * of([0.35, 0.9, 1]) * (1 - fore ** of([1.3, 1.7, 2.6])) * (1 - 0.15 * after ** 2);
+    const rise = 0.3 * freeboard * Math.max(0, (share - 0.78) / 0.22) ** 2;
+    return { x: stern + share * length * of([0.9, 0.95, 1]), half: breadth,
+      y: of([deck - freeboard - 0.09 * length, deck - freeboard, deck + rise]) };
+  }
+  // A rail along the edge of the deck.
+  rails(side) {
+    const high = 0.028 * this.length, posts = steps(22).map((k) => this.point(0.02 + 0.95 * k, 2)).map(({ x, y, half }) => [x, y, 0.97 * side * half]);
+    const top = posts.map(([x, y, z]) => [x, y + high, z]), thin = 0.0014 * this.length;
+    return [...posts.map((from, i) => cylinder(from, top[i], thin, paint.bright, null, 6)),
+      ...top.slice(1).map((to, i) => cylinder(top[i], to, thin, paint.bright, null, 6))];
+  }
+  // A row of them in the fore half of the side.
+  portholes(side) {
+    return steps(6).map((k) => 0.3 + 0.42 * k).map((share) => {
+      const { x, y, half } = this.point(share, 1.72), r = 0.0085 * this.length;
+      return cylinder([x, y, side * (half - r)], [x, y, side * (half + 0.1 * r)], r, paint.wheel);
+    });
   }
   hull() {
     const at = (line, side) => steps(24).map((share) => {
@@ -113,7 +131,8 @@ class Ship extends Carrier {
       return [x, y, side * half];
     });
     for (const side of [-1, 1]) {
-      this.group.add(loft([at(0, side), at(1, side)], paint.wheel), loft([at(1, side), at(2, side)], paint.vehicle, edge));
+      this.group.add(loft([at(0, side), at(1.13, side)], paint.wheel), loft([at(1.13, side), at(1.18, side)], paint.bright),
+        loft([at(1.18, side), at(2, side)], paint.vehicle, edge), ...this.rails(side), ...this.portholes(side));
     }
     this.group.add(loft([at(2, -1), at(2, 1)], paint.platform), loft([at(0, -1), at(0, 1)], paint.wheel));
     const transom = [0, 1, 2].map((line) => this.point(0, line));
@@ -125,22 +144,29 @@ class Ship extends Carrier {
     const front = aft ? Math.max(...xs) + 0.32 * length : Math.min(...xs) - 1.5 * u, half = 0.36 * beam;
     const tier = (from, to, low, high, share) =>
       group.add(box([front - to, deck + low, -share * half], [front - from, deck + high, share * half], paint.bright, edge));
+    const panes = (from, to, low, high, share) => // dark, a little beyond the wall
+      group.add(box([front - to, deck + low, -share * half], [front - from, deck + high, share * half], paint.wheel));
     tier(0, 11 * u, 0, 2.3 * u, 1);
     tier(1 * u, 5.5 * u, 2.3 * u, 4.5 * u, 0.85);
-    group.add(box([front - 3 * u, deck + 3.2 * u, -0.87 * half], [front - 0.98 * u, deck + 3.9 * u, 0.87 * half], paint.wheel));
-    const mast = front - 4.4 * u, top = deck + 8.5 * u;
-    group.add(cylinder([mast, deck + 4.5 * u, 0], [mast, top, 0], 0.14 * u, paint.vehicle));
+    tier(0.8 * u, 5.9 * u, 4.5 * u, 4.7 * u, 0.95);
+    panes(0.98 * u, 3 * u, 3.2 * u, 3.9 * u, 0.87);
+    for (let k = 0; k < 5; k++) panes((2 + 1.8 * k) * u, (2.7 + 1.8 * k) * u, 1.1 * u, 1.6 * u, 1.01);
+    const mast = front - 4.4 * u, top = deck + 7.5 * u;
+    this.top = [mast, top, 0];
+    group.add(cylinder([mast, deck + 4.7 * u, 0], [mast, top, 0], 0.14 * u, paint.vehicle));
     group.add(cylinder([mast, top - 1.4 * u, -1.2 * u], [mast, top - 1.4 * u, 1.2 * u], 0.08 * u, paint.vehicle));
     const funnel = [[-7, 2.3], [-9.4, 2.3], [-9, 4.2], [-7.2, 4.2]].map(([x, y]) => [front + x * u, deck + y * u, -0.8 * u]);
     group.add(prism(funnel, [0, 0, 1.6 * u], paint.vehicle, edge));
   }
 }
 
+const WING = 7.5; // radii of the fuselage from its middle to a wing's tip
+
 // The launcher below the fuselage; on its back where it points up by more than 15 degrees.
 class Aircraft extends Carrier {
   constructor(motion, scene) {
     super(motion, scene);
-    const length = Math.max(4.4 * motion.length, 6), radius = 0.062 * length, above = !motion.hangs;
+    const length = Math.max(3.8 * motion.length, 5), radius = 0.058 * length, above = !motion.hangs;
     const ys = this.launcherCorners().map(([, y]) => y), gap = 0.45 * radius;
     const axis = above ? Math.min(...ys) - gap - radius : Math.max(...ys) + gap + radius;
     const middle = apply(motion.mount, [0.5 * motion.length, 0, 0]);
@@ -150,8 +176,9 @@ class Aircraft extends Carrier {
     this.body();
     this.wings();
     this.pylons(above);
-    this.eye = { distance: length / 10.5, direction: above ? [4.4, 3.4, 9.9] : [5.6, -1.4, 9.2],
-      aim: [0, 0.6 * (axis - middle[1]), 0] };
+    this.ends = [[0, 0, 0], [1, 0, 0], [1, 3.2, 0], ...[-1, 1].flatMap((side) => [[0.54, 0.62, WING * side], [0.61, 0.62, WING * side], [1, 0.66, 2.9 * side]])]
+      .map((place) => this.at(...place));
+    this.seenFrom = above ? [4.4, 3.4, 9.9] : [5.6, -1.4, 9.2];
   }
   // Point at a share of the length behind the nose, above the axis and to the right, in radii.
   at(share, up, right) {
@@ -168,15 +195,16 @@ class Aircraft extends Carrier {
       at: this.at(0.09 + 0.16 * k, 0.42 + 0.25 * k, 0), radius: 0.68 * this.radius * Math.sqrt(1 - (2 * k - 1) ** 2) })));
     this.group.add(fuselage.mesh, glass.mesh);
   }
+  // Tapered and swept; at the tail the same, a fin, and the mouth of a jet.
   wings() {
-    const thick = (t) => [0, -t * this.radius, 0], plate = (corners, t) =>
-      this.group.add(prism(corners.map((corner) => this.at(...corner)), thick(t), paint.vehicle, edge));
+    const { radius, group } = this, slab = (corners, thick) =>
+      group.add(prism(corners.map((corner) => this.at(...corner)), thick.map((part) => part * radius), paint.vehicle, edge));
     for (const side of [-1, 1]) {
-      plate([[0.36, 0.5, 0], [0.56, 0.5, 0], [0.58, 0.62, 8 * side], [0.5, 0.62, 8 * side]], 0.16);
-      plate([[0.87, 0.55, 0], [0.98, 0.55, 0], [0.99, 0.6, 3.2 * side], [0.94, 0.6, 3.2 * side]], 0.1);
+      slab([[0.36, 0.45, 0], [0.57, 0.45, 0], [0.61, 0.62, WING * side], [0.54, 0.62, WING * side]], [0, -0.12, 0]);
+      slab([[0.86, 0.6, 0], [0.97, 0.6, 0], [1, 0.66, 2.9 * side], [0.94, 0.66, 2.9 * side]], [0, -0.08, 0]);
     }
-    const fin = [[0.82, 0.9], [0.98, 0.7], [1, 3.3], [0.93, 3.3]].map(([share, up]) => this.at(share, up, -0.06));
-    this.group.add(prism(fin, [0, 0, 0.12 * this.radius], paint.vehicle, edge));
+    slab([[0.8, 0.9, -0.05], [0.97, 0.7, -0.05], [1.01, 3.2, -0.05], [0.93, 3.2, -0.05]], [0, 0, 0.1]);
+    group.add(cylinder(this.at(0.96, 0.5, 0), this.at(1.015, 0.55, 0), 0.3 * radius, paint.wheel, edge));
   }
   pylons(above) {
     const half = 0.1 * this.radius, { low, high } = this.motion.envelope;

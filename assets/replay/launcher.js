@@ -36,7 +36,7 @@ export class Vehicle {
       this.azimuth.add(box([e[0] - 0.16, 0.1, z - 0.04], [e[0] + 0.16, e[1] + 0.12, z + 0.04], paint.platform, edge));
     this.azimuth.add(box([Math.min(0, e[0]) - 0.2, 0.05, -width], [Math.max(0, e[0]) + 0.3, 0.16, width], paint.platform, edge));
     this.wheels = mounts.map(() => wheel(R));
-    this.eye = { direction: [4.4, 2.8, 9.9], aim: [0, 0, 0] };
+    this.seenFrom = [4.4, 2.8, 9.9];
     this.ends = [-R, R].map((room) => [(room < 0 ? rear : front) + 1.3 * room, Math.min(...mounts.map((m) => m[1])) - R]);
     this.side = side;
     group.add(this.chassis, this.azimuth, ...this.wheels);

@@ -12,17 +12,22 @@ import { Pack, Rail, Tube } from "./tubes.js";
 import { add, apply, cross, dot, scaled, subtract, turnedBack, unit } from "./vector.js";
 
 const FIELD = 32; // degrees that the eye takes in from top to bottom
-const FILLED = 0.88; // of that what is looked at may take
+const MARGIN = 0.94; // of that what is looked at may take
+const HEAD = 34, FOOT = 16; // pixels at the top that words and buttons have, and at the bottom
 
-// Where an eye that looks along -`towards` sees all of the points, as near as it may: the middle it looks at, and how far
-// from it it is. `half`: tangents of half the field, to the side and up.
+// Where an eye that looks along -`towards` sees all of the points, as near as it may: what it looks at, and how far from it
+// it is. `half`: tangents of the angles that it takes in: to either side, up, down.
 function fitted(points, towards, half) {
-  const d = unit(towards), right = unit(cross([0, 1, 0], d)), up = cross(d, right);
-  const along = (axis) => points.map((p) => dot(p, axis)), [a, b, c] = [right, up, d].map(along);
-  const middle = (v) => 0.5 * (Math.min(...v) + Math.max(...v)), centre = [middle(a), middle(b), middle(c)];
-  const distance = Math.max(...points.map((_, i) => c[i] - centre[2] +
-    Math.max(Math.abs(a[i] - centre[0]) / half[0], Math.abs(b[i] - centre[1]) / half[1]) / FILLED));
-  return { aim: add(add(scaled(centre[0], right), scaled(centre[1], up)), scaled(centre[2], d)), distance, d };
+  const d = unit(towards), right = unit(cross([0, 1, 0], d)), up = cross(d, right), c = points.map((p) => dot(p, d));
+  // the eye at x and at a distance D from the origin sees p if -low (D - c) <= p - x <= high (D - c)
+  const across = (axis, low, high) => {
+    const v = points.map((p) => dot(p, axis));
+    const most = Math.max(...v.map((p, i) => p + high * c[i])), least = Math.min(...v.map((p, i) => p - low * c[i]));
+    return { needed: (most - least) / (low + high), at: (D) => 0.5 * (most + least + (low - high) * D) };
+  };
+  const x = across(right, half.side, half.side), y = across(up, half.down, half.up);
+  const D = Math.max(x.needed, y.needed), depth = 0.5 * (Math.min(...c) + Math.max(...c));
+  return { aim: add(add(scaled(x.at(D), right), scaled(y.at(D), up)), scaled(depth, d)), distance: D - depth, d };
 }
 
 export class Stage {
@@ -159,8 +164,7 @@ export class Stage {
     if (this.view === "path" && this.paths.some(Boolean)) return this.pathBox().centre;
     if (this.view === "rocket" && flying) return subtract(flying.center, anchor);
     if (this.view === "rocket" && state.rocket) return inTube(state.rocket.s + 0.5 * Math.max(...motion.adaptors));
-    if (this.view === "launcher")
-      return add(motion.vehicle ? [0, state.chassis.r[1], 0] : inTube(0.5 * motion.length), this.base.eye.aim);
+    if (this.view === "launcher") return motion.vehicle ? [0, state.chassis.r[1], 0] : inTube(0.5 * motion.length);
     return inTube(0.55 * motion.length);
   }
   // From where, in the view's own place.
@@ -175,17 +179,17 @@ export class Stage {
       return this.flying[this.watched()] ? scaled(wide * 2.2 * motion.length / 3, [-1.7, 0.9, 3.1])
         : across(scaled(wide * motion.length / 3, [0.5, 1.3, 3.2]));
     if (this.view === "tube") return across([0.6, 1.6, 6.4]);
-    const { distance, direction } = this.base.eye;
-    return scaled(wide * (distance ?? 1), direction);
+    return this.base.seenFrom;
   }
   // What a view has to show all of, from the anchor: nothing where it has a distance of its own.
   shownPoints() {
     if (this.motion.free) return null;
     const { motion, state, anchor } = this, { low, high } = motion.envelope, corners = (from, to) => [from, to].flatMap((x) =>
       [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => subtract(add(state.tube.r, apply(state.tube.A, [x, y, z])), anchor))));
-    if (this.view === "tube") return corners(-0.02 * motion.length, 1.12 * motion.length);
-    if (this.view !== "launcher" || this.base.eye.distance !== undefined) return null;
-    return [...corners(0, 1.02 * motion.length), ...this.base.corners(state, anchor)];
+    if (this.view === "tube") return corners(-0.02 * motion.length, 1.05 * motion.length);
+    if (this.view !== "launcher") return null;
+    const nose = state.rocket && subtract(add(state.tube.r, apply(state.tube.A, state.rocket.point(this.bodies[state.number].length))), anchor);
+    return [...corners(0, 1.02 * motion.length), ...(nose ? [nose] : []), ...this.base.corners(state, anchor)];
   }
   // Corners of all flights together.
   extent() {
@@ -205,10 +209,15 @@ export class Stage {
     this.view = view;
     this.target = null;
   }
+  // Tangents of what the eye takes in where nothing else stands.
+  field() {
+    const half = Math.tan((FIELD * Math.PI) / 360), { clientHeight } = this.renderer.domElement;
+    const beside = (room) => half * Math.max(0.5, 1 - (2 * room) / (clientHeight || 400));
+    return { side: MARGIN * half * this.camera.aspect, up: beside(HEAD), down: beside(FOOT) };
+  }
   // Eye and aim of a view that begins, from what it follows.
   begin(aim) {
-    const half = Math.tan((FIELD * Math.PI) / 360), points = this.shownPoints();
-    const { aim: seen, distance, d } = points ? fitted(points, this.stand(), [half * this.camera.aspect, half]) : {};
+    const points = this.shownPoints(), { aim: seen, distance, d } = points ? fitted(points, this.stand(), this.field()) : {};
     this.offset = points ? subtract(seen, aim) : [0, 0, 0];
     this.camera.position.set(...(points ? add(seen, scaled(distance, d)) : add(aim, this.stand())));
     const far = Math.max(400, 6 * this.camera.position.distanceTo(new Vector3(...aim)));

@@ -469,6 +469,8 @@ async function checkShip(browser) {
   check("the sea lies where y is 0", Math.abs(at.sea) < 0.02, at.sea);
   check("the hull goes through it", at.low[1] < -0.3 && at.high[1] > 4, text);
   check("and around the launcher", at.low[0] < at.rear[0] - 3 * at.length && at.high[0] > at.rear[0] + 2 * at.length, text);
+  const { all } = await spans(page, "launcher");
+  check("it fills the picture's width, nothing of it cut off", all[0][1] - all[0][0] > 0.9 && all[1][0] > -0.5 && all[1][1] < 0.45, all);
   const whole = await look(page), bare = await look(page, "replay.stage.base.group.visible = false;");
   check("it is seen", whole.sum !== bare.sum);
   const cut = await page.$$eval(".plan text", (list) => list.filter((node) => {
@@ -479,6 +481,17 @@ async function checkShip(browser) {
   await picture(page, "ship.png");
   await leave(page);
 }
+
+// How high the launching guide is in the picture, and between what all stands that a view has to show: to the side, up; of
+// its width and height.
+const spans = (page, view) => page.evaluate((name) => {
+  const replay = window.launchdyn.current, { stage } = replay, { motion, state, camera } = stage;
+  replay.look(name);
+  const seen = (list) => list.map((p) => camera.position.clone().set(...p).project(camera)).map(({ x, y }) => [x / 2, y / 2]);
+  const ends = seen([0, motion.length].map((x) => [0, 3, 6].map((k, i) => state.tube.r[i] - stage.anchor[i] + state.tube.A[k] * x)));
+  const all = seen(stage.shownPoints()), between = (k) => [Math.min(...all.map((p) => p[k])), Math.max(...all.map((p) => p[k]))];
+  return { rail: Math.abs(ends[1][1] - ends[0][1]), all: [between(0), between(1)] };
+}, view);
 
 // A rail: its shoes are drawn off it by `gap` times what they are off it, in words of their own.
 async function checkRail(browser) {
@@ -504,15 +517,11 @@ async function checkRail(browser) {
   const words = await page.$eval("main", (main) => main.textContent);
   check("it is a rail with shoes, not a tube with adaptors", /Rocket on|Contact between shoes and rail/.test(words) &&
     !/between adaptors|rear adaptor leaves/.test(words));
-  const span = await page.evaluate(() => {
-    const { stage } = window.launchdyn.current, { motion, state, camera } = stage;
-    const ups = [0, motion.length].map((x) => {
-      const at = camera.position.clone().set(...[0, 3, 6].map((k, i) => state.tube.r[i] - stage.anchor[i] + state.tube.A[k] * x));
-      return at.project(camera).y / 2;
-    });
-    return [Math.min(...ups), Math.max(...ups)];
-  });
-  check("a steep one fills the picture", span[1] - span[0] > 0.6 && span[0] > -0.5 && span[1] < 0.5, span);
+  for (const [view, share] of [["launcher", 0.6], ["tube", 0.75]]) {
+    const { rail, all } = await spans(page, view);
+    check(`${view}: a steep one fills the picture's height`, rail > share && all[1][1] - all[1][0] > 0.85, `rail ${rail}, all ${all}`);
+    check("and stays within it, below its words", all.every(([low, high]) => low > -0.5 && high < 0.5) && all[1][1] < 0.45, all);
+  }
   const seen = await look(page, "replay.look('rocket');");
   check("rail and rocket are seen", seen.tube > 500 && seen.rocket > 500, `${seen.tube} and ${seen.rocket}`);
   await picture(page, "rail.png");
