@@ -26,6 +26,15 @@ function readSummary() {
   }
 }
 
+// Of several flights the first tells its way, and folds the rest; the others are folded as a whole, side by side.
+const otherFlights = element("div", { className: "rest flights" });
+
+function figuresOf(table) {
+  const flight = table.kind === "flight", figures = data.figures.filter(({ time }) => (time === "flight") === flight);
+  const several = flight && table.rocket === 1 && data.rockets.length > 1;
+  return figures.map((figure, i) => (several ? { ...figure, told: figure.told && i === 0 } : figure));
+}
+
 function showTable(table, index, summary, nav) {
   const heading = table.kind === "launch" ? "Launch"
     : data.rockets.length > 1 ? `Flight of rocket ${table.rocket || 1}` : "Flight";
@@ -35,14 +44,15 @@ function showTable(table, index, summary, nav) {
     launch: new PlotGroup(`table${index}`, homeOf(table, ignition, table.kind === "flight")),
     vehicle: new PlotGroup(`table${index}`, homeOf(table, ignition, true)),
   };
-  const id = `table${index}`, figures = data.figures.filter(({ time }) => (time === "flight") === (table.kind === "flight"));
+  const id = `table${index}`, figures = figuresOf(table);
   const fill = (host) => addFigures(host, id, figures, (figure) => panelsOf(table, figure, ignition), groups, marks);
-  nav.append(element("a", { href: `#${id}` }, heading));
-  if (table.kind === "flight" && table.rocket > 1) { // of those after the first: folded as a whole
+  if (table.kind === "flight" && table.rocket > 1) {
     const folded = element("details", { className: "flight", id }, element("summary", {}, heading));
     folded.addEventListener("toggle", () => fill(folded), { once: true });
-    host.append(folded);
+    otherFlights.append(folded);
+    host.append(otherFlights);
   } else {
+    nav.append(element("a", { href: `#${id}` }, heading));
     host.append(element("h2", { id }, heading));
     const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
     if (buttons) host.append(buttons);
