@@ -21,9 +21,12 @@ ELEVATION = math.radians(19.8)
 
 
 def command(*arguments):
-    """What the command prints."""
+    """What the command prints. What Python was started with for a sanitized library is not for a
+    program that brings its own sanitizer."""
     words = [str(BUILD / "launchdyn"), *map(str, arguments)]
-    return subprocess.run(words, check=True, capture_output=True, text=True).stdout
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    return subprocess.run(words, check=True, capture_output=True, text=True,
+                          env=environment).stdout
 
 
 def written(path):

@@ -29,6 +29,7 @@ def in_use():
     return heap.uordblks + heap.hblkhd
 
 
+@unittest.skipUnless(in_use(), "a sanitizer's memory is not counted")
 class TestLeaks(Case):
     def grows(self, work, repeats=15):
         """Bytes that a repeat leaves behind: the median of the last ones, since the first ones
