@@ -204,7 +204,7 @@ class _Work:
                  shards: int) -> None:
         self.latest, self.counts, self.error = ld_study_counts(), ld_study_counts(), ld_error()
         self.status = int(Status.OK)
-        self.done = 0
+        self.done = -1  # nothing has been told
         self._stopped = False
 
         def told(_: Any, counts: Any) -> None:

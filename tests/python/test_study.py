@@ -113,8 +113,10 @@ class TestStudy(Case):
         self.assertIn(kept, (2, 3))
         mock.patch.stopall()
         counts = []
-        data = samples.run(self.folder / "study", threads=2, progress=counts.append)
+        with mock.patch("launchdyn.study.LOOK_UP", 1e-4):  # before there is something to tell
+            data = samples.run(self.folder / "study", threads=2, progress=counts.append)
         self.assertEqual((counts[-1].done, counts[-1].now), (40, 40 - kept))
+        self.assertEqual({told.samples for told in counts}, {40})
         whole = samples.run(self.folder / "whole", threads=2)
         np.testing.assert_array_equal(data["range"], whole["range"])
 
