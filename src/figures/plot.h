@@ -58,6 +58,25 @@ typedef struct plot_figure {
 const plot_figure *plot_figure_at(size_t index);
 const plot_figure *plot_figure_find(const char *name);
 
+// An instant that figures mark, and whose name gives way first where there is no room for all: that
+// of the greatest rank.
+typedef struct plot_instant {
+    const char *name;
+    int rank;
+    unsigned figures; // bits 1 << plot_time of the figures that mark it
+} plot_instant;
+
+enum { PLOT_INSTANTS = 11 };
+
+const plot_instant *plot_instant_at(int index);
+
+// Whether a figure marks an instant.
+bool plot_marks(const plot_figure *figure, int index);
+
+// The instants of a launcher or of a flight, as they stand in its history and come out of its
+// columns [s] from ignition, NaN where there is none.
+void plot_find_instants(const history_data *history, double t[PLOT_INSTANTS]);
+
 // The text of an axis, "height [m]"; what is too long is cut.
 void plot_axis_text(const plot_axis *axis, char *text, size_t size);
 

@@ -5,6 +5,7 @@
 
 #include "base/numeric_locale.h"
 #include "base/printed.h"
+#include "figures/labels.h"
 #include "figures/plot.h"
 
 // Lengths of the page in pixels of the svg (plot_begin).
@@ -20,23 +21,14 @@ enum {
     BOTTOM = 50,
     TWO_COLUMNS = 640 // width from which two panels stand in a row
 };
-enum { MOST_CURVES = 64, DASHES = 5, COLOURS = PLOT_RUNS };
-
-typedef struct instant {
-    const char *name;
-    double t;           // [s] from ignition
-    const char *offset; // of the name from a point of a curve, in letters
-} instant;
-
-// Ignition, then those that are marked in the tube.
-enum { INSTANTS = 5, INSTANT_REAR = 4 };
+enum { MOST_CURVES = 64, DASHES = 5, COLOURS = PLOT_RUNS, CURVE_PLACES = 200 };
 
 // One run of the page.
 typedef struct plot_source {
     const history_data *history;
     const double *t; // [s] on the run's clock
     double t_ignition;
-    instant instant[INSTANTS];
+    double instant[PLOT_INSTANTS]; // [s] from ignition, NaN: there is none
 } plot_source;
 
 // A curve of a panel, found in the history of a run.
@@ -47,6 +39,14 @@ typedef struct found_curve {
     int run, column; // which run it is of, and which column among those that match
     char label[LD_MAX_NAME + 8];
 } found_curve;
+
+// Names beside dots of a panel, and places of its curves, in pixels from the axes' upper left.
+typedef struct path_names {
+    label_beside label[LABELS_MOST];
+    int instant[LABELS_MOST];
+    size_t count, others;
+    double other[MOST_CURVES * CURVE_PLACES][2];
+} path_names;
 
 // A panel in the making: its curves in the units shown, its place and its axes.
 typedef struct plot_drawing {
@@ -63,6 +63,7 @@ typedef struct plot_drawing {
     double *x, *y;                  // [rows] scaled values of one curve
     char *keep;                     // [rows] points that are drawn
     size_t *stack;                  // [2 rows] of the thinning
+    path_names *names;              // of the panel's instants, beside its curves
     int count;                      // curves
     int columns;                    // different columns among them
     found_curve curve[MOST_CURVES];
@@ -378,58 +379,84 @@ void plot_write_quoted(FILE *script, const char *text)
     fputc('\'', script);
 }
 
-// Which instants are marked: of a vehicle's whole way, ignition and the end of the launch; of
-// flights none.
-static bool marked(const plot_drawing *drawing, int which)
+// ---- instants ----
+
+// The source whose instants are named: a run's launcher, or its first flight; NULL where it has
+// none.
+static const plot_source *named_source(const plot_drawing *drawing, size_t run)
 {
-    plot_time time = drawing->figure->time;
-    return time == PLOT_VEHICLE ? which == 0 || which == INSTANT_REAR
-                                : time == PLOT_LAUNCH && which > 0;
+    if (drawing->figure->time != PLOT_FLIGHT)
+        return &drawing->source[run];
+    return drawing->source[run].history->flights > 0 ? &drawing->flight[run][0] : NULL;
 }
 
 // Places of the instants of a run on the time axis, NaN where they are not on it.
 static void place_instants(const plot_drawing *drawing, const plot_source *source,
-                           double place[INSTANTS])
+                           double place[PLOT_INSTANTS])
 {
-    for (int i = 0; i < INSTANTS; i++) {
-        double x = source->instant[i].t * (drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1);
-        bool there = x >= drawing->x_range[0] && x <= drawing->x_range[1];
-        place[i] = there && marked(drawing, i) ? x : NAN;
+    for (int i = 0; i < PLOT_INSTANTS; i++) {
+        double t = source ? source->instant[i] : NAN;
+        double x = t * (drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1);
+        bool there = plot_marks(drawing->figure, i) && shown(drawing, t) &&
+                     x >= drawing->x_range[0] && x <= drawing->x_range[1];
+        place[i] = there ? x : NAN;
     }
 }
 
-// Names above the panel; where two would meet, one a step higher, or on either side of the two.
-static void write_instant_names(const plot_drawing *drawing, const double place[INSTANTS])
+// The source whose instants are marked over time: of several flights none, since each has its own.
+static const plot_source *marked_source(const plot_drawing *drawing, size_t run)
 {
-    double pixels = (drawing->width - LEFT - RIGHT) / (drawing->x_range[1] - drawing->x_range[0]);
-    static const char *const sides[] = {"right", "left"};
-    bool vehicle = drawing->figure->time == PLOT_VEHICLE, raised = false;
-    double before = -INFINITY;
-    for (int i = 0; i < INSTANTS; i++) {
+    bool flights = drawing->figure->time == PLOT_FLIGHT;
+    return flights && drawing->source[run].history->flights > 1 ? NULL : named_source(drawing, run);
+}
+
+// A name above the panel, `left` pixels from its axis, with a line from its foot to its instant.
+static void write_name_above(const plot_drawing *drawing, const label_on_line *label,
+                             const char *name, double place)
+{
+    double across = drawing->width - LEFT - RIGHT, up = PANEL - BOTTOM - top_room(drawing);
+    double foot = fmin(fmax(label->at, label->left), label->left + label->width);
+    fprintf(drawing->script,
+            "set label '%s' at graph %.6f, graph %.6f center font ',9' tc rgb '#%s'\n", name,
+            (label->left + label->width / 2) / across, 1 + 11 / up, style_of(drawing)->soft);
+    fprintf(drawing->script,
+            "set arrow from graph %.6f, graph %.6f to %.8g, graph 1 nohead lw 1 lc rgb '#%s'\n",
+            foot / across, 1 + 5 / up, place, style_of(drawing)->soft);
+}
+
+// Names above the panel, none through another; those that have no room are left out.
+static void write_instant_names(const plot_drawing *drawing, const double place[PLOT_INSTANTS])
+{
+    double across = drawing->width - LEFT - RIGHT;
+    double pixels = across / (drawing->x_range[1] - drawing->x_range[0]);
+    label_on_line label[PLOT_INSTANTS];
+    int of[PLOT_INSTANTS];
+    size_t count = 0;
+    for (int i = 0; i < PLOT_INSTANTS; i++) {
         if (isnan(place[i]))
             continue;
-        double at = (place[i] - drawing->x_range[0]) * pixels;
-        raised = !raised && !vehicle && at - before < 45;
-        before = at;
-        fprintf(drawing->script, "set label '%s' at %.8g, graph %g %s font ',9' tc rgb '#%s'\n",
-                drawing->source[0].instant[i].name, place[i], raised ? 1.10 : 1.03,
-                vehicle   ? sides[i > 0]
-                : at < 20 ? "left"
-                          : "center",
-                style_of(drawing)->soft);
+        const plot_instant *instant = plot_instant_at(i);
+        of[count] = i;
+        label[count++] = (label_on_line){.at = (place[i] - drawing->x_range[0]) * pixels,
+                                         .width = label_width(instant->name, 9),
+                                         .rank = instant->rank};
     }
+    labels_place_on_line(label, count, -LEFT / 2.0, across + RIGHT - 5, 6);
+    for (size_t k = 0; k < count; k++)
+        if (isfinite(label[k].left))
+            write_name_above(drawing, &label[k], plot_instant_at(of[k])->name, place[of[k]]);
 }
 
 // A vertical line at each key instant; of several runs in their colours, where they differ.
 static void write_instants_in_time(const plot_drawing *drawing)
 {
-    double first[INSTANTS], place[INSTANTS];
+    double first[PLOT_INSTANTS], place[PLOT_INSTANTS];
     double seen = (drawing->x_range[1] - drawing->x_range[0]) / 300;
-    place_instants(drawing, &drawing->source[0], first);
+    place_instants(drawing, marked_source(drawing, 0), first);
     write_instant_names(drawing, first);
     for (size_t run = 0; run < drawing->page->runs; run++) {
-        place_instants(drawing, &drawing->source[run], place);
-        for (int i = 0; i < INSTANTS; i++)
+        place_instants(drawing, marked_source(drawing, run), place);
+        for (int i = 0; i < PLOT_INSTANTS; i++)
             if (isfinite(place[i]) && (run == 0 || !(fabs(place[i] - first[i]) < seen)))
                 fprintf(drawing->script,
                         "set arrow from %.8g, graph 0 to %.8g, graph 1 nohead lw 1 dt (4,3) lc rgb "
@@ -450,22 +477,90 @@ static size_t nearest_row(const plot_drawing *drawing, const plot_source *source
     return nearest;
 }
 
-// A dot on each run's curve at each key instant, with its name on the only one.
-static void write_instants_on_curve(plot_drawing *drawing, const found_curve *curve)
+static double pixel(const double range[2], double value, double pixels)
+{
+    return (value - range[0]) / (range[1] - range[0]) * pixels;
+}
+
+// Some hundred places of the curve whose points are set, as it is drawn.
+static void add_places(const plot_drawing *drawing, size_t rows, path_names *names)
+{
+    double across = drawing->width - LEFT - RIGHT, up = PANEL - BOTTOM - top_room(drawing);
+    for (int i = 0; i < CURVE_PLACES && rows > 0; i++) {
+        size_t row = (rows - 1) * (size_t)i / (CURVE_PLACES - 1);
+        if (!drawable(drawing, row))
+            continue;
+        double *place = names->other[names->others++];
+        place[0] = pixel(drawing->x_range, drawing->x[row], across);
+        place[1] = up - pixel(drawing->y_range, drawing->y[row], up);
+    }
+}
+
+// A dot on a curve at each key instant, in the colour of its run; those of the first launcher or
+// flight of the only run are to have names.
+static void write_dots(plot_drawing *drawing, const found_curve *curve, path_names *names)
 {
     const plot_source *source = curve->source;
+    double across = drawing->width - LEFT - RIGHT, up = PANEL - BOTTOM - top_room(drawing);
+    bool named = !several(drawing) && source == named_source(drawing, 0);
     set_points(drawing, curve);
-    for (int i = 0; i < INSTANTS; i++) {
-        const instant *at = &source->instant[i];
-        size_t row = nearest_row(drawing, source, at->t + source->t_ignition);
-        if (!marked(drawing, i) || !isfinite(at->t) || row == source->history->rows)
+    add_places(drawing, source->history->rows, names);
+    for (int i = 0; i < PLOT_INSTANTS; i++) {
+        double t = source->instant[i];
+        size_t row = nearest_row(drawing, source, t + source->t_ignition);
+        if (!plot_marks(drawing->figure, i) || !shown(drawing, t) || !isfinite(t) ||
+            row == source->history->rows)
             continue;
-        fprintf(drawing->script,
-                "set label '%s' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#%s' offset %s "
-                "font ',9' tc rgb '#%s' front\n",
-                several(drawing) ? "" : at->name, drawing->x[row], drawing->y[row],
-                several(drawing) ? run_colour(drawing, (size_t)curve->run) : style_of(drawing)->ink,
-                at->offset, style_of(drawing)->soft);
+        fprintf(
+            drawing->script, "set label '' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#%s' front\n",
+            drawing->x[row], drawing->y[row],
+            several(drawing) ? run_colour(drawing, (size_t)curve->run) : style_of(drawing)->ink);
+        if (!named || names->count == LABELS_MOST)
+            continue;
+        names->instant[names->count] = i;
+        names->label[names->count++] =
+            (label_beside){.x = pixel(drawing->x_range, drawing->x[row], across),
+                           .y = up - pixel(drawing->y_range, drawing->y[row], up),
+                           .width = label_width(plot_instant_at(i)->name, 9)};
+    }
+}
+
+// Those of the lowest rank come first; equal ones stay as they were.
+static void rank_names(path_names *names)
+{
+    for (size_t i = 1; i < names->count; i++)
+        for (size_t k = i; k > 0 && plot_instant_at(names->instant[k])->rank <
+                                        plot_instant_at(names->instant[k - 1])->rank;
+             k--) {
+            label_beside label = names->label[k];
+            int instant = names->instant[k];
+            names->label[k] = names->label[k - 1];
+            names->instant[k] = names->instant[k - 1];
+            names->label[k - 1] = label;
+            names->instant[k - 1] = instant;
+        }
+}
+
+// Dots on the curves of a panel, with names where these have room.
+static void write_instants_on_curves(plot_drawing *drawing)
+{
+    double across = drawing->width - LEFT - RIGHT, up = PANEL - BOTTOM - top_room(drawing);
+    path_names *names = drawing->names;
+    names->count = names->others = 0;
+    for (int i = 0; i < drawing->count; i++)
+        write_dots(drawing, &drawing->curve[i], names);
+    rank_names(names);
+    labels_place_beside(names->label, names->count, 11,
+                        &(label_box){2, across + RIGHT - 3, -14, up},
+                        (const double(*)[2])names->other, names->others);
+    for (size_t i = 0; i < names->count; i++) {
+        const label_box *box = &names->label[i].box;
+        if (names->label[i].placed)
+            fprintf(drawing->script,
+                    "set label '%s' at graph %.6f, graph %.6f center font ',9' tc rgb '#%s' "
+                    "front\n",
+                    plot_instant_at(names->instant[i])->name, (box->left + box->right) / 2 / across,
+                    1 - (box->top + box->bottom) / 2 / up, style_of(drawing)->soft);
     }
 }
 
@@ -600,8 +695,8 @@ static void write_panel(plot_drawing *drawing)
     write_axes(drawing);
     if (drawing->count > 0 && !drawing->panel->x_column)
         write_instants_in_time(drawing);
-    for (int i = 0; i < drawing->count && drawing->panel->x_column; i++)
-        write_instants_on_curve(drawing, &drawing->curve[i]);
+    if (drawing->panel->x_column)
+        write_instants_on_curves(drawing);
     write_plot(drawing);
     drawing->index++;
 }
@@ -684,12 +779,8 @@ static void set_source(plot_source *source, const history_data *history)
         .history = history,
         .t = history_column(history, "t"),
         .t_ignition = isfinite(history->t_ignition) ? history->t_ignition : 0,
-        .instant = {{"ignition", 0, "0, 0"},
-                    {"release", history->t_release, "-3.2, -0.8"},
-                    {"front", history->t_front, "0.8, 0.6"},
-                    {"middle", history->t_middle, "0.8, -0.8"},
-                    {"rear", history->t_rear, "0.8, 0.6"}},
     };
+    plot_find_instants(history, source->instant);
 }
 
 // A run and its flights.
@@ -733,9 +824,10 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
         .y = malloc((rows + 1) * sizeof(double)),
         .keep = malloc(rows + 1),
         .stack = malloc((2 * rows + 8) * sizeof(size_t)),
+        .names = malloc(sizeof(path_names)),
     };
     ld_status status = LD_OK;
-    if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack)
+    if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack || !drawing.names)
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
     for (size_t i = 0; i < page->runs && !status; i++)
         status = set_sources(&drawing, i, error);
@@ -752,5 +844,6 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
     free(drawing.y);
     free(drawing.keep);
     free(drawing.stack);
+    free(drawing.names);
     return status;
 }

@@ -60,7 +60,8 @@ typedef struct history_data {
     // key instants of a rocket [s], the first in the launcher's history: ignition on the run's
     // clock, the others from ignition; NaN where there is none
     double t_ignition, t_release, t_front, t_middle, t_rear;
-    int tube, number; // of a flight: its tube (0: none) and its place in the firing order
+    double t_apogee, t_impact; // of its flight, from ignition; NaN in files of before
+    int tube, number;          // of a flight: its tube (0: none) and its place in the firing order
     struct history_data *flight; // [flights] in the order of firing
     size_t flights;
     int rockets;             // that the file tells of, flown or not: history_read_rocket()

@@ -1,4 +1,5 @@
 #include <hdf5.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -269,12 +270,15 @@ static bool write_rockets(hid_t file, const ld_summary *summary)
     for (int i = 0; fine && i < summary->rocket_count; i++) {
         const ld_rocket_summary *rocket = &summary->rocket[i];
         hid_t group = open_rocket(file, i + 1);
-        fine = group >= 0 && hdf5_write_integer(group, "tube", rocket->tube) &&
-               hdf5_write_number(group, "t_ignition", rocket->t_ignition) &&
-               hdf5_write_number(group, "t_release", rocket->t_release) &&
-               hdf5_write_number(group, "t_front", rocket->t_front) &&
-               hdf5_write_number(group, "t_middle", rocket->t_middle) &&
-               hdf5_write_number(group, "t_rear", rocket->t_rear);
+        fine =
+            group >= 0 && hdf5_write_integer(group, "tube", rocket->tube) &&
+            hdf5_write_number(group, "t_ignition", rocket->t_ignition) &&
+            hdf5_write_number(group, "t_release", rocket->t_release) &&
+            hdf5_write_number(group, "t_front", rocket->t_front) &&
+            hdf5_write_number(group, "t_middle", rocket->t_middle) &&
+            hdf5_write_number(group, "t_rear", rocket->t_rear) &&
+            hdf5_write_number(group, "t_apogee", rocket->flown ? rocket->flight.t_apogee : NAN) &&
+            hdf5_write_number(group, "t_impact", rocket->flown ? rocket->flight.t_impact : NAN);
         H5Gclose(group);
     }
     if (rockets >= 0)

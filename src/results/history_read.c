@@ -89,6 +89,8 @@ static void read_instants(hid_t rocket, history_data *history)
     history->t_front = hdf5_read_number(rocket, "t_front");
     history->t_middle = hdf5_read_number(rocket, "t_middle");
     history->t_rear = hdf5_read_number(rocket, "t_rear");
+    history->t_apogee = hdf5_read_number(rocket, "t_apogee");
+    history->t_impact = hdf5_read_number(rocket, "t_impact");
 }
 
 // Its tube and its place in the firing order.
@@ -183,6 +185,12 @@ static bool read_flight_alone(hid_t file, history_data *history)
 {
     history_data *flight = &history->flight[0];
     flight->t_ignition = history->t_ignition;
+    flight->t_release = history->t_release;
+    flight->t_front = history->t_front;
+    flight->t_middle = history->t_middle;
+    flight->t_rear = history->t_rear;
+    flight->t_apogee = history->t_apogee;
+    flight->t_impact = history->t_impact;
     flight->number = 1;
     history->flights = 1;
     return read_table(file, "history", flight);

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "figures/labels.h"
 #include "figures/plot.h"
 #include "scenario/scenario.h"
 #include "simulation/summary.h"
@@ -158,8 +159,10 @@ static void test_instants_titles_and_names(void **state)
         "set arrow from 3.3336, graph 0 to 3.3336, graph 1 ",
         "set arrow from 95.2, graph 0 to 95.2, graph 1 ",
         "set arrow from 127.3, graph 0 to 127.3, graph 1 ",
-        "set label 'release' at 3.3336, graph ",
-        "set label 'middle' at 127.3, graph ",
+        "set label 'ignition' at graph ",
+        "set label 'release' at graph ",
+        "to 3.3336, graph 1 nohead lw 1 lc",
+        "set label 'middle' at graph ",
         "$p0c0 using 1:2 with lines ls 1 title 'rear'",
         "$p0c1 using 1:2 with lines ls 2 title 'middle'",
         "$p0c2 using 1:2 with lines ls 3 title 'front'",
@@ -259,6 +262,114 @@ static void test_words_on_surfaces(void **state)
 }
 
 // The first time [ms] of a curve that is drawn.
+// ---- names of instants ----
+
+// A case of labels.txt: what was said of it, its names with what they ought to become.
+typedef struct label_case {
+    bool on_line;
+    double given[5], others[8][2], wanted[8][5];
+    size_t names, other_count;
+} label_case;
+
+static void check_case(const label_case *one)
+{
+    label_on_line line[8] = {0};
+    label_beside beside[8] = {0};
+    const double *given = one->given;
+    for (size_t i = 0; i < one->names; i++) {
+        const double *name = one->wanted[i];
+        line[i] = (label_on_line){.at = name[0], .width = name[1], .rank = (int)name[2]};
+        beside[i] = (label_beside){.x = name[0], .y = name[1], .width = name[2]};
+    }
+    if (one->on_line)
+        labels_place_on_line(line, one->names, given[0], given[1], given[2]);
+    else
+        labels_place_beside(beside, one->names, given[0],
+                            &(label_box){given[1], given[2], given[3], given[4]}, one->others,
+                            one->other_count);
+    for (size_t i = 0; i < one->names; i++) {
+        const double *wanted = one->wanted[i] + 3;
+        double left = one->on_line ? line[i].left : beside[i].placed ? beside[i].box.left : NAN;
+        double top = beside[i].placed ? beside[i].box.top : 0;
+        bool fine = left == wanted[0] && (one->on_line || top == wanted[1]);
+        if (isnan(wanted[0]) ? !isnan(left) : !fine)
+            fail_msg("name %zu of %s %g: left %g, top %g instead of %g, %g", i + 1,
+                     one->on_line ? "line" : "beside", given[0], left, top, wanted[0], wanted[1]);
+    }
+}
+
+// The rule of the reports in the browser, in the cases that tests/report/labels.mjs has, too.
+static void test_names_stand_as_in_the_browser(void **state)
+{
+    (void)state;
+    FILE *file = fopen(LD_SOURCE_DIR "/tests/figures/labels.txt", "r");
+    assert_non_null(file);
+    char text[256];
+    label_case one = {0};
+    int cases = 0;
+    while (fgets(text, sizeof text, file)) {
+        double at[5] = {NAN, NAN, NAN, NAN, NAN}; // 'none' leaves what follows
+        char word[8] = "";
+        int found =
+            sscanf(text, "%7s %lf %lf %lf %lf %lf", word, &at[0], &at[1], &at[2], &at[3], &at[4]);
+        if (strcmp(word, "name") == 0) {
+            assert_true(found >= 4 && one.names < 8);
+            memcpy(one.wanted[one.names++], at, sizeof at);
+        } else if (strcmp(word, "other") == 0) {
+            memcpy(one.others[one.other_count++], at, sizeof *one.others);
+        } else if (strcmp(word, "line") == 0 || strcmp(word, "beside") == 0) {
+            check_case(&one);
+            one = (label_case){.on_line = *word == 'l'};
+            memcpy(one.given, at, sizeof at);
+            cases++;
+        }
+    }
+    check_case(&one);
+    fclose(file);
+    CHECK_WITHIN("cases of names", cases, 20, 40);
+}
+
+// A flight of 11 rows a second apart, of rows as they stand; its instants.
+static void test_instants_of_a_flight(void **state)
+{
+    (void)state;
+    enum { ROWS = 11 };
+    char t[] = "t", thrust[] = "thrust", area[] = "drag_area";
+    char *names[] = {t, thrust, area};
+    double value[3][ROWS] = {
+        {0}, {0, 9, 9, 0, 9, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0.5, 1, 1, 1, 4}};
+    for (int i = 0; i < ROWS; i++)
+        value[0][i] = 2 + i;
+    history_data flight = {.rows = ROWS,
+                           .columns = 3,
+                           .name = names,
+                           .value = &value[0][0],
+                           .t_ignition = 1,
+                           .t_rear = 1.25,
+                           .t_apogee = 6.5,
+                           .t_impact = 11};
+    double at[PLOT_INSTANTS];
+    plot_find_instants(&flight, at);
+    const plot_figure *figure = plot_figure_find("flight");
+    static const struct {
+        const char *name;
+        double t;
+    } expected[] = {{"exit", 1.25},   {"burnout", 6},         {"apogee", 6.5},
+                    {"parachute", 6}, {"next parachute", 10}, {"impact", 11}};
+    size_t marks = 0;
+    for (int i = 0; i < PLOT_INSTANTS; i++)
+        if (plot_marks(figure, i)) {
+            assert_string_equal(plot_instant_at(i)->name, expected[marks].name);
+            assert_true(at[i] == expected[marks++].t);
+        }
+    assert_int_equal(marks, sizeof expected / sizeof *expected);
+    value[1][ROWS - 1] = 9;
+    plot_find_instants(&flight, at);
+    for (int i = 0; i < PLOT_INSTANTS; i++)
+        if (strcmp(plot_instant_at(i)->name, "burnout") == 0)
+            assert_true(isnan(at[i]));
+}
+
 static double first_time(const char *script)
 {
     double x = NAN;
@@ -404,6 +515,8 @@ int main(void)
         TEST(test_each_of_a_kind),
         TEST(test_styles),
         TEST(test_words_on_surfaces),
+        TEST(test_names_stand_as_in_the_browser),
+        TEST(test_instants_of_a_flight),
         TEST(test_window_of_time),
         TEST(test_every_figure_in_every_format),
         TEST(test_nothing_to_show),

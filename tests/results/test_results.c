@@ -78,6 +78,8 @@ static void write_launch(const place *here, const char *folder, bool csv, size_t
     ld_output *output = NULL;
     ld_summary summary;
     made_summary(&summary, 1);
+    summary.rocket[0].flown = true;
+    summary.rocket[0].flight = (ld_flight_summary){.t_apogee = 13.5, .t_impact = 41.5};
     if (ld_output_open(in(here, folder), &here->model, csv, &output, &error) ||
         made_run(ld_output_sink(output), rows, &error) ||
         ld_output_finish(output, &summary, &error))
@@ -114,6 +116,7 @@ static void test_hdf5_holds_every_bit(void **state)
         CHECK_BELOW("values of history.h5 that differ", (double)differences(&read), 0.0);
         assert_string_equal(read.title, here->model.title);
         assert_true(read.t_rear == 0.1604 && read.t_middle == 0.1273 && read.t_front == 0.0952);
+        assert_true(read.t_apogee == 13.5 && read.t_impact == 41.5);
         assert_ptr_equal(history_column(&read, "tip.y"), read.value + 33 * read.rows);
         assert_null(history_column(&read, "tip"));
         history_free(&read);
