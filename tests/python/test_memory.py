@@ -48,6 +48,7 @@ class TestLeaks(Case):
         def work():
             read["rocket.mass"] = 61
             result = read.run()
+            str(result), read.to_yaml()
             return result["tip.y"].sum() + result.summary["rocket.1.muzzle_speed"]
         self.assertLess(self.grows(work), 100)
 

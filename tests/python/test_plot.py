@@ -78,6 +78,9 @@ class TestPlot(Case):
             self.folder / "study")
         axes = data.plot("muzzle_speed", over="rocket.mass")
         self.assertEqual([len(line.get_xdata()) for line in axes.lines], [4, 4])
+        for point, line in enumerate(axes.lines, 1):
+            np.testing.assert_array_equal(
+                line.get_ydata(), data.values("muzzle_speed", point=point)["muzzle_speed"])
         self.assertEqual(axes.get_legend().get_texts()[1].get_text(), "base.elevation 20 deg")
         histograms = data.plot("muzzle_speed", "pitch_rate")
         self.assertEqual(sum(bar.get_height() for bar in histograms[0].patches), 8)

@@ -1,6 +1,7 @@
 """Runs in one go: the bits of the command, columns, numbers, what ends them early."""
 
 import json
+import math
 import os
 import signal
 import sys
@@ -10,7 +11,7 @@ from unittest import mock
 
 import launchdyn as ld
 import numpy as np
-from support import EXAMPLES, FIXED, Case, command, needs, written
+from support import EXAMPLES, FIXED, Case, command, external, needs, written
 
 
 class TestBits(Case):
@@ -71,8 +72,8 @@ class TestResult(Case):
         with ld.Scenario.read(FIXED).run() as result:
             tip = result["tip.y"]
             expected = tip.copy()
-        for _ in range(3):
-            ld.Scenario.read(FIXED).run()
+        for _ in range(3):  # what was freed would be theirs
+            ld.Scenario.read(FIXED, {"rocket.mass": 50}).run()
         np.testing.assert_array_equal(tip, expected)
         np.testing.assert_array_equal(tip, self.result["tip.y"])
         with self.assertRaises(AttributeError):
@@ -112,6 +113,8 @@ class TestResult(Case):
         self.assertGreater(len(modes), 5)
         self.assertTrue(all(pole.real <= 0 for pole in poles))
         frequencies = [mode.frequency for mode in modes]
+        for mode in modes:
+            self.assertAlmostEqual(mode.real, -2 * math.pi * mode.frequency * mode.damping, 3)
         self.assertEqual(frequencies, sorted(frequencies))
 
 
@@ -172,6 +175,12 @@ class TestEarlyEnds(Case):
         self.assertGreater(error.result["t"][-1], 0.1)
         self.assertIn("the lock never let go", error.result.stopped)
         self.assertTrue((self.folder / "out/summary.json").exists())
+
+    def test_a_launch_that_cannot_begin_leaves_nothing(self):
+        for start in (external().run, external().begin):
+            with self.assertRaises(ld.InputError):
+                start(out=self.folder / "out")
+            self.assertEqual(os.listdir(self.folder), [])
 
     def test_what_progress_raises_comes_back(self):
         shares = []

@@ -79,6 +79,7 @@ run: {end: tip}
         np.testing.assert_array_equal(read["rocket.inertia"], [0.22, 24, 24])
         self.assertEqual(read["rocket.inertia.y"], 24)
         np.testing.assert_array_equal(read["rocket.eccentricity"], [0, 0])
+        read["rocket.motor.thrust"][1] = 7  # a copy
         np.testing.assert_allclose(read["rocket.motor.thrust"],
                                    [[0, 0], [0.01, 15e3], [2.5, 15e3], [2.55, 0]], rtol=0)
         self.assertEqual(read.text("rocket.mass"), "60 kg")
@@ -116,6 +117,9 @@ run: {end: tip}
         self.assertEqual(read["rocket.mass"], 61.5)
         read["rocket.center"] = [1.2, 0, 0.001]
         np.testing.assert_array_equal(read["rocket.center"], [1.2, 0, 0.001])
+        read["rocket.eccentricity"] = (1e-3, 2e-3)
+        self.assertEqual(read["rocket.eccentricity.z"], 2e-3)
+        np.testing.assert_array_equal(read["rocket.eccentricity"], [1e-3, 2e-3])
         read["rocket.center.x"] = 1.1
         self.assertEqual(read.text("rocket.center"), "1.1 0 0.001 m")
         read["tubes.slot"] = "none"
@@ -176,18 +180,18 @@ run: {end: tip}
 class TestErrors(Case):
     def test_all_that_is_wrong_with_places(self):
         path = self.folder / "wrong.yaml"
-        path.write_text(f"include: {FIXED}\nrocket:\n  mas: 61 kg\n  center: 1 m\n")
+        path.write_text(f"include: {FIXED}\n\nrocket:\n  mas: 61 kg\n  center: 1 m\n")
         with self.assertRaises(ld.InputError) as caught:
             ld.Scenario.read(path)
         error = caught.exception
         self.assertEqual(error.code, ld.Status.INPUT)
-        self.assertEqual((error.file, error.line, error.column), (str(path), 3, 3))
+        self.assertEqual((error.file, error.line, error.column), (str(path), 4, 3))
         self.assertEqual((error.key, error.suggestion), ("rocket.mas", "mass"))
         self.assertEqual(error.messages[1].key, "rocket.center")
         self.assertIsNone(error.messages[1].suggestion)
         self.assertEqual(error.messages[1].source, "  center: 1 m")
         self.assertEqual(str(error).splitlines()[0],
-                         f'{path}:3:3: rocket.mas: unknown key, did you mean "mass"?')
+                         f'{path}:4:3: rocket.mas: unknown key, did you mean "mass"?')
 
     def test_a_value_that_is_set(self):
         read = ld.Scenario.read(FIXED)

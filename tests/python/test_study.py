@@ -62,11 +62,17 @@ class TestStudy(Case):
         self.assertAlmostEqual(found.deviation.value, speed.std(ddof=1), 12)
         self.assertEqual((found.least, found.greatest), (speed.min(), speed.max()))
         self.assertAlmostEqual(found.quantiles[1].value, np.median(speed), 12)
+        self.assertLess(found.quantiles[0].value, found.quantiles[1].value)
+        self.assertLess(found.quantiles[1].value, found.quantiles[2].value)
+        cubes = ((speed - speed.mean()) ** 3).mean() / speed.std() ** 3
+        self.assertAlmostEqual(found.skewness, cubes * 56 ** 0.5 / 6, 9)  # of eight, without bias
         self.assertLess(found.mean.low, found.mean.value)
         self.assertLess(np.corrcoef(mass, speed)[0, 1], -0.99)
         self.assertGreater(data.sensitivity("muzzle_speed", "rocket.mass").value, 0.98)
         self.assertEqual(data.factors, ["rocket.mass"])
         self.assertEqual(data.columns["rocket.mass"].unit, "kg")
+        self.assertTrue(data.columns["muzzle_speed"].per_rocket)
+        self.assertFalse(data.columns["muzzle_speed"].seed)
         self.assertIn("muzzle_speed", data.results)
         self.assertIn("8 of 8 samples", data._repr_html_())
         self.assertIn("points 1, samples 8 of 8", repr(data))
