@@ -370,6 +370,24 @@ static void test_instants_of_a_flight(void **state)
             assert_true(isnan(at[i]));
 }
 
+// What gives way first is the same in the browser, whose parachutes have names of their own.
+static void test_ranks_are_those_of_the_browser(void **state)
+{
+    (void)state;
+    FILE *file = fopen(LD_SOURCE_DIR "/assets/report/panels.js", "r");
+    assert_non_null(file);
+    char text[512] = "", wanted[64];
+    while (fgets(text, sizeof text, file) && !strstr(text, "const RANK = {"))
+        continue;
+    fclose(file);
+    for (int i = 0; i < PLOT_INSTANTS; i++) {
+        const plot_instant *instant = plot_instant_at(i);
+        snprintf(wanted, sizeof wanted, " %s: %d", instant->name, instant->rank);
+        if (!strstr(instant->name, "parachute") && !strstr(text, wanted))
+            fail_msg("not in panels.js:%s", wanted);
+    }
+}
+
 static double first_time(const char *script)
 {
     double x = NAN;
@@ -517,6 +535,7 @@ int main(void)
         TEST(test_words_on_surfaces),
         TEST(test_names_stand_as_in_the_browser),
         TEST(test_instants_of_a_flight),
+        TEST(test_ranks_are_those_of_the_browser),
         TEST(test_window_of_time),
         TEST(test_every_figure_in_every_format),
         TEST(test_nothing_to_show),
