@@ -141,8 +141,9 @@ static bool has_words(const command *self, const command_line *line, int count)
 {
     if (count == COMMAND_WORDS ? line->count > 0 : count < 0 || line->count == (size_t)count)
         return true;
-    command_complain("%s wants %s; see launchdyn %s --help", self->name, self->arguments,
-                     self->name);
+    char call[HELP_CALL];
+    command_complain("%s wants %s; see %s --help", self->name, self->arguments,
+                     help_call(self, call));
     return false;
 }
 

@@ -10,6 +10,12 @@ void help_choose(help_printer *print)
     chosen = print;
 }
 
+const char *help_call(const command *self, char text[HELP_CALL])
+{
+    snprintf(text, HELP_CALL, "%s %s", self->program ? self->program : "launchdyn", self->name);
+    return text;
+}
+
 // Each line of an example is a command, a bar and what it does.
 static void print_examples(const command *self)
 {
@@ -24,7 +30,8 @@ static void print_examples(const command *self)
 
 static void print_text(const command *self, const command_option *options)
 {
-    printf("%s\n\nUsage: launchdyn %s %s\n", self->summary, self->name, self->arguments);
+    char call[HELP_CALL];
+    printf("%s\n\nUsage: %s %s\n", self->summary, help_call(self, call), self->arguments);
     options_print(options);
     if (self->about) {
         putchar('\n');

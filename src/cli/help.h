@@ -10,6 +10,7 @@
 typedef struct command command;
 struct command {
     const char *name;
+    const char *program;   // whose command it is; NULL: launchdyn
     const char *arguments; // e.g. "FILE"; forms with " | " between
     const char *summary;   // one line
     const char *about;     // what --help and the page say besides; NULL: nothing
@@ -18,6 +19,10 @@ struct command {
     int (*run)(const command *self, int argc, char **argv);
     bool apart; // it reads or writes files by libraries that may crash on it; it has a page
 };
+
+// "launchdyn run", "launchdyn-mpi study": how it is called.
+enum { HELP_CALL = 64 };
+const char *help_call(const command *self, char text[HELP_CALL]);
 
 // Prints the help of a command with its options.
 typedef void help_printer(const command *self, const command_option *options);

@@ -74,6 +74,14 @@ static void print_item(const char *tag, const char *text)
     putchar('\n');
 }
 
+// What a page is called: "launchdyn-run", or the program whose only command it is.
+static const char *page_name(const command *self, char name[HELP_CALL])
+{
+    snprintf(name, HELP_CALL, self->program ? "%s" : "launchdyn-%s",
+             self->program ? self->program : self->name);
+    return name;
+}
+
 // The day of the sources where a packager tells it, else today.
 static void print_title(const char *name)
 {
@@ -83,9 +91,9 @@ static void print_title(const char *name)
     char date[32];
     gmtime_r(&when, &day);
     strftime(date, sizeof date, "%Y-%m-%d", &day);
-    fputs(".TH LAUNCHDYN", stdout);
+    fputs(".TH ", stdout);
     for (const char *c = name; *c; c++)
-        printf("%s%c", c == name ? "\\-" : "", *c - 'a' + 'A');
+        printf(*c == '-' ? "\\-" : "%c", *c - 'a' + 'A');
     printf(" 1 %s \"launchdyn %s\" \"User Commands\"\n", date, ld_version());
 }
 
@@ -112,10 +120,14 @@ static void print_synopsis(const command *self)
 {
     print_section("SYNOPSIS");
     const char *form = self->arguments;
+    char call[HELP_CALL];
+    help_call(self, call);
     for (bool first = true; *form || first; first = false) {
         const char *next = strstr(form, " | ");
         size_t length = next ? (size_t)(next - form) : strlen(form);
-        printf("%s.B launchdyn %s\n.RI [ OPTION ...]\n", first ? "" : ".br\n", self->name);
+        printf("%s.B ", first ? "" : ".br\n");
+        print_roff(call, strlen(call));
+        fputs("\n.RI [ OPTION ...]\\&\n", stdout);
         print_roff(form, length);
         fputs("\n", stdout);
         form += next ? length + 3 : length;
@@ -165,9 +177,11 @@ static void print_more(const command *self)
 
 void page_print(const command *self, const command_option *options)
 {
-    print_title(self->name);
+    char name[HELP_CALL];
+    print_title(page_name(self, name));
     print_section("NAME");
-    printf("launchdyn\\-%s \\- ", self->name);
+    print_roff(name, strlen(name));
+    fputs(" \\- ", stdout);
     print_roff(self->summary, strlen(self->summary));
     putchar('\n');
     print_synopsis(self);
@@ -186,11 +200,11 @@ void page_print(const command *self, const command_option *options)
 
 void page_print_all(const command *commands)
 {
-    print_title("");
+    print_title("launchdyn");
     print_section("NAME");
     fputs("launchdyn \\- simulate how a rocket leaves its launcher\n", stdout);
     print_section("SYNOPSIS");
-    fputs(".B launchdyn\n.I COMMAND\n.RI [ OPTION ...]\n", stdout);
+    fputs(".B launchdyn\n.I COMMAND\n.RI [ OPTION ...]\\&\n", stdout);
     print_section("DESCRIPTION");
     fputs("Simulates how a rocket leaves a flexible tube, or a rail,\non a fixed or moving base:\n"
           "tube, supports, rocket, contacts, vehicle and road, then free flight.\n"

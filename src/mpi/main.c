@@ -8,6 +8,7 @@
 #include "base/memory_stream.h"
 #include "base/random.h"
 #include "cli/command.h"
+#include "cli/page.h"
 #include "cli/progress.h"
 #include "cli/study.h"
 #include "launchdyn/scenario.h"
@@ -17,8 +18,14 @@
 
 static const command study_command = {
     .name = "study",
+    .program = "launchdyn-mpi",
     .arguments = "FILE",
-    .summary = "Run the samples of a study on all processes that mpirun has started"};
+    .summary = "Run the samples of a study on all processes that mpirun has started",
+    .about = "Each sample goes to the next process that is free; the first one keeps the results "
+             "in DIR. They are those of launchdyn study, to the bit, and what one of both has "
+             "begun, the other goes on with.",
+    .examples = "mpirun -n 4 launchdyn-mpi study scenario.yaml --out out|Run or go on, on four "
+                "processes"};
 
 // The lowest number that any process gives.
 static int lowest(int number)
@@ -104,6 +111,25 @@ static int run_study(const char *file, const study_wishes *wishes, int process)
     return code;
 }
 
+// Whether help alone is asked for, which wants no MPI: study --help, --help, or help --man, which
+// prints the manual page.
+static bool asks_for_help(int argc, char **argv)
+{
+    const char *first = argc > 1 ? argv[1] : "", *second = argc > 2 ? argv[2] : "";
+    const char *word = strcmp(first, "study") == 0 ? second : first;
+    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
+}
+
+static int print_help(int argc, char **argv)
+{
+    study_wishes wishes = {0};
+    const command_option options[] = {STUDY_OPTIONS(&wishes), COMMAND_USUAL};
+    if (argc > 2 && strcmp(argv[2], "--man") == 0)
+        help_choose(page_print);
+    help_print(&study_command, options);
+    return command_end(0);
+}
+
 static int run_command(int argc, char **argv, int process)
 {
     study_wishes wishes = {0};
@@ -150,5 +176,7 @@ static int take_part(void *data)
 // What mpirun starts waits for the process that takes part: no thread of MPI is there yet.
 int main(int argc, char **argv)
 {
+    if (asks_for_help(argc, argv))
+        return print_help(argc, argv);
     return command_apart(take_part, &(program_call){argc, argv});
 }
