@@ -5,6 +5,7 @@
 
 #include "base/printed.h"
 #include "environment/road.h"
+#include "environment/road_class.h"
 #include "figures/chart.h"
 #include "launchdyn/environment.h"
 #include "math/spectrum.h"
@@ -20,6 +21,8 @@ struct ld_road_view {
     size_t bands;
     double edge[MOST_BANDS + 1]; // [1/m]
     double density[ROAD_TRACKS][MOST_BANDS], line[MOST_BANDS];
+    bool classified; // there is a random part or a table
+    road_estimate estimate[ROAD_TRACKS];
 };
 
 static bool is_random(const ld_road *model)
@@ -76,6 +79,35 @@ static void set_bands(ld_road_view *view)
             is_random(model) ? class_mean(model, view->edge[i], view->edge[i + 1]) : NAN;
 }
 
+// By the places on the table and the waves that it and the random part have.
+static ld_status classify(ld_road_view *view, ld_error *error)
+{
+    const ld_road *model = view->model;
+    const ld_table *table = &model->profile;
+    size_t first = 0, end = view->count;
+    double from = 0, to = INFINITY, widest = 0;
+    if (is_random(model)) {
+        from = 1 / model->wavelengths[1];
+        to = 1 / model->wavelengths[0];
+    }
+    if (table->rows > 0) {
+        const double *row = table->data;
+        for (size_t i = 1; i < table->rows; i++, row += table->columns)
+            widest = fmax(widest, row[table->columns] - row[0]);
+        while (first < end && view->x[first] < table->data[0])
+            first++;
+        while (end > first && view->x[end - 1] > row[0])
+            end--;
+        to = fmin(to, 0.25 / widest);
+    }
+    view->classified = is_random(model) || table->rows > 0;
+    ld_status status = LD_OK;
+    for (int track = 0; track < ROAD_TRACKS && view->classified && !status; track++)
+        status = road_classify(end - first, view->stretch.step, view->height[track] + first, from,
+                               to, &view->estimate[track], error);
+    return status;
+}
+
 static ld_status fill(ld_road_view *view, ld_error *error)
 {
     road *self = NULL;
@@ -97,6 +129,8 @@ static ld_status fill(ld_road_view *view, ld_error *error)
         status = spectrum_in_bands(
             view->count, s->step, view->height[ROAD_LEFT], view->height[ROAD_RIGHT], view->bands,
             view->edge, view->density[ROAD_LEFT], view->density[ROAD_RIGHT], NULL, error);
+    if (!status)
+        status = classify(view, error);
     return status;
 }
 
@@ -163,6 +197,32 @@ static void print_heights(const ld_road_view *view, FILE *stream)
             printed_fixed(1e3 * high[1], 3));
 }
 
+static void print_class(const ld_road_view *view, FILE *stream)
+{
+    static const char *const names[] = {"left", "right"};
+    const road_estimate *estimate = view->estimate;
+    if (!view->classified)
+        return;
+    if (isnan(estimate->density)) {
+        fprintf(stream,
+                "\nClass of ISO 8608: not told; it takes waves of 5 m to 10 m, the stretch shows "
+                "those of %.2g m to %.2g m\n",
+                1 / estimate->to, 1 / estimate->from);
+        return;
+    }
+    fprintf(stream, "\nClass of ISO 8608 by waves of %.2g m to %.2g m, G_d(0.1/m) [1e-6 m3]\n",
+            1 / estimate->to, 1 / estimate->from);
+    for (int track = 0; track < ROAD_TRACKS; track++, estimate++) {
+        double density = 1e6 * estimate->density, factor = estimate->factor;
+        fprintf(stream, "  %-7s%c%12.4g, 95 %% from %.4g to %.4g", names[track],
+                class_letter(estimate->nearest), density, density / factor, density * factor);
+        if (estimate->lowest != estimate->highest)
+            fprintf(stream, ", class %c to %c", class_letter(estimate->lowest),
+                    class_letter(estimate->highest));
+        fputc('\n', stream);
+    }
+}
+
 void ld_road_view_print(const ld_road_view *view, FILE *stream)
 {
     char title[128];
@@ -170,6 +230,7 @@ void ld_road_view_print(const ld_road_view *view, FILE *stream)
     fprintf(stream, "%s, x = %g m to %g m every %g m\n", title, view->stretch.from,
             view->stretch.to, view->stretch.step);
     print_heights(view, stream);
+    print_class(view, stream);
     fprintf(stream, "\nPower spectral density [1e-6 m3]\n  n [1/m]%28s%12s", "left", "right");
     if (is_random(view->model))
         fprintf(stream, "%11s%c", "class ", class_letter(view->model->iso_class));

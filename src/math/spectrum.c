@@ -99,3 +99,41 @@ ld_status spectrum_in_bands(size_t count, double step, const double *a, const do
     free(re);
     return LD_OK;
 }
+
+// Less the straight line of least squares.
+static void take_line_off(size_t count, const double *a, double *out)
+{
+    double mean = mean_of(count, a), middle = 0.5 * (double)(count - 1), slope = 0, square = 0;
+    for (size_t i = 0; i < count; i++) {
+        double along = (double)i - middle;
+        slope += along * (a[i] - mean);
+        square += along * along;
+    }
+    slope /= square;
+    for (size_t i = 0; i < count; i++)
+        out[i] = a[i] - mean - slope * ((double)i - middle);
+}
+
+ld_status spectrum_of_segments(size_t count, double step, const double *a, size_t size,
+                               double *density, ld_error *error)
+{
+    size_t half = size / 2, segments = (count - half) / half;
+    double *segment = malloc((size + 2 * half) * sizeof *segment);
+    if (!segment)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a spectrum of %zu samples", size);
+    double *edge = segment + size, *own = edge + half;
+    for (size_t m = 0; m < half; m++) {
+        edge[m] = ((double)m + 0.5) / ((double)size * step);
+        density[m] = m ? 0 : NAN;
+    }
+    ld_status status = LD_OK;
+    for (size_t i = 0; i < segments && !status; i++) {
+        take_line_off(size, a + i * half, segment);
+        status =
+            spectrum_in_bands(size, step, segment, segment, half - 1, edge, own, NULL, NULL, error);
+        for (size_t m = 1; m < half && !status; m++)
+            density[m] += own[m - 1] / (double)segments;
+    }
+    free(segment);
+    return status;
+}

@@ -15,4 +15,10 @@ ld_status spectrum_in_bands(size_t count, double step, const double *a, const do
                             size_t bands, const double *edge, double *aa, double *bb, double *ab,
                             ld_error *error);
 
+// One-sided density of a series at m/(size step), m < size/2, its first NaN: the mean over segments
+// of `size` samples, a power of 2, each beginning in the middle of the one before, less a straight
+// line each, tapered (Hann). (Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70.)
+ld_status spectrum_of_segments(size_t count, double step, const double *a, size_t size,
+                               double *density, ld_error *error);
+
 #endif

@@ -580,6 +580,9 @@ static void test_road(void **state)
     expect_in(shell.out,
               "Road: class A, seed 1, tracks independent, x = -20 m to 80 m every 0.1 m");
     expect_in(shell.out, "\n  n [1/m]                        left       right     class A\n");
+    expect_in(shell.out,
+              "\nClass of ISO 8608: not told; it takes waves of 5 m to 10 m, the stretch "
+              "shows those of 0.4 m to 6.4 m\n");
     assert_int_equal(run("ls a/b; head -n 2 road.svg | grep -c svg; wc -l <a/b/road.csv; "
                          "head -n 1 a/b/road.csv a/b/road-spectrum.csv; tail -n 1 a/b/road.csv | "
                          "cut -d , -f 1"),
@@ -602,6 +605,21 @@ static void test_road(void **state)
     expect_in(shell.out, "  highest              30.000       0.000\n");
     expect_in(shell.out,
               "\n2.5,0.029999999999999999,0\nfrom [1/m],to [1/m],left [m3],right [m3]\n");
+
+    assert_null(strstr(shell.out, "Class of ISO 8608"));
+
+    // random walks as a measured road, by the closed form of test_road_class of G_d(n0) 1.0e-3 (D)
+    // and 65e-3 m3 (G), whatever awk draws; half of the stretch lies beside it
+    assert_int_equal(
+        run("awk 'BEGIN {print \"x [m],left [mm],right [mm]\"; for (x = -100; x <= 1500; "
+            "x += 0.5) {print x \",\" a + 0 \",\" b + 0; a += rand() < 0.5 ? 10 : -10; "
+            "b += rand() < 0.5 ? 80 : -80}}' >walk.csv; "
+            "sed 's/road: {class.*/road: {table: walk.csv}/' examples/reference.yaml >walk.yaml; "
+            "launchdyn road walk.yaml --from -1700 --to 1500 --step 0.1"),
+        0);
+    expect_in(shell.out, "\nClass of ISO 8608 by waves of 2 m to 91 m, G_d(0.1/m) [1e-6 m3]\n"
+                         "  left   D ");
+    expect_in(shell.out, "\n  right  G ");
 
     expect_complaint("launchdyn road examples/fixed.yaml", 2,
                      "launchdyn: there is no road: the base is no vehicle\n");

@@ -2,6 +2,7 @@
 #include "math/spectrum.h"
 
 #include <complex.h>
+#include <stdlib.h>
 
 #include "support/check.h"
 #include "support/draw.h"
@@ -71,12 +72,44 @@ static void test_empty_band(void **state)
     assert_true(isnan(density));
 }
 
+// A cosine of whole waves, even about each segment's middle: with Hann's taper 2/3 of its power
+// lies in its own frequency, 1/6 in each neighbour, whatever line it stands on; the last samples,
+// no whole segment, are left out.
+static void test_segments(void **state)
+{
+    (void)state;
+    enum { SEGMENTS = 5, LENGTH = (SEGMENTS + 1) * HALF, WAVE = 10 };
+    double a[LENGTH + 7], density[HALF], error = 0;
+    for (int i = 0; i < LENGTH; i++)
+        a[i] = 3 * cos(2 * acos(-1) * WAVE * (i - (SIZE - 1) / 2.0) / SIZE) + 40 - 0.3 * i;
+    for (int i = 0; i < 7; i++)
+        a[LENGTH + i] = 1e6;
+    assert_int_equal(spectrum_of_segments(LENGTH + 7, step, a, SIZE, density, NULL), LD_OK);
+    for (int m = 1; m < HALF; m++) {
+        double share = m == WAVE ? 2 / 3.0 : abs(m - WAVE) == 1 ? 1 / 6.0 : 0;
+        error = fmax(error, fabs(density[m] - share * 4.5 * SIZE * step));
+    }
+    assert_true(isnan(density[0]));
+    CHECK_BELOW("a cosine's density over segments", error, 2e-13);
+
+    // waves in the first segment alone, which half the second one has: each counts alike
+    for (int i = 0; i < LENGTH; i++)
+        a[i] = (i < SIZE ? 1 : 0) * cos(2 * acos(-1) * WAVE * (i - (SIZE - 1) / 2.0) / SIZE);
+    spectrum_of_segments(LENGTH, step, a, SIZE, density, NULL);
+    double first[HALF], both[HALF];
+    spectrum_of_segments(SIZE, step, a, SIZE, first, NULL);
+    spectrum_of_segments(SIZE, step, a + HALF, SIZE, both, NULL);
+    CHECK_BELOW("mean over five segments, one whole, one of half a wave train",
+                density[WAVE] - (first[WAVE] + both[WAVE]) / SEGMENTS, 1e-14);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_definition),
         cmocka_unit_test(test_sine),
         cmocka_unit_test(test_empty_band),
+        cmocka_unit_test(test_segments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
