@@ -615,7 +615,8 @@ static void write_headings(plot_drawing *drawing)
                 16 / page->width, above, 1 - 16 / page->width, above, style_of(drawing)->grid);
         char heading[WORDS];
         put_words(&page->run[0], drawing->figure->about.description, heading);
-        write_text(drawing, heading, 16, drawing->top - HEADING * 0.35, "left font ',14'");
+        write_text(drawing, heading, 16, drawing->top - HEADING * 0.35,
+                   is_narrow(page) ? "left font ',12'" : "left font ',14'");
     }
     drawing->headed = true;
 }
@@ -634,7 +635,8 @@ static void write_axes(plot_drawing *drawing)
     fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\n", drawing->x_range[0],
             drawing->x_range[1], drawing->y_range[0], drawing->y_range[1]);
     if (is_narrow(drawing->page))
-        fputs("set key at graph 1, 1.27\n", script);
+        fprintf(script, "set key at graph 1, 1.27 samplen 1.5 width %d\n",
+                drawing->columns > 2 ? -1 : 0); // three stand in a line
     plot_axis_text(&panel->y, y_text, sizeof y_text);
     if (panel->x_column)
         plot_axis_text(&panel->x, x_text, sizeof x_text);
