@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import threading
 import weakref
-from typing import Any, Callable, Iterable, Optional
+from typing import Any, Callable, Iterable, Optional, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -40,6 +41,37 @@ class Handle:
         """The pointer, which somebody else frees from now on."""
         self._freed.detach()
         return self.pointer
+
+
+Itself = TypeVar("Itself", bound="Held")
+
+
+class Held:
+    """Holds an object of the library until it is closed. A context manager; it need not be closed.
+    One thread at a time: others wait."""
+
+    _over = "it is closed"  #: said where it is used nevertheless
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle: Optional[Handle] = handle
+        self._lock = threading.Lock()
+
+    @property
+    def _pointer(self) -> int:
+        if self._handle is None:
+            raise ValueError(self._over)
+        return self._handle.pointer
+
+    def close(self) -> None:
+        """Gives it up."""
+        with self._lock:
+            self._handle = None
+
+    def __enter__(self: Itself) -> Itself:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()
 
 
 class _Memory:

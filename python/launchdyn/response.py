@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import threading
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Optional, Union
 
@@ -11,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ld_column, ld_error, ld_loop_margins, library
-from ._memory import Array, Handle, text_of, texts
+from ._memory import Array, Handle, Held, text_of, texts
 from .errors import UnknownName, check, check_name
 from .result import Column
 
@@ -64,18 +63,20 @@ def _numbers(values: Numbers) -> Array:
     return found
 
 
-class Response:
+class Response(Held):
     """A launcher linearised about its equilibrium, at any speed of a range: made by
     Scenario.response(). Amplitudes and phases are complex numbers: cos(w t) of an input makes
     Re(gain e^(i w t)) of a column. A context manager; it need not be closed. One thread at a time:
     others wait."""
 
+    _over = "the response is closed"
+
     def __init__(self, model: Handle, slowest: float, fastest: float, rub: bool) -> None:
         error, pointer, own = ld_error(), ctypes.c_void_p(), ctypes.c_double()
         check(library.ld_response_create(model.pointer, slowest, fastest, ctypes.byref(pointer),
                                          ctypes.byref(error)), error, model.pointer)
-        self._model, self._lock = model, threading.Lock()
-        self._handle: Optional[Handle] = Handle(pointer.value, library.ld_response_free, model)
+        self._model = model
+        super().__init__(Handle(pointer.value, library.ld_response_free, model))
         check(library.ld_response_rub(pointer, rub, ctypes.byref(error)), error, model.pointer)
         vehicle = library.ld_model_has_vehicle(model.pointer)
         if vehicle:
@@ -83,12 +84,6 @@ class Response:
                                           ctypes.byref(error)), error)
         #: [m/s] the scenario's own speed; 0 without a vehicle
         self.speed = own.value
-
-    @property
-    def _pointer(self) -> int:
-        if self._handle is None:
-            raise ValueError("the response is closed")
-        return self._handle.pointer
 
     def _told(self, tell: Any) -> dict[str, Column]:
         columns = ctypes.POINTER(ld_column)()
@@ -193,39 +188,24 @@ class Response:
         check(status, error, self._model.pointer)
         return {name: Scatter(float(mean[i]), float(deviation[i])) for i, name in enumerate(names)}
 
-    def close(self) -> None:
-        """Gives it up."""
-        with self._lock:
-            self._handle = None
-
-    def __enter__(self) -> Response:
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self.close()
-
 
 def _strengths(names: Sequence[str], rms: Array, strongest: Array) -> dict[str, Strength]:
     return {name: Strength(float(rms[i]), float(strongest[i])) for i, name in enumerate(names)}
 
 
-class Loop:
+class Loop(Held):
     """The loop that holds a hinge of a vehicle, opened at the torque that its controller asks for:
     made by Scenario.loop(). A context manager; it need not be closed. One thread at a time: others
     wait."""
+
+    _over = "the loop is closed"
 
     def __init__(self, model: Handle, hinge: str) -> None:
         error, pointer = ld_error(), ctypes.c_void_p()
         check(library.ld_loop_create(model.pointer, hinge.encode(), ctypes.byref(pointer),
                                      ctypes.byref(error)), error, model.pointer)
-        self.hinge, self._lock = hinge, threading.Lock()
-        self._handle: Optional[Handle] = Handle(pointer.value, library.ld_loop_free, model)
-
-    @property
-    def _pointer(self) -> int:
-        if self._handle is None:
-            raise ValueError("the loop is closed")
-        return self._handle.pointer
+        self.hinge = hinge
+        super().__init__(Handle(pointer.value, library.ld_loop_free, model))
 
     def _ask(self, ask: Any, frequency: Numbers, width: int) -> ComplexArray:
         f, error = _numbers(frequency), ld_error()
@@ -252,14 +232,3 @@ class Loop:
         with self._lock:
             library.ld_loop_margins_of(self._pointer, ctypes.byref(found))
         return Margins(*(getattr(found, name) for name, _ in found._fields_))
-
-    def close(self) -> None:
-        """Gives it up."""
-        with self._lock:
-            self._handle = None
-
-    def __enter__(self) -> Loop:
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self.close()

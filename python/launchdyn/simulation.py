@@ -6,7 +6,6 @@ import ctypes
 import enum
 import math
 import os
-import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Callable, NamedTuple, Optional, Union
@@ -16,7 +15,7 @@ import numpy as np
 from ._interrupt import Interrupt
 from ._library import (SHARE_TOLD, ld_base_frame, ld_base_wrench, ld_column, ld_error, ld_event,
                        ld_mode, ld_pole, ld_run_options, library)
-from ._memory import Array, Handle, text_of
+from ._memory import Array, Handle, Held, text_of
 from ._progress import Progress, followed
 from .errors import InputError, Status, check, check_name, failure
 from .result import Column, Quantity, Result, quantities_at
@@ -236,10 +235,12 @@ class _Asked:
         return SHARE_TOLD(lambda self_, share: self.go_on(self_, share))
 
 
-class Run:
+class Run(Held):
     """A run that is stepped: taken forward to a time or to the next event, looked at, told when to
     ignite or where its base is, saved, ended. `run["tip.y"]` is a column at the present time.
     A context manager that gives up what was not ended. One thread at a time: others wait."""
+
+    _over = "the run has ended"
 
     def __init__(self, simulation: Simulation, base: Optional[BaseFrame] = None,
                  out: Optional[PathLike] = None, csv: bool = False,
@@ -247,7 +248,6 @@ class Run:
         """Begins it at the start of its lead-in, or where the one that was saved stood."""
         error, pointer = ld_error(), ctypes.c_void_p()
         self.simulation = simulation
-        self._lock = threading.Lock()
         self._told_end, self._is_told = False, _is_told(simulation.model)
         self._recording = _Recording(simulation.model, out, csv)
         self._asked, self._event = _Asked(), ld_event()
@@ -263,14 +263,8 @@ class Run:
         if status and pointer.value:
             _give_up(pointer.value)
         self._check(status, error)
-        self._handle: Optional[Handle] = Handle(pointer.value, _give_up, simulation.handle,
-                                                self._recording.history)
-
-    @property
-    def _pointer(self) -> int:
-        if self._handle is None:
-            raise ValueError("the run has ended")
-        return self._handle.pointer
+        super().__init__(Handle(pointer.value, _give_up, simulation.handle,
+                                self._recording.history))
 
     def _check(self, status: int, error: ld_error) -> None:
         check(status, error, self.simulation.model.pointer)
@@ -423,40 +417,27 @@ class Run:
                 self._recording.finish(status, error)
         return self._recording.finish(status, error)
 
-    def close(self) -> None:
-        """Gives it up where it was not ended."""
-        with self._lock:
-            self._handle = None
-
-    def __enter__(self) -> Run:
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self.close()
-
     def __repr__(self) -> str:
         return f"<launchdyn.Run at {self.time:g} s>" if self._handle else "<ended Run>"
 
 
-class VehicleRun:
+class VehicleRun(Held):
     """A run of a scenario's vehicle alone, stepped under a wrench that it is told. A context
     manager; it need not be closed. One thread at a time: others wait."""
+
+    _over = "the run has ended"
 
     def __init__(self, simulation: Simulation) -> None:
         error, pointer = ld_error(), ctypes.c_void_p()
         check(library.ld_vehicle_run_begin(simulation.handle.pointer, ctypes.byref(pointer),
                                            ctypes.byref(error)), error, simulation.model.pointer)
         self.simulation = simulation
-        self._lock = threading.Lock()
-        self._handle: Optional[Handle] = Handle(pointer.value, library.ld_vehicle_run_end,
-                                                simulation.handle)
+        super().__init__(Handle(pointer.value, library.ld_vehicle_run_end, simulation.handle))
 
     def _call(self, function: Any, *arguments: Any) -> None:
         error = ld_error()
         with self._lock:
-            if self._handle is None:
-                raise ValueError("the run has ended")
-            status = function(self._handle.pointer, *arguments, ctypes.byref(error))
+            status = function(self._pointer, *arguments, ctypes.byref(error))
         check(status, error, self.simulation.model.pointer)
 
     def advance(self, t: float) -> None:
@@ -467,9 +448,7 @@ class VehicleRun:
     def time(self) -> float:
         """Present time [s] on the clock of the launch."""
         with self._lock:
-            if self._handle is None:
-                raise ValueError("the run has ended")
-            return float(library.ld_vehicle_run_time(self._handle.pointer))
+            return float(library.ld_vehicle_run_time(self._pointer))
 
     def frame(self) -> BaseFrame:
         """Where the vehicle holds the undeformed tube, for Run.tell_base()."""
@@ -494,14 +473,3 @@ class VehicleRun:
         self._call(library.ld_vehicle_run_row,
                    values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))
         return values
-
-    def close(self) -> None:
-        """Ends it."""
-        with self._lock:
-            self._handle = None
-
-    def __enter__(self) -> VehicleRun:
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self.close()

@@ -18,7 +18,7 @@ from ._interrupt import Interrupt
 from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_study_counts,
                        ld_study_options, ld_study_statistics, ld_study_values, ld_study_view,
                        library)
-from ._memory import Array, Handle, printed, text_of, texts
+from ._memory import Array, Handle, Held, printed, text_of, texts
 from ._progress import Progress, followed
 from ._values import Sets, set_texts
 from .errors import Status, check, check_name
@@ -236,9 +236,11 @@ class _Work:
         self._thread.join()
 
 
-class StudyData:
+class StudyData(Held):
     """A snapshot of what a study's folder holds, which may still be running. A context manager; it
     need not be closed. One thread at a time: others wait."""
+
+    _over = "the study's data are closed"
 
     def __init__(self, folder: PathLike) -> None:
         """Opens the folder of a study."""
@@ -246,14 +248,7 @@ class StudyData:
         check(library.ld_study_data_open(os.fsencode(folder), ctypes.byref(pointer),
                                          ctypes.byref(error)), error)
         self.folder = Path(folder)
-        self._lock = threading.Lock()
-        self._handle: Optional[Handle] = Handle(pointer.value, library.ld_study_data_close)
-
-    @property
-    def _pointer(self) -> int:
-        if self._handle is None:
-            raise ValueError("the study's data are closed")
-        return self._handle.pointer
+        super().__init__(Handle(pointer.value, library.ld_study_data_close))
 
     # ---- what is there
 
@@ -397,17 +392,6 @@ class StudyData:
         error, report = ld_error(), ld_report()
         check(library.ld_report_write_studies(texts([str(self.folder)]), 1, os.fsencode(file),
                                               ctypes.byref(report), ctypes.byref(error)), error)
-
-    def close(self) -> None:
-        """Closes it."""
-        with self._lock:
-            self._handle = None
-
-    def __enter__(self) -> StudyData:
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self.close()
 
     def __repr__(self) -> str:
         points = self.points
