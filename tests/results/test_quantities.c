@@ -315,19 +315,21 @@ static void write_table(FILE *stream, const char *heading, const quantity_table 
 
 static void write_document(FILE *stream)
 {
-    fputs("# Quantities\n\n"
-          "What a run tells, as the program's tables have it: `ctest -R results.quantities` holds "
-          "this document to them.\n"
-          "All is in SI and radians; frames and signs are those of [model.md](model.md); T is the "
-          "undeformed tube on its base\n"
-          "([results.md](results.md#against-the-launcher)). NAME: of each adaptor, wheel, hinge "
-          "(`azimuth`, `elevation`), modal\n"
-          "coordinate or [measure](scenario.md#measures). Instants count from the rocket's "
-          "ignition; what did not happen is `null` or "
-          "NaN. In `summary.json` a quantity\n"
-          "stands under its name, where nothing else is said; `study`: [studies](study.md) keep "
-          "it.\n",
-          stream);
+    fputs(
+        "# Quantities\n\n"
+        "What a run tells, as the program's tables have it: `ctest -R results.quantities` holds "
+        "this document to them.\n"
+        "All is in SI and radians. Frames and signs are those of [model.md](model.md): I inertial, "
+        "T the undeformed tube on its base\n"
+        "([results.md](results.md#against-the-launcher)), R the floating frame of the tube, S its "
+        "section at the rear adaptor, B the rocket.\n"
+        "NAME: of each adaptor or shoe, wheel, hinge (`azimuth`, `elevation`), parachute, modal "
+        "coordinate or [measure](scenario.md#measures), or the\n"
+        "number of a station, support or slide. Instants count from the rocket's ignition where "
+        "nothing else is said; what did not happen is\n"
+        "`null` or NaN. In `summary.json` a quantity stands under its name, where no other is "
+        "given; `study`: [studies](study.md) keep it.\n",
+        stream);
     write_table(stream, "Of a rocket (`rockets` of summary.json)", &rocket_quantities, true);
     write_table(stream, "Of the run", &run_quantities, true);
     write_table(stream, "Of its computation", &cost_quantities, true);
