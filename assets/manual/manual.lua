@@ -67,7 +67,7 @@ local function code_block(block)
         block.classes = { language }
     end
     local result = { block }
-    if word and not word:match("^long") and word ~= "elsewhere" then
+    if word and not word:match("^long") and not word:match("^elsewhere") then
         result = { pandoc.Div({ pandoc.Div({ pandoc.Plain { pandoc.Str(word) } }, pandoc.Attr("", { "name" })), block },
             pandoc.Attr("", { "file" })) }
     end
