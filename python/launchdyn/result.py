@@ -46,6 +46,15 @@ def pandas_here() -> Any:
     return pandas
 
 
+def data_set(variables: Mapping[str, Any], coordinates: Mapping[str, Any]) -> xarray.Dataset:
+    """A data set of xarray."""
+    try:
+        import xarray
+    except ImportError:
+        raise MissingError("data sets need xarray (Debian: python3-xarray)") from None
+    return xarray.Dataset(variables, coordinates)
+
+
 def nearest(name: str, names: list[str]) -> Optional[str]:
     """The one of some names that is nearest to `name`; None if none is near."""
     return text_of(library.ld_nearest_name(name.encode(), texts(names), len(names))) or None
@@ -94,14 +103,10 @@ class History(Mapping[str, Array]):
 
     def to_xarray(self) -> xarray.Dataset:
         """A data set over t [s], not copied, whose variables have `units` and `long_name`."""
-        try:
-            import xarray
-        except ImportError:
-            raise MissingError("data sets need xarray (Debian: python3-xarray)") from None
         told = {name: {"units": column.unit, "long_name": column.description}
                 for name, column in self.columns.items()}
         values = {name: ("t", self[name], told[name]) for name in self if name != "t"}
-        return xarray.Dataset(values, coords={"t": ("t", self["t"], told["t"])})
+        return data_set(values, {"t": ("t", self["t"], told["t"])})
 
     def plot(self, *names: str, over: str = "t", ax: Any = None, **style: Any) -> Any:
         """Draws columns by matplotlib over another one: `history.plot("tip.y", "tip.z")`.

@@ -22,11 +22,12 @@ from ._memory import Array, Handle, Held, printed, text_of, texts
 from ._progress import Progress, followed
 from ._values import Sets, set_texts
 from .errors import Status, check, check_name
-from .result import pandas_here
+from .result import data_set, pandas_here
 from .scenario import Scenario, dict_text, read_model
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
 
 PathLike = Union[str, "os.PathLike[str]"]
 #: How often, in seconds, the program that waits for a study looks up.
@@ -352,6 +353,32 @@ class StudyData(Held):
         whole = pandas.concat(frames, ignore_index=True)
         whole.attrs["units"] = {name: self.columns[name].unit for name in wanted}
         return whole
+
+    def to_xarray(self, *names: str) -> xarray.Dataset:
+        """Columns (all, without names) as a data set over `point`, `sample`, `rocket`, each from 1,
+        with `units`; of what is one for all rockets over point and sample; NaN where there is no
+        value. The k-th samples of all points have the same draws; `number` is the one that each
+        has in the study. Swept keys are coordinates of the points, as texts."""
+        columns, points = self.columns, self.points
+        found = [(at, name, self.values(name, point=point.number))
+                 for at, point in enumerate(points) for name in names or columns]
+        samples = max((int(v["sample"][-1] - 1) // len(points) + 1 for _, _, v in found
+                       if len(v["sample"])), default=0)
+        rockets = max((int(v["rocket"].max(initial=0)) for _, _, v in found), default=0)
+        shape = {"point": len(points), "sample": samples, "rocket": rockets}
+        dimensions = {name: tuple(shape)[:3 if columns[name].per_rocket else 2]
+                      for _, name, _ in found}
+        arrays = {name: np.full([shape[d] for d in dims], np.nan)
+                  for name, dims in dimensions.items()}
+        for at, name, v in found:
+            places = at, (v["sample"] - 1) // len(points), v["rocket"] - 1
+            arrays[name][places[:len(dimensions[name])]] = v[name]
+        numbers = np.arange(1, samples * len(points) + 1).reshape(samples, len(points)).T
+        counted = {d: np.arange(1, count + 1) for d, count in shape.items()}
+        swept = {path: ("point", [point.values[path] for point in points]) for path in self.swept}
+        return data_set({name: (dimensions[name], array, {"units": columns[name].unit})
+                         for name, array in arrays.items()},
+                        {**counted, "number": (("point", "sample"), numbers), **swept})
 
     # ---- to look at
 

@@ -105,6 +105,36 @@ class TestStudy(Case):
             with self.assertRaises(ld.UnknownName):
                 data.to_pandas("muzle_speed")
 
+    @needs("xarray")
+    def test_a_data_set(self):
+        factors = {"rocket.lock.release_force": {"uniform": "1 25 kN"},
+                   "base.elevation": {"normal": "1 deg"}}
+        swept = ld.Scenario.read(FIXED, {"scatter.samples": 5, "scatter.factors": factors,
+                                         "run.stuck_time": "0.2 s",
+                                         "sweep": {"rocket.mass": ["58 kg", "62 kg"]}})
+        with ld.Study.of(swept).run(self.folder / "study") as data:
+            failed = data.points[0].failed
+            self.assertEqual(failed, 2)  # the lock holds them
+            whole, few = data.to_xarray(), data.to_xarray("muzzle_speed")
+            self.assertEqual((list(whole), list(few)), (list(data.columns), ["muzzle_speed"]))
+            self.assertEqual(list(whole["rocket.mass"].values), ["58 kg", "62 kg"])
+            for point in (1, 2):
+                at, values = whole.sel(point=point), data.values("muzzle_speed", "base.elevation",
+                                                                 point=point)
+                went = at["number"].isin(values["sample"])
+                self.assertEqual(went.sum(), 5 - failed)
+                for name, dims in (("muzzle_speed", ("sample", "rocket")),
+                                   ("base.elevation", ("sample",))):
+                    self.assertEqual(at[name].dims, dims)
+                    np.testing.assert_array_equal(at[name][went].values.ravel(), values[name])
+                    self.assertTrue(at[name][~went].isnull().all())
+            lock = whole["rocket.lock.release_force"]
+            np.testing.assert_array_equal(lock.sel(point=1), lock.sel(point=2))  # the same draws
+            self.assertEqual(few["muzzle_speed"].attrs, {"units": "m/s"})
+            self.assertTrue(whole["range"].isnull().all())  # they fly no further than the tip
+            with self.assertRaises(ld.UnknownName):
+                data.to_xarray("muzle_speed")
+
     def test_interrupted_it_goes_on(self):
         samples = ld.Study.of(flights(40))
         self.hold_the_third_sample()
