@@ -587,10 +587,10 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
 {
     linear_system system = {0};
     launch_state state, *self = &state;
-    bool moving = simulation->launcher.base.kind->dynamics != NULL;
     *count = *pole_count = 0;
     if (!model_has_launcher(simulation->model))
         return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
+    bool moving = simulation->launcher.base.kind->dynamics != NULL;
     ld_status status = launch_state_begin(self, simulation, error);
     if (status)
         return status;

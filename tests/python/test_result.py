@@ -116,6 +116,10 @@ class TestResult(Case):
         for mode in modes:
             self.assertAlmostEqual(mode.real, -2 * math.pi * mode.frequency * mode.damping, 3)
         self.assertEqual(frequencies, sorted(frequencies))
+        flight = ld.Scenario.read(EXAMPLES / "flight.yaml").simulation()
+        self.assertEqual(flight.tube_modes(), [])
+        with self.assertRaisesRegex(ld.InputError, "a flight alone has no launcher"):
+            flight.system_modes()
 
 
 class TestTables(Case):
