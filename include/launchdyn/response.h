@@ -23,6 +23,12 @@ typedef struct ld_phasor {
     double real, imaginary;
 } ld_phasor;
 
+/// Who is asked, where something takes seconds, whether to go on.
+typedef struct ld_watch {
+    bool (*go_on)(void *self);
+    void *self;
+} ld_watch;
+
 /// @param model   kept by reference
 /// @param slowest, fastest of a vehicle: the speeds [m/s] from and to which it is asked; NaN: the
 ///                model's
@@ -103,10 +109,14 @@ ld_status ld_response_random(ld_response *response, double speed, const char *in
 ///                  "pitch_rate" or "tip_off.yaw" (docs/quantities.md), not of its flight
 /// @param mean      [count] of the draws; without them what they are from rest on a flat road
 /// @param deviation [count] standard deviations
-/// @return as ld_response_on_road(), LD_ERR_INPUT (no such number, 1 or fewer draws), and what a
-///         launch that fails returns
+/// @return as ld_response_on_road(), LD_ERR_INPUT (no such number, 1 or fewer draws),
+///         LD_ERR_INTERRUPTED by ld_response_watch(), and what a launch that fails returns
 ld_status ld_response_exit(ld_response *response, double speed, int draws, const char *const *names,
                            size_t count, double *mean, double *deviation, ld_error *error);
+
+/// Lets somebody stop ld_response_exit(), who is asked before each of its launches.
+/// @param watch kept by reference; NULL, as at first: nobody
+void ld_response_watch(ld_response *response, const ld_watch *watch);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

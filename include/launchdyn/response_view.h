@@ -22,13 +22,13 @@ typedef struct ld_response_wish {
     double from, to;               ///< [Hz] of spectrum or frequency response; NaN: 0.2, 50
     double slowest, fastest, step; ///< [m/s] speeds; NaN: the model's alone
     const char *loop;              ///< a hinge, of whose loop it is; NULL: none
-    const char *density;     ///< of an input that is random: a CSV file of frequencies [Hz] and its
-                             ///< one-sided power spectral density there; NULL: it is a sine
-    bool exit;               ///< by what the road scatters the exit: `what` are numbers of a launch
-    bool rub;                ///< the hinges rub, as the road moves them (ld_response_rub()); of the
-                             ///< exit always
-    int draws;               ///< of the exit; 0: to the first order
-    const void *reserved[1]; ///< NULL: room for what later versions may be asked
+    const char *density;   ///< of an input that is random: a CSV file of frequencies [Hz] and its
+                           ///< one-sided power spectral density there; NULL: it is a sine
+    bool exit;             ///< by what the road scatters the exit: `what` are numbers of a launch
+    bool rub;              ///< the hinges rub, as the road moves them (ld_response_rub()); of the
+                           ///< exit always
+    int draws;             ///< of the exit; 0: to the first order
+    const ld_watch *watch; ///< of the exit, while the view is made; NULL: nobody
 } ld_response_wish;
 
 /// A frequency response, or root mean squares with a spectrum, or root mean squares over the speed,
@@ -36,8 +36,9 @@ typedef struct ld_response_wish {
 typedef struct ld_response_view ld_response_view;
 
 /// @param model kept by reference
-/// @return as ld_response_create(), ld_response_choose(), ld_response_gain() and ld_loop_create(),
-/// and LD_ERR_INPUT (frequencies or speeds that are no range, a loop with other wishes)
+/// @return as ld_response_create(), ld_response_choose(), ld_response_gain(), ld_response_exit()
+/// and ld_loop_create(), and LD_ERR_INPUT (frequencies or speeds that are no range, a loop with
+/// other wishes)
 ld_status ld_response_view_create(const ld_model *model, const ld_response_wish *wish,
                                   ld_response_view **view, ld_error *error);
 void ld_response_view_free(ld_response_view *view);

@@ -34,9 +34,9 @@ class Interrupt:
         if error[0] is None and self.asked:
             raise self._raised or KeyboardInterrupt
 
-    def asking(self, progress: Optional[Callable[[float], Any]]) -> Callable[[Any, float], bool]:
+    def asking(self, progress: Optional[Callable[[float], Any]] = None) -> Callable[..., bool]:
         """A function for the library that tells `progress` and says whether to go on."""
-        def may_go_on(_: Any, share: float) -> bool:
+        def may_go_on(_: Any, share: float = 0) -> bool:
             try:
                 if progress and not self.asked:
                     progress(share)

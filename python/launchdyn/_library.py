@@ -85,7 +85,7 @@ class ld_study_counts(Structure):
                 ("failed", c_int64), ("now", c_int64)]
 
 
-#: Of ld_study_options: told how far it is; asked whether to go on.
+#: Of ld_study_options: told how far it is; asked whether to go on, as ld_watch is.
 COUNTS_TOLD = CFUNCTYPE(None, c_void_p, POINTER(ld_study_counts))
 GO_ON = CFUNCTYPE(c_bool, c_void_p)
 
@@ -137,12 +137,16 @@ class ld_loop_margins(Structure):
                  "bandwidth", "peak", "peak_at")]
 
 
+class ld_watch(Structure):
+    _fields_ = [("go_on", GO_ON), ("self", c_void_p)]
+
+
 class ld_response_wish(Structure):
     _fields_ = [("what", POINTER(c_char_p)), ("what_count", c_size_t), ("input", c_char_p),
                 ("from", c_double), ("to", c_double), ("slowest", c_double),
                 ("fastest", c_double), ("step", c_double), ("loop", c_char_p),
                 ("density", c_char_p), ("exit", c_bool), ("rub", c_bool), ("draws", c_int),
-                ("reserved", c_void_p * 1)]
+                ("watch", POINTER(ld_watch))]
 
 
 class ld_stretch(Structure):
@@ -277,6 +281,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
                                    c_void_p, c_void_p, _error]),
     "ld_response_exit": (c_int, [_handle, c_double, c_int, _texts, c_size_t, c_void_p, c_void_p,
                                  _error]),
+    "ld_response_watch": (None, [_handle, POINTER(ld_watch)]),
     "ld_loop_create": (c_int, [_handle, _text, _handles, _error]),
     "ld_loop_free": (None, [_handle]),
     "ld_loop_points": (c_int, [_handle, c_void_p, c_size_t, c_void_p, _error]),

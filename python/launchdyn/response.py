@@ -9,7 +9,8 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ld_column, ld_error, ld_loop_margins, library
+from ._interrupt import Interrupt
+from ._library import GO_ON, ld_column, ld_error, ld_loop_margins, ld_watch, library
 from ._memory import Array, Handle, Held, text_of, texts
 from .errors import UnknownName, check, check_name
 from .result import Column
@@ -176,15 +177,18 @@ class Response(Held):
              speed: Optional[float] = None) -> dict[str, Scatter]:
         """By what the scenario's road scatters numbers of a launch that a study keeps, such as
         "pitch_rate": from `draws` launches with drawn phases of the road; 0: to the first order,
-        some seconds."""
+        some seconds. Ctrl-C stops it at its next launch."""
         if not names:
             raise ValueError("name the numbers of the launch")
         error = ld_error()
         mean, deviation = np.empty(len(names)), np.empty(len(names))
-        with self._lock:
+        with self._lock, Interrupt() as interrupt:
+            watch = ld_watch(GO_ON(interrupt.asking()))
+            library.ld_response_watch(self._pointer, ctypes.byref(watch))
             status = library.ld_response_exit(
                 self._pointer, self._at(speed), draws, texts(names), len(names),
                 mean.ctypes.data, deviation.ctypes.data, ctypes.byref(error))
+            library.ld_response_watch(self._pointer, None)
         check(status, error, self._model.pointer)
         return {name: Scatter(float(mean[i]), float(deviation[i])) for i, name in enumerate(names)}
 

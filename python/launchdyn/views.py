@@ -15,7 +15,8 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from ._library import ld_error, ld_picture, library
+from ._interrupt import Interrupt
+from ._library import GO_ON, ld_error, ld_picture, ld_response_wish, ld_watch, library
 from ._memory import Array, Handle, printed, text_of, texts
 from .errors import check
 
@@ -30,9 +31,14 @@ class View:
     def __init__(self, kind: str, model: Handle, wish: Any) -> None:
         error, pointer = ld_error(), ctypes.c_void_p()
         self._kind, self._wish = kind, wish  # what it points to outlives the view
-        check(self._function("create")(model.pointer, wish, ctypes.byref(pointer),
-                                       ctypes.byref(error)), error, model.pointer)
-        self._handle = Handle(pointer.value, self._function("free"), model)
+        with Interrupt() as interrupt:
+            if isinstance(wish, ld_response_wish):
+                wish.watch = ctypes.pointer(ld_watch(GO_ON(interrupt.asking())))
+            status = self._function("create")(model.pointer, wish, ctypes.byref(pointer),
+                                              ctypes.byref(error))
+            if not status:
+                self._handle = Handle(pointer.value, self._function("free"), model)
+        check(status, error, model.pointer)
 
     def _function(self, what: str) -> Any:
         return getattr(library, f"ld_{self._kind}_view_{what}")

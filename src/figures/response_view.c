@@ -460,6 +460,8 @@ ld_status ld_response_view_create(const ld_model *model, const ld_response_wish 
     status = wish->loop
                  ? ld_loop_create(model, wish->loop, &self->loop, error)
                  : ld_response_create(model, self->slowest, self->fastest, &self->response, error);
+    if (!status && wish->exit)
+        ld_response_watch(self->response, wish->watch);
     if (!status && self->rub)
         status = ld_response_rub(self->response, true, error);
     if (!status && wish->density)

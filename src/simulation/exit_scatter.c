@@ -42,6 +42,8 @@ static int row_at(const road_rows *self, int part)
 
 // The launch that the road disturbs.
 typedef struct exit_bench {
+    const ld_response *response;
+    int launches; // so far
     ld_model model;
     ld_simulation *simulation;
     launch_state state;
@@ -122,6 +124,9 @@ static void set_model(exit_bench *self, const ld_model *of, double speed)
 // Runs on a road from the state `start->y`.
 static ld_status run_on(exit_bench *self, const ld_road *under, ld_error *error)
 {
+    if (!response_goes_on(self->response))
+        return ld_fail(error, LD_ERR_INTERRUPTED, "interrupted after %d launches", self->launches);
+    self->launches++;
     ld_status status = road_build(under, 0, 0, &self->start.road, error);
     if (!status)
         status = run_from(self->simulation, &self->start, &self->summary, error);
@@ -430,6 +435,7 @@ ld_status ld_response_exit(ld_response *response, double speed, int draws, const
     if (!self)
         return no_memory(error);
     memset(self, 0, sizeof *self);
+    self->response = response;
     set_model(self, response_model(response), speed);
     status = find_figures(self, names, count, error);
     if (!status)

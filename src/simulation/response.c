@@ -32,8 +32,9 @@ static const ld_column road_inputs[ROAD_INPUTS] = {
 
 struct ld_response {
     const ld_model *model;
-    bool rubbing;   // the adaptors, which hardly slide
-    ld_model at[2]; // on a flat road, at both ends of the speeds
+    const ld_watch *watch; // NULL: nobody
+    bool rubbing;          // the adaptors, which hardly slide
+    ld_model at[2];        // on a flat road, at both ends of the speeds
     ld_simulation *simulation;
     quantity_columns inputs; // of the plant
     excitation road[ROAD_INPUTS];
@@ -687,6 +688,16 @@ static ld_status make_viscous(ld_response *self, int hinge, ld_error *error)
     ld_simulation_free(simulation);
     free(model);
     return status;
+}
+
+void ld_response_watch(ld_response *self, const ld_watch *watch)
+{
+    self->watch = watch;
+}
+
+bool response_goes_on(const ld_response *self)
+{
+    return !self->watch || self->watch->go_on(self->watch->self);
 }
 
 ld_status ld_response_rub(ld_response *self, bool rub, ld_error *error)

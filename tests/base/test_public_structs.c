@@ -29,6 +29,7 @@
 // Asked for by the caller: may grow into what is reserved.
 SIZE(ld_picture, 80);
 SIZE(ld_response_wish, 96);
+SIZE(ld_watch, 16);
 SIZE(ld_run_options, 64);
 SIZE(ld_sink, 72);
 SIZE(ld_study_options, 72);

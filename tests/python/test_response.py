@@ -1,10 +1,14 @@
 """Linear response, loops, roads and winds: the bits of the command, and what holds between them."""
 
 import math
+import os
+import signal
 import unittest
+from unittest import mock
 
 import launchdyn as ld
 import numpy as np
+from launchdyn._library import GO_ON
 from support import EXAMPLES, FIXED, Case, command, written
 
 REFERENCE = EXAMPLES / "reference.yaml"
@@ -62,6 +66,47 @@ class TestViews(Case):
         scatter = read.response(rub=True).exit("pitch_rate", draws=2)["pitch_rate"]
         self.assertEqual([drawn["pitch_rate.mean"][0], drawn["pitch_rate.deviation"][0]],
                          list(scatter))
+
+
+    def test_a_view_keeps_what_it_was_asked(self):
+        view = ld.Scenario.read(REFERENCE).response_view(loop="".join(("eleva", "tion")))
+        others = ["".join(("other", "tion")).encode() for _ in range(100)]  # where it might be
+        self.assertIn("Loop of the elevation", str(view))
+        self.assertEqual(len(others), 100)
+
+
+class TestInterrupted(Case):
+    def press_at(self, module, call):
+        """Ctrl-C is pressed as the library asks so often whether to go on."""
+        told, calls = GO_ON, []
+
+        def pressing(ask):
+            def asked(self_):
+                calls.append(1)
+                if len(calls) == call:
+                    os.kill(os.getpid(), signal.SIGINT)
+                return ask(self_)
+            return told(asked)
+        patch = mock.patch(f"launchdyn.{module}.GO_ON", pressing)
+        patch.start()
+        self.addCleanup(patch.stop)
+        return calls
+
+    def test_the_scatter_of_the_exit(self):
+        read = ld.Scenario.read(REFERENCE)
+        calls = self.press_at("response", 3)
+        with read.response() as response:
+            with self.assertRaises(KeyboardInterrupt):
+                response.exit("pitch_rate")
+            self.assertEqual(len(calls), 3)
+            found = response.exit("pitch_rate", draws=2)["pitch_rate"]
+        self.assertEqual(len(calls), 6)  # from rest and two
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        self.assertLess(abs(found.mean + 0.245), 0.015)
+        calls = self.press_at("views", 2)
+        with self.assertRaises(KeyboardInterrupt):
+            read.response_view("pitch_rate", exit=True)
+        self.assertEqual(len(calls), 2)
 
 
 class TestResponse(Case):

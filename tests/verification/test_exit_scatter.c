@@ -144,12 +144,51 @@ static void what_there_is_not_is_told(void **state)
     reference_model_free(&model);
 }
 
+typedef struct patience {
+    int asked, most; // times
+} patience;
+
+static bool is_patient(void *self)
+{
+    patience *of = self;
+    return ++of->asked <= of->most;
+}
+
+static void who_watches_may_stop_it(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_error error;
+    double mean, deviation;
+    const char *name = "pitch_rate";
+    patience most = {0, 2};
+    const ld_watch watch = {is_patient, &most};
+    make_model(&model);
+    ld_response *response = respond(&model);
+    ld_response_watch(response, &watch);
+    for (int draws = 0; draws <= 4; draws += 4) {
+        most.asked = 0;
+        assert_int_equal(
+            ld_response_exit(response, SPEED, draws, &name, 1, &mean, &deviation, &error),
+            LD_ERR_INTERRUPTED);
+        assert_string_equal(error.text, "interrupted after 2 launches");
+        assert_int_equal(most.asked, 3);
+    }
+    ld_response_watch(response, NULL);
+    assert_int_equal(ld_response_exit(response, SPEED, 2, &name, 1, &mean, &deviation, &error),
+                     LD_OK);
+    assert_int_equal(most.asked, 3);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sine_scatters_the_exit),
         cmocka_unit_test(draws_find_what_patterns_find),
         cmocka_unit_test(what_there_is_not_is_told),
+        cmocka_unit_test(who_watches_may_stop_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
