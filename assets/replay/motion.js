@@ -232,11 +232,12 @@ export class FreeMotion {
   }
 }
 
-// Which rocket's turn it is in each phase, from 0.
+// Which rocket's turn it is in each phase, from 0; of quick ones nothing comes after the tube.
 function numbered(segments) {
+  const order = ["before", "tube", "after"], at = ({ name }) => order.indexOf(name);
   let number = 0;
   return segments.map((part, i) => {
-    if (i > 0 && segments[i - 1].name === "after" && part.name !== "after") number++;
+    if (i > 0 && at(part) < at(segments[i - 1])) number++;
     return { ...part, number };
   });
 }

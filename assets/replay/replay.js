@@ -11,17 +11,19 @@ const AUTOMATIC = { before: 1, tube: 1 / 50, after: 1, flight: 4 };
 
 const capital = (word) => word[0].toUpperCase() + word.slice(1);
 
-// The time slider gives each phase a share of its width: the tube half of it.
+// The time slider gives each phase a share of its width: the tube half of it. `chosen`: the rocket whose launch and flight
+// it covers, null for all.
 class Clock {
-  constructor(motion, flights) {
-    const parts = motion.segments.map(({ name, first, end }) => ({ name, from: motion.t[first], to: motion.t[end - 1] }));
-    parts.forEach((part, i) => { if (parts[i + 1]) part.to = parts[i + 1].from; });
-    const end = Math.max(...flights.map((flight) => flight?.t.at(-1) ?? -Infinity));
+  constructor(motion, flights, chosen) {
+    const all = motion.segments.map(({ name, first, end, number }) => ({ name, number, from: motion.t[first], to: motion.t[end - 1] }));
+    all.forEach((part, i) => { if (all[i + 1]) part.to = all[i + 1].from; });
+    const own = all.filter(({ number }) => number === chosen), parts = own.length > 0 ? own : all;
+    const end = Math.max(...flights.map((flight, i) => (chosen === null || i === chosen ? flight?.t.at(-1) : null) ?? -Infinity));
     if (end > parts.at(-1).to) parts.push({ name: "flight", from: parts.at(-1).to, to: end });
     const weight = ({ name, from, to }) => (to > from ? { tube: 4, before: 1.6, after: 0.4, flight: 2.4 }[name] : 0);
-    const all = parts.reduce((sum, part) => sum + weight(part), 0);
+    const sum = parts.reduce((before, part) => before + weight(part), 0);
     let at = 0;
-    this.parts = parts.map((part) => ({ ...part, low: at, high: (at += weight(part) / all) }));
+    this.parts = parts.map((part) => ({ ...part, low: at, high: (at += weight(part) / sum) }));
     this.first = parts[0].from;
     this.last = parts.at(-1).to;
   }
@@ -53,10 +55,12 @@ class Replay {
     this.motion = this.table.kind === "flight" ? new FreeMotion(this.table, this.tools)
       : new Motion(this.table, this.geometry, this.rockets, this.tools);
     this.ways = this.rockets.map((_, i) => this.flights[i] && new Flight(this.flights[i], this.tools));
-    this.clock = new Clock(this.motion, this.ways);
+    this.chosen = this.rockets.length > 1 ? 0 : null; // of several launches the one that is shown, null: all
+    this.clock = new Clock(this.motion, this.ways, this.chosen);
     this.build(host);
     this.stage = new Stage(this.canvas, this.motion, this.ways, this.rockets);
     this.stage.rendered = () => this.measure();
+    this.stage.chosen = this.chosen;
     this.speed = "auto";
     this.playing = null;
     this.setScale(usualScale(this.motion));
@@ -71,10 +75,19 @@ class Replay {
     this.time = this.opening();
     this.fit();
   }
-  // Where the replay stands at first: the first rocket on its way through the tube. It plays from
-  // shortly before ignition then, as after its end.
+  // The launch of one rocket, or of all (null), fills the time slider.
+  choose(rocket) {
+    this.pause();
+    this.chosen = this.stage.chosen = rocket;
+    this.clock = new Clock(this.motion, this.ways, rocket);
+    this.choice.value = rocket ?? "all";
+    this.nameInstants(this.ticks.clientWidth);
+    this.show(this.opening());
+  }
+  // Where the replay stands at first: the rocket on its way through the tube. It plays from shortly
+  // before its ignition then, as after its end.
   opening() {
-    const { ignition, rear } = this.rockets[0] ?? {};
+    const { ignition, rear } = this.rockets[this.chosen ?? 0] ?? {};
     if (this.motion.free) return this.clock.time(0.3);
     return Number.isFinite(ignition) ? ignition + 0.75 * (rear ?? 0) : this.clock.first;
   }
@@ -98,6 +111,8 @@ class Replay {
     this.ticks = element("div");
     const speed = element("select", { onchange: () => { this.speed = speed.value === "auto" ? "auto" : Number(speed.value); } },
       ...SPEEDS.map(([value, name]) => element("option", { value }, name)));
+    this.choice = element("select", { onchange: () => this.chose(this.choice.value === "all" ? null : Number(this.choice.value)) },
+      ...this.rockets.map((_, i) => element("option", { value: i }, `rocket ${i + 1}`)), element("option", { value: "all" }, "all"));
     this.amount = element("input", { type: "range", min: 0, max: 3, step: 0.01, className: "amount",
       oninput: () => { this.setScale(10 ** Number(this.amount.value)); this.redraw(); } });
     this.amountText = element("output", { className: "scale" });
@@ -109,6 +124,7 @@ class Replay {
       this.reading,
       element("div", { className: "timeline" }, this.play, element("div", { className: "track" }, this.slider, this.ticks)),
       element("div", { className: "controls" },
+        this.chosen === null ? null : element("label", {}, "Launch ", this.choice),
         element("span", { role: "group" }, "Look at ", ...this.views),
         element("label", {}, "Speed ", speed),
         this.motion.free ? null : element("label", {}, "Deflection ", this.amount, this.amountText)));
@@ -132,7 +148,8 @@ class Replay {
   // before the line where there is none behind it.
   nameInstants(width) {
     const { element } = this.tools, free = [-1, -1];
-    this.ticks.replaceChildren(...this.marks.map(({ name, t }) => {
+    const shown = this.marks.filter(({ rocket }) => this.chosen === null || rocket === this.chosen);
+    this.ticks.replaceChildren(...shown.map(({ name, t }) => {
       const at = width * this.clock.share(t + this.zero), row = free.findIndex((end) => at >= end);
       const room = 8 + 6.5 * name.length, side = at + room > width ? " end" : "";
       if (row >= 0) free[row] = at + room;
@@ -182,7 +199,7 @@ class Replay {
   }
   start() {
     if (this.time >= this.clock.last || this.time === this.opening())
-      this.time = Math.max(this.clock.first, (this.rockets[0]?.ignition ?? 0) - 0.005);
+      this.time = Math.max(this.clock.first, (this.rockets[this.chosen ?? 0]?.ignition ?? 0) - 0.005);
     this.play.textContent = "Pause";
     let before = performance.now();
     const step = (now) => {

@@ -50,6 +50,7 @@ export class Stage {
     this.scale = this.gap = 1;
     this.view = motion.free ? "path" : "launcher";
     this.target = null;
+    this.chosen = null; // of several rockets
     this.seen = false; // nothing is drawn while the canvas is out of sight
   }
   buildLauncher() {
@@ -149,9 +150,10 @@ export class Stage {
 
   // ---- the eye ----
 
-  // The rocket that is looked at: the one in the tube, or the last that has left.
+  // The rocket that is looked at: the chosen one once its turn has come, else the one in the tube, or the last that has left.
   watched() {
-    const { state } = this;
+    const { state, chosen } = this;
+    if (chosen !== null && (this.flying[chosen] || state.number === chosen)) return chosen;
     if (state.rocket) return state.number;
     const flying = this.flying.map((flight, i) => (flight ? i : -1)).filter((i) => i >= 0);
     return flying.length > 0 ? flying.at(-1) : state.number;

@@ -71,7 +71,7 @@ export function decodeTable(table) {
     segments.push({ name, first, end: t.length });
     full += of;
   }
-  return { kind: table.kind, rocket: table.rocket, t, column, full, segments };
+  return { kind: table.kind, rocket: table.rocket, marks: table.marks, t, column, full, segments };
 }
 
 // Index of the last time not after `time`; -1 before the first.

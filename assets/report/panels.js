@@ -57,45 +57,6 @@ export function panelsOver(runs, figure) {
   return [...found.values()];
 }
 
-const INSTANTS = ["release", "front", "middle", "rear"];
-// Whose name gives way first where there is no room for all: the greatest.
-const RANK = { ignition: 0, exit: 0, impact: 0, rear: 1, apogee: 1, release: 2, burnout: 2, front: 3, middle: 4 };
-
-// When the thrust of a flight ends, on the run's clock; nothing where it has none, or has it to its end.
-function burnoutOf(table) {
-  const column = table.column.get("thrust");
-  if (!column) return null;
-  const thrust = filled(column.value, table.t), last = thrust.findLastIndex((v) => v > 0);
-  return last >= 0 && last + 1 < thrust.length ? table.t[last + 1] : null;
-}
-
-// What is marked in a flight: when the rocket leaves the launcher, then by what it flies.
-function flightInstants(table, rocket, told, zero) {
-  const t0 = (rocket?.ignition ?? zero) - zero, since = (t) => (typeof t === "number" ? t0 + t : null);
-  const burnout = burnoutOf(table), opened = Object.entries(told?.parachute ?? {}).map(([name, { t_open: t }]) => [name, since(t)]);
-  return [["exit", since(rocket?.rear)], ["burnout", burnout === null ? null : burnout - zero],
-    ["apogee", since(told?.flight?.t_apogee)], ...opened, ["impact", since(told?.flight?.t_impact)]];
-}
-
-// Marks for the time axis, in seconds from `zero`; `ends`: one of the two that a vehicle's whole way shows.
-export function instantsOf(table, rockets, summary, zero) {
-  const marks = [], mark = (name, t, number = "") => {
-    if (Number.isFinite(t)) marks.push({ name: name + number, t, rank: RANK[name] ?? 2, ends: name === "ignition" || name === "rear" });
-  };
-  if (table.kind === "flight") {
-    const i = Math.max(0, table.rocket - 1);
-    for (const [name, t] of flightInstants(table, rockets[i], summary?.rockets?.[i], zero)) mark(name, t ?? NaN);
-    return marks;
-  }
-  rockets.forEach((rocket, i) => {
-    if (rocket.ignition === null) return;
-    const number = rockets.length > 1 ? ` ${i + 1}` : "", t0 = rocket.ignition - zero;
-    mark("ignition", t0, number);
-    for (const name of INSTANTS) mark(name, t0 + (rocket[name] ?? NaN), number);
-  });
-  return marks;
-}
-
 const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
 
 // Of several runs: each run's rows one after the other, with its name.

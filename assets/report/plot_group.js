@@ -73,7 +73,7 @@ export function addFigures(host, id, figures, panelsOf, groups, marks) {
     const panels = panelsOf(figure), group = figure.time === "vehicle" ? groups.vehicle : groups.launch;
     if (panels.length === 0) continue;
     const { node, draw } = figureOf(`${id}-${figure.name}`, figure, panels.length, (grid) => {
-      const here = group === groups.vehicle ? marks.filter(({ ends }) => ends) : marks;
+      const here = marks.filter(({ figures }) => figures.includes(figure.time));
       for (const shown of panels) followers.push(addPanel(grid, shown, group, here));
     });
     (figure.told ? host : rest).append(node);
@@ -89,15 +89,20 @@ export function homeOf(table, ignition, all) {
   return [all ? first : Math.max(first, -0.005), last];
 }
 
-export function windowButtons(groups, marks, count) {
-  if (count < 2) return null;
-  const buttons = [];
-  for (let i = 1; i <= count; i++) {
-    const from = marks.find((m) => m.name === `ignition ${i}`), to = marks.find((m) => m.name === `rear ${i}`);
-    if (from && to)
-      buttons.push(element("button", { type: "button",
-        onclick: () => groups.launch.show(from.t - 0.005, to.t + 0.02) }, `Rocket ${i}`));
-  }
-  buttons.push(element("button", { type: "button", onclick: () => groups.launch.reset() }, "All"));
-  return element("p", { className: "windows" }, "Show ", ...buttons);
+// Of several launches, buttons that show one of them or all; `choose` is told which rocket, from 0, or null. One choice
+// leads all that shows launches.
+export function launchChoice(count, choose) {
+  const button = (text, rocket) => element("button", { type: "button", value: rocket ?? "all", onclick: () => choose(rocket) }, text);
+  const buttons = [...Array.from({ length: count }, (_, i) => button(`Rocket ${i + 1}`, i)), button("All", null)];
+  return {
+    node: element("p", { className: "windows" }, "Show ", ...buttons),
+    show: (rocket) => { for (const one of buttons) one.setAttribute("aria-pressed", one.value === String(rocket ?? "all")); },
+  };
+}
+
+// The window of a rocket's launch, in seconds from `zero`; null where it has not left, or for all.
+export function launchWindow(rocket, zero) {
+  if (!rocket || rocket.ignition === null || rocket.rear === null) return null;
+  const from = rocket.ignition - zero;
+  return [from - 0.005, from + rocket.rear + 0.02];
 }

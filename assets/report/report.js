@@ -5,8 +5,8 @@ import { colour, download, element, onColours, themeSwitch } from "./page.js";
 import { drawingCard } from "./drawing.js";
 import { originBlock } from "./origin.js";
 import { namedFigures, namingOf } from "./naming.js";
-import { instantsOf, panelsOf } from "./panels.js";
-import { addFigures, homeOf, PlotGroup, windowButtons } from "./plot_group.js";
+import { panelsOf } from "./panels.js";
+import { addFigures, homeOf, launchChoice, launchWindow, PlotGroup } from "./plot_group.js";
 import { showSummary } from "./summary.js";
 
 const host = document.getElementById("report");
@@ -35,11 +35,11 @@ function figuresOf(table) {
   return figures.map((figure, i) => (several ? { ...figure, told: figure.told && i === 0 } : figure));
 }
 
-function showTable(table, index, summary, nav) {
+function showTable(table, index, nav) {
   const heading = table.kind === "launch" ? "Launch"
     : data.rockets.length > 1 ? `Flight of rocket ${table.rocket || 1}` : "Flight";
   const ignition = data.rockets[Math.max(0, table.rocket - 1)]?.ignition ?? 0;
-  const marks = instantsOf(table, data.rockets, summary, ignition);
+  const { marks } = table;
   const groups = {
     launch: new PlotGroup(`table${index}`, homeOf(table, ignition, table.kind === "flight")),
     vehicle: new PlotGroup(`table${index}`, homeOf(table, ignition, true)),
@@ -54,8 +54,7 @@ function showTable(table, index, summary, nav) {
   } else {
     nav.append(element("a", { href: `#${id}` }, heading));
     host.append(element("h2", { id }, heading));
-    const buttons = windowButtons(groups, marks, table.kind === "launch" ? data.rockets.length : 0);
-    if (buttons) host.append(buttons);
+    if (table.kind === "launch" && choice) host.append(choice.node);
     fill(host);
   }
   return { table, marks, zero: ignition, group: groups.launch };
@@ -67,6 +66,16 @@ function hasWebGL() {
   } catch {
     return false;
   }
+}
+
+// Of several launches the plots and the replay show one, the first at first, or all of them.
+const choice = data.rockets.length > 1 ? launchChoice(data.rockets.length, (rocket) => chooseLaunch(rocket)) : null;
+
+function chooseLaunch(rocket) {
+  const { group, zero } = shown[tables.indexOf(launch)];
+  choice.show(rocket);
+  group.show(...(launchWindow(data.rockets[rocket], zero) ?? group.home));
+  requestAnimationFrame(() => window.launchdyn?.current?.choose(rocket)); // when the plots have their window
 }
 
 // Why there is no replay, or nothing.
@@ -86,7 +95,7 @@ function startReplay(place, shown, flights) {
   let leading = false, last = 0, wanted = null;
   const replay = window.launchdyn.replay(place, {
     table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets,
-    tools: { colour, download, element, filled, onColours, readable, rowAt }, version: data.version,
+    chose: chooseLaunch, tools: { colour, download, element, filled, onColours, readable, rowAt }, version: data.version,
     shown: (time) => {
       const now = performance.now();
       if (now - last < 400 && replay?.playing) return;
@@ -98,11 +107,14 @@ function startReplay(place, shown, flights) {
   });
   // every plot says where the shared cursor is: one picture for all of them
   const follow = () => {
-    if (!replay.playing) replay.show(zero + wanted, true);
+    if (wanted !== null && !replay.playing) replay.show(zero + wanted, true);
     wanted = null;
   };
   group.followers.push({ point: (time) => {
-    if (leading) return;
+    if (leading) {
+      wanted = null;
+      return;
+    }
     if (wanted === null) requestAnimationFrame(follow);
     wanted = time;
   } });
@@ -152,7 +164,8 @@ function drawing() {
 
 host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
   themeSwitch()), overview());
-const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, summary, nav));
+const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, nav));
+if (launch && choice) chooseLaunch(0);
 if (replayed)
   showReplay(place, shown[tables.indexOf(replayed)],
     data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && (!launch || table.rocket === i + 1) && table.t.length > 0)));

@@ -3,8 +3,8 @@
 import { decodeTable, readable } from "./data.js";
 import { originBlock } from "./origin.js";
 import { element, themeSwitch } from "./page.js";
-import { instantsOf, panelsOver } from "./panels.js";
-import { addFigures, homeOf, PlotGroup, windowButtons } from "./plot_group.js";
+import { panelsOver } from "./panels.js";
+import { addFigures, homeOf, launchChoice, launchWindow, PlotGroup } from "./plot_group.js";
 import { differences, labelsOf, shownValue } from "./runs_differ.js";
 import { showSummaries } from "./summary.js";
 
@@ -75,8 +75,8 @@ function laidOver(kind, rocket) {
 }
 
 function marksOf(over) {
-  return over.flatMap(({ run, index, table, zero }, i) =>
-    instantsOf(table, run.rockets, run.summary, zero).map((mark) => ({ ...mark, run: index, name: i === 0 ? mark.name : "" })));
+  return over.flatMap(({ index, table }, i) =>
+    table.marks.map((mark) => ({ ...mark, run: index, name: i === 0 ? mark.name : "" })));
 }
 
 const widest = (over, all) => over.map(({ table, zero }) => homeOf(table, zero, all))
@@ -92,10 +92,15 @@ function showOver(kind, rocket, heading, nav) {
   };
   host.append(element("h2", { id }, heading));
   nav.append(element("a", { href: `#${id}` }, heading));
-  const buttons = kind === "launch" ? windowButtons(groups, marks, over[0].run.rockets.length) : null;
-  if (buttons) host.append(buttons);
+  const { rockets } = over[0].run, several = kind === "launch" && rockets.length > 1;
+  const choice = several ? launchChoice(rockets.length, (rocket) => {
+    choice.show(rocket);
+    groups.launch.show(...(launchWindow(rockets[rocket], over[0].zero) ?? groups.launch.home));
+  }) : null;
+  if (choice) host.append(choice.node);
   const figures = data.figures.filter(({ time }) => (time === "flight") === (kind === "flight"));
   addFigures(host, id, figures, (figure) => panelsOver(over, figure), groups, marks);
+  choice?.node.querySelector("button").click();
 }
 
 // ---- the page

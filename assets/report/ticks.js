@@ -1,10 +1,10 @@
-// Round steps that cut a range into about `count` parts.
+// Round steps that cut a range into about `count` parts, two ticks at least.
 export function ticks(low, high, count) {
   const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((f) => f * power).find((s) => s >= raw);
   const out = [];
   for (let k = Math.ceil(low / step); k * step <= high; k++) out.push(k * step);
-  return out;
+  return out.length > 1 || !(high > low) ? out : ticks(low, high, 2 * count);
 }
 
 // Texts of ticks, to so many digits that neighbours differ.

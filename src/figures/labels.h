@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { LABELS_MOST = 64 };
+enum { LABELS_MOST = 320 };
 
 // A name above a line. The lower its rank, the sooner it has room.
 typedef struct label_on_line {

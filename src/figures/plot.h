@@ -60,28 +60,32 @@ const plot_figure *plot_figure_find(const char *name);
 
 // An instant that figures mark, and whose name gives way first where there is no room for all: that
 // of the greatest rank.
-typedef struct plot_instant {
-    const char *name;
+typedef struct plot_mark {
+    char name[LD_MAX_NAME];
+    double t; // [s] from ignition, of several rockets from that of the first
     int rank;
+    int rocket;       // in the firing order, from 0; of a flight 0
     unsigned figures; // bits 1 << plot_time of the figures that mark it
-} plot_instant;
+} plot_mark;
 
-enum { PLOT_INSTANTS = 11 };
+enum { PLOT_MARKS = 5 * LD_MAX_FIRINGS };
 
-const plot_instant *plot_instant_at(int index);
+typedef struct plot_marks {
+    plot_mark mark[PLOT_MARKS];
+    size_t count;
+} plot_marks;
 
-// Whether a figure marks an instant.
-bool plot_marks(const plot_figure *figure, int index);
-
-// The instants of a launcher or of a flight, as they stand in its history and come out of its
-// columns [s] from ignition, NaN where there is none.
-void plot_find_instants(const history_data *history, double t[PLOT_INSTANTS]);
+// The instants of a launcher and all its rockets, or of a flight, as they stand in its history and
+// come out of its columns; only those that there are, in the order in which they come.
+void plot_find_marks(const history_data *history, bool flight, plot_marks *marks);
 
 // The text of an axis, "height [m]"; what is too long is cut.
 void plot_axis_text(const plot_axis *axis, char *text, size_t size);
 
-// Writes all figures as a list of JSON, for those who draw them elsewhere.
+// Writes all figures, and the marks of a history, as lists of JSON, for those who draw them
+// elsewhere.
 void plot_write_json(FILE *json);
+void plot_write_marks(FILE *json, const plot_marks *marks);
 
 typedef enum plot_format { PLOT_SVG, PLOT_PDF, PLOT_PNG } plot_format;
 

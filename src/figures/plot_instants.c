@@ -4,74 +4,82 @@
 #include "figures/plot.h"
 
 enum { LAUNCH = 1 << PLOT_LAUNCH, VEHICLE = 1 << PLOT_VEHICLE, FLIGHT = 1 << PLOT_FLIGHT };
-enum { IGNITION, RELEASE, FRONT, MIDDLE, REAR, EXIT, BURNOUT, APOGEE, PARACHUTE, NEXT, IMPACT };
 
-// In the order in which they come, most often.
-static const plot_instant instants[] = {
-    [IGNITION] = {"ignition", 0, LAUNCH | VEHICLE},
-    [RELEASE] = {"release", 2, LAUNCH},
-    [FRONT] = {"front", 3, LAUNCH},
-    [MIDDLE] = {"middle", 4, LAUNCH},
-    [REAR] = {"rear", 1, LAUNCH | VEHICLE},
-    [EXIT] = {"exit", 0, FLIGHT},
-    [BURNOUT] = {"burnout", 2, FLIGHT},
-    [APOGEE] = {"apogee", 1, FLIGHT},
-    [PARACHUTE] = {"parachute", 2, FLIGHT},
-    [NEXT] = {"next parachute", 2, FLIGHT},
-    [IMPACT] = {"impact", 0, FLIGHT},
-};
-_Static_assert(sizeof instants / sizeof *instants == PLOT_INSTANTS, "an instant is missing");
-
-const plot_instant *plot_instant_at(int index)
+// Marks an instant, where there is one.
+static void mark(plot_marks *marks, const char *name, double t, int rank, unsigned figures)
 {
-    return index < PLOT_INSTANTS ? &instants[index] : NULL;
+    if (!isfinite(t) || marks->count == PLOT_MARKS)
+        return;
+    plot_mark *added = &marks->mark[marks->count++];
+    *added = (plot_mark){.t = t, .rank = rank, .figures = figures};
+    snprintf(added->name, sizeof added->name, "%s", name);
 }
 
-bool plot_marks(const plot_figure *figure, int index)
+// Those of a rocket on the launcher; of several they are numbered.
+static void mark_launch(plot_marks *marks, const history_data *history, int number, double start)
 {
-    return (instants[index].figures >> figure->time & 1) != 0;
+    const history_data *rocket = &history->rocket[number];
+    size_t first = marks->count;
+    const struct {
+        const char *name;
+        double t;
+        int rank;
+        unsigned figures;
+    } instant[] = {{"ignition", 0, 0, LAUNCH | VEHICLE},
+                   {"release", rocket->t_release, 2, LAUNCH},
+                   {"front", rocket->t_front, 3, LAUNCH},
+                   {"middle", rocket->t_middle, 4, LAUNCH},
+                   {"rear", rocket->t_rear, 1, LAUNCH | VEHICLE}};
+    for (size_t i = 0; i < sizeof instant / sizeof *instant; i++) {
+        char name[LD_MAX_NAME];
+        snprintf(name, sizeof name, history->rockets > 1 ? "%s %d" : "%s", instant[i].name,
+                 number + 1);
+        mark(marks, name, rocket->t_ignition - start + instant[i].t, instant[i].rank,
+             instant[i].figures);
+    }
+    for (size_t i = first; i < marks->count; i++)
+        marks->mark[i].rocket = number;
 }
 
 // When the thrust ends; NaN where a flight has none, or has it to its end.
-static double burnout_of(const history_data *history, const double *t)
+static double burnout_of(const history_data *history)
 {
-    const double *thrust = history_column(history, "thrust");
-    size_t after = thrust ? history->rows : 0;
+    const double *t = history_column(history, "t"), *thrust = history_column(history, "thrust");
+    size_t after = t && thrust ? history->rows : 0;
     while (after > 0 && !(thrust[after - 1] > 0))
         after--;
     return after > 0 && after < history->rows ? t[after] : NAN;
 }
 
-// When parachutes begin to open: after which rows their drag area begins to grow.
-static void find_openings(const history_data *history, const double *t, double opening[2])
+static void mark_flight(plot_marks *marks, const history_data *flight, double start)
 {
-    const double *area = history_column(history, "drag_area");
-    opening[0] = opening[1] = NAN;
-    bool grew = false;
-    for (size_t row = 1, found = 0; area && row < history->rows && found < 2; row++) {
-        bool grows = area[row] > area[row - 1] * (1 + 1e-9);
-        if (grows && !grew)
-            opening[found++] = t[row - 1];
-        grew = grows;
+    mark(marks, "exit", flight->t_rear, 0, FLIGHT);
+    mark(marks, "burnout", burnout_of(flight) - start, 2, FLIGHT);
+    mark(marks, "apogee", flight->t_apogee, 1, FLIGHT);
+    for (int i = 0; i < flight->openings; i++)
+        mark(marks, flight->opening[i].name, flight->opening[i].t, 2, FLIGHT);
+    mark(marks, "impact", flight->t_impact, 0, FLIGHT);
+}
+
+// As they come; what comes at one time stays as it was.
+static void sort_marks(plot_marks *marks)
+{
+    for (size_t i = 1; i < marks->count; i++) {
+        plot_mark one = marks->mark[i];
+        size_t k = i;
+        for (; k > 0 && marks->mark[k - 1].t > one.t; k--)
+            marks->mark[k] = marks->mark[k - 1];
+        marks->mark[k] = one;
     }
 }
 
-void plot_find_instants(const history_data *history, double at[PLOT_INSTANTS])
+void plot_find_marks(const history_data *history, bool flight, plot_marks *marks)
 {
-    double start = isfinite(history->t_ignition) ? history->t_ignition : 0, opening[2];
-    const double *t = history_column(history, "t");
-    at[IGNITION] = 0;
-    at[RELEASE] = history->t_release;
-    at[FRONT] = history->t_front;
-    at[MIDDLE] = history->t_middle;
-    at[REAR] = at[EXIT] = history->t_rear;
-    at[APOGEE] = history->t_apogee;
-    at[IMPACT] = history->t_impact;
-    at[BURNOUT] = at[PARACHUTE] = at[NEXT] = NAN;
-    if (!t)
-        return;
-    at[BURNOUT] = burnout_of(history, t) - start;
-    find_openings(history, t, opening);
-    at[PARACHUTE] = opening[0] - start;
-    at[NEXT] = opening[1] - start;
+    double start = isfinite(history->t_ignition) ? history->t_ignition : 0;
+    marks->count = 0;
+    for (int i = 0; i < history->rockets && !flight; i++)
+        mark_launch(marks, history, i, start);
+    if (flight)
+        mark_flight(marks, history, start);
+    sort_marks(marks);
 }

@@ -48,10 +48,31 @@ static void write_panel(FILE *json, const plot_panel *panel)
     fputc('}', json);
 }
 
+static const char *const time[] = {
+    [PLOT_LAUNCH] = "launch", [PLOT_VEHICLE] = "vehicle", [PLOT_FLIGHT] = "flight"};
+
+void plot_write_marks(FILE *json, const plot_marks *marks)
+{
+    fputc('[', json);
+    for (size_t i = 0; i < marks->count; i++) {
+        const plot_mark *mark = &marks->mark[i];
+        fputs(i ? ",{\"name\":" : "{\"name\":", json);
+        json_write_text(json, mark->name);
+        fprintf(json, ",\"t\":%.17g,\"rank\":%d,\"rocket\":%d,\"figures\":[", mark->t, mark->rank,
+                mark->rocket);
+        const char *before = "";
+        for (int k = PLOT_LAUNCH; k <= PLOT_FLIGHT; k++)
+            if (mark->figures >> k & 1) {
+                fprintf(json, "%s\"%s\"", before, time[k]);
+                before = ",";
+            }
+        fputs("]}", json);
+    }
+    fputc(']', json);
+}
+
 void plot_write_json(FILE *json)
 {
-    static const char *const time[] = {
-        [PLOT_LAUNCH] = "launch", [PLOT_VEHICLE] = "vehicle", [PLOT_FLIGHT] = "flight"};
     const plot_figure *figure;
     for (size_t f = 0; (figure = plot_figure_at(f)) != NULL; f++) {
         fprintf(json, "%s\n{\"name\":\"%s\",\"title\":", f ? "," : "[", figure->about.name);

@@ -28,7 +28,7 @@ typedef struct plot_source {
     const history_data *history;
     const double *t; // [s] on the run's clock
     double t_ignition;
-    double instant[PLOT_INSTANTS]; // [s] from ignition, NaN: there is none
+    plot_marks marks;
 } plot_source;
 
 // A curve of a panel, found in the history of a run.
@@ -43,7 +43,7 @@ typedef struct found_curve {
 // Names beside dots of a panel, and places of its curves, in pixels from the axes' upper left.
 typedef struct path_names {
     label_beside label[LABELS_MOST];
-    int instant[LABELS_MOST];
+    const plot_mark *mark[LABELS_MOST];
     size_t count, others;
     double other[MOST_CURVES * CURVE_PLACES][2];
 } path_names;
@@ -54,7 +54,7 @@ typedef struct plot_drawing {
     const plot_page *page;
     const plot_figure *figure;
     const plot_panel *panel;
-    plot_source source[PLOT_RUNS];
+    plot_source *source;            // [runs]
     plot_source *flight[PLOT_RUNS]; // [flights of the run]
     bool headed;                    // the figure's heading is written
     int index;                      // of the panel on the page
@@ -390,17 +390,18 @@ static const plot_source *named_source(const plot_drawing *drawing, size_t run)
     return drawing->source[run].history->flights > 0 ? &drawing->flight[run][0] : NULL;
 }
 
-// Places of the instants of a run on the time axis, NaN where they are not on it.
-static void place_instants(const plot_drawing *drawing, const plot_source *source,
-                           double place[PLOT_INSTANTS])
+// Whether the figure at hand shows an instant.
+static bool marks(const plot_drawing *drawing, const plot_mark *mark)
 {
-    for (int i = 0; i < PLOT_INSTANTS; i++) {
-        double t = source ? source->instant[i] : NAN;
-        double x = t * (drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1);
-        bool there = plot_marks(drawing->figure, i) && shown(drawing, t) &&
-                     x >= drawing->x_range[0] && x <= drawing->x_range[1];
-        place[i] = there ? x : NAN;
-    }
+    return (mark->figures >> drawing->figure->time & 1) != 0 && shown(drawing, mark->t);
+}
+
+// Place of an instant on the time axis, NaN where it is not on it.
+static double place_of(const plot_drawing *drawing, const plot_mark *mark)
+{
+    double x = mark->t * (drawing->figure->time == PLOT_LAUNCH ? 1e3 : 1);
+    bool there = marks(drawing, mark) && x >= drawing->x_range[0] && x <= drawing->x_range[1];
+    return there ? x : NAN;
 }
 
 // The source whose instants are marked over time: of several flights none, since each has its own.
@@ -416,8 +417,9 @@ static void write_name_above(const plot_drawing *drawing, const label_on_line *l
 {
     double across = drawing->width - LEFT - RIGHT, up = PANEL - BOTTOM - top_room(drawing);
     double foot = fmin(fmax(label->at, label->left), label->left + label->width);
-    fprintf(drawing->script,
-            "set label '%s' at graph %.6f, graph %.6f center font ',9' tc rgb '#%s'\n", name,
+    fputs("set label ", drawing->script);
+    plot_write_quoted(drawing->script, name);
+    fprintf(drawing->script, " at graph %.6f, graph %.6f center font ',9' tc rgb '#%s'\n",
             (label->left + label->width / 2) / across, 1 + 11 / up, style_of(drawing)->soft);
     fprintf(drawing->script,
             "set arrow from graph %.6f, graph %.6f to %.8g, graph 1 nohead lw 1 lc rgb '#%s'\n",
@@ -425,44 +427,57 @@ static void write_name_above(const plot_drawing *drawing, const label_on_line *l
 }
 
 // Names above the panel, none through another; those that have no room are left out.
-static void write_instant_names(const plot_drawing *drawing, const double place[PLOT_INSTANTS])
+static void write_instant_names(const plot_drawing *drawing, const plot_marks *of)
 {
     double across = drawing->width - LEFT - RIGHT;
     double pixels = across / (drawing->x_range[1] - drawing->x_range[0]);
-    label_on_line label[PLOT_INSTANTS];
-    int of[PLOT_INSTANTS];
+    label_on_line label[PLOT_MARKS];
+    const plot_mark *mark[PLOT_MARKS];
     size_t count = 0;
-    for (int i = 0; i < PLOT_INSTANTS; i++) {
-        if (isnan(place[i]))
+    for (size_t i = 0; i < of->count; i++) {
+        double place = place_of(drawing, &of->mark[i]);
+        if (isnan(place))
             continue;
-        const plot_instant *instant = plot_instant_at(i);
-        of[count] = i;
-        label[count++] = (label_on_line){.at = (place[i] - drawing->x_range[0]) * pixels,
-                                         .width = label_width(instant->name, 9),
-                                         .rank = instant->rank};
+        mark[count] = &of->mark[i];
+        label[count++] = (label_on_line){.at = (place - drawing->x_range[0]) * pixels,
+                                         .width = label_width(of->mark[i].name, 9),
+                                         .rank = of->mark[i].rank};
     }
     labels_place_on_line(label, count, -LEFT / 2.0, across + RIGHT - 5, 6);
     for (size_t k = 0; k < count; k++)
         if (isfinite(label[k].left))
-            write_name_above(drawing, &label[k], plot_instant_at(of[k])->name, place[of[k]]);
+            write_name_above(drawing, &label[k], mark[k]->name, place_of(drawing, mark[k]));
+}
+
+// Whether the first run has a line where that of an instant of another run would stand.
+static bool stands(const plot_drawing *drawing, const plot_marks *first, const plot_mark *mark)
+{
+    double seen = (drawing->x_range[1] - drawing->x_range[0]) / 300;
+    for (size_t i = 0; first && i < first->count; i++)
+        if (strcmp(first->mark[i].name, mark->name) == 0)
+            return fabs(place_of(drawing, &first->mark[i]) - place_of(drawing, mark)) < seen;
+    return false;
 }
 
 // A vertical line at each key instant; of several runs in their colours, where they differ.
 static void write_instants_in_time(const plot_drawing *drawing)
 {
-    double first[PLOT_INSTANTS], place[PLOT_INSTANTS];
-    double seen = (drawing->x_range[1] - drawing->x_range[0]) / 300;
-    place_instants(drawing, marked_source(drawing, 0), first);
-    write_instant_names(drawing, first);
+    const plot_source *first = marked_source(drawing, 0);
+    if (first)
+        write_instant_names(drawing, &first->marks);
     for (size_t run = 0; run < drawing->page->runs; run++) {
-        place_instants(drawing, marked_source(drawing, run), place);
-        for (int i = 0; i < PLOT_INSTANTS; i++)
-            if (isfinite(place[i]) && (run == 0 || !(fabs(place[i] - first[i]) < seen)))
+        const plot_source *source = marked_source(drawing, run);
+        for (size_t i = 0; source && i < source->marks.count; i++) {
+            const plot_mark *mark = &source->marks.mark[i];
+            double place = place_of(drawing, mark);
+            if (isfinite(place) &&
+                (run == 0 || !stands(drawing, first ? &first->marks : NULL, mark)))
                 fprintf(drawing->script,
                         "set arrow from %.8g, graph 0 to %.8g, graph 1 nohead lw 1 dt (4,3) lc rgb "
                         "'#%s' back\n",
-                        place[i], place[i],
+                        place, place,
                         run == 0 ? style_of(drawing)->soft : run_colour(drawing, run));
+        }
     }
 }
 
@@ -505,23 +520,24 @@ static void write_dots(plot_drawing *drawing, const found_curve *curve, path_nam
     bool named = !several(drawing) && source == named_source(drawing, 0);
     set_points(drawing, curve);
     add_places(drawing, source->history->rows, names);
-    for (int i = 0; i < PLOT_INSTANTS; i++) {
-        double t = source->instant[i];
-        size_t row = nearest_row(drawing, source, t + source->t_ignition);
-        if (!plot_marks(drawing->figure, i) || !shown(drawing, t) || !isfinite(t) ||
-            row == source->history->rows)
+    for (size_t i = 0; i < source->marks.count; i++) {
+        const plot_mark *mark = &source->marks.mark[i];
+        if (!marks(drawing, mark))
+            continue;
+        size_t row = nearest_row(drawing, source, mark->t + source->t_ignition);
+        if (row == source->history->rows)
             continue;
         fprintf(
             drawing->script, "set label '' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#%s' front\n",
             drawing->x[row], drawing->y[row],
             several(drawing) ? run_colour(drawing, (size_t)curve->run) : style_of(drawing)->ink);
-        if (!named || names->count == LABELS_MOST)
+        if (!named || mark->rocket > 0 || names->count == LABELS_MOST)
             continue;
-        names->instant[names->count] = i;
+        names->mark[names->count] = mark;
         names->label[names->count++] =
             (label_beside){.x = pixel(drawing->x_range, drawing->x[row], across),
                            .y = up - pixel(drawing->y_range, drawing->y[row], up),
-                           .width = label_width(plot_instant_at(i)->name, 9)};
+                           .width = label_width(mark->name, 9)};
     }
 }
 
@@ -529,15 +545,13 @@ static void write_dots(plot_drawing *drawing, const found_curve *curve, path_nam
 static void rank_names(path_names *names)
 {
     for (size_t i = 1; i < names->count; i++)
-        for (size_t k = i; k > 0 && plot_instant_at(names->instant[k])->rank <
-                                        plot_instant_at(names->instant[k - 1])->rank;
-             k--) {
+        for (size_t k = i; k > 0 && names->mark[k]->rank < names->mark[k - 1]->rank; k--) {
             label_beside label = names->label[k];
-            int instant = names->instant[k];
+            const plot_mark *mark = names->mark[k];
             names->label[k] = names->label[k - 1];
-            names->instant[k] = names->instant[k - 1];
+            names->mark[k] = names->mark[k - 1];
             names->label[k - 1] = label;
-            names->instant[k - 1] = instant;
+            names->mark[k - 1] = mark;
         }
 }
 
@@ -555,12 +569,13 @@ static void write_instants_on_curves(plot_drawing *drawing)
                         (const double(*)[2])names->other, names->others);
     for (size_t i = 0; i < names->count; i++) {
         const label_box *box = &names->label[i].box;
-        if (names->label[i].placed)
-            fprintf(drawing->script,
-                    "set label '%s' at graph %.6f, graph %.6f center font ',9' tc rgb '#%s' "
-                    "front\n",
-                    plot_instant_at(names->instant[i])->name, (box->left + box->right) / 2 / across,
-                    1 - (box->top + box->bottom) / 2 / up, style_of(drawing)->soft);
+        if (!names->label[i].placed)
+            continue;
+        fputs("set label ", drawing->script);
+        plot_write_quoted(drawing->script, names->mark[i]->name);
+        fprintf(drawing->script, " at graph %.6f, graph %.6f center font ',9' tc rgb '#%s' front\n",
+                (box->left + box->right) / 2 / across, 1 - (box->top + box->bottom) / 2 / up,
+                style_of(drawing)->soft);
     }
 }
 
@@ -775,27 +790,25 @@ static double place_figures(const plot_page *page, plot_drawing *drawing)
     return top;
 }
 
-static void set_source(plot_source *source, const history_data *history)
+static void set_source(plot_source *source, const history_data *history, bool flight)
 {
-    *source = (plot_source){
-        .history = history,
-        .t = history_column(history, "t"),
-        .t_ignition = isfinite(history->t_ignition) ? history->t_ignition : 0,
-    };
-    plot_find_instants(history, source->instant);
+    source->history = history;
+    source->t = history_column(history, "t");
+    source->t_ignition = isfinite(history->t_ignition) ? history->t_ignition : 0;
+    plot_find_marks(history, flight, &source->marks);
 }
 
 // A run and its flights.
 static ld_status set_sources(plot_drawing *drawing, size_t run, ld_error *error)
 {
     const history_data *history = &drawing->page->run[run];
-    set_source(&drawing->source[run], history);
+    set_source(&drawing->source[run], history, false);
     bool has_time = history->columns == 0 || drawing->source[run].t;
     drawing->flight[run] = malloc((history->flights + 1) * sizeof *drawing->flight[run]);
     if (!drawing->flight[run])
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
     for (size_t i = 0; i < history->flights; i++) {
-        set_source(&drawing->flight[run][i], &history->flight[i]);
+        set_source(&drawing->flight[run][i], &history->flight[i], true);
         has_time = has_time && drawing->flight[run][i].t;
     }
     return has_time ? LD_OK : ld_fail(error, LD_ERR_INPUT, "the history has no column t");
@@ -827,9 +840,11 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
         .keep = malloc(rows + 1),
         .stack = malloc((2 * rows + 8) * sizeof(size_t)),
         .names = malloc(sizeof(path_names)),
+        .source = malloc(page->runs * sizeof(plot_source)),
     };
     ld_status status = LD_OK;
-    if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack || !drawing.names)
+    if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack || !drawing.names ||
+        !drawing.source)
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
     for (size_t i = 0; i < page->runs && !status; i++)
         status = set_sources(&drawing, i, error);
@@ -847,5 +862,6 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
     free(drawing.keep);
     free(drawing.stack);
     free(drawing.names);
+    free(drawing.source);
     return status;
 }

@@ -17,18 +17,6 @@ static void join(char *path, const char *folder, const char *name)
     snprintf(path, REPORT_PATH_SIZE, "%s/%s", folder, name);
 }
 
-static ld_status read_rockets(report_source *source, const char *path, ld_error *error)
-{
-    ld_status status = LD_OK;
-    int there = source->history.rockets;
-    while (source->rocket_count < there && source->rocket_count < REPORT_ROCKETS && !status) {
-        history_data *next = &source->rocket[source->rocket_count];
-        status = history_read_rocket(path, source->rocket_count + 1, next, error);
-        source->rocket_count += !status;
-    }
-    return status;
-}
-
 // What there is of the history. LD_ERR_INPUT: the file is not to be read, or not all of it.
 static ld_status read_history_file(report_source *source, const char *path, ld_error *error)
 {
@@ -38,9 +26,7 @@ static ld_status read_history_file(report_source *source, const char *path, ld_e
     source->has_history = true;
     if (source->history.rows == 0 && source->history.flights == 0)
         report_take_note(source->report, "The history has no rows.");
-    status = read_rockets(source, path, error);
-    if (!status)
-        status = origin_read_history(path, &source->origin, error);
+    status = origin_read_history(path, &source->origin, error);
     source->has_origin = !status && source->origin.scenario; // an earlier version keeps none
     return status;
 }
@@ -127,8 +113,6 @@ ld_status report_read_folder(report_source *source, const char *folder, ld_error
 void report_free_source(report_source *source)
 {
     history_free(&source->history);
-    for (int i = 0; i < source->rocket_count; i++)
-        history_free(&source->rocket[i]);
     free(source->summary);
     ld_origin_free(&source->origin);
 }

@@ -7,10 +7,10 @@
 
 #include <stdlib.h>
 
-static void write_rockets(FILE *json, const report_source *source)
+static void write_rockets(FILE *json, const history_data *history)
 {
-    for (int i = 0; i < source->rocket_count; i++) {
-        const history_data *rocket = &source->rocket[i];
+    for (int i = 0; i < history->rockets; i++) {
+        const history_data *rocket = &history->rocket[i];
         const double instant[] = {rocket->t_ignition, rocket->t_release, rocket->t_front,
                                   rocket->t_middle, rocket->t_rear};
         static const char *const name[] = {"ignition", "release", "front", "middle", "rear"};
@@ -63,7 +63,7 @@ ld_status report_write_run(FILE *json, const report_source *source, const report
         json_write_text(json, source->report->note[i]);
     }
     fputs("],\"rockets\":[", json);
-    write_rockets(json, source);
+    write_rockets(json, &source->history);
     fputs("],\"tables\":[", json);
     ld_status status = write_tables(json, source, detail, error);
     fputc(']', json);

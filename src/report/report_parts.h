@@ -13,15 +13,11 @@
 #include "report/report_html.h"
 #include "results/history.h"
 
-enum { REPORT_ROCKETS = 64 };
-
 // What was found in a folder of results.
 typedef struct report_source {
     bool has_history;
     history_data history; // the launcher's with those of the flights, or of a flight alone
-    int rocket_count;
-    history_data rocket[REPORT_ROCKETS]; // tube and instants
-    char *summary;                       // text of summary.json, NULL: there is none
+    char *summary;        // text of summary.json, NULL: there is none
     size_t summary_length;
     bool has_origin;
     ld_origin origin;

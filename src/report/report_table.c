@@ -293,6 +293,13 @@ static ld_status write_segment(thinned *table, const segment *part, ld_error *er
     return status;
 }
 
+static void write_marks(FILE *json, const history_data *history, bool flight)
+{
+    plot_marks marks;
+    plot_find_marks(history, flight, &marks);
+    plot_write_marks(json, &marks);
+}
+
 static ld_status write_table(thinned *table, int rocket, ld_error *error)
 {
     const history_data *history = table->history;
@@ -312,7 +319,9 @@ static ld_status write_table(thinned *table, int rocket, ld_error *error)
         json_write_text(table->json, unit ? unit : "");
         fputc(']', table->json);
     }
-    fputs("],\"segments\":[", table->json);
+    fputs("],\"marks\":", table->json);
+    write_marks(table->json, history, flight);
+    fputs(",\"segments\":[", table->json);
     ld_status status = LD_OK;
     for (size_t first = 0; table->t && first < history->rows && !status;) {
         segment part = segment_from(table, first);

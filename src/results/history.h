@@ -50,7 +50,13 @@ typedef struct history_array {
     double *value; // [rows][columns]
 } history_array;
 
-// A history read back from history.h5, whole. Of the flight of a rocket: its rows and its ignition.
+// A parachute that has opened.
+typedef struct history_opening {
+    char name[LD_MAX_NAME];
+    double t; // [s] from ignition
+} history_opening;
+
+// A history read back from history.h5, whole. Of the flight of a rocket: its rows and its instants.
 typedef struct history_data {
     char *title;
     size_t rows, columns; // 0 where a flight began without a launcher
@@ -61,10 +67,13 @@ typedef struct history_data {
     // clock, the others from ignition; NaN where there is none
     double t_ignition, t_release, t_front, t_middle, t_rear;
     double t_apogee, t_impact; // of its flight, from ignition; NaN in files of before
-    int tube, number;          // of a flight: its tube (0: none) and its place in the firing order
+    history_opening opening[LD_MAX_PARACHUTES]; // [openings] of its parachutes, by their names
+    int openings;
+    int tube, number; // of a rocket: its tube (0: none) and its place in the firing order
     struct history_data *flight; // [flights] in the order of firing
     size_t flights;
-    int rockets;             // that the file tells of, flown or not: history_read_rocket()
+    struct history_data *rocket; // [rockets] tube and instants of each, flown or not; no columns
+    int rockets;
     history_array *geometry; // [arrays]; none where the file holds none
     size_t arrays;
     int complete;  // 0: the run ended early, or was killed
@@ -72,10 +81,6 @@ typedef struct history_data {
 } history_data;
 
 ld_status history_read(const char *path, history_data *history, ld_error *error);
-
-// Tube, number and instants of rocket number `rocket`, from 1, whether it has flown on or not; no
-// columns. LD_ERR_INPUT: there is no such rocket.
-ld_status history_read_rocket(const char *path, int rocket, history_data *history, ld_error *error);
 
 void history_free(history_data *history);
 

@@ -262,6 +262,20 @@ ld_status history_hdf5_flight(history_hdf5 *history, int rocket, const ld_column
     return status ? status : history_hdf5_begin(history, columns, count, error);
 }
 
+// When the parachutes of a rocket have opened, each under the name of that number of the summary.
+static bool write_openings(hid_t group, const ld_model *model, const ld_rocket_summary *rocket)
+{
+    bool fine = true;
+    int count = model && rocket->flown ? model->rocket.parachute_count : 0;
+    for (int i = 0; i < count && fine; i++) {
+        char name[LD_MAX_NAME + 24];
+        snprintf(name, sizeof name, "parachute.%s.t_open", model->rocket.parachute[i].name);
+        if (isfinite(rocket->parachute[i].t_open))
+            fine = hdf5_write_number(group, name, rocket->parachute[i].t_open);
+    }
+    return fine;
+}
+
 // A group "rockets" with one group each.
 static bool write_rockets(hid_t file, const ld_summary *summary)
 {
@@ -278,7 +292,8 @@ static bool write_rockets(hid_t file, const ld_summary *summary)
             hdf5_write_number(group, "t_middle", rocket->t_middle) &&
             hdf5_write_number(group, "t_rear", rocket->t_rear) &&
             hdf5_write_number(group, "t_apogee", rocket->flown ? rocket->flight.t_apogee : NAN) &&
-            hdf5_write_number(group, "t_impact", rocket->flown ? rocket->flight.t_impact : NAN);
+            hdf5_write_number(group, "t_impact", rocket->flown ? rocket->flight.t_impact : NAN) &&
+            write_openings(group, summary->model, rocket);
         H5Gclose(group);
     }
     if (rockets >= 0)

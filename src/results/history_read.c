@@ -82,6 +82,25 @@ static bool read_columns(hid_t group, history_data *history)
     return fine;
 }
 
+// An attribute of a rocket that tells when a parachute has opened.
+static herr_t read_opening(hid_t rocket, const char *attribute, const H5A_info_t *unused,
+                           void *into)
+{
+    static const char head[] = "parachute.", tail[] = ".t_open";
+    history_data *history = into;
+    size_t length = strlen(attribute), around = strlen(head) + strlen(tail);
+    (void)unused;
+    if (history->openings == LD_MAX_PARACHUTES || length <= around ||
+        length - around >= LD_MAX_NAME || strncmp(attribute, head, strlen(head)) != 0 ||
+        strcmp(attribute + length - strlen(tail), tail) != 0)
+        return 0;
+    history_opening *opening = &history->opening[history->openings++];
+    snprintf(opening->name, sizeof opening->name, "%.*s", (int)(length - around),
+             attribute + strlen(head));
+    opening->t = hdf5_read_number(rocket, attribute);
+    return 0;
+}
+
 static void read_instants(hid_t rocket, history_data *history)
 {
     history->t_ignition = hdf5_read_number(rocket, "t_ignition");
@@ -91,11 +110,13 @@ static void read_instants(hid_t rocket, history_data *history)
     history->t_rear = hdf5_read_number(rocket, "t_rear");
     history->t_apogee = hdf5_read_number(rocket, "t_apogee");
     history->t_impact = hdf5_read_number(rocket, "t_impact");
+    H5Aiterate2(rocket, H5_INDEX_NAME, H5_ITER_INC, NULL, read_opening, history);
 }
 
-// Its tube and its place in the firing order.
-static void read_place(hid_t rocket, int number, history_data *history)
+// Instants, tube and place in the firing order.
+static void read_rocket(hid_t rocket, int number, history_data *history)
 {
+    read_instants(rocket, history);
     double tube = hdf5_read_number(rocket, "tube");
     history->tube = isfinite(tube) ? (int)tube : 0;
     history->number = number;
@@ -180,67 +201,66 @@ static htri_t open_rocket(hid_t file, int number, hid_t *rocket)
     return *rocket >= 0 ? 1 : -1;
 }
 
-// A flight alone: its rows are all the history there is.
-static bool read_flight_alone(hid_t file, history_data *history)
+// What the file tells of each rocket, flown or not.
+static bool read_rockets(hid_t file, history_data *history)
 {
-    history_data *flight = &history->flight[0];
-    flight->t_ignition = history->t_ignition;
-    flight->t_release = history->t_release;
-    flight->t_front = history->t_front;
-    flight->t_middle = history->t_middle;
-    flight->t_rear = history->t_rear;
-    flight->t_apogee = history->t_apogee;
-    flight->t_impact = history->t_impact;
-    flight->number = 1;
-    history->flights = 1;
-    return read_table(file, "history", flight);
+    hid_t rocket;
+    htri_t there = 1;
+    history->rocket = calloc(LD_MAX_FIRINGS, sizeof *history->rocket);
+    if (!history->rocket)
+        return false;
+    while (there > 0 && history->rockets < LD_MAX_FIRINGS) {
+        there = open_rocket(file, history->rockets + 1, &rocket);
+        if (there <= 0)
+            break;
+        read_rocket(rocket, history->rockets + 1, &history->rocket[history->rockets]);
+        history->rockets++;
+        H5Gclose(rocket);
+    }
+    return there >= 0;
 }
 
-// The flights of the rockets, as far as they have rows.
+// A flight without its rows: the instants, tube and number of a rocket.
+static history_data *begin_flight(history_data *history, const history_data *rocket)
+{
+    history_data *flight = &history->flight[history->flights++];
+    *flight = (history_data){.t_ignition = rocket->t_ignition,
+                             .t_release = rocket->t_release,
+                             .t_front = rocket->t_front,
+                             .t_middle = rocket->t_middle,
+                             .t_rear = rocket->t_rear,
+                             .t_apogee = rocket->t_apogee,
+                             .t_impact = rocket->t_impact,
+                             .openings = rocket->openings,
+                             .tube = rocket->tube,
+                             .number = rocket->number};
+    memcpy(flight->opening, rocket->opening, sizeof flight->opening);
+    return flight;
+}
+
+// The flights of the rockets, as far as they have rows; of a flight alone its rows are all the
+// history there is.
 static bool read_flights(hid_t file, history_data *history)
 {
     bool fine = (history->flight = calloc(LD_MAX_FIRINGS, sizeof *history->flight)) != NULL;
-    for (int number = 1; fine && number <= LD_MAX_FIRINGS; number++) {
-        hid_t rocket;
-        htri_t there = open_rocket(file, number, &rocket);
-        if (there < 0)
-            return false;
-        if (there == 0)
-            break;
-        history_data *flight = &history->flight[history->flights++];
-        read_instants(rocket, flight);
-        fine = read_table(rocket, "flight", flight);
-        read_place(rocket, number, flight);
-        H5Gclose(rocket);
+    for (int i = 0; fine && i < history->rockets; i++) {
+        char name[40];
+        snprintf(name, sizeof name, "rockets/%d/flight", i + 1);
+        history_data *flight = begin_flight(history, &history->rocket[i]);
+        fine = read_table(file, name, flight);
         if (fine && flight->rows == 0) {
             history_free(flight);
             history->flights--;
         }
     }
-    if (fine && history->flights == 0 && history_column(history, "angle_of_attack"))
-        fine = read_flight_alone(file, history);
+    if (fine && history->flights == 0 && history_column(history, "angle_of_attack")) {
+        history->number = 1;
+        fine = read_table(file, "history", begin_flight(history, history));
+    }
     return fine;
 }
 
-// How many rockets the file tells of; -1: it cannot be read.
-static int count_rockets(hid_t file)
-{
-    hid_t rocket;
-    for (int number = 1; number <= LD_MAX_FIRINGS; number++) {
-        htri_t there = open_rocket(file, number, &rocket);
-        if (there <= 0)
-            return there < 0 ? -1 : number - 1;
-        H5Gclose(rocket);
-    }
-    return LD_MAX_FIRINGS;
-}
-
-// What to read from an open file.
-typedef ld_status file_reader(hid_t file, const char *path, int number, history_data *history,
-                              ld_error *error);
-
-static ld_status read_launcher(hid_t file, const char *path, int number, history_data *history,
-                               ld_error *error)
+static ld_status read_launcher(hid_t file, const char *path, history_data *history, ld_error *error)
 {
     double format = hdf5_read_number(file, "format");
     if (!(format >= 1 && format <= HISTORY_FORMAT))
@@ -254,12 +274,11 @@ static ld_status read_launcher(hid_t file, const char *path, int number, history
         return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     history->complete = hdf5_read_number(file, "complete") > 0;
     hid_t rocket = -1;
-    htri_t there = open_rocket(file, number, &rocket);
+    htri_t there = open_rocket(file, 1, &rocket);
     read_instants(rocket, history);
     if (there > 0)
         H5Gclose(rocket);
-    history->rockets = count_rockets(file);
-    if (there < 0 || history->rockets < 0 || !read_table(file, "history", history) ||
+    if (there < 0 || !read_rockets(file, history) || !read_table(file, "history", history) ||
         !read_flights(file, history) || !read_geometry(file, history))
         return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     if (history->columns == 0 && history->flights == 0)
@@ -267,20 +286,7 @@ static ld_status read_launcher(hid_t file, const char *path, int number, history
     return LD_OK;
 }
 
-static ld_status read_rocket(hid_t file, const char *path, int number, history_data *history,
-                             ld_error *error)
-{
-    hid_t rocket;
-    if (open_rocket(file, number, &rocket) <= 0)
-        return ld_fail(error, LD_ERR_INPUT, "%s holds no rocket %d", path, number);
-    read_instants(rocket, history);
-    read_place(rocket, number, history);
-    H5Gclose(rocket);
-    return LD_OK;
-}
-
-static ld_status read_file(const char *path, file_reader *read, int rocket, history_data *history,
-                           ld_error *error)
+ld_status history_read(const char *path, history_data *history, ld_error *error)
 {
     memset(history, 0, sizeof *history);
     hdf5_quiet quiet = hdf5_quiet_begin();
@@ -290,7 +296,7 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
     if (file < 0) {
         status = hdf5_failed(error, LD_ERR_INPUT, "read", path);
     } else {
-        status = read(file, path, rocket, history, error);
+        status = read_launcher(file, path, history, error);
         H5Fclose(file);
     }
     child_reads(NULL);
@@ -300,16 +306,6 @@ static ld_status read_file(const char *path, file_reader *read, int rocket, hist
     return status;
 }
 
-ld_status history_read(const char *path, history_data *history, ld_error *error)
-{
-    return read_file(path, read_launcher, 1, history, error);
-}
-
-ld_status history_read_rocket(const char *path, int rocket, history_data *history, ld_error *error)
-{
-    return read_file(path, read_rocket, rocket, history, error);
-}
-
 void history_free(history_data *history)
 {
     for (size_t i = 0; history->name && i < history->columns; i++)
@@ -317,6 +313,7 @@ void history_free(history_data *history)
     for (size_t i = 0; i < history->flights; i++)
         history_free(&history->flight[i]);
     free(history->flight);
+    free(history->rocket);
     for (size_t i = 0; i < history->arrays; i++) {
         free(history->geometry[i].name);
         free(history->geometry[i].value);

@@ -329,63 +329,78 @@ static void test_names_stand_as_in_the_browser(void **state)
     CHECK_WITHIN("cases of names", cases, 20, 40);
 }
 
-// A flight of 11 rows a second apart, of rows as they stand; its instants.
-static void test_instants_of_a_flight(void **state)
+static void expect_marks(const plot_marks *marks, const plot_mark *expected, size_t count)
+{
+    assert_int_equal(marks->count, count);
+    for (size_t i = 0; i < count; i++) {
+        const plot_mark *mark = &marks->mark[i];
+        assert_string_equal(mark->name, expected[i].name);
+        assert_true(fabs(mark->t - expected[i].t) < 1e-12);
+        assert_int_equal(mark->rank, expected[i].rank);
+        assert_int_equal(mark->rocket, expected[i].rocket);
+        assert_int_equal(mark->figures, expected[i].figures);
+    }
+}
+
+// A flight of 11 rows a second apart, of rows as they stand; its parachutes by their names.
+static void test_marks_of_a_flight(void **state)
 {
     (void)state;
-    enum { ROWS = 11 };
-    char t[] = "t", thrust[] = "thrust", area[] = "drag_area";
-    char *names[] = {t, thrust, area};
-    double value[3][ROWS] = {
-        {0}, {0, 9, 9, 0, 9, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0.5, 1, 1, 1, 4}};
+    enum { ROWS = 11, IN = 1 << PLOT_FLIGHT };
+    char t[] = "t", thrust[] = "thrust";
+    char *names[] = {t, thrust};
+    double value[2][ROWS] = {{0}, {0, 9, 9, 0, 9, 0, 0, 0, 0, 0, 0}};
     for (int i = 0; i < ROWS; i++)
         value[0][i] = 2 + i;
     history_data flight = {.rows = ROWS,
-                           .columns = 3,
+                           .columns = 2,
                            .name = names,
                            .value = &value[0][0],
                            .t_ignition = 1,
                            .t_rear = 1.25,
                            .t_apogee = 6.5,
-                           .t_impact = 11};
-    double at[PLOT_INSTANTS];
-    plot_find_instants(&flight, at);
-    const plot_figure *figure = plot_figure_find("flight");
-    static const struct {
-        const char *name;
-        double t;
-    } expected[] = {{"exit", 1.25},   {"burnout", 6},         {"apogee", 6.5},
-                    {"parachute", 6}, {"next parachute", 10}, {"impact", 11}};
-    size_t marks = 0;
-    for (int i = 0; i < PLOT_INSTANTS; i++)
-        if (plot_marks(figure, i)) {
-            assert_string_equal(plot_instant_at(i)->name, expected[marks].name);
-            assert_true(at[i] == expected[marks++].t);
-        }
-    assert_int_equal(marks, sizeof expected / sizeof *expected);
+                           .t_impact = 11,
+                           .opening = {{"main", 9}, {"drogue", 6.25}},
+                           .openings = 2};
+    static const plot_mark expected[] = {{"exit", 1.25, 0, 0, IN},   {"burnout", 6, 2, 0, IN},
+                                         {"drogue", 6.25, 2, 0, IN}, {"apogee", 6.5, 1, 0, IN},
+                                         {"main", 9, 2, 0, IN},      {"impact", 11, 0, 0, IN}};
+    static plot_marks marks;
+    plot_find_marks(&flight, true, &marks);
+    expect_marks(&marks, expected, 6);
     value[1][ROWS - 1] = 9;
-    plot_find_instants(&flight, at);
-    for (int i = 0; i < PLOT_INSTANTS; i++)
-        if (strcmp(plot_instant_at(i)->name, "burnout") == 0)
-            assert_true(isnan(at[i]));
+    plot_find_marks(&flight, true, &marks);
+    assert_int_equal(marks.count, 5);
+    assert_string_equal(marks.mark[1].name, "drogue");
 }
 
-// What gives way first is the same in the browser, whose parachutes have names of their own.
-static void test_ranks_are_those_of_the_browser(void **state)
+// Each rocket's from the first one's ignition, with its number where there are several.
+static void test_marks_of_a_sequence(void **state)
 {
     (void)state;
-    FILE *file = fopen(LD_SOURCE_DIR "/assets/report/panels.js", "r");
-    assert_non_null(file);
-    char text[512] = "", wanted[64];
-    while (fgets(text, sizeof text, file) && !strstr(text, "const RANK = {"))
-        continue;
-    fclose(file);
-    for (int i = 0; i < PLOT_INSTANTS; i++) {
-        const plot_instant *instant = plot_instant_at(i);
-        snprintf(wanted, sizeof wanted, " %s: %d", instant->name, instant->rank);
-        if (!strstr(instant->name, "parachute") && !strstr(text, wanted))
-            fail_msg("not in panels.js:%s", wanted);
-    }
+    enum { IN = 1 << PLOT_LAUNCH, BOTH = IN | 1 << PLOT_VEHICLE };
+    history_data rocket[] = {
+        {.t_ignition = 0.5, .t_release = 0.01, .t_front = 0.03, .t_middle = 0.04, .t_rear = 0.05},
+        {.t_ignition = 1.5, .t_release = 0.02, .t_front = 0.06, .t_middle = NAN, .t_rear = 0.08}};
+    history_data launch = {.t_ignition = 0.5, .rocket = rocket, .rockets = 2};
+    static const plot_mark two[] = {
+        {"ignition 1", 0, 0, 0, BOTH}, {"release 1", 0.01, 2, 0, IN}, {"front 1", 0.03, 3, 0, IN},
+        {"middle 1", 0.04, 4, 0, IN},  {"rear 1", 0.05, 1, 0, BOTH},  {"ignition 2", 1, 0, 1, BOTH},
+        {"release 2", 1.02, 2, 1, IN}, {"front 2", 1.06, 3, 1, IN},   {"rear 2", 1.08, 1, 1, BOTH}};
+    static const plot_mark one[] = {{"ignition", 0, 0, 0, BOTH},
+                                    {"release", 0.01, 2, 0, IN},
+                                    {"front", 0.03, 3, 0, IN},
+                                    {"middle", 0.04, 4, 0, IN},
+                                    {"rear", 0.05, 1, 0, BOTH}};
+    static plot_marks marks;
+    plot_find_marks(&launch, false, &marks);
+    expect_marks(&marks, two, 9);
+    launch.rockets = 1;
+    plot_find_marks(&launch, false, &marks);
+    expect_marks(&marks, one, 5);
+    launch.rockets = 0;
+    plot_find_marks(&launch, false, &marks);
+    assert_int_equal(marks.count, 0);
 }
 
 static double first_time(const char *script)
@@ -534,8 +549,8 @@ int main(void)
         TEST(test_styles),
         TEST(test_words_on_surfaces),
         TEST(test_names_stand_as_in_the_browser),
-        TEST(test_instants_of_a_flight),
-        TEST(test_ranks_are_those_of_the_browser),
+        TEST(test_marks_of_a_flight),
+        TEST(test_marks_of_a_sequence),
         TEST(test_window_of_time),
         TEST(test_every_figure_in_every_format),
         TEST(test_nothing_to_show),

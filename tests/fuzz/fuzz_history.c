@@ -347,10 +347,6 @@ static void read_all(void)
     if (status == LD_OK)
         show(&history);
     history_free(&history);
-    for (int rocket = 1; rocket <= 3; rocket++) {
-        must_say(history_read_rocket(path, rocket, &history, &error), &error);
-        history_free(&history);
-    }
     status = ld_origin_read(in_memory("run"), &origin, &error);
     must_say(status, &error);
     char differs[256];

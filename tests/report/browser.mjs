@@ -446,10 +446,39 @@ async function checkWithoutGeometry(browser, run) {
   await leave(page);
 }
 
+// Of two launches one fills the slider, the plots and the names of instants, the first at first; a button shows the other
+// in both, or all.
+async function checkChoice(page, rockets) {
+  const shown = () => page.evaluate(() => {
+    const { clock, time, zero, stage, choice } = window.launchdyn.current;
+    return { from: clock.first - zero, launched: clock.last - zero, at: time - zero, number: stage.state.number, choice: choice.value,
+      names: [...document.querySelectorAll(".tick")].map(({ title }) => title).join(),
+      pressed: document.querySelector('.windows [aria-pressed="true"]').textContent };
+  });
+  const names = (i) => ["ignition", "release", "front", "middle", "rear"].map((name) => `${name} ${i}`).join(), [one, two] = rockets;
+  const begins = two.t_ignition - one.t_ignition, at = (state, of, i) => state.number === i && state.choice === String(i) &&
+    near(state.at, of.t_ignition - one.t_ignition + 0.75 * of.t_rear, 1e-6) && state.names === names(i + 1) && state.pressed === `Rocket ${i + 1}`;
+  const first = await shown();
+  check("of two launches the replay shows the first, all its instants named", at(first, one, 0) && first.launched < begins, JSON.stringify(first));
+  const drawing = () => page.$eval("#table0-travel canvas", (canvas) => canvas.toDataURL());
+  const before = await drawing();
+  await page.click('.windows button:text-is("Rocket 2")');
+  await drawn(page);
+  const second = await shown(), after = await drawing();
+  check("a button shows the second, in the plots too", at(second, two, 1) && second.from < begins && second.from >= one.t_rear && before !== after,
+    JSON.stringify(second));
+  await page.selectOption(".controls select", "all");
+  await drawn(page);
+  const all = await shown(), whole = await drawing();
+  check("the replay's own choice shows all, in the plots too", all.pressed === "All" && all.names === `${names(1)},${names(2)}` &&
+    all.launched > begins && whole !== after && whole !== before, JSON.stringify(all));
+  await page.selectOption(".controls select", "0");
+}
+
 // A ship floats: its hull goes from below the sea, which lies where I's y is 0, to above it, around the launcher.
 async function checkShip(browser) {
   console.log("ship.yaml");
-  const run = runOf("ship.yaml", "--set", "run.lead_in='0.05 s'"), page = await open(browser, run.file, { width: 500 });
+  const run = runOf("ship.yaml", "--set", "run.lead_in='0.05 s'", "--set", "firing={order: [1, 2], interval: 0.3 s}"), page = await open(browser, run.file, { width: 500 });
   const at = await page.evaluate(() => {
     const { stage } = window.launchdyn.current, low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     stage.scene.updateMatrixWorld();
@@ -478,6 +507,7 @@ async function checkShip(browser) {
     return x < 0 || x + width > node.ownerSVGElement.viewBox.baseVal.width;
   }).map((node) => node.textContent));
   check("no word of the drawing is cut off", cut.length === 0, cut.join("; "));
+  await checkChoice(page, JSON.parse(readFileSync(join(run.out, "summary.json"), "utf8")).rockets);
   await picture(page, "ship.png");
   await leave(page);
 }

@@ -72,6 +72,11 @@ static const char *printed_by(const char *format, const char *path)
     return text;
 }
 
+// A model of three parachutes, of which the second does not open in the made launch.
+static ld_model with_parachutes = {
+    .rocket = {.parachute = {{.name = "pilot"}, {.name = "drogue"}, {.name = "main.lower"}},
+               .parachute_count = 3}};
+
 static void write_launch(const place *here, const char *folder, bool csv, size_t rows)
 {
     ld_error error = {0};
@@ -80,6 +85,10 @@ static void write_launch(const place *here, const char *folder, bool csv, size_t
     made_summary(&summary, 1);
     summary.rocket[0].flown = true;
     summary.rocket[0].flight = (ld_flight_summary){.t_apogee = 13.5, .t_impact = 41.5};
+    summary.model = &with_parachutes;
+    summary.rocket[0].parachute[0].t_open = 15.5;
+    summary.rocket[0].parachute[1].t_open = NAN;
+    summary.rocket[0].parachute[2].t_open = 30.25;
     if (ld_output_open(in(here, folder), &here->model, csv, &output, &error) ||
         made_run(ld_output_sink(output), rows, &error) ||
         ld_output_finish(output, &summary, &error))
@@ -101,6 +110,17 @@ static size_t differences(const history_data *read)
     return wrong;
 }
 
+static void expect_openings(const history_data *rocket)
+{
+    const history_opening *opening = rocket->opening;
+    assert_int_equal(rocket->openings, 2);
+    int pilot = opening[1].t == 15.5;
+    assert_string_equal(opening[pilot].name, "pilot");
+    assert_true(opening[pilot].t == 15.5);
+    assert_string_equal(opening[!pilot].name, "main.lower");
+    assert_true(opening[!pilot].t == 30.25);
+}
+
 static void test_hdf5_holds_every_bit(void **state)
 {
     place *here = *state;
@@ -117,6 +137,7 @@ static void test_hdf5_holds_every_bit(void **state)
         assert_string_equal(read.title, here->model.title);
         assert_true(read.t_rear == 0.1604 && read.t_middle == 0.1273 && read.t_front == 0.0952);
         assert_true(read.t_apogee == 13.5 && read.t_impact == 41.5);
+        expect_openings(&read.rocket[0]);
         assert_ptr_equal(history_column(&read, "tip.y"), read.value + 33 * read.rows);
         assert_null(history_column(&read, "tip"));
         history_free(&read);
