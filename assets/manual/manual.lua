@@ -57,15 +57,23 @@ local function pictures(text)
     return found
 end
 
+-- What prints wide tables has smaller letters in the book, where lines do not scroll.
+local function is_wide(text)
+    for line in text:gmatch("[^\n]+") do
+        if #line > 100 then return true end
+    end
+    return false
+end
+
 local function code_block(block)
     local class = block.classes[1] or ""
     if class == "math" then
         return pandoc.Para { pandoc.Math("DisplayMath", block.text) }
     end
     local language, word = class:match("^(.-):(.*)$")
-    if language then
-        block.classes = { language }
-    end
+    local classes = language and { language } or block.classes
+    if is_wide(block.text) then table.insert(classes, "wide") end
+    block.classes = classes
     local result = { block }
     if word and not word:match("^long") and not word:match("^elsewhere") then
         result = { pandoc.Div({ pandoc.Div({ pandoc.Plain { pandoc.Str(word) } }, pandoc.Attr("", { "name" })), block },

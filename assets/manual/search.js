@@ -55,7 +55,7 @@
         document.head.append(script);
     });
     // On wide screens the list of chapters stands open.
-    if (window.matchMedia("(min-width: 60rem)").matches)
+    if (window.matchMedia("(min-width: 72rem)").matches)
         document.querySelector("nav details").open = true;
     document.querySelector("nav [aria-current]")?.scrollIntoView({ block: "nearest" });
 }
