@@ -73,10 +73,10 @@ class View:
 
 
 def _columns(path: Path) -> dict[str, Array]:
-    """Columns of a CSV file of the library, "x [m]" as "x"; an empty cell is NaN."""
+    """Columns of a CSV file of the library, "x [m]" as "x"."""
     with path.open() as file:
         head, *rows = csv.reader(file)
-    return {name.split(" [")[0]: np.array([float(row[i] or "nan") for row in rows])
+    return {name.split(" [")[0]: np.array([float(row[i]) for row in rows])
             for i, name in enumerate(head)}
 
 

@@ -1,4 +1,5 @@
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,7 +72,8 @@ ld_status history_csv_row(history_csv *history, const double *values, size_t cou
     locale_t before = numeric_locale_enter();
     for (size_t i = 0; i < count; i++) {
         char text[NUMBER];
-        int length = snprintf(text, sizeof text, "%.17g%c", values[i], i + 1 < count ? ',' : '\n');
+        double value = isnan(values[i]) ? NAN : values[i]; // which has no sign
+        int length = snprintf(text, sizeof text, "%.17g%c", value, i + 1 < count ? ',' : '\n');
         fwrite(text, 1, (size_t)length, history->file);
     }
     numeric_locale_leave(before);

@@ -50,6 +50,8 @@ class TestViews(Case):
         wind = self.compare(view, "wind", EXAMPLES / "salvo.yaml", "--height", 50, "--top", 400,
                             "--length", 60, "--step", 2, "--rocket", 3)
         self.assertEqual({len(column) for column in wind["wind-turbulence"].values()}, {31})
+        self.assertEqual(str(ld.Scenario.read(EXAMPLES / "salvo.yaml").wind_view()),
+                         command("wind", EXAMPLES / "salvo.yaml"))
         with self.assertRaisesRegex(ld.InputError, "no wind"):
             ld.Scenario.read(FIXED).wind_view()
 
@@ -73,6 +75,17 @@ class TestViews(Case):
         others = ["".join(("other", "tion")).encode() for _ in range(100)]  # where it might be
         self.assertIn("Loop of the elevation", str(view))
         self.assertEqual(len(others), 100)
+
+
+    def test_what_has_no_value_is_nan(self):
+        view = ld.Scenario.read(FIXED).response_view("aim.pitch_rate", "tip.y", input="base.y",
+                                                        start=1, end=3)
+        view.write(self.folder)
+        self.assertNotIn("-nan", (self.folder / "response-frequency.csv").read_text())
+        table = view.tables["response-frequency"]
+        self.assertTrue(np.isnan(table["aim.pitch_rate.amplitude"]).all())
+        self.assertFalse(np.isnan(table["tip.y.amplitude"]).any())
+        np.testing.assert_allclose(table["frequency"][[0, -1]], (1, 3))
 
 
 class TestInterrupted(Case):
@@ -165,6 +178,9 @@ class TestResponse(Case):
                                                    density=1)):
             with self.assertRaises(ValueError):
                 wrong()
+        with self.read.response(0, 10) as response, \
+                self.assertRaisesRegex(ld.InputError, "vehicle that stands"):
+            response.on_road("tip.y", speed=0)
         with ld.Scenario.read(FIXED).response() as closed:
             pass
         with self.assertRaisesRegex(ValueError, "closed"):
