@@ -38,7 +38,7 @@ class Interrupt:
         """A function for the library that tells `progress` and says whether to go on."""
         def may_go_on(_: Any, share: float = 0) -> bool:
             try:
-                if progress and not self.asked:
+                if progress:
                     progress(share)
             except BaseException as raised:  # to be raised once the library has returned
                 self._raised = raised

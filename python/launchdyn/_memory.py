@@ -85,7 +85,7 @@ class _Memory:
 
 def array_at(address: Optional[int], count: int, owner: Any) -> Array:
     """A read-only array over the library's memory, without a copy; it keeps `owner`."""
-    if not address or not count:
+    if not address:
         return np.empty(0)
     return np.asarray(_Memory(address, count, owner))
 

@@ -169,9 +169,8 @@ class Result:
     def __init__(self, model: Handle, summary: Handle, history: Handle) -> None:
         self._model, self._handle, self._rows = model, summary, history
         self.summary = Summary(summary)
-        launch = History(history, history.pointer)
         #: Columns of the launch, or of a flight alone.
-        self.history = launch if len(launch) else self.flights.get(1, launch)
+        self.history = History(history, history.pointer)
 
     @property
     def rockets(self) -> int:

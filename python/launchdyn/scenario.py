@@ -6,7 +6,7 @@ import ctypes
 import json
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Callable, Optional, Type, Union
 
@@ -295,8 +295,3 @@ def _coded(text: Optional[str]) -> Optional[bytes]:
 def dict_text(values: Mapping[str, Any]) -> str:
     """A nested mapping as the text of a scenario."""
     return scenario_text({"launchdyn": 1, **values} if "include" not in values else values)
-
-
-def each_point(scenario: Scenario) -> Iterator[Scenario]:
-    """The scenario at each point of its sweep."""
-    return map(scenario.point, range(1, scenario.points + 1))

@@ -24,7 +24,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 #: Simulated time [s] after which a run that is stepped looks whether Ctrl-C was pressed.
 PIECE = 0.01
 #: Statuses of runs that ended early for reasons of their own, and leave results up to there.
-EARLY = (Status.LAUNCH, Status.NUMERIC, Status.INTERRUPTED)
+EARLY = (Status.LAUNCH, Status.NUMERIC)
 
 
 @dataclass(frozen=True)
@@ -385,7 +385,7 @@ class Run(Held):
     def save(self) -> bytes:
         """All that the rest depends on, for Simulation.load() here or in another process."""
         error, size = ld_error(), ctypes.c_size_t()
-        room = 1 << 16
+        room = 0  # it says how much it wants
         with self._lock:
             while True:
                 saved = ctypes.create_string_buffer(room)
