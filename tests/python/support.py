@@ -4,6 +4,7 @@ import csv
 import importlib.util
 import math
 import os
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -16,6 +17,9 @@ SOURCE = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("LAUNCHDYN_BUILD", SOURCE / "build"))
 EXAMPLES = SOURCE / "examples"
 FIXED = EXAMPLES / "fixed.yaml"
+
+# Where it is started in the background, too, whose programs are deaf to Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 ELEVATION = math.radians(19.8)
 

@@ -6,11 +6,16 @@ import gc
 import pickle
 import threading
 import unittest
+from unittest import mock
 
 import launchdyn as ld
 import numpy as np
+from launchdyn import _memory
 from launchdyn._library import libc
-from support import FIXED, Case, external, resting_frame, scattered
+from support import EXAMPLES, FIXED, Case, external, resting_frame, scattered
+
+
+REFERENCE = EXAMPLES / "reference.yaml"
 
 
 class Heap(ctypes.Structure):
@@ -91,6 +96,40 @@ class TestLeaks(Case):
         self.assertGreater(in_use() - before, 2 * kept[0].nbytes)
         del kept
         self.assertLess(in_use() - before, 10000)
+
+
+class TestOrder(Case):
+    def freed(self, make):
+        """What goes while of all that is made a handle is left; what goes with that."""
+        free, freed = _memory._free, []
+
+        def noting(function, *arguments):
+            freed.append(function.__name__.removeprefix("ld_").removesuffix("_free"))
+            free(function, *arguments)
+        with mock.patch("launchdyn._memory._free", noting):
+            handle = make()
+            gc.collect()
+            before = len(freed)
+            del handle
+            gc.collect()
+        return freed[:before], freed[before:]
+
+    def test_what_is_made_of_others_keeps_them_and_goes_first(self):
+        fixed, marching = (lambda: ld.Scenario.read(FIXED)), (lambda: ld.Scenario.read(REFERENCE))
+        launch = ["simulation", "model"]
+        for make, before, after in (
+                (lambda: fixed().simulation().handle, [], launch),
+                (lambda: fixed().begin()._handle, ["summary"], ["_give_up", "history", *launch]),
+                (lambda: marching().simulation().begin_vehicle()._handle, [],
+                 ["vehicle_run_end", *launch]),
+                (lambda: fixed().run()._handle, ["simulation", "history"], ["summary", "model"]),
+                (lambda: fixed().response()._handle, [], ["response", "model"]),
+                (lambda: marching().loop("elevation")._handle, [], ["loop", "model"]),
+                (lambda: marching().road_view()._handle, [], ["road_view", "model"]),
+                (lambda: ld.Study.of(scattered(2)).sample(1).handle, ["model"],
+                 ["_keep", "sample", "study"])):
+            with self.subTest(str(after)):
+                self.assertEqual(self.freed(make), (before, after))
 
 
 class TestCopies(Case):

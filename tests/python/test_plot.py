@@ -35,6 +35,12 @@ class TestGnuplot(Case):
         ld.draw(ours, *runs, figures=["tip", "travel"], start=0.01, end=0.12, style="paper",
                 width=0.12)
         self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+        command("plot", runs[0], "-o", theirs)
+        ld.draw(ours, runs[0])
+        self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+        (runs[0] / "summary.json").unlink()
+        with self.assertWarnsRegex(UserWarning, "there is no summary.json"):
+            ld.draw(ours, runs[0])
         with self.assertRaisesRegex(ld.InputError, "did you mean tip"):
             ld.draw(ours, *runs, figures=["tp"])
         with self.assertRaises(ld.InputError):
@@ -82,7 +88,10 @@ class TestPlot(Case):
             np.testing.assert_array_equal(
                 line.get_ydata(), data.values("muzzle_speed", point=point)["muzzle_speed"])
         self.assertEqual(axes.get_legend().get_texts()[1].get_text(), "base.elevation 20 deg")
+        opaque = data.plot("muzzle_speed", over="rocket.mass", alpha=1)
+        self.assertEqual(opaque.lines[0].get_alpha(), 1)
         histograms = data.plot("muzzle_speed", "pitch_rate")
+        self.assertNotEqual(*(axes.get_xlim() for axes in histograms))
         self.assertEqual(sum(bar.get_height() for bar in histograms[0].patches), 8)
 
 

@@ -11,6 +11,7 @@ from unittest import mock
 
 import launchdyn as ld
 import numpy as np
+from launchdyn._library import library
 from support import EXAMPLES, FIXED, Case, command, external, needs, written
 
 
@@ -106,6 +107,9 @@ class TestResult(Case):
         self.assertIn("<pre>", self.result._repr_html_())
         self.assertEqual(repr(self.result),
                          f"<launchdyn.Result: rockets 1, rows {len(self.result['t'])}>")
+        with mock.patch.object(library, "ld_summary_note",
+                               lambda _, number: [b"one", b"two", None][number]):
+            self.assertEqual(self.result.notes, ["one", "two"])
         self.assertIn("bores", ld.Scenario.read(FIXED)._repr_html_())
 
     def test_modes(self):
@@ -178,6 +182,17 @@ class TestEarlyEnds(Case):
         self.assertEqual(error.code, ld.Status.LAUNCH)
         self.assertGreater(error.result["t"][-1], 0.1)
         self.assertIn("the lock never let go", error.result.stopped)
+        self.assertTrue((self.folder / "out/summary.json").exists())
+
+    def test_so_does_one_whose_numerics_fail(self):
+        run = library.ld_simulation_run
+
+        def fail(*arguments):
+            return run(*arguments) or ld.Status.NUMERIC
+        with mock.patch.object(library, "ld_simulation_run", fail), \
+                self.assertRaises(ld.NumericError) as caught:
+            ld.Scenario.read(FIXED).run(out=self.folder / "out")
+        self.assertGreater(caught.exception.result["t"][-1], 0.1)
         self.assertTrue((self.folder / "out/summary.json").exists())
 
     def test_a_launch_that_cannot_begin_leaves_nothing(self):

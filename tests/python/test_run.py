@@ -58,6 +58,7 @@ class TestRun(Case):
                 run["tip.yy"]
             self.assertIn("rocket.1.t_front", run.quantities())
             self.assertEqual(len(run.wrench().force), 3)
+            self.assertEqual(run.simulation.columns["tip.y"].unit, "m")
 
     def test_ignited_later(self):
         with ld.Scenario.read(FIXED, {"run.lead_in": 0.05}).begin() as run:

@@ -4,6 +4,7 @@ import copy
 import math
 import pickle
 import unittest
+import zipfile
 
 import launchdyn as ld
 import numpy as np
@@ -130,6 +131,12 @@ run: {end: tip}
         read["rocket.motor.thrust"] = np.array([[0, 1e4], [3, 1e4]])
         self.assertEqual(read["run.stuck_time"], 4)
 
+    def test_attitudes_begin_with_their_scalar_part(self):
+        read = ld.Scenario.read(EXAMPLES / "flight.yaml", {
+            "flight.attitude": None, "flight.quaternion": (0.8, 0, 0.6, 0)})
+        np.testing.assert_array_equal(read["flight.quaternion"], [0.8, 0, 0.6, 0])
+        self.assertEqual(read["flight.quaternion.w"], 0.8)
+
     def test_results_keep_the_scenario_they_are_of(self):
         read = ld.Scenario.read(FIXED)
         result = read.run()
@@ -169,8 +176,10 @@ run: {end: tip}
 
     def test_export(self):
         file = self.folder / "launch.fmu"
-        ld.Scenario.read(FIXED).export_fmu(file, version=2)
-        self.assertEqual(file.read_bytes()[:2], b"PK")
+        for words, said in (({}, 'fmiVersion="3.0"'), ({"version": 2}, 'fmiVersion="2.0"')):
+            ld.Scenario.read(FIXED).export_fmu(file, **words)
+            with zipfile.ZipFile(file) as package:
+                self.assertIn(said, package.read("modelDescription.xml").decode())
         with self.assertRaisesRegex(ValueError, "one of all, vehicle, launcher"):
             ld.Scenario.read(FIXED).export_fmu(file, part="lunch")
         with self.assertRaises(ld.InputError):
@@ -183,6 +192,11 @@ class TestErrors(Case):
         path.write_text(f"include: {FIXED}\n\nrocket:\n  mas: 61 kg\n  center: 1 m\n")
         with self.assertRaises(ld.InputError) as caught:
             ld.Scenario.read(path)
+        with self.assertRaises(ld.InputError) as same:
+            ld.Scenario.from_text(path.read_text().replace(str(FIXED), "fixed.yaml"),
+                                  name="words", folder=EXAMPLES)
+        self.assertEqual([(m.file, m.line, m.key) for m in same.exception.messages],
+                         [("words", m.line, m.key) for m in caught.exception.messages])
         error = caught.exception
         self.assertEqual(error.code, ld.Status.INPUT)
         self.assertEqual((error.file, error.line, error.column), (str(path), 4, 3))
@@ -199,6 +213,9 @@ class TestErrors(Case):
             read["rocket.mass"] = "61 m"
         self.assertEqual((caught.exception.file, caught.exception.key), ("--set", "rocket.mass"))
         self.assertEqual(read["rocket.mass"], 60)
+        with self.assertRaises(ld.InputError) as caught:
+            read.set({"rocket.mass": 61, "base.elevation": "1 m"})
+        self.assertEqual((caught.exception.line, caught.exception.key), (2, "base.elevation"))
         with self.assertRaises(ld.InputError) as caught:
             read["tubes.modes.span"] = "suported"
         self.assertEqual(caught.exception.suggestion, "supported")
@@ -231,6 +248,8 @@ class TestErrors(Case):
         with self.assertRaises(ld.LaunchdynError) as caught:
             ld.Scenario.read(self.folder / "nowhere.yaml")
         self.assertIn("nowhere.yaml", str(caught.exception))
+        with self.assertRaisesRegex(ld.FileError, "cannot be read"):
+            ld.Scenario.read("/proc/self/mem")
         with self.assertRaises(ld.FileError):
             ld.Scenario.read(FIXED).run(out="/proc/nowhere")
         with self.assertRaisesRegex(ValueError, "csv needs a folder"):

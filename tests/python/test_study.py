@@ -202,6 +202,10 @@ class TestStudy(Case):
     def test_points_beside_each_other(self):
         with ld.Study.of(scattered(6, sweep={"base.elevation": ["10 deg", "20 deg"]})).run(
                 self.folder / "study") as data:
+            shots = self.folder / "shots.csv"
+            shots.write_text("muzzle_speed [m/s]\n38.1\n37.9\n38.0\n")
+            self.assertEqual(data.show(measured=shots),
+                             command("study", "show", data.folder, "--measured", shots))
             for words in ({"against": "1"}, {"sensitivity": True}, {}):
                 options = [word for name, value in words.items()
                            for word in (f"--{name}", value) if value is not True] or \
@@ -236,7 +240,10 @@ class TestStudy(Case):
         data.write_report(self.folder / "study.html")
         ld.Scenario.read(FIXED).run(out=self.folder / "run")
         written = ld.write_report(self.folder / "run")
-        for file in (self.folder / "study.html", written):
+        named = ld.write_report(self.folder / "run", self.folder / "named.html")
+        self.assertEqual((written, named),
+                         (self.folder / "run/report.html", self.folder / "named.html"))
+        for file in (self.folder / "study.html", written, named):
             self.assertIn("<html", file.read_text()[:500])
         with self.assertRaises(ld.InputError):
             ld.write_report(self.folder / "nowhere")
