@@ -4,9 +4,11 @@ import os
 import shutil
 import subprocess
 import sys
+import sysconfig
 import unittest
+import zipfile
 
-from support import BUILD, SOURCE, Case
+from support import BUILD, SOURCE, Case, needs
 
 
 def python(code, **environment):
@@ -52,6 +54,29 @@ class TestLibrary(Case):
         code, found, said = python(FOUND, LAUNCHDYN_LIBRARY="", PYTHONPATH=str(home),
                                    LD_LIBRARY_PATH=str(BUILD))
         self.assertEqual((code, found), (0, "liblaunchdyn.so.1"), said)
+
+    @needs("setuptools")
+    @needs("wheel")
+    def test_a_wheel_has_the_library_of_the_build_folder(self):
+        shutil.copytree(SOURCE / "python", self.folder / "python",
+                        ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
+        (self.folder / "build").mkdir()
+        library = self.folder / "build/liblaunchdyn.so.1"
+        modules = {path.name for path in (SOURCE / "python/launchdyn").glob("*.py")}
+        for content, tag in ((b"", "py3-none-any"), (b"the library", sysconfig.get_platform())):
+            if content:
+                library.write_bytes(content)
+            subprocess.run([sys.executable, "-c",
+                            "from setuptools import build_meta; build_meta.build_wheel('../out')"],
+                           cwd=self.folder / "python", check=True, capture_output=True)
+            wheel, = (self.folder / "out").glob(f"*{tag.replace('-', '_' if content else '-')}.whl")
+            with zipfile.ZipFile(wheel) as package:
+                held = {name.removeprefix("launchdyn/") for name in package.namelist()
+                        if name.startswith("launchdyn/")}
+                self.assertEqual(held, modules | {"py.typed"} | ({library.name} if content else
+                                                                 set()))
+                if content:
+                    self.assertEqual(package.read(f"launchdyn/{library.name}"), content)
 
     def test_another_library_is_refused(self):
         code, _, said = python(FOUND, LAUNCHDYN_LIBRARY="libc.so.6")
