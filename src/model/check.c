@@ -67,7 +67,7 @@ static void check_choice(model_checker *checker, const key_path *path, const fie
     if (f->offset == FIELD_NOWHERE)
         return;
     memcpy(&value, field_at_const(base, f), sizeof value);
-    const field_word *word = value == FIELD_WORD_LATER ? NULL : field_word_of(f->words, value);
+    const field_word *word = field_word_of(f->words, value);
     if (!word)
         refuse(checker, path, "no value of this choice");
     else if (!word->name[0])
@@ -273,7 +273,6 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
     case FIELD_TEXT:
     case FIELD_FILE:
     case FIELD_SELECTION:
-    case FIELD_LATER:
         break;
     }
 }

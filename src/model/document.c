@@ -13,10 +13,6 @@ static void cell(FILE *stream, const char *text)
 static void write_kind(FILE *stream, const field_row *f)
 {
     char text[FIELD_EXPECTATION];
-    if (f->kind == FIELD_LATER) {
-        fprintf(stream, "not simulated yet");
-        return;
-    }
     field_expectation(f, text, sizeof text);
     cell(stream, text);
     for (int i = 0; f->kind == FIELD_TABLE && i < f->table->columns; i++) {
@@ -29,8 +25,8 @@ static void write_kind(FILE *stream, const field_row *f)
 static void write_default(FILE *stream, const field_row *f)
 {
     char number[32];
-    if (f->required || f->kind == FIELD_LATER) {
-        fprintf(stream, f->required ? "required" : "");
+    if (f->required) {
+        fprintf(stream, "required");
         if (f->optional)
             fprintf(stream, "; %s", f->initial_doc);
         return;

@@ -282,19 +282,17 @@ static void append(char *text, size_t size, const char *more)
     snprintf(text + length, size - length, "%s", more);
 }
 
-// Appends the words that are simulated, or those that are not yet; returns whether there are any.
-static bool append_words(const field_row *field, bool later, const char *first, char *text,
-                         size_t size)
+// Appends the words of a field, after `first`.
+static void append_words(const field_row *field, const char *first, char *text, size_t size)
 {
     const char *between = first;
     for (const field_word *w = field->words; w->name; w++) {
-        if (!w->name[0] || (w->value == FIELD_WORD_LATER) != later)
+        if (!w->name[0])
             continue;
         append(text, size, between);
         append(text, size, w->name);
         between = ", ";
     }
-    return between != first;
 }
 
 static const char *unit_name(const char *unit)
@@ -374,7 +372,7 @@ void field_expectation(const field_row *field, char *text, size_t size)
         return;
     case FIELD_WORDS:
         text[0] = '\0';
-        append_words(field, false, "all or a list of ", text, size);
+        append_words(field, "all or a list of ", text, size);
         return;
     case FIELD_WORD:
         snprintf(text, size, "a name of letters, digits, - and _ that begins with a letter");
@@ -390,19 +388,17 @@ void field_expectation(const field_row *field, char *text, size_t size)
         return;
     case FIELD_CHOICE:
         text[0] = '\0';
-        append_words(field, false, "one of ", text, size);
+        append_words(field, "one of ", text, size);
         for (const field_word *w = field->words; w->name; w++)
             if (!w->name[0]) {
                 append(text, size, ", or a number with a unit of ");
                 append(text, size, field->unit);
             }
-        if (append_words(field, true, " (not simulated yet: ", text, size))
-            append(text, size, ")");
         return;
     case FIELD_BLOCK:
         snprintf(text, size, "a block of keys");
         if (field->words)
-            append_words(field, false, " or ", text, size);
+            append_words(field, " or ", text, size);
         if (field->block->shared_value)
             append(text, size, " or one value for all");
         return;
@@ -429,9 +425,6 @@ void field_expectation(const field_row *field, char *text, size_t size)
         return;
     case FIELD_SWEEP:
         snprintf(text, size, "a block of paths or names, each with a list of values");
-        return;
-    case FIELD_LATER:
-        snprintf(text, size, "nothing yet");
         return;
     }
 }

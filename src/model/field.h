@@ -32,7 +32,6 @@ typedef enum field_kind {
     FIELD_CORRELATED, // ld_correlated *, owned by the model, their number at `other`
     FIELD_UNTIL,      // array of ld_until, their number at `other`
     FIELD_SWEEP,      // ld_sweep_axis *, owned by the model, their number at `other`
-    FIELD_LATER,      // a key of the language that is not simulated yet
 } field_kind;
 
 // Numbers between `low` and `high`, the ends belonging to it unless open.
@@ -45,10 +44,10 @@ typedef struct field_range {
 // choice, stored at `other`) or a block (its switch at `other`).
 typedef struct field_word {
     const char *name;
-    int value; // FIELD_WORD_LATER: not simulated yet
+    int value;
 } field_word;
 
-enum { FIELD_WORD_LATER = -2 };
+enum { FIELD_WORD_REFUSED = -2 }; // what was chosen is no word of the choice
 
 // What may stand in place of a table's rows.
 enum table_source {
@@ -218,7 +217,7 @@ void field_number_text(double value, char text[32]);
 
 // Rules that tie several keys together; `report` is called for each one broken, with the path of
 // the key that it is about (list members by number). A value that was refused already is marked by
-// NaN, a choice by FIELD_WORD_LATER.
+// NaN, a choice by FIELD_WORD_REFUSED.
 typedef void rule_report(void *self, const char *path, const char *text);
 void model_check_rules(const ld_model *model, rule_report *report, void *self);
 

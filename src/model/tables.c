@@ -26,7 +26,6 @@
     .stride = sizeof(entry), .mark = offsetof(entry, mark_)
 #define TABLE(type, member, format_)                                                               \
     .kind = FIELD_TABLE, .offset = offsetof(type, member), .table = &(format_)
-#define LATER .kind = FIELD_LATER, .offset = FIELD_NOWHERE
 
 // Ranges.
 #define ANY .range = {-INFINITY, INFINITY, 1, 1}

@@ -178,7 +178,7 @@ static void take_key(const key_taker *taker, const field_row *f, const char *abo
         take_block(taker, f->block, path);
     if (f->alternative)
         take_key(taker, f->alternative, above);
-    if (f->kind == FIELD_BLOCK || f->kind == FIELD_LIST || f->kind == FIELD_LATER)
+    if (f->kind == FIELD_BLOCK || f->kind == FIELD_LIST)
         return;
     field_expectation(f, expected, sizeof expected);
     taker->take(taker->self, &(ld_key){.path = path,

@@ -149,7 +149,7 @@ static bool has_value(const field_row *f, const void *base)
         return field_switch(base, f) > 0;
     if (f->kind == FIELD_LIST && f->silent)
         return field_switch(base, f) > 0;
-    return f->kind != FIELD_LATER;
+    return true;
 }
 
 // Whether the key has a value to print.

@@ -152,29 +152,26 @@ static const field_word *word_for_number(const field_row *f, const char *text)
     return NULL;
 }
 
-// The value chosen by a word or a number; FIELD_WORD_LATER after a message.
+// The value chosen by a word or a number; FIELD_WORD_REFUSED after a message.
 static int choose(scenario_reader *reader, const field_row *f, const tree_node *value, void *base,
                   const char *path)
 {
     const field_word *word = field_word_find(f->words, value->text);
-    if (word) {
-        if (word->value == FIELD_WORD_LATER)
-            reader_refuse(reader, value->at, path, "%s is not simulated yet", word->name);
+    if (word)
         return word->value;
-    }
     word = word_for_number(f, value->text);
     if (!word)
         refuse_word(reader, f, f->words, value, path);
     else if (quantity_read(reader, f, value->at, path, value->text,
                            (double *)((char *)base + f->other), 1))
         return word->value;
-    return FIELD_WORD_LATER;
+    return FIELD_WORD_REFUSED;
 }
 
 static void read_choice(scenario_reader *reader, const field_row *f, const tree_node *value,
                         void *base, const char *path)
 {
-    int chosen = FIELD_WORD_LATER;
+    int chosen = FIELD_WORD_REFUSED;
     if (is_scalar(reader, f, value, path))
         chosen = choose(reader, f, value, base, path);
     if (f->offset != FIELD_NOWHERE)
@@ -590,9 +587,6 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
     case FIELD_UNTIL: // about all the rest: scenario_fill_scatter()
     case FIELD_SWEEP: // see sweep_find()
         break;
-    case FIELD_LATER:
-        reader_refuse(reader, value->key_at, path, "not simulated yet");
-        break;
     }
 }
 
@@ -612,11 +606,10 @@ static void refuse_unknown_keys(scenario_reader *reader, const field_block *bloc
         if (field_find(block, member->key))
             continue;
         const char *meant = scenario_key_meant(block, member->key);
-        for (const field_row *f = block->fields; f->name; f++)
-            if (f->kind != FIELD_LATER) {
-                extend(allowed, allowed[0] ? ", " : "");
-                extend(allowed, f->name);
-            }
+        for (const field_row *f = block->fields; f->name; f++) {
+            extend(allowed, allowed[0] ? ", " : "");
+            extend(allowed, f->name);
+        }
         join(key_path, path, member->key);
         reader_refuse_key(reader, member->key_at, key_path, meant, allowed);
         if (meant && !tree_member(map, meant))
