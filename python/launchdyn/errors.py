@@ -63,22 +63,27 @@ class LaunchdynError(Exception):
 
     @property
     def file(self) -> Optional[str]:
+        """Of the first message: the file that holds the key."""
         return self.messages[0].file if self.messages else None
 
     @property
     def line(self) -> Optional[int]:
+        """Of the first message: the line, from 1."""
         return self.messages[0].line if self.messages else None
 
     @property
     def column(self) -> Optional[int]:
+        """Of the first message: the column, from 1, in characters."""
         return self.messages[0].column if self.messages else None
 
     @property
     def key(self) -> Optional[str]:
+        """Of the first message: the key's full path."""
         return self.messages[0].key if self.messages else None
 
     @property
     def suggestion(self) -> Optional[str]:
+        """The name that was probably meant."""
         return self.messages[0].suggestion if self.messages else suggested(self.text)
 
 

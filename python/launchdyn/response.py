@@ -132,8 +132,8 @@ class Response(Held):
         return {name: gain[:, i].copy() for i, name in enumerate(names)}
 
     def on_road(self, *names: str, speed: Optional[float] = None) -> dict[str, Strength]:
-        """Root mean squares of columns on the scenario's road, over all the phases that its sines
-        may have."""
+        """Root mean squares of columns, in their units, on the scenario's road, over all the phases
+        that its sines may have; of a vehicle at `speed` [m/s], None: the scenario's."""
         error = ld_error()
         rms, strongest = np.empty(len(names)), np.empty(len(names))
         with self._lock:
@@ -231,7 +231,7 @@ class Loop(Held):
 
     @property
     def margins(self) -> Margins:
-        """What it bears before it swings."""
+        """What it bears before it swings: factors, [Hz], [rad], [s]."""
         found = ld_loop_margins()
         with self._lock:
             library.ld_loop_margins_of(self._pointer, ctypes.byref(found))

@@ -93,6 +93,7 @@ class History(Mapping[str, Array]):
 
     @property
     def rows(self) -> int:
+        """Number of rows, one for each instant of `t`."""
         return int(library.ld_history_rows(self._pointer))
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -211,11 +212,11 @@ class Result:
         return self.history[name]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The columns as a data frame over t [s]."""
+        """The columns as a data frame over t [s], in SI; see History.to_pandas()."""
         return self.history.to_pandas()
 
     def to_xarray(self) -> xarray.Dataset:
-        """The columns as a data set over t [s]."""
+        """The columns as a data set over t [s], in SI; see History.to_xarray()."""
         return self.history.to_xarray()
 
     def plot(self, *names: str, over: str = "t", ax: Any = None, **style: Any) -> Any:

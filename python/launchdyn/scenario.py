@@ -172,6 +172,7 @@ class Scenario:
 
     @property
     def title(self) -> str:
+        """What the scenario calls itself."""
         return str(self["title"])
 
     @property
@@ -181,6 +182,7 @@ class Scenario:
 
     @property
     def has_vehicle(self) -> bool:
+        """Whether its base is a vehicle."""
         return bool(library.ld_model_has_vehicle(self.handle.pointer))
 
     def to_yaml(self) -> str:

@@ -186,13 +186,13 @@ class Simulation:
         return VehicleRun(self)
 
     def tube_modes(self, most: int = 64) -> list[Mode]:
-        """Natural frequencies of tube and tail on their supports, base held, ascending."""
+        """Natural frequencies [Hz] of tube and tail on their supports, base held, ascending."""
         modes = (ld_mode * most)()
         count = library.ld_simulation_tube_modes(self.handle.pointer, modes, most)
         return [Mode(m.frequency, m.damping, m.real, text_of(m.shape)) for m in modes[:count]]
 
     def system_modes(self, most: int = 256) -> tuple[list[Mode], list[Pole]]:
-        """Modes and eigenvalues of the whole about its static equilibrium."""
+        """Modes [Hz] and eigenvalues [1/s] of the whole about its static equilibrium."""
         error, modes, poles = ld_error(), (ld_mode * most)(), (ld_pole * most)()
         count, pole_count = ctypes.c_int(), ctypes.c_int()
         check(library.ld_simulation_system_modes(
@@ -339,7 +339,7 @@ class Run(Held):
         return value.value
 
     def row(self) -> Array:
-        """All columns at the present time, in the order of Simulation.columns."""
+        """All columns at the present time, in SI, in the order of Simulation.columns."""
         error, values = ld_error(), np.empty(len(self.simulation.columns))
         with self._lock:
             status = library.ld_run_row(
@@ -349,13 +349,14 @@ class Run(Held):
         return values
 
     def quantities(self) -> dict[str, Quantity]:
-        """What came of it so far; energies, notes, flights are there at the end alone."""
+        """Numbers of the summary so far, in SI, by their names; energies, notes, flights are
+        there at the end alone."""
         with self._lock:
             found = quantities_at(library.ld_run_summary(self._pointer))
         return {quantity.name: quantity for quantity in found}
 
     def wrench(self) -> Wrench:
-        """What the tube does to its base at the present time."""
+        """Force [N] and moment [N m] of the tube on its base at the present time, in I."""
         error, wrench = ld_error(), ld_base_wrench()
         with self._lock:
             status = library.ld_run_base_wrench(self._pointer, ctypes.byref(wrench),
@@ -451,14 +452,14 @@ class VehicleRun(Held):
             return float(library.ld_vehicle_run_time(self._pointer))
 
     def frame(self) -> BaseFrame:
-        """Where the vehicle holds the undeformed tube, for Run.tell_base()."""
+        """Where the vehicle holds the undeformed tube, in SI, for Run.tell_base()."""
         frame = ld_base_frame()
         self._call(library.ld_vehicle_run_frame, ctypes.byref(frame))
         return BaseFrame(tuple(frame.position), tuple(frame.quaternion), tuple(frame.velocity),
                          tuple(frame.rate))
 
     def tell_wrench(self, wrench: Wrench) -> None:
-        """What the tube does to the vehicle at the present time."""
+        """Tells force [N] and moment [N m] of the tube on the vehicle at the present time."""
         told = ld_base_wrench(tuple(wrench.force), tuple(wrench.moment))
         self._call(library.ld_vehicle_run_tell_wrench, ctypes.byref(told))
 
@@ -468,7 +469,7 @@ class VehicleRun(Held):
         return _columns(library.ld_vehicle_run_columns, self.simulation.handle)
 
     def row(self) -> Array:
-        """All columns at the present time, in the order of `columns`."""
+        """All columns at the present time, in SI, in the order of `columns`."""
         values = np.empty(len(self.columns))
         self._call(library.ld_vehicle_run_row,
                    values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))

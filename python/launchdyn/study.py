@@ -316,7 +316,7 @@ class StudyData(Held):
         return self.values(name)[name]
 
     def statistics(self, name: str, point: int = 1) -> Statistics:
-        """Statistics of a column at a point."""
+        """Statistics of a column at a point, in SI."""
         error = ld_error()
         found = ctypes.POINTER(ld_study_statistics)()
         with self._lock:
@@ -339,8 +339,9 @@ class StudyData(Held):
         return _estimate(share)
 
     def to_pandas(self, *names: str) -> pandas.DataFrame:
-        """Columns (all, without names) of all points as a data frame: swept keys as texts, sample,
-        rocket, then the columns, NaN where a rocket lacks a value; units in `attrs["units"]`."""
+        """Columns (all, without names) of all points as a data frame, in SI: swept keys as texts,
+        sample, rocket, then the columns, NaN where a rocket lacks a value; units in
+        `attrs["units"]`."""
         pandas, wanted = pandas_here(), names or tuple(self.columns)
         frames = []
         for point in self.points:
@@ -356,9 +357,9 @@ class StudyData(Held):
 
     def to_xarray(self, *names: str) -> xarray.Dataset:
         """Columns (all, without names) as a data set over `point`, `sample`, `rocket`, each from 1,
-        with `units`; of what is one for all rockets over point and sample; NaN where there is no
-        value. The k-th samples of all points have the same draws; `number` is the one that each
-        has in the study. Swept keys are coordinates of the points, as texts."""
+        in SI, with `units`; of what is one for all rockets over point and sample; NaN where there
+        is no value. The k-th samples of all points have the same draws; `number` is the one that
+        each has in the study. Swept keys are coordinates of the points, as texts."""
         columns, points = self.columns, self.points
         found = [(at, name, self.values(name, point=point.number))
                  for at, point in enumerate(points) for name in names or columns]
