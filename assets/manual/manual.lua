@@ -173,9 +173,15 @@ local function drop_comments(element)
     if element.format == "html" and element.text:match("^<!%-%-") then return {} end
 end
 
+-- A picture of the site leads to itself, so that it can be seen as large as it is.
+local function picture(element)
+    if not book then return pandoc.Link({ element }, element.src) end
+end
+
 return {
     { Meta = read_metadata },
     { Inlines = inlines },
     { Pandoc = collect },
     { CodeBlock = code_block, Link = link, Header = header, Table = wrap_table, RawBlock = drop_comments },
+    { Image = picture },
 }
