@@ -173,6 +173,11 @@ local function drop_comments(element)
     if element.format == "html" and element.text:match("^<!%-%-") then return {} end
 end
 
+-- Lines end at no hyphen of a number: 1e-12.
+local function number(element)
+    if element.text:match("%de%-%d") then return pandoc.Span({ element }, pandoc.Attr("", { "whole" })) end
+end
+
 -- A picture of the site leads to itself, so that it can be seen as large as it is.
 local function picture(element)
     if not book then return pandoc.Link({ element }, element.src) end
@@ -183,5 +188,5 @@ return {
     { Inlines = inlines },
     { Pandoc = collect },
     { CodeBlock = code_block, Link = link, Header = header, Table = wrap_table, RawBlock = drop_comments },
-    { Image = picture },
+    { Image = picture, Str = number },
 }
