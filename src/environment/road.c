@@ -350,6 +350,14 @@ double road_height(const road *self, road_track track, double x, double *slope)
     return height;
 }
 
+double road_right_share(const ld_road *model, double z)
+{
+    const double *at = model->places;
+    if (!(at[0] < at[1]))
+        return z < 0 ? 0 : 1;
+    return fmin(fmax((z - at[0]) / (at[1] - at[0]), 0), 1);
+}
+
 ld_status road_profile(const road *self, road_track track, double from, double step, size_t count,
                        double *height, ld_error *error)
 {

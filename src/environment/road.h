@@ -19,6 +19,24 @@ void road_free(road *self);
 // Height h(x) [m] and slope h'(x) of a track at x [m] of I; slope may be NULL.
 double road_height(const road *self, road_track track, double x, double *slope);
 
+// How much of the right track's height, and of the left one's the rest, is that at z [m] in chassis
+// axes: linear between the tracks' places; where these are not given, that of the side.
+double road_right_share(const ld_road *model, double z);
+
+// Height and slope, as above, where the right track has a share of 0 to 1.
+static inline double road_height_between(const road *self, double right, double x, double *slope)
+{
+    if (right == 0)
+        return road_height(self, ROAD_LEFT, x, slope);
+    if (right == 1)
+        return road_height(self, ROAD_RIGHT, x, slope);
+    double h_left, h_right, left_slope, right_slope;
+    h_left = road_height(self, ROAD_LEFT, x, &left_slope);
+    h_right = road_height(self, ROAD_RIGHT, x, &right_slope);
+    *slope = (1 - right) * left_slope + right * right_slope;
+    return (1 - right) * h_left + right * h_right;
+}
+
 // A sine of the road, random or given: how often it comes [1/m], its mean square [m2] on each
 // track, and how much of the right track's is the left one's (from 0, independent, to 1, the same).
 typedef struct road_line {

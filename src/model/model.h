@@ -202,8 +202,8 @@ enum { LD_ROAD_SMOOTH = -1 };
 
 typedef enum ld_road_form { LD_ROAD_SUM, LD_ROAD_FLAT } ld_road_form;
 
-/// Height of the road over x of I, of the left track (wheels with mount z < 0) and the right one:
-/// the sum of what is given (model.md, section 7); a flat road has nothing of it.
+/// Height of the road over x of I, of the left track and the right one: the sum of what is given
+/// (model.md, section 7); a flat road has nothing of it.
 typedef struct ld_road {
     ld_road_form form;
     int iso_class; ///< ISO 8608: 0 (A) to 7 (H); LD_ROAD_SMOOTH: no random part
@@ -218,6 +218,8 @@ typedef struct ld_road {
     ld_bump bump[LD_MAX_BUMPS];
     ld_table profile; ///< x [m], h [m] of both tracks, or x, left, right; cubic spline (not a
                       ///< knot), constant outside
+    double places[2]; ///< [m] z of the tracks, left, right, chassis axes: between them the height
+                      ///< is linear; NaN: wheels with mount z < 0 are on the left one
 } ld_road;
 
 typedef struct ld_wheel {

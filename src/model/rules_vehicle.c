@@ -68,6 +68,11 @@ static void road_rules(const rule_set *rules)
         broken(rules, "base.road.wavelengths", 0,
                "the shortest, %g m, must be less than the longest, %g m", road->wavelengths[0],
                road->wavelengths[1]);
+    if (road->places[0] >= road->places[1])
+        broken(rules, "base.road.places", 0,
+               "the left track, z = %g m, must lie left of the right one, z = %g m (z is positive "
+               "to the right)",
+               road->places[0], road->places[1]);
     coherence_rules(rules, road);
     profile_rules(rules, road);
 }

@@ -408,6 +408,10 @@ static const field_row road_fields[] = {
      SUM, .doc = "bumps and holes"},
     {"table", TABLE(ld_road, profile, profile_table), .initial_doc = "none", SUM,
      .doc = "measured profile of both tracks or of each (cubic spline, constant outside)"},
+    {"places", VECTOR(ld_road, places, "m", 2), FROM_TO(-1000, 1000),
+     NO_DEFAULT("each wheel takes the track of its side"), SUM,
+     .doc = "z of left and right track in chassis axes, as of `mount`: the height under a wheel is "
+            "linear between them, that of the nearer track beyond"},
     {0}};
 static const field_block road_block = {.fields = road_fields,
                                        .form = road_forms,

@@ -16,10 +16,11 @@
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 
-// Inputs that move together, each as the road that is `along` in front of the chassis.
+// Inputs that move together, each by its share of the road that is `along` in front of the chassis.
 typedef struct excitation {
     int count, input[LD_MAX_WHEELS];
     double along[LD_MAX_WHEELS]; // [m]
+    double share[LD_MAX_WHEELS];
 } excitation;
 
 // Those of the road, in front of the others.
@@ -141,11 +142,15 @@ static void find_tracks(ld_response *self)
         int input = 0;
         while (strcmp(self->inputs.column[input].name, name) != 0)
             input++;
-        int track = vehicle->wheel[j].mount[2] < 0 ? ROAD_OF_LEFT : ROAD_OF_RIGHT;
-        excitation *on[2] = {&self->road[ROAD_OF_BOTH], &self->road[track]};
-        for (int k = 0; k < 2; k++) {
-            on[k]->input[on[k]->count] = input;
-            on[k]->along[on[k]->count++] = along;
+        double right = road_right_share(&vehicle->road, vehicle->wheel[j].mount[2]);
+        const double share[ROAD_INPUTS] = {1, 1 - right, right};
+        for (int k = 0; k < ROAD_INPUTS; k++) {
+            excitation *on = &self->road[k];
+            if (share[k] == 0)
+                continue;
+            on->input[on->count] = input;
+            on->along[on->count] = along;
+            on->share[on->count++] = share[k];
         }
     }
 }
@@ -370,11 +375,11 @@ static ld_status go_at(ld_response *self, double speed, ld_error *error)
     return set_plant(self, speed, error);
 }
 
-// e^(i omega along/speed).
+// share e^(i omega along/speed).
 static ld_phasor turn_of(const ld_response *self, const excitation *by, int k, double omega)
 {
     double angle = by->along[k] == 0 ? 0 : omega * by->along[k] / self->speed_now;
-    return (ld_phasor){cos(angle), sin(angle)};
+    return (ld_phasor){by->share[k] * cos(angle), by->share[k] * sin(angle)};
 }
 
 // (B + i omega B' - omega^2 B") u.
@@ -471,7 +476,7 @@ static ld_status excitation_of(const ld_response *self, const char *name, double
         *by = self->road[found];
         return response_check_road(self, speed, error);
     }
-    *by = (excitation){.count = 1, .input = {found - first}};
+    *by = (excitation){.count = 1, .input = {found - first}, .share = {1}};
     return LD_OK;
 }
 

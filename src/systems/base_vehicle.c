@@ -286,7 +286,7 @@ static void guess(const base_system *self, double tube, double rocket, double *s
     state[ORIENTATING_R] = vehicle->speed * t;
     for (int j = 0; j < vehicle->wheel_count; j++) {
         double x = state[ORIENTATING_R] + vehicle->wheel[j].mount[0];
-        ground += road_height(marching->road, marching->track[j], x, &slope);
+        ground += road_height_between(marching->road, marching->right[j], x, &slope);
         mount += vehicle->wheel[j].mount[1];
     }
     state[ORIENTATING_R + 1] =
@@ -300,7 +300,7 @@ static void guess(const base_system *self, double tube, double rocket, double *s
     marching_place(marching, &motion.chassis, wheel);
     for (int j = 0; j < vehicle->wheel_count; j++) {
         double *r = wheel + WHEEL_STATES * j;
-        r[1] = road_height(marching->road, marching->track[j], r[0], &slope) +
+        r[1] = road_height_between(marching->road, marching->right[j], r[0], &slope) +
                vehicle->tyre.radius - tyre;
     }
 }

@@ -20,7 +20,7 @@ ld_status marching_build(marching_system *self, const ld_vehicle *model, double 
         .state_count = WHEEL_STATES * model->wheel_count + 1,
     };
     for (int j = 0; j < self->wheel_count; j++) {
-        self->track[j] = model->wheel[j].mount[2] < 0 ? ROAD_LEFT : ROAD_RIGHT;
+        self->right[j] = road_right_share(&model->road, model->wheel[j].mount[2]);
         self->driven_count += model->wheel[j].driven;
     }
     return road_build(&model->road, x0, x1, &self->road, error);
@@ -84,7 +84,7 @@ static v3 tyre_force(const marching_system *self, const carrier *on, int j, cons
     v3 r = v3_from(wheel + WHEEL_R), v = v3_from(wheel + WHEEL_V), w = on->frame->w;
 
     // vertical, also on a slope
-    double h = road_height(self->road, self->track[j], r.x, &report->slope);
+    double h = road_height_between(self->road, self->right[j], r.x, &report->slope);
     double h_dot = report->slope * v.x;
     if (on->disturbed) {
         h += on->disturbed->height[j];

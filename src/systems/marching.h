@@ -30,8 +30,8 @@ typedef struct marching_system {
     double gravity; // [m/s2] along -y of I
     road *road;
     int wheel_count, driven_count;
-    road_track track[LD_MAX_WHEELS];
-    bool parked; // speed 0
+    double right[LD_MAX_WHEELS]; // share of the right track in the height under each wheel
+    bool parked;                 // speed 0
     int state_count;
 } marching_system;
 

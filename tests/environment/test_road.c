@@ -251,6 +251,42 @@ static void test_table(void **state)
     road_free(self);
 }
 
+// Under wheels beside the tracks: a twisted plane road h = a + b x + (c + d x) z, given by its
+// tracks.
+static void test_between_the_tracks(void **state)
+{
+    (void)state;
+    enum { WHEELS = 7 };
+    static const double left = -0.8, right = 1.2,
+                        z[WHEELS] = {-0.8, -0.45, 0, 0.3, 1.2, -1.5, 2}; // the last two: beyond
+    double data[6], worst = 0, steepest = 0;
+    for (int i = 0; i < 2; i++) {
+        double x = data[3 * i] = 10 * i;
+        data[3 * i + 1] = 0.1 + 0.02 * x + (0.05 - 0.01 * x) * left;
+        data[3 * i + 2] = 0.1 + 0.02 * x + (0.05 - 0.01 * x) * right;
+    }
+    ld_road model = {.iso_class = LD_ROAD_SMOOTH, .profile = {2, 3, data}, .places = {left, right}};
+    road *self = build(&model, 0, 1);
+    for (int i = 0; i < WHEELS; i++)
+        for (double x = 0.5; x < 10; x += 1.3) {
+            double at = fmin(fmax(z[i], left), right), slope;
+            double h = road_height_between(self, road_right_share(&model, z[i]), x, &slope);
+            worst = fmax(worst, fabs(h - (0.1 + 0.02 * x + (0.05 - 0.01 * x) * at)));
+            steepest = fmax(steepest, fabs(slope - (0.02 - 0.01 * at)));
+        }
+    CHECK_BELOW("twisted plane: height [m]", worst, 1e-16);
+    CHECK_BELOW("twisted plane: slope", steepest, 1e-16);
+    // on a track: its height to the bit; without places: that of the side
+    double slope[2];
+    assert_true(road_right_share(&model, left) == 0 && road_right_share(&model, right) == 1);
+    assert_true(road_height_between(self, 1, 3.3, &slope[0]) ==
+                    road_height(self, ROAD_RIGHT, 3.3, &slope[1]) &&
+                slope[0] == slope[1]);
+    model.places[0] = model.places[1] = NAN;
+    assert_true(road_right_share(&model, -0.1) == 0 && road_right_share(&model, 0) == 1);
+    road_free(self);
+}
+
 static void test_sum(void **state)
 {
     (void)state;
@@ -338,7 +374,7 @@ int main(void)
         cmocka_unit_test(test_continuity), cmocka_unit_test(test_sines),
         cmocka_unit_test(test_bumps),      cmocka_unit_test(test_table),
         cmocka_unit_test(test_sum),        cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_seeds),      cmocka_unit_test(test_between_the_tracks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -145,7 +145,8 @@ static void test_roads(void **state)
              "bumps: [{at: 20 m, length: 1 m, height: 30 mm, tracks: left}, "
              "{at: -3 m, length: 50 cm, height: -10 mm, tracks: right}, "
              "{at: 2 m, length: 2 m, height: 5 mm}], "
-             "table: [[-40 m, 0 mm, 1 mm], [0 m, 2 mm, 3 mm], [9 m, 0 mm, -1 mm]]}");
+             "table: [[-40 m, 0 mm, 1 mm], [0 m, 2 mm, 3 mm], [9 m, 0 mm, -1 mm]], "
+             "places: -90 110 cm}");
     const ld_road *road = &m.base.vehicle.road;
     assert_true(road->form == LD_ROAD_SUM && road->iso_class == 3 && road->seed == 9);
     assert_true(road->tracks == LD_TRACKS_COHERENT && road->harmonics == 50);
@@ -162,12 +163,14 @@ static void test_roads(void **state)
     assert_true(road->bump[2].tracks == LD_TRACK_BOTH);
     assert_true(road->profile.rows == 3 && road->profile.columns == 3);
     assert_true(road->profile.data[3] == 0 && road->profile.data[5] == 0.003);
+    assert_true(road->places[0] == -0.9 && road->places[1] == 1.1);
     check_round_trip(&m);
     model_clear(&m);
     m = READ("base.road=",
              "base.road={tracks: independent, class: none, table: [[-40 m, 0 mm], [9 m, 2 mm]]}");
     assert_true(m.base.vehicle.road.profile.columns == 2);
     assert_true(m.base.vehicle.road.profile.data[3] == 0.002);
+    assert_true(isnan(m.base.vehicle.road.places[0]) && isnan(m.base.vehicle.road.places[1]));
     check_round_trip(&m);
     model_clear(&m);
 }

@@ -541,7 +541,7 @@ static void say_wheel(instant *at, int i, double power[MARCHING_POWERS])
     snprintf(stem, sizeof stem, "%s.", part);
     v3 r = v3_from(wheel + WHEEL_R), v = v3_from(wheel + WHEEL_V);
     double slope;
-    double height = dense_road_height(&vehicle->road, vehicle->wheel[i].mount[2] < 0, r.x, &slope);
+    double height = dense_road_height(&vehicle->road, vehicle->wheel[i].mount[2], r.x, &slope);
     expect3(book, stem, xyz, wheel + WHEEL_R);
     expect_of(book, part, "road", height);
     expect_of(book, part, "travel", at->base.wheel[i].travel.y);

@@ -86,17 +86,29 @@ static void between_two_speeds_all_is_known(void **state)
 
 // ---- road ----
 
-// All wheels, each at its time, are the road; the two tracks are, too.
+// Two wheels between the tracks, which lie beside the others.
+static void spread_tracks(ld_model *model)
+{
+    ld_vehicle *vehicle = &model->base.vehicle;
+    vehicle->road.places[0] = -1.4;
+    vehicle->road.places[1] = 1.05;
+    vehicle->wheel[2].mount[2] = -0.3;
+    vehicle->wheel[3].mount[2] = 0.5;
+}
+
+// All wheels, each at its time, are the road; the two tracks are, too, each by its shares.
 static void wheels_make_the_road(void **state)
 {
     (void)state;
     ld_model model;
     double worst = 0;
     random_road(&model, LD_TRACKS_SAME);
+    spread_tracks(&model);
     ld_response *response = respond(&model, NAN, NAN);
     for (double f = 0.3; f < 40; f *= 3.1)
         for (int i = 0; i < SOME; i++) {
-            double complex all = gain_of(response, speed, "road", some[i], f), wheels = 0;
+            double complex all = gain_of(response, speed, "road", some[i], f), wheels = 0,
+                           on_right = 0;
             double complex left = gain_of(response, speed, "road.left", some[i], f);
             double complex right = gain_of(response, speed, "road.right", some[i], f);
             double size = cabs(left) + cabs(right);
@@ -104,10 +116,13 @@ static void wheels_make_the_road(void **state)
                 const ld_wheel *wheel = &model.base.vehicle.wheel[j];
                 char input[LD_MAX_NAME + 16];
                 snprintf(input, sizeof input, "wheel.%s.road", wheel->name);
-                wheels += cexp(I * two_pi * f * wheel->mount[0] / speed) *
-                          gain_of(response, speed, input, some[i], f);
+                double complex one = cexp(I * two_pi * f * wheel->mount[0] / speed) *
+                                     gain_of(response, speed, input, some[i], f);
+                wheels += one;
+                on_right += fmin((wheel->mount[2] + 1.4) / 2.45, 1) * one;
             }
             worst = fmax(worst, cabs(left + right - all) / size);
+            worst = fmax(worst, cabs(on_right - right) / size);
             worst = fmax(worst, cabs(wheels - all) / size);
         }
     // the wheels rest some tenths of a millimetre beside their mounts
@@ -179,6 +194,29 @@ static void the_road_is_among_the_columns(void **state)
     f = 1.01 * speed / 0.3;
     assert_int_equal(ld_response_density(response, speed, &f, 1, density, &error), LD_OK);
     assert_true(density[0] == 0 && density[1] == 0);
+    ld_response_free(response);
+    reference_model_free(&model);
+}
+
+// Between independent tracks a wheel meets (1 - w)^2 + w^2 of their mean square, w the right one's
+// share, and all of the sines, which are on both.
+static void between_the_tracks_the_road_is_smoother(void **state)
+{
+    (void)state;
+    static const char *const under[] = {"wheel.middle-left.road", "wheel.rear-right.road"};
+    ld_model model;
+    ld_error error;
+    double rms[2], random = 64e-6 * 0.01 * (100 - 0.3), sine = 0.02 * 0.02 / 2, w = 1.1 / 2.45;
+    random_road(&model, LD_TRACKS_INDEPENDENT);
+    spread_tracks(&model);
+    model.base.vehicle.road.sine_count = 1;
+    model.base.vehicle.road.sine[0] = (ld_road_sine){0.02, 5, 0};
+    ld_response *response = respond(&model, NAN, NAN);
+    choose(response, under, 2);
+    assert_int_equal(ld_response_on_road(response, speed, rms, NULL, &error), LD_OK);
+    double between = ((1 - w) * (1 - w) + w * w) * random + sine;
+    CHECK_BELOW("rms between the tracks", rms[0] / sqrt(between) - 1, 1e-9);
+    CHECK_BELOW("on the right one", rms[1] / sqrt(random + sine) - 1, 1e-9);
     ld_response_free(response);
     reference_model_free(&model);
 }
@@ -542,6 +580,7 @@ int main(void)
         cmocka_unit_test(wheels_make_the_road),
         cmocka_unit_test(coherence_goes_from_independent_to_same),
         cmocka_unit_test(the_road_is_among_the_columns),
+        cmocka_unit_test(between_the_tracks_the_road_is_smoother),
         cmocka_unit_test(wheels_carry_what_is_put_on),
         cmocka_unit_test(wheels_carry_what_is_put_on_the_tube),
         cmocka_unit_test(loads_and_places_change_sides),

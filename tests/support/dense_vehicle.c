@@ -102,7 +102,7 @@ void dense_vehicle_free(dense_vehicle *vehicle)
 
 // ---------------------------------------------------------------- road
 
-double dense_road_height(const ld_road *profile, bool left, double x, double *slope)
+static double track_height(const ld_road *profile, bool left, double x, double *slope)
 {
     double h = 0;
     *slope = 0;
@@ -121,6 +121,20 @@ double dense_road_height(const ld_road *profile, bool left, double x, double *sl
         *slope += 0.5 * bump->height * k * sin(k * along);
     }
     return h;
+}
+
+double dense_road_height(const ld_road *profile, double z, double x, double *slope)
+{
+    double from = profile->places[0], to = profile->places[1];
+    bool placed = from < to;
+    if (placed ? z <= from : z < 0)
+        return track_height(profile, true, x, slope);
+    double h_right = track_height(profile, false, x, slope), left_slope;
+    if (!placed || z >= to)
+        return h_right;
+    double h_left = track_height(profile, true, x, &left_slope);
+    *slope = left_slope + (*slope - left_slope) / (to - from) * (z - from);
+    return h_left + (h_right - h_left) / (to - from) * (z - from);
 }
 
 // ---------------------------------------------------------------- equations
@@ -463,7 +477,7 @@ static void roll(equations *eq, int wheel, v3 r, v3 v, double drive)
     const double *state = eq->input->marching + WHEEL_STATES * wheel;
     double *rate = eq->output->marching + WHEEL_STATES * wheel;
     double eta = state[WHEEL_ETA], xi = state[WHEEL_XI], slope;
-    double height = dense_road_height(&model->road, model->wheel[wheel].mount[2] < 0, r.x, &slope);
+    double height = dense_road_height(&model->road, model->wheel[wheel].mount[2], r.x, &slope);
     // normal force
     double p = height + tyre->radius - r.y, p_dot = slope * v.x - v.y;
     double normal = p > 0 ? fmax(0, tyre->stiffness[1] * p + tyre->damping[1] * p_dot) : 0;
@@ -688,7 +702,7 @@ static void guess_of(const balance *at, double *u)
     double highest = -INFINITY, slope, rate;
     for (int i = 0; i < vehicle->wheel_count; i++) {
         const double *mount = vehicle->wheel[i].mount;
-        double h = dense_road_height(&vehicle->road, mount[2] < 0, at->x + mount[0], &slope);
+        double h = dense_road_height(&vehicle->road, mount[2], at->x + mount[0], &slope);
         highest = fmax(highest, h + vehicle->tyre.radius - mount[1]);
         u[PLACE + 3 * i] = at->x + mount[0];
         u[PLACE + 3 * i + 1] = h + vehicle->tyre.radius - 0.02;

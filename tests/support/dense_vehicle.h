@@ -73,8 +73,8 @@ bool dense_vehicle_evaluate(const dense_vehicle *vehicle, const dense_vehicle_in
 // Frame T of the undeformed tube at a state of the platforms.
 void dense_vehicle_tube(const dense_vehicle *vehicle, const double *orientating, base_frame *tube);
 
-// Height of the road under a wheel at x [m] and its slope.
-double dense_road_height(const ld_road *profile, bool left, double x, double *slope);
+// Height of the road at x [m] under a wheel that has its mount at z [m], and its slope.
+double dense_road_height(const ld_road *profile, double z, double x, double *slope);
 
 // Static equilibrium at time t under a constant wrench of the tube (in T): chassis at x [m], z = 0,
 // heading 0; fills both states (at rest) and the rest of the hinges. Returns false where Newton's

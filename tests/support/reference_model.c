@@ -180,6 +180,7 @@ void reference_vehicle(ld_model *model, double speed)
     model->base.vehicle.speed = speed;
     model->base.vehicle.road.form = LD_ROAD_FLAT;
     model->base.vehicle.road.iso_class = LD_ROAD_SMOOTH;
+    model->base.vehicle.road.places[0] = model->base.vehicle.road.places[1] = NAN;
     fill_wheels(&model->base.vehicle);
     fill_platform(&model->platform);
 }

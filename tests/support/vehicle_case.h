@@ -162,7 +162,7 @@ static inline void draw_vehicle_state(uint64_t *seed, ld_model *model, vehicle_c
         double *wheel = c->marching + WHEEL_STATES * i, slope;
         v3 mount = v3_from(vehicle->wheel[i].mount);
         v3 at = v3_add(r, m3_apply(A, v3_add(mount, draw_v3(seed, 0.05))));
-        at.y = dense_road_height(&vehicle->road, mount.z < 0, at.x, &slope) + vehicle->tyre.radius -
+        at.y = dense_road_height(&vehicle->road, mount.z, at.x, &slope) + vehicle->tyre.radius -
                0.02 + 0.03 * draw(seed);
         v3_store(wheel + WHEEL_R, at);
         v3_store(wheel + WHEEL_V, v3_add(v, draw_v3(seed, 2)));

@@ -83,9 +83,12 @@ static void parked_and_turning(ld_model *model)
     model->firing[0].at = 0.02;
 }
 
+// Besides, tracks that lie elsewhere than the wheels: those of the right side are between them.
 static void locked(ld_model *model)
 {
     waves_and_a_bump(model);
+    model->base.vehicle.road.places[0] = -0.5;
+    model->base.vehicle.road.places[1] = 1.6;
     model->platform.azimuth.lock = (ld_hinge_lock){true, 1e8, 1e5};
     model->platform.elevation.lock = (ld_hinge_lock){true, 1e8, 1e5};
 }
