@@ -114,6 +114,7 @@ typedef struct linear_system {
     double *J;              // count x count, by columns; to be freed
     double *held;           // base x count, by columns, behind J: what holds the base's
                             // displacements still, d/dt of them in [N], [N m]
+    double *step;           // [count], behind that: of the differences in each unknown [its unit]
 } linear_system;
 
 // [1/s2] pulls back to its place what constraints hold there, where nothing else would keep it.
@@ -130,10 +131,9 @@ ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error
 ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
                                linear_system *system, ld_error *error);
 
-// Changes an unknown in the state y. By how much in a difference [its unit].
+// Changes an unknown in the state y.
 void linear_displace(const launch_state *self, const linear_system *system, int unknown,
                      double change, double *y);
-double linear_step(const linear_system *system, int unknown);
 // d/dt of the unknowns [count] in the state y, behind them what holds the base's displacements
 // [base]. Other than 0: there are none.
 int linear_rates(const launch_state *self, const linear_system *system, const double *y, double *r);

@@ -126,11 +126,6 @@ int linear_rates(const launch_state *self, const linear_system *system, const do
     return rates(self, system, NULL, y, r);
 }
 
-double linear_step(const linear_system *system, int unknown)
-{
-    return unknown < system->half ? 1e-7 : 1e-5;
-}
-
 static void count_unknowns(const launch_state *self, bool alone, linear_system *system)
 {
     const base_system *base = &self->launcher.base;
@@ -156,27 +151,68 @@ ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error
     return status;
 }
 
+// Rates where unknown j is h more, and less.
+static int rates_beside(const launch_state *self, const launching_system *alone,
+                        const linear_system *system, int j, double h, double *plus, double *minus)
+{
+    double trial[LD_MAX_STATES];
+    size_t size = (size_t)self->launcher.state_count * sizeof(double);
+    memcpy(trial, system->y, size);
+    linear_displace(self, system, j, h, trial);
+    int bad = rates(self, system, alone, trial, plus);
+    memcpy(trial, system->y, size);
+    linear_displace(self, system, j, -h, trial);
+    return bad ? bad : rates(self, system, alone, trial, minus);
+}
+
+// Whether differences to both sides are not those of a straight line.
+static bool is_bent(int n, const double *plus, const double *middle, const double *minus)
+{
+    double bend = 0, rise = 0;
+    for (int i = 0; i < n; i++) {
+        bend = hypot(bend, plus[i] - 2 * middle[i] + minus[i]);
+        rise = hypot(rise, plus[i] - minus[i]);
+    }
+    return bend > 0.03 * rise;
+}
+
+// The same, by a step [out: *h] so small that nothing which is pressed in by little lets go within
+// it, where there is one: else its stiffness would be that of neither state, and not the same back
+// and forth.
+static int straight_rates(const launch_state *self, const launching_system *alone,
+                          const linear_system *system, int j, const double *middle, double *h,
+                          double *plus, double *minus)
+{
+    const double coarse = *h, fine = 0.01 * coarse;
+    int bad = rates_beside(self, alone, system, j, coarse, plus, minus);
+    if (bad || !is_bent(system->count, plus, middle, minus))
+        return bad;
+    *h = fine;
+    bad = rates_beside(self, alone, system, j, fine, plus, minus);
+    if (bad || !is_bent(system->count, plus, middle, minus))
+        return bad;
+    *h = coarse;
+    return rates_beside(self, alone, system, j, coarse, plus, minus);
+}
+
 // Finds the Jacobian by central differences about what stands in `system`, of the whole or of the
 // tube `alone`.
 static ld_status linearise(const launch_state *self, const launching_system *alone,
                            linear_system *system, ld_error *error)
 {
     int n = system->count;
-    double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], trial[LD_MAX_STATES];
-    size_t size = (size_t)self->launcher.state_count * sizeof(double);
-    system->J = calloc((size_t)n * (size_t)(n + system->base), sizeof(double));
+    double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], middle[2 * LD_MAX_STATES];
+    system->J = calloc((size_t)n * (size_t)(n + system->base + 1), sizeof(double));
     if (!system->J)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
     system->held = system->J + n * n;
+    system->step = system->held + system->base * n;
+    int bad = rates(self, system, alone, system->y, middle);
     for (int j = 0; j < n; j++) {
-        double h = linear_step(system, j);
-        memcpy(trial, system->y, size);
-        linear_displace(self, system, j, h, trial);
-        int bad = rates(self, system, alone, trial, plus);
-        memcpy(trial, system->y, size);
-        linear_displace(self, system, j, -h, trial);
-        if (bad || rates(self, system, alone, trial, minus))
+        double h = j < system->half ? 1e-7 : 1e-5;
+        if (bad || straight_rates(self, alone, system, j, middle, &h, plus, minus))
             return ld_fail(error, LD_ERR_NUMERIC, "the equations cannot be linearised");
+        system->step[j] = h;
         for (int i = 0; i < n; i++)
             system->J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
         for (int i = 0; i < system->base; i++)

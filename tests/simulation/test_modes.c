@@ -2,6 +2,7 @@
 // own motion in time.
 #include <stdlib.h>
 
+#include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/line_frequencies.h"
@@ -42,6 +43,15 @@ static void tube_has_the_frequencies_of_its_elements(void **state)
     for (int j = 0; j < tube->nb; j++)
         worst = fmax(worst, nearest(modes, count, omega[j] / TWO_PI));
     CHECK_BELOW("bending frequencies on the supports, relative", worst, 1e-12);
+    // the round tube bends in both planes alike: each pair has one shape in each
+    int pairs = 0;
+    for (int i = 1; i < count; i++)
+        if (modes[i].frequency == modes[i - 1].frequency) {
+            assert_string_equal(modes[i - 1].shape, "tube, lateral plane");
+            assert_string_equal(modes[i].shape, "tube, vertical plane");
+            pairs++;
+        }
+    assert_int_equal(pairs, tube->nb + 2);
     ld_simulation_free(simulation);
     reference_model_free(&model);
 }
@@ -130,12 +140,55 @@ static void the_lowest_mode_is_seen_in_time(void **state)
     reference_model_free(&model);
 }
 
+// Modes of a rail whose shoe is pressed sideways by the weight of a mass centre `beside` the axis.
+static int modes_of_rail(const char *beside, ld_mode *modes)
+{
+    ld_model model;
+    ld_messages messages;
+    ld_simulation *simulation = NULL;
+    ld_pole poles[4 * LD_MAX_MODES];
+    int count = 0, pole_count;
+    ld_error error;
+    if (scenario_read(LD_SOURCE_DIR "/examples/rail/pad.yaml", &beside, 1, &model, &messages)) {
+        ld_messages_print(&messages, stdout);
+        fail();
+    }
+    if (ld_simulation_create(&model, &simulation, &error) ||
+        ld_simulation_system_modes(simulation, modes, 2 * LD_MAX_MODES, &count, poles,
+                                   4 * LD_MAX_MODES, &pole_count, &error))
+        fail_msg("%s", error.text);
+    ld_simulation_free(simulation);
+    model_clear(&model);
+    return count;
+}
+
+// The contact is a straight line of the depth: what presses a shoe by nanometres (less than steps
+// of differences are) has the modes of what presses it by ten times as much.
+static void a_light_touch_is_a_touch(void **state)
+{
+    (void)state;
+    ld_mode light[2 * LD_MAX_MODES], firm[2 * LD_MAX_MODES];
+    int count = modes_of_rail("rocket.eccentricity=0 0.05 mm", light);
+    double frequency = 0, damping = 0, least = 1;
+    assert_int_equal(count, modes_of_rail("rocket.eccentricity=0 0.5 mm", firm));
+    for (int i = 0; i < count; i++) {
+        frequency = fmax(frequency, fabs(light[i].frequency / firm[i].frequency - 1));
+        damping = fmax(damping, fabs(light[i].damping - firm[i].damping));
+        if (i > 0)
+            least = fmin(least, firm[i].frequency / firm[i - 1].frequency - 1);
+    }
+    CHECK_BELOW("frequencies of a rail, shoe hardly pressed, relative", frequency, 1e-4);
+    CHECK_BELOW("dampings, of which the contact's grows with its load", damping, 1e-3);
+    CHECK_WITHIN("no two are of one frequency, least apart, relative", least, 1e-3, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tube_has_the_frequencies_of_its_elements),
         cmocka_unit_test(the_held_rocket_is_stable),
         cmocka_unit_test(the_lowest_mode_is_seen_in_time),
+        cmocka_unit_test(a_light_touch_is_a_touch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
