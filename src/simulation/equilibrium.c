@@ -897,6 +897,29 @@ static double accepted_residual(const launch_state *self)
     return 1e-6 * (1 + self->model->gravity);
 }
 
+// The same for tube and rocket where the base stands in `start`. Kilometres from the origin it is
+// the rounding of places, which strains the supports: what a move of the straight tube by some of
+// it leaves.
+static double accepted_at(const problem *the, const double *start)
+{
+    enum { ROUNDINGS = 4 };
+    double y[LD_MAX_STATES], plus[MAX_FREEDOMS], minus[MAX_FREEDOMS], square = 0;
+    double accepted = accepted_residual(the->self);
+    guess_straight(the, start, y);
+    v3 r = v3_from(y + the->self->launcher.launching.layout.r);
+    for (int k = 0; k < 3; k++) {
+        simulation_displace(the->self, k, the->h, y);
+        int bad = residual(the, y, plus);
+        simulation_displace(the->self, k, -2 * the->h, y);
+        if (bad || residual(the, y, minus))
+            return accepted;
+        simulation_displace(the->self, k, the->h, y);
+        for (int i = 0; i < the->count; i++)
+            square += pow((plus[i] - minus[i]) / (2 * the->h), 2);
+    }
+    return fmax(accepted, ROUNDINGS * 0x1p-53 * v3_norm(r) * sqrt(square));
+}
+
 // The wrench of tube and rocket at rest on their base.
 static ld_status resting_wrench(const launch_state *self, double t, const double *y,
                                 base_wrench *wrench, ld_error *error)
@@ -978,9 +1001,9 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
                        "rocket.start_at: no static equilibrium at the start: %s; \"run.start: "
                        "undeformed\" starts without it",
                        why);
-    double accepted = accepted_residual(self), start[LD_MAX_STATES];
+    double start[LD_MAX_STATES];
     self->on_breech = false;
-    ld_status status = settle_base(self, t, &phase, stands, accepted, start, error);
+    ld_status status = settle_base(self, t, &phase, stands, accepted_residual(self), start, error);
     if (status)
         return status;
     base_frame going = setting_off(self, t, start);
@@ -994,6 +1017,7 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
     if (status)
         return status;
     carried_directions carried;
+    double accepted = accepted_at(&whole, start);
     double best = find_start(self, &whole, &phase, start, &carried, accepted, y);
     free(whole.jacobian);
     if (!(best <= accepted))
@@ -1112,7 +1136,7 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
 {
     launching_phase phase = resting_phase(self), without = {.rocket = false};
     const launcher_system *launcher = &self->launcher;
-    double p[BASE_MOST_SPEEDS], still[LD_MAX_STATES], accepted = accepted_residual(self);
+    double p[BASE_MOST_SPEEDS], still[LD_MAX_STATES];
     size_t launching = (size_t)launcher->launching.layout.count * sizeof(double);
     size_t speeds = (size_t)launcher->base.speed_count * sizeof(double);
     int speeds_at = launcher->base_at + launcher->base.speed_at;
@@ -1142,6 +1166,7 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
         return status;
     double found[LD_MAX_STATES];
     carried_directions carried;
+    double accepted = accepted_at(&tube, still);
     double best = find_start(self, &tube, &phase, still, &carried, accepted, found);
     free(tube.jacobian);
     if (!(best <= accepted))

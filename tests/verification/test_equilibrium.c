@@ -389,6 +389,33 @@ static void nothing_moves_while_locked(void **state)
     reference_model_free(&model);
 }
 
+// Tens of kilometres from the origin, where places are rounded to 7e-12 m, as a ship is after
+// hours.
+static void far_from_the_origin(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_equilibrium_summary found[2];
+    double y[LD_MAX_STATES];
+    reference_model(&model);
+    model.base.kind = LD_BASE_PRESCRIBED;
+    for (int i = 0; i < 2; i++) {
+        fresh_launch launch;
+        model.base.at[0] = i ? -5e4 : 0;
+        model.base.at[2] = i ? 2e4 : 0;
+        fresh_launch_make(&launch, &model);
+        found[i] = find_equilibrium(&launch.state, y);
+        fresh_launch_free(&launch);
+    }
+    CHECK_BELOW("residual there [m/s2]", found[1].residual, 1e-4);
+    for (int i = 0; i < 3; i += 2)
+        CHECK_BELOW("what an adaptor carries there, relative",
+                    found[1].contact_force[i] / found[0].contact_force[i] - 1, 1e-8);
+    CHECK_BELOW("sag of the tip there, relative", found[1].tip_sag[0] / found[0].tip_sag[0] - 1,
+                1e-8);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -399,6 +426,7 @@ int main(void)
         cmocka_unit_test(reactions),
         cmocka_unit_test(couple_of_the_lock),
         cmocka_unit_test(nothing_moves_while_locked),
+        cmocka_unit_test(far_from_the_origin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
