@@ -149,6 +149,25 @@ static void a_ship(void **state)
     free_both(&both);
 }
 
+// A lock that holds for long on a ship that makes 6 m/s: the rocket stays where it is in the tube.
+static void a_long_wait_on_a_ship(void **state)
+{
+    (void)state;
+    ld_model model;
+    recorded_run run;
+    const char *const sets[] = {"run={lead_in: 10.1 s, end: tip, output_step: {lead_in: 1 s}}",
+                                NULL};
+    read("ship-sea.yaml", sets, "run.lead_in_method=exponential", &model);
+    recorded_run_make(&run, &model);
+    size_t t = recorded_column(&run, "t"), s = recorded_column(&run, "rocket.s");
+    double moved = 0;
+    for (size_t i = 0; i < run.rows && recorded_value(&run, i, t) <= 0; i++)
+        moved = fmax(moved, fabs(recorded_value(&run, i, s) - model.rocket.start_at));
+    CHECK_BELOW("the rocket slips through its lock by [m]", moved, 5e-9);
+    recorded_run_free(&run);
+    model_clear(&model);
+}
+
 // Not where the base has instants of its own, or is integrated apart: the same numbers.
 static void where_they_do_not_go(void **state)
 {
@@ -171,6 +190,7 @@ int main(void)
         cmocka_unit_test(a_bad_road),
         cmocka_unit_test(a_sequence),
         cmocka_unit_test(a_ship),
+        cmocka_unit_test(a_long_wait_on_a_ship),
         cmocka_unit_test(where_they_do_not_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
