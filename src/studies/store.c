@@ -52,6 +52,11 @@ ld_status store_fail_by(const study_store *self, int code, const char *path, con
     int number = of_system ? sqlite3_system_errno(database) : 0;
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB)
         return ld_fail(error, status_of(code), "%s is damaged: %s", path, why);
+    if (code == SQLITE_BUSY)
+        return ld_fail(error, status_of(code),
+                       "cannot %s %s: another program has been reading or writing it all the time; "
+                       "end that, or let it close the study, and do this again",
+                       what, path);
     return ld_fail(error, status_of(code), "cannot %s %s: %s%s%s%s", what, path, why,
                    number ? " (" : "", number ? strerror(number) : "", number ? ")" : "");
 }
@@ -176,6 +181,22 @@ static int distrust(sqlite3 *database)
     return result;
 }
 
+// From one kind of journal to another leads only what nobody else has open; for that SQLite does
+// not wait by itself.
+static ld_status set_journal(study_store *self, ld_error *error)
+{
+    enum { PAUSE = 20 }; // [ms]
+    const char *text = self->journal == STORE_AHEAD
+                           ? "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL"
+                           : "PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = NORMAL";
+    int result = sqlite3_exec(self->database, text, NULL, NULL, NULL);
+    for (int waited = 0; result == SQLITE_BUSY && waited < PATIENCE; waited += PAUSE) {
+        sqlite3_sleep(PAUSE);
+        result = sqlite3_exec(self->database, text, NULL, NULL, NULL);
+    }
+    return result == SQLITE_OK ? LD_OK : store_fail(self, "write", error);
+}
+
 static ld_status open_database(study_store *self, store_journal journal, ld_error *error)
 {
     // one thread at a time
@@ -183,13 +204,10 @@ static ld_status open_database(study_store *self, store_journal journal, ld_erro
     if (sqlite3_open_v2(self->path, &self->database, mode, NULL) != SQLITE_OK ||
         distrust(self->database) != SQLITE_OK)
         return store_fail(self, "open", error);
-    sqlite3_busy_timeout(self->database, PATIENCE);
     self->journal = journal;
-    return store_execute(self,
-                         journal == STORE_AHEAD
-                             ? "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL"
-                             : "PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = NORMAL",
-                         error);
+    ld_status status = set_journal(self, error);
+    sqlite3_busy_timeout(self->database, PATIENCE);
+    return status;
 }
 
 // ---- samples

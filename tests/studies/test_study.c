@@ -1,13 +1,17 @@
 // Studies: the same results whatever the number of threads and the interruptions; what is kept.
 #include "support/study_run.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "launchdyn/study_data.h"
 #include "simulation/summary.h"
+#include "studies/store.h"
 #include "studies/until.h"
 
 #define LAUNCH                                                                                     \
@@ -224,6 +228,33 @@ static ld_status run_shard(const ld_study *study, int shard, int shards, ld_stud
     return ld_study_run(study, in("shards"), &options, counts, &error);
 }
 
+// Reads a study for a while.
+static void *read_for_a_while(void *data)
+{
+    nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
+    ld_study_data_close(data);
+    return NULL;
+}
+
+// A merge waits for who reads the study: it changes the kind of the journal, which nobody else may
+// have open then. What is told where they go on for ever.
+static void merge_beside_a_reader(void)
+{
+    ld_error error;
+    ld_study_data *data;
+    pthread_t reader;
+    if (ld_study_data_open(in("shards"), &data, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(pthread_create(&reader, NULL, read_for_a_while, data), 0);
+    expect_merge("shards", LD_OK, "24 of 24 samples");
+    pthread_join(reader, NULL);
+    const study_store none = {0};
+    assert_int_equal(store_fail_by(&none, SQLITE_BUSY, "study.db", "write", &error), LD_ERR_FILE);
+    assert_string_equal(error.text,
+                        "cannot write study.db: another program has been reading or writing it all "
+                        "the time; end that, or let it close the study, and do this again");
+}
+
 // Parts of a study, run in any order and joined, are the study.
 static void test_shards(void **state)
 {
@@ -249,7 +280,7 @@ static void test_shards(void **state)
     free(shards);
     // and what it has run may come from its shard as well
     assert_int_equal(run_shard(study, 2, 3, &counts, NULL, NULL), LD_OK);
-    expect_merge("shards", LD_OK, "24 of 24 samples");
+    merge_beside_a_reader();
     shards = study_table("shards");
     assert_string_equal(one, shards);
     free(one);
