@@ -98,7 +98,8 @@ ld_status ld_model_number(const ld_model *model, const char *path, double *value
 ld_status ld_model_text(const ld_model *model, const char *path, char *text, size_t size,
                         ld_error *error);
 
-/// A table ("rocket.motor.thrust"), in SI.
+/// A table ("rocket.motor.thrust"), in SI. Times of "base.motion.table" on a clock that counts from
+/// long ago (1e5 s or more at the first row) are less the whole seconds of the first row.
 /// @param table [rows][columns], the model's own; NULL without rows
 /// @return LD_OK, LD_ERR_INPUT (no such table)
 ld_status ld_model_table(const ld_model *model, const char *path, const double **table,

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-enum { TABLES = 5, MOST_RULES = 256 };
-static const plausible_rule *const tables[TABLES] = {plausible_of_tube, plausible_of_rocket,
-                                                     plausible_of_vehicle, plausible_of_stabiliser,
-                                                     plausible_of_run};
+enum { TABLES = 6, MOST_RULES = 256 };
+static const plausible_rule *const tables[TABLES] = {plausible_of_tube,       plausible_of_base,
+                                                     plausible_of_rocket,     plausible_of_vehicle,
+                                                     plausible_of_stabiliser, plausible_of_run};
 
 // ---- quantities
 

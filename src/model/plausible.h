@@ -34,8 +34,8 @@ typedef struct plausible_rule {
 } plausible_rule;
 
 // Rules end with a row without path.
-extern const plausible_rule plausible_of_tube[], plausible_of_rocket[], plausible_of_vehicle[],
-    plausible_of_stabiliser[], plausible_of_run[];
+extern const plausible_rule plausible_of_tube[], plausible_of_base[], plausible_of_rocket[],
+    plausible_of_vehicle[], plausible_of_stabiliser[], plausible_of_run[];
 
 typedef struct plausible_note {
     const plausible_rule *rule;
@@ -70,6 +70,11 @@ static inline plausible_pair plausible_compare(double value, double other)
 static inline plausible_pair plausible_alone(double value)
 {
     return plausible_compare(value, 1);
+}
+
+static inline double plausible_norm(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 // Radius of the bore at the rear end [m]; NaN on surfaces and in a flight alone.

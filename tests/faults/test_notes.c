@@ -102,11 +102,11 @@ static bool is_as_said(const note_case *c)
 
 static int count_rules(void)
 {
-    static const plausible_rule *const tables[] = {plausible_of_tube, plausible_of_rocket,
-                                                   plausible_of_vehicle, plausible_of_stabiliser,
-                                                   plausible_of_run};
+    static const plausible_rule *const tables[] = {plausible_of_tube,       plausible_of_base,
+                                                   plausible_of_rocket,     plausible_of_vehicle,
+                                                   plausible_of_stabiliser, plausible_of_run};
     int count = 0;
-    for (int i = 0; i < 5; i++)
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
         for (const plausible_rule *rule = tables[i]; rule->path; rule++)
             count++;
     return count;
