@@ -7,7 +7,8 @@
 #include "base/numeric_locale.h"
 #include "figures/plot.h"
 
-enum { HEADING = 40, HEIGHT = 330 };
+// Pixels of the svg: of the heading, a chart, and from its edges to the axes.
+enum { HEADING = 40, HEIGHT = 330, LEFT = 78, RIGHT = 25, TOP = 58, BOTTOM = 52 };
 
 typedef struct chart_page {
     const char *heading;
@@ -126,9 +127,13 @@ static void write_axes(FILE *script, const chart *self, const double x[2], const
             self->log_y ? pow(10, y[0]) : y[0], self->log_y ? pow(10, y[1]) : y[1]);
     fputs(self->log_x ? "set logscale x\n" : "", script);
     fputs(self->log_y ? "set logscale y\n" : "", script);
-    fputs("set title ", script);
+    if (self->y_step > 0)
+        fprintf(script, "set ytics %g\n", self->y_step);
+    else
+        fputs("set ytics autofreq\n", script);
+    fputs("set label ", script);
     plot_write_quoted(script, self->title);
-    fputs(" font ',12' offset 0,-0.3\nset xlabel ", script);
+    fputs(" at graph 0,1.17 left font ',12'\nset xlabel ", script);
     plot_write_quoted(script, self->x_label);
     fputs(" font ',10'\nset ylabel ", script);
     plot_write_quoted(script, self->y_label);
@@ -169,6 +174,15 @@ static void write_chart(FILE *script, const chart *self, size_t index, drawn_cur
     write_axes(script, self, x, y);
 }
 
+// The axes' place: of the chart whose upper edge is `above` pixels down.
+static void write_place(FILE *script, double above, double width, double height)
+{
+    fprintf(script, "set lmargin at screen %.6f\nset rmargin at screen %.6f\n", LEFT / width,
+            1 - RIGHT / width);
+    fprintf(script, "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
+            1 - (above + TOP) / height, 1 - (above + HEIGHT - BOTTOM) / height);
+}
+
 static ld_status write_charts(FILE *script, const void *what, plot_format format, ld_error *error)
 {
     const chart_page *page = what;
@@ -179,11 +193,10 @@ static ld_status write_charts(FILE *script, const void *what, plot_format format
         locale_t before = numeric_locale_enter();
         const plot_style *style = plot_style_find(NULL, error);
         plot_begin(script, format, style, plot_width(style, 0), height);
-        fputs("set clip two\n", script);
+        fputs("set clip two\nset key at graph 1,1.08\n", script); // below the title
         for (size_t i = 0; i < page->count; i++) {
             write_chart(script, &page->charts[i], i, &drawn);
-            fprintf(script, "set origin 0,%.6f\nset size 1,%.6f\n",
-                    1 - (HEADING + HEIGHT * (double)(i + 1)) / height, HEIGHT / height);
+            write_place(script, HEADING + HEIGHT * (double)i, plot_width(style, 0), height);
             if (i == 0) {
                 fputs("set label ", script);
                 plot_write_quoted(script, page->heading);

@@ -21,6 +21,7 @@ typedef struct chart {
     double x_factor, y_factor; // to the units that the labels name
     bool log_x, log_y;         // values > 0 only
     double decades;            // a logarithmic y axis shows of those below its top; 0: all
+    double y_step;             // between ticks of a linear y axis, in the unit; 0: as it comes
     int count;
     chart_curve curve[CHART_CURVES];
 } chart;

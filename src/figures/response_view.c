@@ -833,20 +833,20 @@ static void name_chart(const ld_response_view *view, chart_page *page, size_t i)
     it->decades = is_spectrum(view) || view->kind == LOOP ? 8 : 5;
     if (is_gain(view)) {
         it->title = "Amplitude";
-        value_unit(view, page->unit[i], page->label[i]);
-        if (view->kind == LOOP)
-            it->y_label = "gain";
+        char per[NAME];
+        value_unit(view, page->unit[i], per);
+        snprintf(page->label[i], NAME, "amplitude [%.*s]", NAME - 16, per);
     } else if (is_spectrum(view)) {
         it->title = "Power spectral density";
         it->y_factor = factor * factor;
-        snprintf(page->label[i], NAME, "(%s)²/Hz", unit);
+        snprintf(page->label[i], NAME, "density [(%s)²/Hz]", unit);
     } else {
         it->title = view->kind == EXIT ? "Standard deviation" : "Root mean square";
         it->y_factor = factor;
         it->x_factor = KMH;
-        snprintf(page->label[i], NAME, "%s", unit);
+        snprintf(page->label[i], NAME, "%s [%s]", view->kind == EXIT ? "deviation" : "rms", unit);
     }
-    it->x_label = is_over_speeds(view) ? "km/h" : "Hz";
+    it->x_label = is_over_speeds(view) ? "speed [km/h]" : "frequency [Hz]";
 }
 
 // Whether there is anything to see: a value, where the axis is logarithmic one above 0.
@@ -907,8 +907,9 @@ static ld_status add_phases(const ld_response_view *view, chart_page *page, ld_e
         *above = page->charts[i];
         *below = *above;
         below->title = "Phase";
-        below->y_label = "degrees";
+        below->y_label = "phase [deg]";
         below->y_factor = DEGREE;
+        below->y_step = 90;
         below->log_y = false;
         for (int k = 0; k < below->count; k++)
             below->curve[k].y = phase + (above->curve[k].y - view->value);

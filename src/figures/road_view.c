@@ -271,15 +271,18 @@ ld_status ld_road_view_draw(const ld_road_view *view, const char *file, ld_error
 {
     char title[128], names[CLASSES][16];
     double middle[MOST_BANDS], lines[CLASSES][MOST_BANDS + 1];
-    chart charts[2] = {
-        {.title = "Height", .x_label = "x [m]", .y_label = "mm", .x_factor = 1, .y_factor = 1e3},
-        {.title = "Power spectral density",
-         .x_label = "n [1/m]",
-         .y_label = "10⁻⁶ m³",
-         .x_factor = 1,
-         .y_factor = 1e6,
-         .log_x = true,
-         .log_y = true}};
+    chart charts[2] = {{.title = "Height",
+                        .x_label = "x [m]",
+                        .y_label = "height [mm]",
+                        .x_factor = 1,
+                        .y_factor = 1e3},
+                       {.title = "Power spectral density",
+                        .x_label = "spatial frequency n [1/m]",
+                        .y_label = "density [10⁻⁶ m³]",
+                        .x_factor = 1,
+                        .y_factor = 1e6,
+                        .log_x = true,
+                        .log_y = true}};
     bool same = memcmp(view->height[0], view->height[1], view->count * sizeof(double)) == 0;
     for (size_t i = 0; i < view->bands; i++)
         middle[i] = sqrt(view->edge[i] * view->edge[i + 1]);

@@ -358,19 +358,19 @@ ld_status ld_wind_view_draw(const ld_wind_view *view, const char *file, ld_error
     double middle[MOST_BANDS];
     chart charts[4];
     size_t count = 0;
-    charts[count] = new_chart("Before any gust", "m/s", "height [m]");
+    charts[count] = new_chart("Before any gust", "wind [m/s]", "height [m]");
     add_series(&charts[count++], &view->profile, axis, true);
     if (view->gusts.count) {
-        charts[count] = new_chart("With the gusts", "t [s]", "m/s");
+        charts[count] = new_chart("With the gusts", "t [s]", "wind [m/s]");
         add_series(&charts[count++], &view->gusts, axis, false);
     }
     if (view->turbulence.count) {
-        charts[count] = new_chart("Turbulence along the line", "distance [m]", "m/s");
+        charts[count] = new_chart("Turbulence along the line", "distance [m]", "wind [m/s]");
         add_series(&charts[count++], &view->turbulence, inertial, false);
         for (size_t i = 0; i < view->bands; i++)
             middle[i] = sqrt(view->edge[i] * view->edge[i + 1]);
-        charts[count] =
-            new_chart("Power spectral density, grey: Dryden's", "Ω [rad/m]", "m³/s²/rad");
+        charts[count] = new_chart("Power spectral density, grey: Dryden's",
+                                  "spatial frequency Ω [rad/m]", "density [m³/s²/rad]");
         charts[count].log_x = charts[count].log_y = true;
         for (int k = 0; k < AXES; k++)
             charts[count].curve[charts[count].count++] =
