@@ -148,14 +148,15 @@ class Replay {
   // before the line where there is none behind it.
   nameInstants(width) {
     const { element } = this.tools, free = [-1, -1];
+    const one = this.chosen !== null, text = (name) => (one ? name.replace(/ \d+$/, "") : name);
     const shown = this.marks.filter(({ rocket }) => this.chosen === null || rocket === this.chosen);
     this.ticks.replaceChildren(...shown.map(({ name, t }) => {
       const at = width * this.clock.share(t + this.zero), row = free.findIndex((end) => at >= end);
-      const room = 8 + 6.5 * name.length, side = at + room > width ? " end" : "";
+      const room = 8 + 6.5 * text(name).length, side = at + room > width ? " end" : "";
       if (row >= 0) free[row] = at + room;
       const kind = ["tick bare", "tick", "tick low"][row + 1];
       return element("span", { className: kind + side, title: name, style: `left:${at.toFixed(1)}px` },
-        row >= 0 ? name : "");
+        row >= 0 ? text(name) : "");
     }));
   }
   key(event) {

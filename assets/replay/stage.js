@@ -14,6 +14,7 @@ import { add, apply, cross, dot, scaled, subtract, turnedBack, unit } from "./ve
 const FIELD = 32; // degrees that the eye takes in from top to bottom
 const MARGIN = 0.94; // of that what is looked at may take
 const HEAD = 34, FOOT = 16; // pixels at the top that words and buttons have, and at the bottom
+const NARROW = 500, GAUGE = 40; // so narrow a picture leaves no room beside axes and scales, but above them
 
 // Where an eye that looks along -`towards` sees all of the points, as near as it may: what it looks at, and how far from it
 // it is. `half`: tangents of the angles that it takes in: to either side, up, down.
@@ -213,9 +214,9 @@ export class Stage {
   }
   // Tangents of what the eye takes in where nothing else stands.
   field() {
-    const half = Math.tan((FIELD * Math.PI) / 360), { clientHeight } = this.renderer.domElement;
+    const half = Math.tan((FIELD * Math.PI) / 360), { clientHeight, clientWidth } = this.renderer.domElement;
     const beside = (room) => half * Math.max(0.5, 1 - (2 * room) / (clientHeight || 400));
-    return { side: MARGIN * half * this.camera.aspect, up: beside(HEAD), down: beside(FOOT) };
+    return { side: MARGIN * half * this.camera.aspect, up: beside(HEAD), down: beside(clientWidth < NARROW ? GAUGE : FOOT) };
   }
   // Eye and aim of a view that begins, from what it follows.
   begin(aim) {

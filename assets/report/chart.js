@@ -1,9 +1,11 @@
 // A plot in SVG: axes with units, what its maker draws between them, a cursor for mouse and keys with
 // the values it is at, and its data as CSV.
 import { readable } from "./data.js";
+import { linesOf } from "./labels.js";
 import { download, element } from "./page.js";
 import { tickTexts, ticks } from "./ticks.js";
 
+const LETTER = 6.3, LINE = 13; // width and height of what stands at an axis
 const HEIGHT = 240, LEAST = 170, MOST = 420, RIGHT = 14, TOP = 14, BOTTOM = 42;
 
 export function svg(tag, attributes = {}, ...children) {
@@ -80,9 +82,10 @@ function drawAxes(spec, place) {
     line(left, place.y(v), right, place.y(v));
     text(texts[i], [left - 5, place.y(v) + 4], "end");
   }
-  const fit = (label, room) => (6.3 * label.length > room ? { textLength: room.toFixed(0), lengthAdjust: "spacingAndGlyphs" } : {});
+  const fit = (label, room) => (LETTER * label.length > room ? { textLength: room.toFixed(0), lengthAdjust: "spacingAndGlyphs" } : {});
   text(x.label, [(left + right) / 2, place.height - 8], "middle", { class: "axis", ...fit(x.label, right - left + 20) });
-  text(y.label, [-(TOP + bottom) / 2, 12], "middle", { class: "axis", transform: "rotate(-90)", ...fit(y.label, place.height - 20) });
+  place.names.forEach((line, i) => text(line, [-(TOP + bottom) / 2, 12 + LINE * i], "middle",
+    { class: "axis", transform: "rotate(-90)", ...fit(line, TOP + bottom - 4) }));
   return nodes;
 }
 
@@ -98,13 +101,13 @@ function square(spec, width, height) {
 }
 
 function placeOf(spec, width) {
-  const left = spec.down ? 10 : 62, right = width - RIGHT;
-  const wanted = TOP + BOTTOM + ((right - left) * span(spec.y)) / span(spec.x);
+  const right = width - RIGHT, wanted = TOP + BOTTOM + ((right - 62) * span(spec.y)) / span(spec.x);
   const height = spec.equal ? Math.min(MOST, Math.max(LEAST, wanted)) : spec.height ?? HEIGHT;
-  const bottom = height - BOTTOM;
+  const bottom = height - BOTTOM, names = linesOf(spec.y.label, (TOP + bottom - 4) / LETTER);
+  const left = spec.down ? 10 : 62 + LINE * (names.length - 1);
   if (spec.equal) square(spec, right - left, bottom - TOP);
   const shown = (axis) => ({ ...axis, range: axis.shown ?? axis.range });
-  const place = { width, height, left, right, top: TOP, bottom, x: scale(shown(spec.x), left, right),
+  const place = { names, width, height, left, right, top: TOP, bottom, x: scale(shown(spec.x), left, right),
     y: scale(shown(spec.y), bottom, TOP) };
   place.axes = drawAxes({ x: shown(spec.x), y: shown(spec.y) }, place);
   return place;

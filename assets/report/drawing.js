@@ -9,7 +9,8 @@ import { element } from "./page.js";
 import { inUnit } from "./rounded.js";
 
 const LETTER = 5.9, LINE = 14; // width and height of text [px]
-const length = (v, like) => inUnit(v, "m", like).join("\u00a0");
+// A length that somebody chose: without the zeros at its end.
+const length = (v, like) => inUnit(v, "m", like).join("\u00a0").replace(/(\.\d*?)0+(?=\D*$)/, "$1").replace(/\.(?=\D*$)/, "");
 
 // ---- parts of a drawing
 

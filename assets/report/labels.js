@@ -41,3 +41,12 @@ export function placeBeside(points, height, bounds, others = []) {
     return box;
   });
 }
+
+// A text in one line, or in two where it is longer than `room` letters.
+export function linesOf(label, room) {
+  if (label.length <= room) return [label];
+  const spaces = [...label.matchAll(/ /g)].map(({ index }) => index), middle = label.length / 2;
+  if (spaces.length === 0) return [label];
+  const at = spaces.reduce((best, one) => (Math.abs(one - middle) < Math.abs(best - middle) ? one : best));
+  return [label.slice(0, at), label.slice(at + 1)];
+}

@@ -75,7 +75,8 @@ function chooseLaunch(rocket) {
   const { group, zero } = shown[tables.indexOf(launch)];
   choice.show(rocket);
   group.show(...(launchWindow(data.rockets[rocket], zero) ?? group.home));
-  requestAnimationFrame(() => window.launchdyn?.current?.choose(rocket)); // when the plots have their window
+  const replay = window.launchdyn?.current;
+  if (replay) requestAnimationFrame(() => replay.choose(rocket)); // when the plots have their window
 }
 
 // Why there is no replay, or nothing.

@@ -56,13 +56,21 @@ function histogram(data, result) {
   });
 }
 
+// Series beside each other on an axis, by their names; points of a sweep over one number by its values.
+function seriesAxis(list) {
+  const names = list.map(({ series }) => series.label), parts = names.map((name) => /^(.+) = (-?[\d.e+-]+) ?(\S*)$/.exec(name) ?? []);
+  const [, key, , unit] = parts[0], range = [-0.5, list.length - 0.5];
+  if (!key || parts.some((part) => part[1] !== key || part[3] !== unit)) return { label: "studies or points of a sweep", range, names };
+  return { label: unit ? `${key} [${unit}]` : key, range, names: parts.map(([, , value]) => value) };
+}
+
 // Many series: a column each, from 5 to 95 %, with the median and the mean.
 function columns(data, result) {
   const list = having(data, result.series), f = result.factor;
   const half = (place) => Math.min(14, ((place.right - place.left) / list.length) * 0.35);
   return chart({
     title: `${result.label}: distribution`,
-    x: { label: "studies or points of a sweep", range: [-0.5, list.length - 0.5], names: list.map(({ series }) => series.label) },
+    x: seriesAxis(list),
     y: { label: result.axis, range: rangeOf(list.flatMap(({ own }) => [own.quantiles[0][0] * f, own.quantiles[2][0] * f])) },
     draw: (place) => list.flatMap(({ own, s }, i) => {
       const [low, middle, high] = own.quantiles.map(([v]) => place.y(v * f)), x = place.x(i), w = half(place);
@@ -85,7 +93,7 @@ function deviations(data, result) {
   const shown = list.map(({ own }) => own.deviation.map((v) => (v === null ? NaN : v * f)));
   return chart({
     title: `${result.label}: deviations`,
-    x: { label: "studies or points of a sweep", range: [-0.5, list.length - 0.5], names: list.map(({ series }) => series.label) },
+    x: seriesAxis(list),
     y: { label: result.unit ? `standard deviation [${result.unit}]` : "standard deviation", range: rangeOf(shown.flat()) },
     draw: (place) => shown.flatMap(([value, low, high], i) => {
       const x = place.x(i);

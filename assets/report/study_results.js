@@ -14,6 +14,8 @@ const MORE = [
   ["tip.yaw_rate", "tip of the tube, yaw rate", "mrad/s", 1e3],
   ["downrange", "downrange", "m", 1],
   ["t_impact", "impact, from ignition", "s", 1],
+  ["t_max_acceleration", "largest acceleration, from ignition", "s", 1],
+  ["t_max_dynamic_pressure", "largest dynamic pressure, from ignition", "s", 1],
   ["measure.*", "%s", null, 1],
 ];
 

@@ -52,7 +52,8 @@ export function answer(data, results) {
   const several = () => [element("tr", {}, head(""), ...results.map((result) => head(`${result.label}${result.unit ? ` [${result.unit}]` : ""}`))),
     ...data.series.map((series, i) => element("tr", {}, head(seriesName(series, i), "row"),
       ...results.map((result) => cell(meanAndDeviation(result.series[i], result.factor)))))];
-  const made = card("Mean and standard deviation", element("table", {}, ...(data.series.length === 1 ? one() : several())));
+  const made = card("Mean and standard deviation", element("table", data.series.length === 1 ? { className: "one" } : {},
+    ...(data.series.length === 1 ? one() : several())));
   made.classList.add("answer");
   made.append(element("p", { className: "shown" }, keptLine(data)));
   return made;

@@ -13,6 +13,6 @@ export function tickTexts(values) {
   return values.map((v) => {
     if (Math.abs(v) < step / 1e6) return "0";
     const digits = Math.ceil(Math.log10(Math.abs(v) / step)) + 2;
-    return String(Number(v.toPrecision(Math.min(15, Math.max(1, digits)))));
+    return String(Number(v.toPrecision(Math.min(15, Math.max(1, digits))))).replace("-", "−");
   });
 }

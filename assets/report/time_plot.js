@@ -114,6 +114,7 @@ function options(shown, group, marks, width) {
       }))],
     legend: { markers: { dash: (u, i) => BORDERS[(curves[i - 1]?.dash ?? 0) % BORDERS.length] } },
     cursor: {
+      y: false,
       sync: { key: group.cursorKey, scales: ["x", null], setSeries: false,
         filters: { pub: (type) => type === "mousemove" || type === "mouseleave" } },
       drag: { x: true, y: false },

@@ -1,7 +1,7 @@
 // The report of a run in a real browser.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, checkFits, checkInjected, checkNoneEmpty, drawn, inBrowser, launchdyn, launchdynEnding, leave, near, open, paper, picture,
+import { check, checkFits, checkHeight, checkInjected, checkNoneEmpty, drawn, inBrowser, launchdyn, launchdynEnding, leave, near, open, paper, picture,
   rowNear, runOf, unfold } from "./support.mjs";
 
 // The numbers below a plot, the time first.
@@ -64,15 +64,24 @@ async function checkFirstScreen(page, run) {
   check("replay, drawing and answer fill the first screen", boxes.every(({ top, bottom, height }) => top >= 0 && bottom <= 900 && height > 100),
     boxes.map(({ name, top, bottom }) => `${name} ${top.toFixed(0)} to ${bottom.toFixed(0)}`).join(", "));
   await checkHeight(page);
+  await checkPaper(page);
   const open = await page.$$eval("details[open]", (list) => list.length);
   check("tables, origin and what is beside the story are folded", open === 0 && (await page.$$("details")).length > 15, open);
   await checkAnswer(page, run);
   await checkDrawing(page);
 }
 
-async function checkHeight(page) {
-  const high = await page.evaluate(() => document.documentElement.scrollHeight);
-  check("the page before unfolding is at most 5000 pixels high", high <= 5000, high);
+// On paper replay, answer and drawing stand below each other, and what is folded is not there, nor its heading.
+async function checkPaper(page) {
+  await page.emulateMedia({ media: "print" });
+  const { left, folded, heads } = await page.evaluate(() => {
+    const seen = (selector) => [...document.querySelectorAll(selector)].filter((node) => node.getClientRects().length > 0);
+    return { left: seen(".overview > *").map((node) => node.getBoundingClientRect().left), folded: seen("details:not([open])").length,
+      heads: seen("main h2").map((node) => node.textContent) };
+  });
+  check("on paper one thing below the other", left.length === 3 && new Set(left).size === 1, left);
+  check("and nothing that is folded", folded === 0 && heads.includes("Launch") && !heads.includes("All numbers"), heads.join());
+  await page.emulateMedia({ media: null });
 }
 
 // The card's numbers are those of the results, rounded to three digits.

@@ -1,6 +1,9 @@
-// The browser's rule for names against tests/figures/labels.txt, which src/figures/labels.c keeps, too.
+// The browser's rule for names against tests/figures/labels.txt, which src/figures/labels.c keeps, too; numbers as people
+// say them, ticks of axes.
 import { readFileSync } from "node:fs";
-import { placeBeside, placeOnLine } from "../../assets/report/labels.js";
+import { linesOf, placeBeside, placeOnLine } from "../../assets/report/labels.js";
+import { inUnit, rounded } from "../../assets/report/rounded.js";
+import { ticks, tickTexts } from "../../assets/report/ticks.js";
 
 const cases = [];
 for (const line of readFileSync(new URL("../figures/labels.txt", import.meta.url), "utf8").split("\n")) {
@@ -24,4 +27,19 @@ const wrong = cases.filter((one) => {
   return !fine;
 });
 console.log(`${cases.length} cases of names, ${wrong.length} wrong`);
-process.exit(cases.length > 15 && wrong.length === 0 ? 0 : 1);
+
+// What is said, and what ought to be.
+const said = [
+  [rounded(38.01), "38.0"], [rounded(-0.0289), "−0.0289"], [rounded(2.0961), "2.10"], [rounded(1499.6), "1500"], [rounded(0), "0"],
+  [rounded(4.44e-12), "4.4·10⁻¹²"], [rounded(-2.5e7), "−2.5·10⁷"], [rounded(NaN), "–"],
+  [inUnit(0.00332, "m"), "3.32,mm"], [inUnit(3.63e-5, "m"), "0.0363,mm"], [inUnit(9.88e-7, "m"), "0.988,µm"], [inUnit(708.3, "m"), "708,m"],
+  [inUnit(1500, "m"), "1.50,km"], [inUnit(999.6, "m"), "1.00,km"], [inUnit(747, "m", 3120), "0.747,km"], [inUnit(0, "m"), "0,mm"],
+  [inUnit(53, "N"), "53.0,N"], [inUnit(1640, "N"), "1.64,kN"], [inUnit(0.1564, "s"), "156,ms"], [inUnit(24.19, "s"), "24.2,s"], [inUnit(0.136, ""), "0.136,"],
+  [ticks(0, 1, 5), "0,0.2,0.4,0.6000000000000001,0.8,1"], [tickTexts(ticks(0, 1, 5)), "0,0.2,0.4,0.6,0.8,1"], [tickTexts(ticks(-0.25, 0.38, 3)), "−0.2,0,0.2"],
+  [tickTexts(ticks(1163, 1177, 3)), "1165,1170,1175"], [ticks(3, 3, 4).length, "0"],
+  [linesOf("yaw [deg]", 20), "yaw [deg]"], [linesOf("yaw rate, the launcher's axes held still [mrad/s]", 27).join("|"), "yaw rate, the launcher's|axes held still [mrad/s]"],
+];
+const unlike = said.filter(([found, wanted]) => String(found) !== wanted);
+for (const [found, wanted] of unlike) console.log(`${found} instead of ${wanted}`);
+console.log(`${said.length} words and numbers, ${unlike.length} wrong`);
+process.exit(cases.length > 15 && wrong.length + unlike.length === 0 ? 0 : 1);

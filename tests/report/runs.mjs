@@ -1,7 +1,7 @@
 // The report of runs laid over each other in a real browser.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, checkFits, checkInjected, checkNoneEmpty, drawn, example, folder, inBrowser, launchdyn, launchdynEnding, leave, near, open, paper,
+import { check, checkFits, checkHeight, checkInjected, checkNoneEmpty, drawn, example, folder, inBrowser, launchdyn, launchdynEnding, leave, near, open, paper,
   picture, readCsv } from "./support.mjs";
 
 // A run of an example with other values for some keys.
@@ -46,6 +46,7 @@ const cellsOf = (page, row) => page.$$eval("#tables tr", (rows, name) =>
 async function checkOver(browser, runs) {
   console.log("three runs, one key apart");
   const page = await open(browser, reportOf("three.html", ...runs), { width: 1400 });
+  await checkHeight(page);
   const legend = await page.$$eval(".legend .series", (list) => list.map((node) => node.textContent));
   check("runs are named by the key in which they differ", legend.join() === "clearance 0.0002 m,clearance 0.0003 m,clearance 0.0005 m", legend);
   const values = await cellsOf(page, "rocket.adaptors.rear.clearance");

@@ -1,7 +1,7 @@
 // The report of studies in a real browser.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, checkFits, checkInjected, drawn, example, folder, inBrowser, launchdyn, leave, near, open, paper, picture,
+import { check, checkFits, checkHeight, checkInjected, drawn, example, folder, inBrowser, launchdyn, leave, near, open, paper, picture,
   readCsv, unfold } from "./support.mjs";
 
 // Of the thrust and of its angles.
@@ -138,8 +138,7 @@ async function checkDownload(page, study) {
 
 // What one reads first: the answer and the sensitivities, one plot a result, the rest folded.
 async function checkFirst(page, study) {
-  const high = await page.evaluate(() => document.documentElement.scrollHeight);
-  check("the page before unfolding is at most 5000 pixels high", high <= 5000, high);
+  await checkHeight(page);
   const heads = await page.$$eval("h2", (list) => list.map((node) => node.textContent));
   check("the answer and the sensitivities stand first", heads.join() === "Answer and sensitivities,Scatter,Results,Numbers,Origin", heads);
   const bottom = await page.$eval(".lead", (node) => node.getBoundingClientRect().bottom);

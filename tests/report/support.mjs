@@ -209,4 +209,9 @@ export async function checkFits(page) {
   check("nothing is wider than the window", wide <= room, `${wide} of ${room}`);
 }
 
+export async function checkHeight(page) {
+  const high = await page.evaluate(() => document.documentElement.scrollHeight);
+  check("the page before unfolding is at most 5000 pixels high", high <= 5000, high);
+}
+
 export const paper = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
