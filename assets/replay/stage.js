@@ -14,7 +14,7 @@ import { add, apply, cross, dot, scaled, subtract, turnedBack, unit } from "./ve
 const FIELD = 32; // degrees that the eye takes in from top to bottom
 const MARGIN = 0.94; // of that what is looked at may take
 const HEAD = 34, FOOT = 16; // pixels at the top that words and buttons have, and at the bottom
-const NARROW = 500, GAUGE = 40; // so narrow a picture leaves no room beside axes and scales, but above them
+const NARROW = 420, GAUGE = 40; // so narrow a picture leaves no room beside axes and scales, but above them
 
 // Where an eye that looks along -`towards` sees all of the points, as near as it may: what it looks at, and how far from it
 // it is. `half`: tangents of the angles that it takes in: to either side, up, down.

@@ -145,6 +145,10 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
 void plot_begin(FILE *script, plot_format format, const plot_style *style, double width,
                 double height);
 
+// Whether a page of these pixels can be a picture of that format: a png has a greatest height.
+ld_status plot_fits(plot_format format, const plot_style *style, double width, double height,
+                    ld_error *error);
+
 // Text between the single quotes of gnuplot, as a terminal may show it.
 void plot_write_quoted(FILE *script, const char *text);
 

@@ -846,6 +846,8 @@ ld_status plot_write_script(FILE *script, const void *what, plot_format format, 
     if (!drawing.x || !drawing.y || !drawing.keep || !drawing.stack || !drawing.names ||
         !drawing.source)
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for the figures");
+    if (!status)
+        status = plot_fits(format, page->style, page->width, drawing.height, error);
     for (size_t i = 0; i < page->runs && !status; i++)
         status = set_sources(&drawing, i, error);
     if (!status) {

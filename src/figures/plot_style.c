@@ -18,7 +18,7 @@ static const plot_style styles[] = {
 };
 // clang-format on
 
-enum { STYLES = sizeof styles / sizeof *styles, USUAL_WIDTH = 1000 };
+enum { STYLES = sizeof styles / sizeof *styles, USUAL_WIDTH = 1000, MOST_DOTS = 32767 };
 
 const plot_style *plot_style_find(const char *name, ld_error *error)
 {
@@ -35,6 +35,12 @@ const plot_style *plot_style_find(const char *name, ld_error *error)
     return NULL;
 }
 
+// Whether lengths are those of paper, not of a screen.
+static bool is_measured(const plot_style *style, double width)
+{
+    return style->millimetres > 0 || width != USUAL_WIDTH;
+}
+
 double plot_width(const plot_style *style, double metres)
 {
     if (metres > 0)
@@ -42,19 +48,33 @@ double plot_width(const plot_style *style, double metres)
     return style->millimetres > 0 ? style->millimetres * millimetre : USUAL_WIDTH;
 }
 
+ld_status plot_fits(plot_format format, const plot_style *style, double width, double height,
+                    ld_error *error)
+{
+    double dots_high = height * (is_measured(style, width) ? dots : 2);
+    if (format != PLOT_PNG || dots_high <= MOST_DOTS)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT,
+                   "a .png of these figures would be %.0f dots high, more than %d: name fewer with "
+                   "--what, or draw a .pdf or .svg",
+                   dots_high, MOST_DOTS);
+}
+
+// A font of 12 is 12 points in gnuplot's pdf with a fontscale of 3/4, and a line of 1 half a point.
 static void set_terminal(FILE *script, plot_format format, const plot_style *style, double width,
                          double height)
 {
-    bool measured = style->millimetres > 0 || width != USUAL_WIDTH;
+    bool measured = is_measured(style, width);
     double inch = measured ? 96 : 72, scale = measured ? dots : 2;
     if (format == PLOT_SVG)
         fprintf(script, "set terminal svg size %.0f,%.0f font 'sans-serif,12' background '#%s'",
                 width, height, style->paper);
     else if (format == PLOT_PDF)
-        fprintf(script,
-                "set terminal pdfcairo size %.4fin,%.4fin font 'sans-serif,12' fontscale 0.75 "
-                "background '#%s'",
-                width / inch, height / inch, style->paper);
+        fprintf(
+            script,
+            "set terminal pdfcairo size %.4fin,%.4fin font 'sans-serif,12' fontscale %g linewidth "
+            "%g background '#%s'",
+            width / inch, height / inch, 0.75 * 72 / inch, measured ? 1.5 : 1.0, style->paper);
     else
         fprintf(script,
                 "set terminal pngcairo size %.0f,%.0f font 'sans-serif,12' fontscale %g linewidth "

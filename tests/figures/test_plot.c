@@ -214,6 +214,23 @@ static void check_style(const char *name, double metres, bool title, bool two,
     free(script);
 }
 
+// Letters and lines of a pdf in pixels of 1/96 inch, which are 3/4 of a point, or of one point.
+static void test_pdf_is_to_scale(void **state)
+{
+    (void)state;
+    for (int measured = 0; measured < 2; measured++) {
+        char text[1024] = "";
+        const plot_style *look = plot_style_find(measured ? "paper" : NULL, NULL);
+        FILE *script = fmemopen(text, sizeof text, "w");
+        plot_begin(script, PLOT_PDF, look, plot_width(look, 0), 480);
+        fclose(script);
+        assert_non_null(
+            strstr(text, measured ? " size 3.3071in,5.0000in " : " size 13.8889in,6.6667in "));
+        assert_non_null(strstr(text, measured ? " fontscale 0.5625 linewidth 1.5 "
+                                              : " fontscale 0.75 linewidth 1 "));
+    }
+}
+
 static void test_styles(void **state)
 {
     (void)state;
@@ -514,6 +531,14 @@ static void test_what_can_be_wrong(void **state)
     assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
     assert_string_equal(error.text, "a picture is 50 mm to 500 mm wide, not 10 mm");
     assert_int_not_equal(access(in("x.svg"), F_OK), 0);
+    const char *many[32];
+    for (size_t i = 0; i < 32; i++)
+        many[i] = "tip";
+    run_folder = in("run");
+    picture = (ld_picture){&run_folder, 1, many, 32, .from = NAN, .to = NAN, .style = "paper"};
+    assert_int_equal(ld_plot(&picture, in("x.png"), &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "dots high, more than 32767: name fewer with --what, or"));
+    assert_int_not_equal(access(in("x.png"), F_OK), 0);
 }
 
 // Another gnuplot, or none, in PATH; an earlier picture stays.
@@ -547,6 +572,7 @@ int main(void)
         TEST(test_several_runs),
         TEST(test_each_of_a_kind),
         TEST(test_styles),
+        TEST(test_pdf_is_to_scale),
         TEST(test_words_on_surfaces),
         TEST(test_names_stand_as_in_the_browser),
         TEST(test_marks_of_a_flight),
