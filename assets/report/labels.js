@@ -1,21 +1,32 @@
 // Where names stand so that none goes through another.
 
+const FAR = 12; // gaps that a name may stand from its place
+
+// Places names, which have room, from the left and back from the right.
+function placeAll(names, low, high, gap) {
+  let free = low, end = high;
+  for (const name of names) {
+    name.left = Math.max(name.at - name.width / 2, free);
+    free = name.left + name.width + gap;
+  }
+  for (const name of names.toReversed()) {
+    name.left = Math.min(name.left, end - name.width);
+    end = name.left - gap;
+  }
+}
+
 // On a line: left ends of names of these widths, each as near to its middle as the others let it, between `low`
-// and `high`; null for those that have no room. The lower its rank, the sooner a name has it.
+// and `high`; null for those that have no room, or none near it. The lower its rank, the sooner a name has it.
 export function placeOnLine(names, low, high, gap = 6) {
   const kept = names.map((name, i) => ({ ...name, i })).sort((a, b) => a.rank - b.rank || a.i - b.i);
   const taken = () => kept.reduce((sum, { width }) => sum + width + gap, -gap);
   while (kept.length > 0 && taken() > high - low) kept.pop();
   kept.sort((a, b) => a.at - b.at || a.i - b.i);
-  let free = low;
-  for (const name of kept) {
-    name.left = Math.max(name.at - name.width / 2, free);
-    free = name.left + name.width + gap;
-  }
-  let end = high;
-  for (const name of kept.toReversed()) {
-    name.left = Math.min(name.left, end - name.width);
-    end = name.left - gap;
+  for (;;) {
+    placeAll(kept, low, high, gap);
+    const moved = ({ at, width, left: x }) => Math.abs(x + width / 2 - at), half = kept.filter((one) => moved(one) > (FAR * gap) / 2);
+    if (half.every((one) => moved(one) <= FAR * gap)) break;
+    kept.splice(kept.indexOf(half.reduce((worst, one) => (one.rank >= worst.rank ? one : worst))), 1);
   }
   const left = names.map(() => null);
   for (const name of kept) left[name.i] = name.left;

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { FAR = 12 }; // gaps that a name may stand from its place
+
 // Takes away names of the greatest rank, the later first, until the others have room; `order` takes
 // those left as they stand along the line. Returns how many those are.
 static size_t keep_names(const label_on_line *name, size_t count, double room, double gap,
@@ -33,24 +35,59 @@ static size_t keep_names(const label_on_line *name, size_t count, double room, d
     return count;
 }
 
-void labels_place_on_line(label_on_line *name, size_t count, double low, double high, double gap)
+// Places the names of `order`, which have room, from the left and back from the right.
+static void place_names(label_on_line *name, const size_t *order, size_t count, double low,
+                        double high, double gap)
 {
-    assert(count <= LABELS_MOST);
-    size_t order[LABELS_MOST];
-    size_t kept = keep_names(name, count, high - low, gap, order);
-    for (size_t i = 0; i < count; i++)
-        name[i].left = NAN;
     double free = low, end = high;
-    for (size_t k = 0; k < kept; k++) {
+    for (size_t k = 0; k < count; k++) {
         label_on_line *one = &name[order[k]];
         one->left = fmax(one->at - one->width / 2, free);
         free = one->left + one->width + gap;
     }
-    for (size_t k = kept; k-- > 0;) {
+    for (size_t k = count; k-- > 0;) {
         label_on_line *one = &name[order[k]];
         one->left = fmin(one->left, end - one->width);
         end = one->left - gap;
     }
+}
+
+static double moved(const label_on_line *one)
+{
+    return fabs(one->left + one->width / 2 - one->at);
+}
+
+// Where a name stands so far from its place, takes away, of those that have moved half as far, the
+// one of the greatest rank, of equal ones the later. Returns how many are left.
+static size_t drop_far_name(label_on_line *name, size_t *order, size_t count, double far)
+{
+    size_t worst = count;
+    double most = 0;
+    for (size_t k = 0; k < count; k++) {
+        const label_on_line *one = &name[order[k]];
+        most = fmax(most, moved(one));
+        if (moved(one) > far / 2 && (worst == count || one->rank >= name[order[worst]].rank))
+            worst = k;
+    }
+    if (most <= far || worst == count)
+        return count;
+    name[order[worst]].left = NAN;
+    memmove(order + worst, order + worst + 1, (count - worst - 1) * sizeof *order);
+    return count - 1;
+}
+
+void labels_place_on_line(label_on_line *name, size_t count, double low, double high, double gap)
+{
+    assert(count <= LABELS_MOST);
+    size_t order[LABELS_MOST];
+    size_t kept = keep_names(name, count, high - low, gap, order), before;
+    for (size_t i = 0; i < count; i++)
+        name[i].left = NAN;
+    do {
+        before = kept;
+        place_names(name, order, kept, low, high, gap);
+        kept = drop_far_name(name, order, kept, FAR * gap);
+    } while (kept < before);
 }
 
 // ---- beside points ----

@@ -415,6 +415,15 @@ static void test_marks_of_a_sequence(void **state)
     launch.rockets = 1;
     plot_find_marks(&launch, false, &marks);
     expect_marks(&marks, one, 5);
+    marks.count = 2;
+    char text[256] = "";
+    FILE *json = fmemopen(text, sizeof text, "w");
+    plot_write_marks(json, &marks);
+    fclose(json);
+    assert_string_equal(
+        text, "[{\"name\":\"ignition\",\"t\":0,\"rank\":0,\"rocket\":0,\"figures\":[\"launch\","
+              "\"vehicle\"]},{\"name\":\"release\",\"t\":0.01,\"rank\":2,\"rocket\":0,"
+              "\"figures\":[\"launch\"]}]");
     launch.rockets = 0;
     plot_find_marks(&launch, false, &marks);
     assert_int_equal(marks.count, 0);

@@ -142,13 +142,13 @@ async function checkLaunch(browser) {
     (cells) => [...new Set(cells.map((cell) => cell.textContent))]);
   check("all plots show the same instant", shared.length === 1, shared);
   await picture(page, "launch.png");
-  await checkKeys(page);
+  await checkKeys(page, run);
   await checkReplay(page, run);
   await leave(page);
   await checkWithoutGeometry(browser, run);
 }
 
-async function checkKeys(page) {
+async function checkKeys(page, run) {
   const time = async () => (await legend(page, "#table0-tip .uplot"))[0];
   const press = async (key) => {
     await page.keyboard.press(key);
@@ -162,8 +162,10 @@ async function checkKeys(page) {
   await press("ArrowRight");
   check("an arrow moves the cursor by a row", near((await time()) - before, 1e-4, 0.01),
     `${before} to ${await time()}`);
-  check("and on the paths too",
-    (await page.locator("#table0-phase .reading").first().textContent()).startsWith(`t ${await time()} `));
+  const path = (await page.locator("#table0-phase .reading").first().textContent()).match(/t (\S+) s +x (\S+) +y (\S+)/).slice(1).map(Number);
+  const row = rowNear(run.column.get("t"), path[0]);
+  check("and on the paths too, x across, y up", path[0] === await time() &&
+    ["rocket.y", "rocket.y_dot"].every((name, i) => near(1e3 * run.column.get(name)[row], path[i + 1], 1e-3)), path.join(" "));
   const drawing = () => page.$eval("#table0-travel canvas", (canvas) => canvas.toDataURL());
   const whole = await drawing();
   await press("+");
@@ -646,6 +648,11 @@ async function checkFlight(browser) {
   await page.keyboard.press("Tab");
   const rocket = await look(page, "replay.stage.paths[0].group.visible = true; replay.look('rocket');");
   check("the rocket is seen", rocket.rocket > 500, rocket.rocket);
+  const [shown, pitch] = await page.evaluate(() => {
+    const { stage, time, flights: [{ t, column }] } = window.launchdyn.current, row = t.findIndex((at) => at >= time);
+    return [Math.asin(stage.flying[0].A[3]), column.get("rocket.pitch").value.find((v, i) => i >= row && v !== undefined)];
+  });
+  check("its nose points up by the pitch of the results", Math.abs(pitch) > 0.05 && Math.abs(shown - pitch) < 0.02, `${shown} and ${pitch} rad`);
   await leave(page);
 }
 
