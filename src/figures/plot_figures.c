@@ -9,7 +9,6 @@
 // Units as they are written at an axis, with the factor from SI.
 #define PLAIN {"", 1}
 #define M {"m", 1}
-#define KM {"km", 1e-3}
 #define MM {"mm", 1e3}
 #define M_S {"m/s", 1}
 #define MM_S {"mm/s", 1e3}
@@ -184,10 +183,10 @@ static const plot_figure figures[] = {
            HALF("Torque of the elevation's stabiliser", "torque", KN_M, {"elevation.torque", ""})),
     // flights
     TOLD_FLIGHT("trajectory", "Trajectories of the rockets",
-           BROAD("Height over the way along x", "altitude", KM, "altitude",
-                 "x", KM, "center.x"),
-           BROAD("Ground track", "to the right, z", KM, "center.z",
-                 "x", KM, "center.x")),
+           BROAD("Height over the way along x", "altitude", M, "altitude",
+                 "x", M, "center.x"),
+           BROAD("Ground track", "to the right, z", M, "center.z",
+                 "x", M, "center.x")),
     TOLD_FLIGHT("flight", "Free flight",
            HALF("Altitude", "altitude", M, {"altitude", ""}),
            HALF("Mach number", "Mach number", PLAIN, {"mach", ""}),
