@@ -6,6 +6,10 @@ import { add, apply, aboutX, aboutY, aboutZ, multiply, pose, rotation, scaled, s
 
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 
+// Least and greatest of some columns, none among them.
+const rangeOf = (columns) => columns.reduce((range, values) => (values ?? []).reduce(([low, high], v) =>
+  [v < low ? v : low, v > high ? v : high], range), [0, 0]);
+
 export class Motion {
   constructor(table, geometry, rockets, { filled, rowAt }) {
     this.t = table.t;
@@ -17,6 +21,7 @@ export class Motion {
       return values;
     };
     this.values = new Map();
+    this.ranges = new Map();
     this.segments = numbered(table.segments);
     this.rockets = rockets;
     const rows = (name) => rowsOf(geometry, name), single = (name) => rows(name)[0];
@@ -66,12 +71,16 @@ export class Motion {
     return this.stations.reduce((best, s, i) => (Math.abs(s - x) < Math.abs(this.stations[best] - x) ? i : best), 0);
   }
 
+  // Between what columns are at any instant.
+  range(...names) {
+    const key = names.join();
+    if (!this.ranges.has(key)) this.ranges.set(key, rangeOf(names.map((name) => this.values.get(name) ?? this.value(name))));
+    return this.ranges.get(key);
+  }
   // The largest value of a column, in size.
   largest(name) {
-    let most = 0;
-    for (const v of this.values.get(name) ?? this.value(name) ?? [])
-      if (Math.abs(v) > most) most = Math.abs(v);
-    return most;
+    const [low, high] = this.range(name);
+    return Math.max(-low, high);
   }
 
   // Rows before and after an instant and the share of the second; never from one phase to the next.
@@ -250,6 +259,7 @@ export class Flight {
     this.values = new Map();
     for (const name of ["center.x", "center.y", "center.z", "rocket.pitch", "rocket.yaw", "rocket.spin", "thrust"])
       this.values.set(name, filled(table.column.get(name).value, table.t));
+    this.heights = rangeOf([this.values.get("center.y")]);
     this.roll = [0];
     const spin = this.values.get("rocket.spin");
     for (let i = 1; i < this.t.length; i++)

@@ -241,16 +241,21 @@ class Replay {
     if (!quiet) this.shown(this.time);
   }
   read() {
-    const { readable } = this.tools, { state } = this.stage, part = this.clock.partAt(this.time);
-    const words = [`t ${readable(this.time - this.zero, 6)} s`];
-    if (state.rocket && part.name !== "flight")
-      words.push(`travel ${readable(state.rocket.s, 4)} m`, `speed ${readable(state.read("rocket.s_dot"), 4)} m/s`);
-    const flying = this.stage.flying[this.stage.watched()];
-    if (flying) words.push(`height ${readable(Math.round(1e3 * flying.center[1]) / 1e3 + 0, 4)} m`);
-    if (part.name !== "flight")
-      words.push(...["y", "z"].map((axis) => `tip ${axis} ${readable(Math.round(1e9 * state.read(`tip.${axis}`)) / 1e6 + 0, 3)} mm`));
-    for (const name of part.name === "flight" ? [] : this.motion.slides)
-      words.push(`recoil ${readable(1e3 * state.read(`recoil.${name}.travel`), 3)} mm`);
+    const { fixed, playing, readable } = this.tools, { state } = this.stage, flies = this.clock.partAt(this.time).name === "flight";
+    const between = [this.clock.first, this.clock.last].map((time) => time - this.zero);
+    const words = [`t ${fixed(this.time - this.zero, flies ? 2 : 4, between)} s`];
+    const say = (name, column, unit, ...alike) => words.push(`${name} ${playing(state.read(column), unit, this.motion.range(column, ...alike))}`);
+    if (state.rocket && !flies) {
+      say("travel", "rocket.s", "m");
+      say("speed", "rocket.s_dot", "m/s");
+    }
+    const watched = this.stage.watched(), flying = this.stage.flying[watched];
+    if (flying) words.push(`height ${playing(flying.center[1], "m", this.ways[watched].heights, 4)}`);
+    if (!flies) {
+      say("tip y", "tip.y", "m", "tip.z");
+      say("tip z", "tip.z", "m", "tip.y");
+      for (const name of this.motion.slides) say("recoil", `recoil.${name}.travel`, "m");
+    }
     if (this.stage.view === "path") words.push(`squares of ${readable(this.stage.map.cell / 1000, 3)} km`);
     else if (this.motion.t.at(-1) < this.time) words.push("launcher as it was when its history ended");
     this.reading.textContent = words.join(" · ");

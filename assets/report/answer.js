@@ -47,10 +47,13 @@ function movers(table) {
     ["chassis, up and down", ["chassis.y"]], ...slides];
 }
 
-// The part that moved farthest since the first ignition, the next one below it.
+// Parts that moved since the first ignition, by how far.
+export const motions = (table, ignition) => movers(table).map(([label, names]) => ({ label, ...farthest(table, names, ignition) }))
+  .filter(({ most }) => most > 0).sort((a, b) => b.most - a.most);
+
+// The part that moved farthest, the next one below it.
 function moved(table, ignition, named) {
-  const found = movers(table).map(([label, names]) => ({ label: named(label), ...farthest(table, names, ignition) }))
-    .filter(({ most }) => most > 0).sort((a, b) => b.most - a.most);
+  const found = motions(table, ignition).map((part) => ({ ...part, label: named(part.label) }));
   if (found.length === 0) return [];
   const [first, second] = found, when = inUnit(first.when - ignition, "s").join("\u00a0");
   const next = second ? `, then the ${second.label} ${inUnit(second.most, "m").join("\u00a0")}` : "";

@@ -7,6 +7,7 @@ import { originBlock } from "./origin.js";
 import { namedFigures, namingOf } from "./naming.js";
 import { panelsOf } from "./panels.js";
 import { addFigures, homeOf, launchChoice, launchWindow, PlotGroup } from "./plot_group.js";
+import { fixed, playing } from "./rounded.js";
 import { showSummary } from "./summary.js";
 
 const host = document.getElementById("report");
@@ -96,7 +97,7 @@ function startReplay(place, shown, flights) {
   let leading = false, last = 0, wanted = null;
   const replay = window.launchdyn.replay(place, {
     table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets,
-    chose: chooseLaunch, tools: { colour, download, element, filled, onColours, readable, rowAt }, version: data.version,
+    chose: chooseLaunch, tools: { colour, download, element, filled, fixed, onColours, playing, readable, rowAt }, version: data.version,
     shown: (time) => {
       const now = performance.now();
       if (now - last < 400 && replay?.playing) return;

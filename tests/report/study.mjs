@@ -200,6 +200,20 @@ async function checkSideBySide(browser, studies) {
   await leave(page);
 }
 
+// A column goes from 5 to 95 %, on the scale that its median and its mean give.
+async function checkColumnEnds(page) {
+  const { series } = (await dataOf(page)).results.find(({ name }) => name === "downrange");
+  const drawn = await page.$eval(panel("Downrange: distribution"), (node) => {
+    const all = (kind, ...names) => [...node.querySelectorAll(kind)].map((one) => names.map((name) => Number(one.getAttribute(name))));
+    return { boxes: all("rect.area", "y", "height"), middles: all("line.quantile", "y1"), means: all("circle.dot", "cy") };
+  });
+  const medians = series.map(({ quantiles }) => quantiles[1][0]), [[first], , [last]] = drawn.middles;
+  const at = (v) => first + ((last - first) * (v - medians[0])) / (medians[2] - medians[0]);
+  const off = series.map(({ mean, quantiles }, i) => { const [top, height] = drawn.boxes[i];
+    return Math.max(Math.abs(top - at(quantiles[2][0])), Math.abs(top + height - at(quantiles[0][0])), Math.abs(drawn.means[i][0] - at(mean[0]))); });
+  check("from 5 to 95 %, with its mean", Math.max(...off) < 0.05 && drawn.boxes.every(([, height]) => height > 10), `${Math.max(...off)} pixels off`);
+}
+
 // More than can be laid over each other stand in columns.
 async function checkColumns(browser, studies) {
   console.log("six studies");
@@ -208,6 +222,7 @@ async function checkColumns(browser, studies) {
   await checkNoneEmpty(page, 25);
   const columns = await page.locator(`${panel("Downrange: distribution")} rect.area`).count();
   check("a column for each", columns === 6, columns);
+  await checkColumnEnds(page);
   await picture(page, "studies-columns.png");
   await leave(page);
 }
