@@ -1,12 +1,10 @@
 // Studies: the same results whatever the number of threads and the interruptions; what is kept.
 #include "support/study_run.h"
 
-#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "launchdyn/study_data.h"
@@ -228,12 +226,15 @@ static ld_status run_shard(const ld_study *study, int shard, int shards, ld_stud
     return ld_study_run(study, in("shards"), &options, counts, &error);
 }
 
-// Reads a study for a while.
-static void *read_for_a_while(void *data)
+// Who reads the study until somebody waits: SQLite's sleep.
+static ld_study_data *read_meanwhile;
+
+static int closes(sqlite3_vfs *system, int microseconds)
 {
-    nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
-    ld_study_data_close(data);
-    return NULL;
+    (void)system;
+    ld_study_data_close(read_meanwhile);
+    read_meanwhile = NULL;
+    return microseconds;
 }
 
 // A merge waits for who reads the study: it changes the kind of the journal, which nobody else may
@@ -241,13 +242,14 @@ static void *read_for_a_while(void *data)
 static void merge_beside_a_reader(void)
 {
     ld_error error;
-    ld_study_data *data;
-    pthread_t reader;
-    if (ld_study_data_open(in("shards"), &data, &error))
+    if (ld_study_data_open(in("shards"), &read_meanwhile, &error))
         fail_msg("%s", error.text);
-    assert_int_equal(pthread_create(&reader, NULL, read_for_a_while, data), 0);
+    sqlite3_vfs *system = sqlite3_vfs_find(NULL);
+    int (*sleeps)(sqlite3_vfs *, int) = system->xSleep;
+    system->xSleep = closes;
     expect_merge("shards", LD_OK, "24 of 24 samples");
-    pthread_join(reader, NULL);
+    system->xSleep = sleeps;
+    assert_null(read_meanwhile);
     const study_store none = {0};
     assert_int_equal(store_fail_by(&none, SQLITE_BUSY, "study.db", "write", &error), LD_ERR_FILE);
     assert_string_equal(error.text,
