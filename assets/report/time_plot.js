@@ -6,6 +6,7 @@ import { colour, curveColour, onColours } from "./page.js";
 import { tickTexts } from "./ticks.js";
 
 const NAMES = 20; // height above the plot for the names of instants [px]
+const PAPER = 680; // width of a plot that fills a row of paper [px]
 // Of a run's curves in one panel, and their signs below it.
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]], BORDERS = ["solid", "dashed", "dotted", "double"];
 
@@ -153,6 +154,13 @@ function listenToKeys(u, data, group) {
   });
 }
 
+// A plot that fills its row on paper alone is drawn as wide as two there, for its letters to be as large as theirs.
+function drawWideOnPaper(u, host, height) {
+  const alone = ".of5 > :nth-child(3) *, .grid > :last-child:nth-child(odd) *";
+  addEventListener("beforeprint", () => host.matches(alone) && u.setSize({ width: Math.max(PAPER, u.width), height }));
+  addEventListener("afterprint", () => u.setSize({ width: host.clientWidth || u.width, height }));
+}
+
 export function timePlot(shown, group, marks, host) {
   const data = alignedData(shown);
   const u = new uPlot(options(shown, group, marks, host.clientWidth || 600), data, host);
@@ -163,6 +171,7 @@ export function timePlot(shown, group, marks, host) {
     if (host.clientWidth !== u.width) u.setSize({ width: host.clientWidth, height: shown.height });
   }).observe(host);
   onColours(() => u.redraw(false, true));
+  drawWideOnPaper(u, host, shown.height);
   return {
     uplot: u,
     window: (min, max) => u.setScale("x", { min, max }),

@@ -71,6 +71,19 @@ async function checkFirstScreen(page, run) {
   await checkDrawing(page);
 }
 
+// On paper each panel of the story has another beside it or fills its row, those of a figure of so many, too.
+async function checkRows(page, many) {
+  const counts = await page.$$eval("section.figure .grid", (grids) => grids.map((grid) => {
+    const { left, right } = grid.getBoundingClientRect(), boxes = [...grid.children].map((node) => node.getBoundingClientRect());
+    const filled = boxes.every(({ top }) => {
+      const row = boxes.filter((box) => Math.abs(box.top - top) < 2);
+      return Math.min(...row.map((box) => box.left)) < left + 2 && Math.max(...row.map((box) => box.right)) > right - 2;
+    });
+    return filled ? boxes.length : -boxes.length;
+  }));
+  check("on paper no panel alone in half a row", counts.includes(many) && counts.every((count) => count > 0), counts);
+}
+
 // On paper replay, answer and drawing stand below each other, and what is folded is not there, nor its heading.
 async function checkPaper(page) {
   await page.emulateMedia({ media: "print" });
@@ -80,6 +93,7 @@ async function checkPaper(page) {
       heads: seen("main h2").map((node) => node.textContent) };
   });
   check("on paper one thing below the other", left.length === 3 && new Set(left).size === 1, left);
+  await checkRows(page, 5);
   check("and nothing that is folded", folded === 0 && heads.includes("Launch") && !heads.includes("All numbers"), heads.join());
   await page.emulateMedia({ media: null });
 }
@@ -478,6 +492,12 @@ async function checkControls(page, run) {
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   check("a picture is there for paper",
     await page.$eval(".photo", (photo) => photo.src.startsWith("data:image/png") && photo.src.length > 5000));
+  const wide = () => page.$$eval(".of5 .u-wrap", (plots) => plots.map((plot) => parseFloat(plot.style.width)));
+  const printed = await wide();
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  const after = await wide();
+  check("the third of five is drawn as wide as its row of paper, and as before after it", printed[2] === 680 && printed[1] < 500 && after[2] === after[1],
+    `${printed}, ${after}`);
 }
 
 // The page is already there, as wide as its plots have been looked at.
@@ -672,6 +692,10 @@ async function checkLooks(browser) {
   await page.setViewportSize({ width: 1400, height: 900 });
   await drawn(page);
   await checkHeight(page);
+  await page.$eval(".grid.of4", (grid) => grid.lastChild.remove());
+  await page.emulateMedia({ media: "print" });
+  await checkRows(page, 3);
+  await page.emulateMedia({ media: null });
   const entered = await page.evaluate(() => {
     const replay = window.launchdyn.current, { from } = replay.clock.parts.find(({ name }) => name === "tube");
     replay.show(from - 0.004);
