@@ -178,8 +178,8 @@ if (summary) {
 
 const origin = document.getElementById("origin");
 if (origin) {
-  host.append(element("h2", { id: "origin-heading" }, "Origin"),
-    originBlock(JSON.parse(origin.textContent), "run --again"));
+  host.append(element("section", { className: "together" }, element("h2", { id: "origin-heading" }, "Origin"),
+    originBlock(JSON.parse(origin.textContent), "run --again")));
   nav.append(element("a", { href: "#origin-heading" }, "Origin"));
 }
 

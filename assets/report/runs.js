@@ -120,8 +120,8 @@ const rockets = Math.max(...runs.map((run) => run.rockets.length), 1);
 for (let i = 0; i <= rockets; i++)
   showOver("flight", i, i > 0 && rockets > 1 ? `Flight of rocket ${i}` : "Flight", nav);
 if (runs.some(({ origin }) => origin)) {
-  host.append(element("h2", { id: "origin-heading" }, "Origin"),
-    ...runs.filter(({ origin }) => origin).flatMap(({ label, origin }) => [element("h3", {}, label), originBlock(origin, "run --again")]));
+  host.append(element("section", { className: "together" }, element("h2", { id: "origin-heading" }, "Origin"),
+    ...runs.filter(({ origin }) => origin).flatMap(({ label, origin }) => [element("h3", {}, label), originBlock(origin, "run --again")])));
   nav.append(element("a", { href: "#origin-heading" }, "Origin"));
 }
 const rows = runs.reduce((sum, run) => sum + run.tables.reduce((part, table) => part + table.full, 0), 0), { pixels, overAll } = runs[0];
