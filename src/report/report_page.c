@@ -1,5 +1,6 @@
 // The page of a report: what it shows as JSON, and the page around that.
 #include "base/memory_stream.h"
+#include "launchdyn/scenario.h"
 #include "launchdyn/version.h"
 #include "report/report_origin.h"
 #include "report/report_parts.h"
@@ -46,6 +47,28 @@ static const char *title_of(const report_source *source)
     return title && *title ? title : "A run of launchdyn";
 }
 
+// Notes on what the folder holds, then those on its scenario, as `check` prints them.
+static void write_notes(FILE *json, const report_source *source)
+{
+    const ld_origin *origin = &source->origin;
+    ld_messages of_scenario = {0};
+    char text[512];
+    int count = source->report->note_count;
+    for (int i = 0; i < count; i++) {
+        fputs(i ? "," : "", json);
+        json_write_text(json, source->report->note[i]);
+    }
+    if (source->has_origin && origin->source &&
+        !ld_scenario_notes(origin->source, origin->point, origin->point, &of_scenario))
+        for (size_t i = 0; i < of_scenario.count; i++) {
+            const ld_message *note = &of_scenario.item[i];
+            snprintf(text, sizeof text, "%s: %s", note->path, note->text);
+            fputs(count++ ? "," : "", json);
+            json_write_text(json, text);
+        }
+    ld_messages_free(&of_scenario);
+}
+
 ld_status report_write_run(FILE *json, const report_source *source, const report_detail *detail,
                            ld_error *error)
 {
@@ -58,10 +81,7 @@ ld_status report_write_run(FILE *json, const report_source *source, const report
     fputs(",\"stopped\":", json);
     json_write_text(json, source->history.stopped ? source->history.stopped : "");
     fputs(",\"notes\":[", json);
-    for (int i = 0; i < source->report->note_count; i++) {
-        fputs(i ? "," : "", json);
-        json_write_text(json, source->report->note[i]);
-    }
+    write_notes(json, source);
     fputs("],\"rockets\":[", json);
     write_rockets(json, &source->history);
     fputs("],\"tables\":[", json);

@@ -314,6 +314,11 @@ static void test_reports(void **state)
                                             "| tostring' page.json");
     assert_string_equal(shell.out, "[\"Reference launcher with a thrust curve from a file\","
                                    "\"0.1.0\",null,null]\n");
+    // notes on the scenario are those of `check`
+    must("launchdyn run examples/engine.yaml --set rocket.mass_error='-30 kg' --out n --report -q; "
+         "launchdyn check examples/engine.yaml --set rocket.mass_error='-30 kg' --json | "
+         "jq -c '[.notes[] | .path + \": \" + .text]' >notes; grep -q mass_error notes");
+    must(DATA_OF("n/report.html", "data") "jq -c .notes page.json | cmp - notes");
     // long texts are left out, and the report stays small
     must("{ cat examples/fixed.yaml; yes '# much to be said of nothing at all' | head -n 50000; } "
          ">long.yaml; launchdyn run long.yaml --out b --report -q && launchdyn report b");
