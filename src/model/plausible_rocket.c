@@ -47,16 +47,23 @@ FIND(empty_roll_gyration)
     return plausible_compare(gyration(empty->inertia[0], empty), plausible_bore(at->model));
 }
 
+// Place of the foremost adaptor [m] where it tells how long the rocket is: in a bore. Buttons on a
+// rail may stand close.
+static double length_told(const ld_model *model)
+{
+    return model_has_surfaces(model) ? NAN : plausible_front(model);
+}
+
 FIND(pitch_gyration)
 {
     const ld_mass_data *full = &at->model->rocket.full;
-    return plausible_compare(gyration(full->inertia[2], full), plausible_front(at->model));
+    return plausible_compare(gyration(full->inertia[2], full), length_told(at->model));
 }
 
 FIND(empty_pitch_gyration)
 {
     const ld_mass_data *empty = &at->model->rocket.empty;
-    return plausible_compare(gyration(empty->inertia[2], empty), plausible_front(at->model));
+    return plausible_compare(gyration(empty->inertia[2], empty), length_told(at->model));
 }
 
 FIND(propellant)
@@ -187,7 +194,7 @@ FIND(exhaust_speed)
 
 FIND(nozzle_along)
 {
-    return plausible_compare(at->model->rocket.motor.at[0], plausible_front(at->model));
+    return plausible_compare(at->model->rocket.motor.at[0], length_told(at->model));
 }
 
 FIND(nozzle_across)

@@ -139,13 +139,13 @@ static void test_own_scenarios_are_silent(void **state)
 {
     (void)state;
     static const char *const patterns[] = {
-        "examples/*.yaml",          "examples/marching/*.yaml", "examples/stabilisers/*.yaml",
-        "examples/rail/*.yaml",     "tests/data/nesc/*.yaml",   "tests/faults/base.yaml",
-        "tests/faults/vehicle.yaml"};
+        "examples/*.yaml",        "examples/marching/*.yaml",       "examples/stabilisers/*.yaml",
+        "examples/rail/*.yaml",   "examples/student-rocket/*.yaml", "tests/data/nesc/*.yaml",
+        "tests/faults/base.yaml", "tests/faults/vehicle.yaml"};
     glob_t found = {0};
     int noted = 0;
     assert_int_equal(chdir(LD_SOURCE_DIR), 0);
-    for (int i = 0; i < 6; i++)
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
         assert_int_equal(glob(patterns[i], i > 0 ? GLOB_APPEND : 0, NULL, &found), 0);
     for (size_t i = 0; i < found.gl_pathc; i++) {
         char *printed = notes_of(found.gl_pathv[i], NULL, 0, true);
