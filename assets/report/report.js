@@ -1,6 +1,7 @@
 // The report of a run: replay, launcher and answer first, then the plots of each table of numbers, then all numbers.
 import { answerCard } from "./answer.js";
-import { decodeTable, filled, inflated, readable, rowAt } from "./data.js";
+import { filled, readable, rowAt } from "./data.js";
+import { decodeTable, inflated } from "./decode.js";
 import { colour, download, element, onColours, themeSwitch } from "./page.js";
 import { drawingCard } from "./drawing.js";
 import { originBlock } from "./origin.js";

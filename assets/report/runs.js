@@ -1,6 +1,7 @@
 // The report of several runs laid over each other: in what they differ, their summaries side by side,
 // each figure with the curves of all.
-import { decodeTable, readable } from "./data.js";
+import { readable } from "./data.js";
+import { decodeTable } from "./decode.js";
 import { originBlock } from "./origin.js";
 import { element, themeSwitch } from "./page.js";
 import { panelsOver } from "./panels.js";
