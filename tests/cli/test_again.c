@@ -315,9 +315,11 @@ static void test_reports(void **state)
     assert_string_equal(shell.out, "[\"Reference launcher with a thrust curve from a file\","
                                    "\"0.1.0\",null,null]\n");
     // notes on the scenario are those of `check`
-    must("launchdyn run examples/engine.yaml --set rocket.mass_error='-30 kg' --out n --report -q; "
-         "launchdyn check examples/engine.yaml --set rocket.mass_error='-30 kg' --json | "
-         "jq -c '[.notes[] | .path + \": \" + .text]' >notes; grep -q mass_error notes");
+    must("launchdyn run examples/engine.yaml --set rocket.mass_error='-30 kg' --set "
+         "rocket.dynamic_imbalance='2 0 deg' --out n --report -q; "
+         "launchdyn check examples/engine.yaml --set rocket.mass_error='-30 kg' --set "
+         "rocket.dynamic_imbalance='2 0 deg' --json | "
+         "jq -c '[.notes[] | .path + \": \" + .text]' >notes; [ $(jq length notes) = 2 ]");
     must(DATA_OF("n/report.html", "data") "jq -c .notes page.json | cmp - notes");
     // long texts are left out, and the report stays small
     must("{ cat examples/fixed.yaml; yes '# much to be said of nothing at all' | head -n 50000; } "

@@ -499,6 +499,11 @@ static void test_loop(void **state)
     expect_in(shell.out, "\n  phase                                   28.39 degrees\n");
     expect_in(shell.out, "\n  peak of the sensitivity                 3.252 at 27.39 Hz\n");
     expect_in(shell.out, "\n  most of the chassis' turning let in   0.004128 at 23.92 Hz\n");
+    // phases are drawn in degrees, with ticks of 90
+    assert_int_equal(run("sed 's/<[^>]*>//g' a/l/l.svg | tr -d ' \\t' | "
+                         "grep -xe '-180' -e '-90' -e 90 -e 180"),
+                     0);
+    assert_string_equal(shell.out, "-180\n-90\n90\n180\n");
     assert_int_equal(run("launchdyn response examples/reference.yaml --loop azimuth"), 0);
     expect_in(shell.out, "\n  gain may be raised by a factor of         any\n");
     expect_in(shell.out, "\n  sensitivity above one                 nowhere\n");
