@@ -121,7 +121,7 @@ static v3 triple(const history_data *history, const char *stem, const char *cons
 {
     double value[3];
     for (int i = 0; i < 3; i++) {
-        char name[64];
+        char name[96];
         snprintf(name, sizeof name, "%s%s", stem, letters[i]);
         value[i] = named(history, name)[row];
     }
@@ -510,7 +510,7 @@ static void say_equilibrium(finished_run *run)
     expect(book, "equilibrium.residual", 0);
     m3 A = pose(tube, "chassis.", 0);
     for (int i = 0; i < vehicle->wheel_count; i++) {
-        char part[64], at[64], stem[96];
+        char part[80], at[64], stem[96];
         snprintf(part, sizeof part, "wheel.%s.", vehicle->wheel[i].name);
         snprintf(at, sizeof at, "equilibrium.wheels.%d.", i);
         snprintf(stem, sizeof stem, "%ssuspension.", at);

@@ -317,7 +317,7 @@ static void say_rocket(instant *at)
 static void say_contact(instant *at, int i, double power[LAUNCHER_MOST_WORKS])
 {
     const ld_adaptor *adaptor = &at->run->model->rocket.adaptor[i];
-    char part[64];
+    char part[80];
     snprintf(part, sizeof part, "contact.%s", adaptor->name);
     column_book *book = &at->run->book;
     bool passed = at->self->phase.passed[i];
@@ -536,7 +536,7 @@ static void say_wheel(instant *at, int i, double power[MARCHING_POWERS])
     column_book *book = &at->run->book;
     const ld_vehicle *vehicle = &at->run->model->base.vehicle;
     const double *o = at->orientating, *wheel = at->marching + WHEEL_STATES * i;
-    char part[64], stem[80];
+    char part[80], stem[96];
     snprintf(part, sizeof part, "wheel.%s", vehicle->wheel[i].name);
     snprintf(stem, sizeof stem, "%s.", part);
     v3 r = v3_from(wheel + WHEEL_R), v = v3_from(wheel + WHEEL_V);

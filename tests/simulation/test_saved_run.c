@@ -378,7 +378,7 @@ static int other_process(int number, const char *path)
 
 static uint64_t hash_of_other(int number, const instant *at)
 {
-    char path[] = "/tmp/launchdyn-state-XXXXXX", command[256], self[256] = "";
+    char path[] = "/tmp/launchdyn-state-XXXXXX", command[320], self[256] = "";
     int file = mkstemp(path);
     assert_true(file >= 0 && write(file, at->bytes, at->size) == (ssize_t)at->size);
     close(file);

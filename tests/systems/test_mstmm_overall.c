@@ -11,7 +11,7 @@
 enum { MOST = 128 };
 
 static ld_mstmm_element element[MOST];
-static char name[MOST][8];
+static char name[MOST][16];
 static double q[7 * MOST], u[6 * MOST], tau[6 * MOST], wrench[6 * MOST];
 
 // Wrenches of their own sequence on n bodies.
