@@ -6,7 +6,8 @@
 // all there are, in a command (default 2), drawn by chance; 0: all of them. LD_FAILING_COMMAND:
 // only in this one; LD_FAILING_KIND: only of this kind, or, behind a "-", of all but this one;
 // LD_FAILING_EXAMPLE: of which example the scenario is made (fixed), LD_FAILING_STEP: with rows how
-// far apart (10 ms).
+// far apart (10 ms). Not with sanitizers, which bring an allocator of their own.
+// ctest: slow
 #define _GNU_SOURCE
 #include "support/shell.h"
 
@@ -577,9 +578,6 @@ static bool try_command(const verb *command, int wanted)
 static void test_no_more_memory(void **state)
 {
     (void)state;
-#ifdef LD_SANITIZED
-    skip();
-#endif
     enum { PARTS = 8 };
     static tried self;
     static const char *const studies[] = {"study", "study show"};
@@ -602,9 +600,6 @@ static void test_no_more_memory(void **state)
 static void test_reads_of_a_table(void **state)
 {
     (void)state;
-#ifdef LD_SANITIZED
-    skip();
-#endif
     const verb *export = verbs;
     while (strcmp(export->name, "study export") != 0)
         export ++;
@@ -617,9 +612,6 @@ static void test_reads_of_a_table(void **state)
 static void test_commands(void **state)
 {
     (void)state;
-#ifdef LD_SANITIZED // which bring an allocator of their own
-    skip();
-#endif
     const char *wanted = getenv("LD_FAILING_CALLS"), *only = getenv("LD_FAILING_COMMAND");
     bool fine = true;
     for (int i = 0; i < VERBS; i++)

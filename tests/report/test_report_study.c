@@ -502,9 +502,6 @@ static void test_points_of_a_sweep(void **state)
 static void test_size_is_bounded(void **state)
 {
     (void)state;
-#ifdef LD_SANITIZED
-    skip(); // ten seconds there
-#endif
     name_results(true);
     char more[16384] = "INSERT INTO sample SELECT sample + 10000, 1, 'launch', printf('%.300c', "
                        "'x') FROM sample; ALTER TABLE point ADD key TEXT;",

@@ -4,7 +4,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <hdf5.h>
-#include <locale.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -15,6 +14,7 @@
 #include "launchdyn/output.h"
 #include "results/history.h"
 #include "simulation/study_results.h"
+#include "support/comma_locale.h"
 #include "support/made_launch.h"
 
 typedef struct place {
@@ -174,26 +174,14 @@ static void test_same_run_same_bytes(void **state)
                here->folder);
 }
 
-// A locale with a decimal comma around us must not reach the files. Made for the test, since few
-// systems have it.
-static void use_decimal_comma(const place *here)
-{
-    char command[256];
-    snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8", here->folder);
-    setenv("LOCPATH", here->folder, 1);
-    if (system(command) != 0 || !setlocale(LC_ALL, "de_DE.UTF-8"))
-        skip();
-    assert_true(strtod("0,5", NULL) == 0.5);
-}
-
+// A locale with a decimal comma around us must not reach the files.
 static void test_decimal_comma_stays_out(void **state)
 {
     place *here = *state;
     write_launch(here, "point", true, 20);
-    use_decimal_comma(here);
+    set_comma_locale(here->folder);
     write_launch(here, "comma", true, 20);
-    setlocale(LC_ALL, "C");
-    unsetenv("LOCPATH");
+    leave_comma_locale();
     // the made columns' descriptions in history.h5 have commas
     printed_by("cd %s && cmp point/history.csv comma/history.csv && "
                "for i in point comma; do grep -v '\"digest\"' $i/summary.json >$i.json; done && "

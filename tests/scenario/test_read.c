@@ -1,7 +1,6 @@
 // Scenarios: values, units, includes, overrides, files of tables, printing and reading again.
 #include "support/check.h"
 
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -11,6 +10,7 @@
 #include "model/digest.h"
 #include "model/field.h"
 #include "scenario/scenario.h"
+#include "support/comma_locale.h"
 #include "support/model_compare.h"
 #include "support/reference_model.h"
 
@@ -514,35 +514,17 @@ static void test_awkward_title(void **state)
 
 // ---- the program's surroundings
 
-// Makes a locale with a decimal comma the current one; false where none can be had.
-static bool set_comma_locale(void)
-{
-    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "fr_FR.utf8"};
-    for (int i = 0; i < 4; i++)
-        if (setlocale(LC_ALL, names[i]))
-            return true;
-    if (system("localedef -i de_DE -f UTF-8 " LD_BINARY_DIR "/de_DE.UTF-8 2>/dev/null") != 0)
-        return false;
-    setenv("LOCPATH", LD_BINARY_DIR, 1);
-    return setlocale(LC_ALL, "de_DE.UTF-8") != NULL;
-}
-
 static void test_locale(void **state)
 {
     (void)state;
     ld_model before = read_model("examples/unbalanced.yaml", NULL, 0);
     char *text = print_model(&before);
-    if (!set_comma_locale()) {
-        printf("    no locale with a decimal comma here\n");
-        free(text);
-        model_clear(&before);
-        skip();
-    }
+    set_comma_locale(LD_BINARY_DIR);
     char comma[16];
     snprintf(comma, sizeof comma, "%.1f", 1.5);
     ld_model after = read_model("examples/unbalanced.yaml", NULL, 0);
     char *text_after = print_model(&after);
-    setlocale(LC_ALL, "C");
+    leave_comma_locale();
     assert_string_equal(comma, "1,5");
     assert_true(same_model(&before, &after));
     assert_string_equal(text, text_after);

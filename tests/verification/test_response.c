@@ -646,14 +646,6 @@ static on_roads check_speeds(int iso_class, bool whole, double contact_friction,
     return all;
 }
 
-static int wanted_seeds(const char *name)
-{
-    int seeds = wanted(name, 0);
-    if (seeds < 2)
-        skip();
-    return seeds;
-}
-
 // Of 60, binomial: 51 or fewer would be seen once in 200 times if they were independent.
 enum { LEAST_INSIDE = 52 };
 
@@ -662,7 +654,7 @@ enum { LEAST_INSIDE = 52 };
 static void random_roads(void **state)
 {
     (void)state;
-    on_roads all = check_speeds(0, false, 0, wanted_seeds("LD_RESPONSE_SEEDS"));
+    on_roads all = check_speeds(0, false, 0, wanted("LD_RESPONSE_SEEDS", 0));
     CHECK_WITHIN("of 60 within the seeds' intervals", all.inside, LEAST_INSIDE, 60);
 }
 
@@ -671,7 +663,7 @@ static void random_roads(void **state)
 static void bare_roads(void **state)
 {
     (void)state;
-    on_roads all = check_speeds(0, true, 0, wanted_seeds("LD_RESPONSE_BARE_SEEDS"));
+    on_roads all = check_speeds(0, true, 0, wanted("LD_RESPONSE_BARE_SEEDS", 0));
     CHECK_WITHIN("of 60, without friction on the whole road", all.inside, 30, LEAST_INSIDE);
     CHECK_BELOW("share of the time that an adaptor is off the tube", all.open, 1e-9);
 }
@@ -680,7 +672,7 @@ static void bare_roads(void **state)
 static void low_roads(void **state)
 {
     (void)state;
-    on_roads all = check_speeds(-4, true, 0, wanted_seeds("LD_RESPONSE_LOW_SEEDS"));
+    on_roads all = check_speeds(-4, true, 0, wanted("LD_RESPONSE_LOW_SEEDS", 0));
     CHECK_WITHIN("of 60, on low roads", all.inside, LEAST_INSIDE, 60);
 }
 
@@ -688,8 +680,15 @@ static void low_roads(void **state)
 static void roads_with_friction(void **state)
 {
     (void)state;
-    on_roads all = check_speeds(0, true, 0.12, wanted_seeds("LD_RESPONSE_RUBBING_SEEDS"));
+    on_roads all = check_speeds(0, true, 0.12, wanted("LD_RESPONSE_RUBBING_SEEDS", 0));
     CHECK_WITHIN("of 60, adaptors that rub", all.inside, LEAST_INSIDE, 60);
+}
+
+// A test that takes long: only where its variable says on how many roads.
+static int run_where_asked(const char *variable, struct CMUnitTest test)
+{
+    const struct CMUnitTest tests[] = {test};
+    return getenv(variable) ? cmocka_run_group_tests(tests, NULL, NULL) : 0;
 }
 
 int main(void)
@@ -697,9 +696,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roads_of_sines),      cmocka_unit_test(a_chassis_that_turns),
         cmocka_unit_test(a_base_in_six_sines), cmocka_unit_test(commands_in_sines),
-        cmocka_unit_test(a_command_steps),     cmocka_unit_test(random_roads),
-        cmocka_unit_test(bare_roads),          cmocka_unit_test(low_roads),
-        cmocka_unit_test(roads_with_friction),
+        cmocka_unit_test(a_command_steps),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, NULL) +
+           run_where_asked("LD_RESPONSE_SEEDS", (struct CMUnitTest)cmocka_unit_test(random_roads)) +
+           run_where_asked("LD_RESPONSE_BARE_SEEDS",
+                           (struct CMUnitTest)cmocka_unit_test(bare_roads)) +
+           run_where_asked("LD_RESPONSE_LOW_SEEDS",
+                           (struct CMUnitTest)cmocka_unit_test(low_roads)) +
+           run_where_asked("LD_RESPONSE_RUBBING_SEEDS",
+                           (struct CMUnitTest)cmocka_unit_test(roads_with_friction));
 }
