@@ -84,7 +84,7 @@ function drawGuide(it, parts, X, Y) {
   for (const side of [-1, 1]) {
     if (parts.walls.length === 0) break;
     const along = parts.walls.flatMap((wall, i) => [[wall.x, wall], [parts.walls[i + 1]?.x ?? it.end, wall]]);
-    out.push(shape([...along.map(([x, w]) => [X(x), Y(side * w.inner)]), ...along.toReversed().map(([x, w]) => [X(x), Y(side * w.outer)])], "beam"));
+    out.push(shape([...along.map(([x, w]) => [X(x), Y(side * w.inner)]), ...[...along].reverse().map(([x, w]) => [X(x), Y(side * w.outer)])], "beam"));
   }
   if (it.closed) out.push(shape([[X(-0.03 * it.end), Y(parts.top)], [X(0), Y(parts.top)], [X(0), Y(-parts.top)], [X(-0.03 * it.end), Y(-parts.top)]], "beam"));
   return out;

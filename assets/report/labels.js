@@ -9,7 +9,7 @@ function placeAll(names, low, high, gap) {
     name.left = Math.max(name.at - name.width / 2, free);
     free = name.left + name.width + gap;
   }
-  for (const name of names.toReversed()) {
+  for (const name of [...names].reverse()) {
     name.left = Math.min(name.left, end - name.width);
     end = name.left - gap;
   }
