@@ -65,6 +65,12 @@ ld_status ld_scenario_read_text(const char *text, size_t length, const char *nam
 ld_status ld_model_new(const char *const *sets, size_t count, ld_model **model,
                        ld_messages *messages);
 
+/// Reads a number in a unit: "0.1 km" in "m" is 100. A number without a unit is in it already.
+/// @param unit  in any form of the scenario language ("m", "Hz", "ms"); "" for a plain number
+/// @param value stays as it is after an error
+/// @return LD_OK; LD_ERR_INPUT, with what was found and what is expected
+ld_status ld_read_quantity(const char *text, const char *unit, double *value, ld_error *error);
+
 /// Sets a key by its path to a value with its unit, as --set does: ("rocket.mass", "61 kg"),
 /// ("rocket.motor.thrust", "{file: other.eng}"). The whole scenario is read again with it, so that
 /// what follows from the key follows. Not while anything made of the model is there.

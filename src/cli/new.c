@@ -38,7 +38,8 @@ static bool is_one_of(const char *what, const char *word, const char *words)
     return false;
 }
 
-// Asks on the terminal for what was not given; an empty line takes `usual`.
+// Asks on the terminal for what was not given; an empty line takes `usual`. NULL where the input
+// ends.
 static char *ask(char *given, const char *question, const char *usual, char answer[ANSWER])
 {
     if (given)
@@ -48,8 +49,11 @@ static char *ask(char *given, const char *question, const char *usual, char answ
         return answer;
     char line[ANSWER] = "";
     fprintf(stderr, "%s [%s] ", question, usual);
-    if (!fgets(line, sizeof line, stdin))
+    if (!fgets(line, sizeof line, stdin)) {
         fputc('\n', stderr);
+        command_complain("the input ended before an answer: nothing is written");
+        return NULL;
+    }
     line[strcspn(line, "\r\n")] = '\0';
     if (*line)
         strcpy(answer, line);
@@ -124,14 +128,14 @@ static int make(new_wishes *self)
     bool asks = isatty(STDIN_FILENO) && !(self->guide && self->base);
     self->guide =
         ask(self->guide, "What guides the rocket: tube or rail?", "tube", self->answer[0]);
-    if (!is_one_of("guide", self->guide, guides))
+    if (!self->guide || !is_one_of("guide", self->guide, guides))
         return EXIT_INPUT;
     self->base = ask(self->base, "What carries the guide: fixed, vehicle or ship?", "fixed",
                      self->answer[1]);
-    if (!is_one_of("base", self->base, bases))
+    if (!self->base || !is_one_of("base", self->base, bases))
         return EXIT_INPUT;
-    if (asks)
-        self->out = ask(self->out, "Into which file?", "scenario.yaml", self->answer[2]);
+    if (asks && !(self->out = ask(self->out, "Into which file?", "scenario.yaml", self->answer[2])))
+        return EXIT_INPUT;
     if (!self->out) {
         write_scenario(stdout, self);
         return 0;

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "launchdyn/scenario.h"
+
 // ---- reading
 
 // "unknown option --cvs (did you mean --csv?)"
@@ -24,12 +26,16 @@ static ld_status refuse_unknown(const char *word, const command_option *options,
     return ld_fail(error, LD_ERR_INPUT, "unknown option %s", word);
 }
 
-static bool read_number(const char *text, double *value)
+static ld_status take_number(const command_option *option, ld_error *error)
 {
-    char *end;
-    errno = 0;
-    *value = strtod(text, &end);
-    return errno == 0 && end != text && !*end;
+    static const char *const units[] = {[OPTION_METRES] = "m",
+                                        [OPTION_MILLIMETRES] = "mm",
+                                        [OPTION_MILLISECONDS] = "ms",
+                                        [OPTION_HERTZ] = "Hz"};
+    ld_error why;
+    if (ld_read_quantity(optarg, units[option->kind], option->value, &why))
+        return ld_fail(error, LD_ERR_INPUT, "--%s: %s", option->name, why.text);
+    return LD_OK;
 }
 
 static bool read_integer(const char *text, int *value)
@@ -73,14 +79,14 @@ static ld_status take(command_line *line, int argc, const command_option *option
             return ld_fail(error, LD_ERR_INPUT, "--%s wants a whole number, not %s", option->name,
                            optarg);
         break;
-    case OPTION_NUMBER:
-        if (!read_number(optarg, option->value))
-            return ld_fail(error, LD_ERR_INPUT, "--%s wants a number, not %s", option->name,
-                           optarg);
-        break;
     case OPTION_HELP:
         line->help = true;
         break;
+    case OPTION_METRES:
+    case OPTION_MILLIMETRES:
+    case OPTION_MILLISECONDS:
+    case OPTION_HERTZ:
+        return take_number(option, error);
     }
     return LD_OK;
 }

@@ -12,8 +12,12 @@ typedef enum option_kind {
     OPTION_TEXT,    // a char *
     OPTION_TEXTS,   // a char **, one more each time it is given, and then NULL
     OPTION_INTEGER, // an int
-    OPTION_NUMBER,  // a double
-    OPTION_HELP     // nothing: what is asked for is help
+    OPTION_HELP,    // nothing: what is asked for is help
+    // a double in this unit, given with a unit or without
+    OPTION_METRES,
+    OPTION_MILLIMETRES,
+    OPTION_MILLISECONDS,
+    OPTION_HERTZ
 } option_kind;
 
 // A row of the table; one without a name ends it.

@@ -64,12 +64,13 @@ int command_plot(const command *self, int argc, char **argv)
          "Figures to draw (tip,contact,relative; of a flight alone trajectory,flight)", "NAME,..."},
         {"output", 'o', OPTION_TEXT, &asked.file, "The picture: FILE.svg, FILE.pdf or FILE.png",
          "FILE"},
-        {"from", '\0', OPTION_NUMBER, &asked.from, "Draw from this time after ignition [ms] on",
+        {"from", '\0', OPTION_MILLISECONDS, &asked.from,
+         "Draw from this time after ignition [ms] on", "MS"},
+        {"to", '\0', OPTION_MILLISECONDS, &asked.to, "Draw up to this time after ignition [ms]",
          "MS"},
-        {"to", '\0', OPTION_NUMBER, &asked.to, "Draw up to this time after ignition [ms]", "MS"},
         {"style", '\0', OPTION_TEXT, &asked.style,
          "Looks: screen (default), dark, or paper, 84 mm wide", "NAME"},
-        {"width", '\0', OPTION_NUMBER, &asked.width,
+        {"width", '\0', OPTION_MILLIMETRES, &asked.width,
          "Width of the picture [mm]; letters stay as large", "MM"},
         COMMAND_USUAL};
     command_line line;

@@ -39,10 +39,10 @@ int command_road(const command *self, int argc, char **argv)
          "Write road.csv and road-spectrum.csv into this folder", "DIR"},
         {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw both with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
-        {"from", '\0', OPTION_NUMBER, &wishes.stretch.from,
+        {"from", '\0', OPTION_METRES, &wishes.stretch.from,
          "Where the stretch begins, x in metres (-100)", "X"},
-        {"to", '\0', OPTION_NUMBER, &wishes.stretch.to, "Where it ends, in metres (100)", "X"},
-        {"step", '\0', OPTION_NUMBER, &wishes.stretch.step, "From place to place, in metres (0.02)",
+        {"to", '\0', OPTION_METRES, &wishes.stretch.to, "Where it ends, in metres (100)", "X"},
+        {"step", '\0', OPTION_METRES, &wishes.stretch.step, "From place to place, in metres (0.02)",
          "DX"},
         COMMAND_USUAL};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_road, &wishes);

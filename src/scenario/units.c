@@ -1,12 +1,15 @@
 #include "scenario/units.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "launchdyn/scenario.h"
 
 // Powers of the base units m, kg, s, rad and K.
 enum { METRE, KILOGRAM, SECOND, RADIAN, KELVIN, BASES };
@@ -185,4 +188,24 @@ const char *units_suggestion(const char *unknown)
     for (size_t i = 0; i < sizeof common / sizeof common[0]; i++)
         suggestion_offer(&best, common[i]);
     return best.name;
+}
+
+ld_status ld_read_quantity(const char *text, const char *unit, double *value, ld_error *error)
+{
+    char *end, unknown[32] = "";
+    double factor = 1;
+    errno = 0;
+    double number = strtod(text, &end);
+    bool fine = end != text && errno == 0 && isfinite(number);
+    end += strspn(end, " ");
+    if (fine && *end)
+        fine = units_factor(end, unit, &factor, unknown) == UNITS_OK;
+    if (fine) {
+        *value = units_scale(number, factor);
+        return LD_OK;
+    }
+    const char *likely = *unknown ? units_suggestion(unknown) : NULL;
+    return ld_fail(error, LD_ERR_INPUT, "found \"%s\", expected a number%s%s%s%s%s", text,
+                   *unit ? " in " : "", unit, likely ? "; did you mean \"" : "",
+                   likely ? likely : "", likely ? "\"?" : "");
 }

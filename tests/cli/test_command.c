@@ -62,7 +62,13 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn wind x --rocket 1.5", 2,
                      "launchdyn: --rocket wants a whole number, not 1.5\n");
     expect_complaint("launchdyn wind x --rocket 9999999999", 2, "--rocket wants a whole number");
-    expect_complaint("launchdyn wind x --top ''", 2, "launchdyn: --top wants a number, not \n");
+    expect_complaint("launchdyn wind x --top ''", 2,
+                     "launchdyn: --top: found \"\", expected a number in m\n");
+    expect_complaint("launchdyn wind x --top '2 s'", 2,
+                     "--top: found \"2 s\", expected a number in m\n");
+    assert_int_equal(run("launchdyn wind examples/salvo.yaml --top 1500 >a; launchdyn wind "
+                         "examples/salvo.yaml --top '1.5 km' >b; cmp a b && test -s a"),
+                     0);
     expect_complaint("launchdyn run", 2, "launchdyn: run wants FILE; see launchdyn run --help\n");
     expect_complaint("launchdyn run a b", 2, "launchdyn: run wants FILE");
     expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv needs --out DIR\n");
@@ -631,7 +637,7 @@ static void test_road(void **state)
     expect_complaint("launchdyn road examples/reference.yaml --step 0", 2,
                      "from -100 m to 100 m by 0 m has not");
     expect_complaint("launchdyn road examples/reference.yaml --to x", 2,
-                     "launchdyn: --to wants a number, not x\n");
+                     "launchdyn: --to: found \"x\", expected a number in m\n");
     expect_complaint("launchdyn road examples/reference.yaml --plot x.bmp", 2,
                      "a picture's name ends in .svg, .pdf or .png");
 }

@@ -76,6 +76,11 @@ static void test_refusals(void **state)
     (void)state;
     expect_complaint("launchdyn new --guide tub", 2,
                      "the guide is one of tube|rail, not \"tub\"; did you mean \"tube\"?\n");
+    assert_int_equal(
+        run("touch names && ls >names && printf 'rail\\n' | script -qec 'launchdyn new' "
+            "/dev/null; [ $? = 2 ] && ls | cmp - names"),
+        0);
+    expect_in(shell.out, "the input ended before an answer: nothing is written");
     expect_complaint("launchdyn new --base boat", 2,
                      "the base is one of fixed|vehicle|ship, not \"boat\"\n");
     assert_int_equal(run("echo mine >a.yaml"), 0);

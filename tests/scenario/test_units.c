@@ -1,10 +1,12 @@
 // Units: conversions against factors worked out by hand, and what must be refused.
 #include "support/check.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "launchdyn/scenario.h"
 #include "scenario/units.h"
 
 static const double pi = 3.14159265358979323846;
@@ -125,13 +127,36 @@ static void test_suggestions(void **state)
     assert_string_equal(best.name, "clearance");
 }
 
+static void test_quantities(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text, *unit;
+        double value; // NaN: refused
+    } cases[] = {{"100", "m", 100},     {"0.1 km", "m", 100},  {"-3.5mm", "mm", -3.5},
+                 {"2 s", "ms", 2000},   {"1 kHz", "Hz", 1000}, {"50 %", "", 0.5},
+                 {"7", "", 7},          {"2 s", "m", NAN},     {"", "m", NAN},
+                 {"x", "m", NAN},       {"1,5 m", "m", NAN},   {"1e999 m", "m", NAN},
+                 {"3 metre", "m", NAN}, {"nan", "m", NAN},     {"inf m", "m", NAN}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ld_error error = {0};
+        double value = 17;
+        ld_status status = ld_read_quantity(cases[i].text, cases[i].unit, &value, &error);
+        assert_int_equal(status, isnan(cases[i].value) ? LD_ERR_INPUT : LD_OK);
+        assert_true(value == (status ? 17 : cases[i].value));
+        assert_int_equal(*error.text != '\0', status != LD_OK);
+        if (strstr(cases[i].text, "metre"))
+            assert_string_equal(error.text,
+                                "found \"3 metre\", expected a number in m; did you mean \"m\"?");
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_factors),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_scale_is_exact),
-        cmocka_unit_test(test_suggestions),
+        cmocka_unit_test(test_factors),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_scale_is_exact), cmocka_unit_test(test_suggestions),
+        cmocka_unit_test(test_quantities),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
