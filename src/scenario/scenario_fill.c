@@ -597,7 +597,8 @@ const char *scenario_key_meant(const field_block *block, const char *key)
     return block == &scenario_block ? ld_nearest_name(key, names, meant ? 2 : 1) : meant;
 }
 
-// Refuses what is no key of the block, and goes on with the key meant, lest it be missed as well.
+// Refuses what is no key of the block, and goes on with the key meant, lest it be missed as well. A
+// block is laid over the one meant (of a file included), lest its own errors be missed.
 static void refuse_unknown_keys(scenario_reader *reader, const field_block *block,
                                 const tree_node *map, const char *path)
 {
@@ -612,8 +613,13 @@ static void refuse_unknown_keys(scenario_reader *reader, const field_block *bloc
         }
         join(key_path, path, member->key);
         reader_refuse_key(reader, member->key_at, key_path, meant, allowed);
-        if (meant && !tree_member(map, meant))
+        tree_node *own = meant ? tree_member(map, meant) : NULL;
+        if (meant && !own)
             member->key = meant;
+        else if (own && own->kind == NODE_MAP && member->kind == NODE_MAP) {
+            join(key_path, path, meant);
+            tree_merge(reader, own, member, key_path);
+        }
     }
 }
 
