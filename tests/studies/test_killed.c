@@ -223,6 +223,7 @@ static pid_t start_mpi(const char *file)
         setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
         setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
         setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+        setenv("TMPDIR", folder, 1); // its own folders outlive it
         setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
         setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
         if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr))
