@@ -279,15 +279,14 @@ static ld_status read_scenario(fmu_instance *self, const char *resources, const 
     return self->source ? LD_OK : error->status;
 }
 
+// A row has the time, too.
 static ld_status make_room(fmu_instance *self, ld_error *error)
 {
-    const ld_column *column;
     size_t count = self->variables.count;
     self->number = malloc(count * sizeof *self->number);
     self->text = calloc(count, sizeof *self->text);
     self->changed = calloc(count, sizeof *self->changed);
-    self->row =
-        calloc(self->variables.runner->columns(self->simulation, &column), sizeof *self->row);
+    self->row = calloc(1 + fmu_group_count(&self->variables, FMU_COLUMN), sizeof *self->row);
     return self->number && self->text && self->changed && self->row ? LD_OK : no_memory(error);
 }
 
@@ -323,23 +322,29 @@ fmu_instance *fmu_instance_new(const char *resources, const char *token, bool ex
     return NULL;
 }
 
-void fmu_instance_free(fmu_instance *self)
+// Run, simulation and all that was set.
+static void forget(fmu_instance *self)
 {
-    if (!self)
-        return;
     unbuild(self);
     for (size_t i = 0; self->text && i < self->variables.count; i++)
         free(self->text[i]);
-    fmu_variables_free(&self->variables);
-    source_free(self->source);
     free(self->number);
     free(self->text);
     free(self->changed);
     free(self->row);
+}
+
+void fmu_instance_free(fmu_instance *self)
+{
+    if (!self)
+        return;
+    forget(self);
+    fmu_variables_free(&self->variables);
+    source_free(self->source);
     free(self);
 }
 
-ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
+static void set_nothing(fmu_instance *self)
 {
     for (size_t i = 0; i < self->variables.count; i++) {
         self->number[i] = self->variables.item[i].start;
@@ -347,6 +352,11 @@ ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
         free(self->text[i]);
         self->text[i] = NULL;
     }
+}
+
+ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
+{
+    set_nothing(self);
     self->tolerance = 0;
     self->start = NAN;
     self->going = self->told_set = self->lit = false;
@@ -672,26 +682,77 @@ ld_status fmu_save(fmu_instance *self, fmu_state **state, ld_error *error)
     return status;
 }
 
-ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error)
+// An instance of the same FMU that a state is read into: it shares what no state changes.
+static fmu_instance *new_twin(const fmu_instance *self, ld_error *error)
+{
+    fmu_instance *twin = calloc(1, sizeof *twin);
+    if (!twin) {
+        no_memory(error);
+        return NULL;
+    }
+    twin->source = self->source;
+    twin->scenario = self->scenario;
+    twin->part = self->part;
+    twin->variables = self->variables;
+    twin->exchange.is = self->exchange.is;
+    if (!make_room(twin, error)) {
+        set_nothing(twin);
+        return twin;
+    }
+    forget(twin);
+    free(twin);
+    return NULL;
+}
+
+// What the state holds, and a run of it: of the simulation of `self` where the parameters are the
+// same.
+static ld_status read_state(fmu_instance *twin, const fmu_instance *self, const fmu_state *state,
+                            ld_error *error)
 {
     int64_t following = 0;
-    if (!state)
-        return ld_fail(error, LD_ERR_INPUT, "there is no state");
     archive head = archive_load(state->bytes, state->size);
-    end_run(self);
-    archive_head(self, &head, &following);
+    archive_head(twin, &head, &following);
     if (head.failed || head.at + (size_t)following != state->size)
         return ld_fail(error, LD_ERR_INPUT, "this is no state of this FMU, or a damaged one");
-    ld_status status = build(self, error);
+    if (self->simulation && parameters_digest(twin) == self->built_with) {
+        twin->model = self->model;
+        twin->simulation = self->simulation;
+        twin->built_with = self->built_with;
+    }
+    ld_status status = build(twin, error);
     if (status || following == 0)
         return status;
-    const fmu_runner *runner = self->variables.runner;
-    self->run = (self->exchange.is ? runner->exchanging->load : runner->load)(
-        self->simulation, state->bytes + head.at, (size_t)following, error);
-    if (!self->run)
+    const fmu_runner *runner = twin->variables.runner;
+    twin->run = (twin->exchange.is ? runner->exchanging->load : runner->load)(
+        twin->simulation, state->bytes + head.at, (size_t)following, error);
+    if (!twin->run)
         return error->status;
-    take_place(self);
+    take_place(twin);
     return LD_OK;
+}
+
+// A state that is refused leaves the instance as it is.
+ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error)
+{
+    if (!state)
+        return ld_fail(error, LD_ERR_INPUT, "there is no state");
+    fmu_instance *twin = new_twin(self, error);
+    if (!twin)
+        return error->status;
+    ld_status status = read_state(twin, self, state, error);
+    if (!status) {
+        const fmu_instance before = *self;
+        *self = *twin;
+        *twin = before;
+    }
+    if (twin->simulation == self->simulation) { // which stays
+        end_run(twin);
+        twin->model = NULL;
+        twin->simulation = NULL;
+    }
+    forget(twin);
+    free(twin);
+    return status;
 }
 
 ld_status fmu_state_read(const void *bytes, size_t size, fmu_state **state, ld_error *error)

@@ -437,6 +437,16 @@ static void states_come_back(void **state)
     OK_3(&by, fmi3SetFMUState, saved);
     importer_get_states(&by);
     CHECK_BELOW("release, before it [-]", !isnan(importer_value(&by, outputs[OUTPUTS - 1])), 0);
+    // a state that is refused leaves the run where it is
+    static double rate[2][IMPORTER_MOST];
+    importer_rates(&other, rate[0]);
+    bytes[size / 2] ^= 4;
+    OK_3(&other, fmi3FreeFMUState, &back);
+    OK_3(&other, fmi3DeserializeFMUState, bytes, size, &back);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetFMUState)(other.instance, back), fmi3Error);
+    importer_rates(&other, rate[1]);
+    assert_memory_equal(rate[0], rate[1], other.states * sizeof(double));
+    importer_complete(&other);
     OK_3(&by, fmi3FreeFMUState, &saved);
     OK_3(&other, fmi3FreeFMUState, &back);
     free(bytes);
