@@ -344,14 +344,17 @@ static foreign_result restore(const char *bytes, size_t size)
 // One step; `reached`: where it stands then. fmi2Discard: not at its end.
 static int step_once(double t, double size, double *reached, bool *ends)
 {
-    *reached = t + size;
+    const double end = t + size;
+    *reached = end;
     *ends = false;
     if (host.version == 3) {
-        bool event = false, early = false;
-        int status = CALL(fmi3DoStep, host.instance, t, size, true, &event, ends, &early, reached);
-        // one of steps of its own may say where the last of these ended, and has not broken off
-        bool short_of_it = early && *reached < t + size * (1 - 1e-9);
-        return judged(status) == FOREIGN_DONE && short_of_it ? (int)fmi3Discard : status;
+        bool event, early = false;
+        double last = end; // a unit of fixed steps says where the last of these ended, and goes on
+        int status = CALL(fmi3DoStep, host.instance, t, size, true, &event, ends, &early, &last);
+        if (judged(status) != FOREIGN_DONE || !early || !(last < t + size * (1 - 1e-9)))
+            return status;
+        *reached = last;
+        return fmi3Discard;
     }
     int status = CALL(fmi2DoStep, host.instance, t, size, 1), terminated = 0;
     if (status != fmi2Discard)
@@ -370,8 +373,10 @@ static int step_once(double t, double size, double *reached, bool *ends)
 static foreign_result step(const foreign_stepping *to, int64_t *pieces)
 {
     enum { MOST_PIECES = 1000 };
-    double t = to->t, end = to->t + to->size, size = to->size;
-    for (*pieces = 0; t < end; (*pieces)++) {
+    const double end = to->t + to->size;
+    double t = to->t, size = to->size;
+    bool last = true; // the piece leads to the end, whatever t + size is rounded to
+    for (*pieces = 1; *pieces <= MOST_PIECES; ++*pieces) {
         void *before = NULL;
         double reached;
         bool ends;
@@ -386,12 +391,15 @@ static foreign_result step(const foreign_stepping *to, int64_t *pieces)
             return FOREIGN_ENDS;
         if (status != fmi2Discard && judged(status))
             return FOREIGN_REFUSED;
-        if ((stuck && !host.keeps_state) || *pieces == MOST_PIECES)
+        if (stuck && !host.keeps_state)
             return FOREIGN_NO_STEP;
-        t = stuck ? t : size == end - t && status != fmi2Discard ? end : reached;
+        if ((last && status != fmi2Discard) || (!stuck && !(reached < end)))
+            return FOREIGN_DONE;
+        t = stuck ? t : reached;
         size = stuck ? 0.5 * size : end - t;
+        last = !stuck;
     }
-    return FOREIGN_DONE;
+    return FOREIGN_NO_STEP;
 }
 
 // ---- requests

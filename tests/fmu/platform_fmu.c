@@ -47,11 +47,13 @@ enum {
     NOISE,
     ENDS,
     LONG,
-    MOVES
+    MOVES,
+    FIXED // by steps of MISHAP_AT alone (FMI 3)
 };
 
 typedef struct platform {
     double value[VALUES], t;
+    double next;       // where the last step was to end
     double x[6], u[6]; // place, rotation vector; their rates
     bool begun;
     fmi2CallbackFunctions call;
@@ -97,6 +99,7 @@ static void leave_initialization(platform *self)
 {
     settle(self);
     self->begun = true;
+    self->next = self->t;
     if ((int)self->value[MISHAP] == MOVES)
         self->x[1] += 1e-3;
 }
@@ -396,13 +399,33 @@ EXPORTED fmi3Status fmi3SetString(void *c, const uint32_t *reference, size_t ref
                                                                     : fmi3Error;
 }
 
+// As a unit does that steps by a step of its own: it stands at the last of these that ends within
+// the step, says so, and takes the next step only from where this one was to end.
+static int advance_fixed(platform *self, double t, double end)
+{
+    const double own = self->value[MISHAP_AT], rounding = 1e-12;
+    if (fabs(t - self->next) > rounding) {
+        say(self, "this step does not begin where the last one was to end");
+        return fmi2Error;
+    }
+    while (self->t + own <= end + rounding)
+        advance(self, own);
+    self->next = end;
+    return fmi2OK;
+}
+
 EXPORTED fmi3Status fmi3DoStep(void *c, double t, double size, bool no_return, bool *event,
                                bool *terminate, bool *early, double *reached)
 {
     platform *self = c;
     (void)no_return;
     double end = reach(self, t, size);
-    *event = false;
+    *event = *early = *terminate = false;
+    if ((int)self->value[MISHAP] == FIXED) {
+        int wrong = advance_fixed(self, t, end);
+        *reached = self->t;
+        return (fmi3Status)wrong;
+    }
     *early = end < t + size;
     *reached = *early ? end : end - 0.25 * size; // as if steps of its own had ended there
     *terminate = (int)self->value[MISHAP] == ENDS && end == t;

@@ -388,6 +388,35 @@ static void a_step_broken_off_goes_on(void **state)
                 1e3 * (stuck.pitch_rate - whole.pitch_rate), 1e-5);
 }
 
+// A unit that steps by 0.1 ms, or by 10 s, of its own says that it has come to the last of these.
+// At these steps t + h, minus t, is not always h.
+static void a_unit_of_fixed_steps_is_where_it_was_sent(void **state)
+{
+    (void)state;
+    static const double steps[] = {0.4e-3, 0.7e-3, 1.5e-3, 4e-3};
+    double worst = 0;
+    for (int i = 0; i < 4; i++) {
+        double whole = shoot(ON_PLATFORM_3, steps[i]).pitch_rate;
+        double fixed = shoot(ON_PLATFORM_3 "  parameters: [{name: mishap, value: 12}, "
+                                           "{name: mishap_at, value: 1e-4}]\n",
+                             steps[i])
+                           .pitch_rate;
+        worst = fmax(worst, 1e3 * fabs(fixed - whole));
+    }
+    CHECK_BELOW("pitch rate, in steps of its own [mrad/s]", worst, 1e-4);
+
+    on_platform self = begin(ON_PLATFORM_3 "  parameters: [{name: mishap, value: 12}, {name: "
+                                           "mishap_at, value: 10}]\n",
+                             1e-7, 1.5e-3);
+    ld_run *run = start(&self);
+    double at_start = number(run, "base.y");
+    go_to(run, 0.05);
+    CHECK_BELOW("one that has not stepped yet has not moved [m]", number(run, "base.y") - at_start,
+                0);
+    ld_run_end(run, NULL, NULL);
+    end(&self);
+}
+
 // ---- what goes wrong in it
 
 static const struct {
@@ -610,6 +639,7 @@ int main(void)
         cmocka_unit_test(arrays_reach_it),
         cmocka_unit_test(the_tube_moves_as_its_rates_say),
         cmocka_unit_test(a_step_broken_off_goes_on),
+        cmocka_unit_test(a_unit_of_fixed_steps_is_where_it_was_sent),
         cmocka_unit_test(what_goes_wrong_is_one_sentence),
         cmocka_unit_test(what_does_not_fit_is_one_sentence),
         cmocka_unit_test(a_run_is_saved_where_the_FMU_gives_its_state),
