@@ -50,6 +50,7 @@ const char *__asan_default_options(void)
 
 static struct {
     foreign_shared *shared;
+    pid_t asking;
     int version;
     bool keeps_state;
     void *library, *instance;
@@ -513,13 +514,18 @@ static void end_fmu(void)
 }
 
 // Whatever the FMU is at, this process ends with the one that asks; what that has unpacked goes,
-// too.
+// too. The FMU may have closed the socket: whether the other one is there, the system tells.
 static void *watch(void *unused)
 {
+    enum { OFTEN = 10, SELDOM = 1000 }; // [ms]
     struct pollfd other = {.fd = FOREIGN_SOCKET, .events = POLLRDHUP};
     (void)unused;
-    while (poll(&other, 1, -1) < 0 || !(other.revents & (POLLRDHUP | POLLHUP | POLLERR)))
-        ;
+    while (getppid() == host.asking) {
+        if (poll(&other, 1, host.shared->deaf ? OFTEN : SELDOM) > 0) {
+            host.shared->deaf = true;
+            other.fd = -1;
+        }
+    }
     if (*host.folder)
         foreign_folder_remove(host.folder);
     _exit(0);
@@ -529,20 +535,22 @@ int main(void)
 {
     pthread_t watcher;
     foreign_request request;
+    host.asking = getppid();
     host.shared =
         mmap(NULL, sizeof *host.shared, PROT_READ | PROT_WRITE, MAP_SHARED, FOREIGN_SHARED, 0);
     if (host.shared == MAP_FAILED || pthread_create(&watcher, NULL, watch, NULL))
         return 1;
-    while (receive(&request, sizeof request) && request.kind != FOREIGN_END) {
+    bool fine = true;
+    while (fine && (fine = receive(&request, sizeof request)) && request.kind != FOREIGN_END) {
         char *body = malloc(request.size ? request.size : 1);
-        bool fine = body && receive(body, request.size) &&
-                    serve((foreign_kind)request.kind, body, request.size);
+        fine = body && receive(body, request.size) &&
+               serve((foreign_kind)request.kind, body, request.size);
         free(body);
-        if (!fine)
-            pause(); // the watcher knows why
     }
-    end_fmu();
-    *host.folder = '\0';
-    answer(FOREIGN_DONE, NULL, 0);
-    _exit(0);
+    if (fine) {
+        end_fmu();
+        answer(FOREIGN_DONE, NULL, 0);
+    }
+    for (;;)
+        pause(); // the one that asks ends this process, or its end does
 }

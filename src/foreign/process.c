@@ -165,12 +165,44 @@ static const char *said(const foreign_process *self, char text[FOREIGN_LONGEST_S
     return text;
 }
 
+static double now(void)
+{
+    struct timespec at;
+    clock_gettime(CLOCK_MONOTONIC, &at);
+    return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
+}
+
+// With whatever it has started: they are a group.
+static void end_now(foreign_process *self)
+{
+    kill(-self->pid, SIGKILL);
+    waitpid(self->pid, NULL, 0);
+    self->pid = 0;
+}
+
+// Waits for its end, which is near where the socket closed with it. False: it lives on without the
+// socket, and has been ended.
+static bool wait_for_end(foreign_process *self, int *status)
+{
+    const struct timespec pause = {.tv_nsec = 1000000};
+    double until = now() + self->limit;
+    pid_t ended;
+    while ((ended = waitpid(self->pid, status, WNOHANG)) != self->pid) {
+        if (self->shared->deaf || ended < 0 || now() > until) {
+            end_now(self);
+            return false;
+        }
+        nanosleep(&pause, NULL);
+    }
+    self->pid = 0;
+    return true;
+}
+
 static ld_status died(foreign_process *self, double t, ld_error *error)
 {
     char at[128], last[FOREIGN_LONGEST_SAID + 4];
     int status = 0;
-    bool known = waitpid(self->pid, &status, 0) == self->pid;
-    self->pid = 0;
+    bool known = wait_for_end(self, &status);
     where(self, t, at);
     said(self, last);
     if (known && WIFSIGNALED(status))
@@ -179,7 +211,9 @@ static ld_status died(foreign_process *self, double t, ld_error *error)
     if (known && WIFEXITED(status))
         return ld_fail(error, LD_ERR_NUMERIC, "%.200s: the FMU ended itself (exit code %d)%s%s",
                        self->name, WEXITSTATUS(status), at, last);
-    return ld_fail(error, LD_ERR_NUMERIC, "%.200s: the FMU ended%s%s", self->name, at, last);
+    return ld_fail(error, LD_ERR_NUMERIC,
+                   "%.200s: the FMU closed the connection to its process%s%s", self->name, at,
+                   last);
 }
 
 static ld_status hangs(foreign_process *self, double t, ld_error *error)
@@ -205,13 +239,6 @@ static ld_status refused(foreign_process *self, foreign_result result, double t,
 }
 
 // ---- questions
-
-static double now(void)
-{
-    struct timespec at;
-    clock_gettime(CLOCK_MONOTONIC, &at);
-    return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
-}
 
 typedef enum moved { MOVED, MOVED_LATE, MOVED_NOT } moved;
 
@@ -302,27 +329,24 @@ ld_status foreign_process_ask(foreign_process *self, foreign_kind kind, double t
 
 // ---- end
 
-// Whether it has ended by itself in good time.
-static bool said_goodbye(foreign_process *self)
+// The FMU may end by itself, in good time.
+static void say_goodbye(foreign_process *self)
 {
     foreign_answer head;
     const double limit = self->limit;
     self->limit = fmin(limit, 2);
-    moved result =
-        ask(self, FOREIGN_END, (const void *const[]){NULL, NULL}, (const size_t[]){0, 0}, &head);
+    ask(self, FOREIGN_END, (const void *const[]){NULL, NULL}, (const size_t[]){0, 0}, &head);
     self->limit = limit;
-    return result == MOVED;
 }
 
 void foreign_process_end(foreign_process *self)
 {
     if (!self)
         return;
-    if (self->pid > 0) {
-        if (self->lost || !said_goodbye(self))
-            kill(self->pid, SIGKILL);
-        waitpid(self->pid, NULL, 0);
-    }
+    if (self->pid > 0 && !self->lost)
+        say_goodbye(self);
+    if (self->pid > 0)
+        end_now(self);
     if (self->socket >= 0)
         close(self->socket);
     if (self->shared)

@@ -16,7 +16,7 @@ ld_status foreign_process_start(const char *name, double limit, foreign_process 
 ld_status foreign_process_ask(foreign_process *self, foreign_kind kind, double t, const void *body,
                               size_t size, const void *more, size_t more_size, void *answer,
                               size_t room, size_t *answered, ld_error *error);
-// Ends it, at once where it does not end by itself; may be NULL.
+// Ends it, after the FMU has been let end where it does so in good time; may be NULL.
 void foreign_process_end(foreign_process *self);
 
 #endif

@@ -18,6 +18,7 @@ enum { FOREIGN_MOST_VALUES = 4096, FOREIGN_LONGEST_SAID = 400, FOREIGN_LONGEST_P
 typedef struct foreign_shared {
     char function[64];               // of the FMU, called last
     char said[FOREIGN_LONGEST_SAID]; // its logger's last message
+    _Atomic bool deaf;               // the socket is closed on its side
 } foreign_shared;
 
 typedef enum foreign_kind {

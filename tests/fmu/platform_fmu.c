@@ -2,6 +2,7 @@
 // and rotation vector are held by linear springs and dampers against where they would be without
 // load, m r'' = -k r - c r' + F + m g, J p'' = -kr p - cr p' + M. Its equations are solved exactly
 // for a wrench that is held. It misbehaves where it is asked to.
+#define _GNU_SOURCE // close_range; NOLINT(bugprone-reserved-identifier)
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -48,7 +49,10 @@ enum {
     ENDS,
     LONG,
     MOVES,
-    FIXED // by steps of MISHAP_AT alone (FMI 3)
+    FIXED,         // by steps of MISHAP_AT alone (FMI 3)
+    DEAF,          // closes all that is open, and waits
+    MURDER,        // ends the process that asks, and goes on
+    MURDER_AT_LAST // the same when it terminates
 };
 
 typedef struct platform {
@@ -160,6 +164,13 @@ static int mishap(platform *self, double t, double h)
     case HANG:
         for (;;)
             pause();
+    case DEAF:
+        close_range(0, ~0U, 0);
+        for (;;)
+            pause();
+    case MURDER:
+        kill(getppid(), SIGKILL);
+        break;
     case LEAVE:
         exit(3);
     case NOT_A_NUMBER:
@@ -177,6 +188,12 @@ static int mishap(platform *self, double t, double h)
         break;
     }
     return fmi2OK;
+}
+
+static void mishap_at_last(const platform *self)
+{
+    if ((int)self->value[MISHAP] == MURDER_AT_LAST)
+        kill(getppid(), SIGKILL);
 }
 
 // Where the step ends; before t + h it is discarded.
@@ -238,7 +255,7 @@ EXPORTED fmi2Status fmi2ExitInitializationMode(void *c)
 
 EXPORTED fmi2Status fmi2Terminate(void *c)
 {
-    (void)c;
+    mishap_at_last(c);
     return fmi2OK;
 }
 
@@ -361,7 +378,7 @@ EXPORTED fmi3Status fmi3ExitInitializationMode(void *c)
 
 EXPORTED fmi3Status fmi3Terminate(void *c)
 {
-    (void)c;
+    mishap_at_last(c);
     return fmi3OK;
 }
 

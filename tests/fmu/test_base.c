@@ -1,5 +1,6 @@
 // A base that an FMU moves (base.kind: fmu; fmi.md): a platform on springs whose motion is known in
 // closed form under the reference launcher, by FMI 2 and 3.
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -445,6 +446,9 @@ static const struct {
      {"the FMU has moved by 0.001 (m, or of its quaternion) when its initialization ends",
       "the FMU has moved by 0.001 (m, or of its quaternion) when its initialization ends"}},
     {8, {NULL, NULL}}, // noise
+    {13,
+     {"the FMU closed the connection to its process in fmi2DoStep at t = ",
+      "the FMU closed the connection to its process in fmi3DoStep at t = "}},
 };
 
 static void expect_end(int version, int i)
@@ -478,6 +482,38 @@ static void what_goes_wrong_is_one_sentence(void **state)
         for (size_t i = 0; i < sizeof mishaps / sizeof *mishaps; i++)
             expect_end(version, (int)i);
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); // no process is left
+}
+
+// An FMU that ends the process which runs it leaves neither a process nor a folder.
+static void nothing_is_left_when_it_ends_who_asks(void **state)
+{
+    (void)state;
+    for (int mishap = 14; mishap <= 15; mishap++) {
+        int end_of[2], how;
+        char byte, base[256];
+        snprintf(base, sizeof base,
+                 ON_PLATFORM_2 "  parameters: [{name: mishap, value: %d}, {name: mishap_at, "
+                               "value: 0.0155}]\n",
+                 mishap);
+        assert_int_equal(pipe(end_of), 0);
+        int open_as_long = fcntl(end_of[1], F_DUPFD, 20); // beyond those that its process is given
+        close(end_of[1]);
+        pid_t asking = fork();
+        if (asking == 0) {
+            on_platform self = begin(base, 1e-7, 1e-3);
+            ld_run *run = start(&self);
+            ld_run_advance(run, 0.01, NULL);
+            ld_run_end(run, NULL, NULL);
+            _exit(1);
+        }
+        assert_int_equal(waitpid(asking, &how, 0), asking);
+        assert_true(WIFSIGNALED(how) && WTERMSIG(how) == SIGKILL);
+        close(open_as_long); // here; its process has it as long as it lives
+        assert_int_equal(read(end_of[0], &byte, 1), 0);
+        close(end_of[0]);
+        assert_int_equal(rmdir(in("unpacked")), 0);
+        assert_int_equal(mkdir(in("unpacked"), 0700), 0);
+    }
 }
 
 // ---- scenarios that do not fit the FMU
@@ -641,6 +677,7 @@ int main(void)
         cmocka_unit_test(a_step_broken_off_goes_on),
         cmocka_unit_test(a_unit_of_fixed_steps_is_where_it_was_sent),
         cmocka_unit_test(what_goes_wrong_is_one_sentence),
+        cmocka_unit_test(nothing_is_left_when_it_ends_who_asks),
         cmocka_unit_test(what_does_not_fit_is_one_sentence),
         cmocka_unit_test(a_run_is_saved_where_the_FMU_gives_its_state),
         cmocka_unit_test(a_run_is_not_saved_where_it_does_not),
