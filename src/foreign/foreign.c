@@ -1,5 +1,6 @@
 #include "foreign/foreign.h"
 
+#include <elf.h>
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -42,6 +43,45 @@ static void library_path(const foreign_package *self, char path[FOREIGN_LONGEST_
              of->version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3, of->identifier);
 }
 
+#if defined(__aarch64__)
+enum { THIS_MACHINE = EM_AARCH64 };
+#else
+enum { THIS_MACHINE = EM_X86_64 };
+#endif
+
+static const char *machine_name(int machine)
+{
+    static const struct {
+        int machine;
+        const char *name;
+    } names[] = {{EM_X86_64, "x86-64"},      {EM_AARCH64, "AArch64"}, {EM_386, "x86 of 32 bits"},
+                 {EM_ARM, "ARM of 32 bits"}, {EM_RISCV, "RISC-V"},    {EM_PPC64, "PowerPC"}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i].machine == machine)
+            return names[i].name;
+    return "another machine";
+}
+
+// Of a binary that is none at all the loader says so; one for another machine it does not find.
+static ld_status check_machine(const foreign_package *self, const char *library, ld_error *error)
+{
+    const size_t at = offsetof(Elf64_Ehdr, e_machine); // which all classes have there
+    unsigned char head[sizeof(Elf64_Ehdr)] = {0};
+    FILE *file = fopen(library, "rb");
+    bool is_elf = file && fread(head, 1, sizeof head, file) == sizeof head &&
+                  memcmp(head, ELFMAG, SELFMAG) == 0;
+    if (file)
+        fclose(file);
+    int machine = head[EI_DATA] == ELFDATA2MSB ? 256 * head[at] + head[at + 1]
+                                               : head[at] + 256 * head[at + 1];
+    if (!is_elf || machine == THIS_MACHINE)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT,
+                   "%.200s: its binary %.200s is one for %s; this machine is %s", self->path,
+                   library + strlen(self->folder) + 1, machine_name(machine),
+                   machine_name(THIS_MACHINE));
+}
+
 static ld_status look_at(foreign_package *self, ld_error *error)
 {
     char path[FOREIGN_LONGEST_PATH];
@@ -57,7 +97,7 @@ static ld_status look_at(foreign_package *self, ld_error *error)
     if (access(path, R_OK))
         return ld_fail(error, LD_ERR_INPUT, "%.200s: has no binary for this machine, %.200s",
                        self->path, path + strlen(self->folder) + 1);
-    return LD_OK;
+    return check_machine(self, path, error);
 }
 
 ld_status foreign_open(const char *path, foreign_package **out, ld_error *error)

@@ -423,13 +423,15 @@ static void find(const base_system *base, const base_found *found, const base_ou
 
 // ---- set-up
 
-static ld_status unknown(const fmu_base *self, const char *key, const char *name,
+// `by`: the key that names it; where it is not given, by default, it is the file that does not fit.
+static ld_status unknown(const fmu_base *self, const char *by, bool given, const char *name,
                          foreign_causality causality, ld_error *error)
 {
     const char *near = foreign_variable_near(&self->package->description, name, causality);
-    return ld_fail(error, LD_ERR_INPUT, "%s: %.200s has no variable \"%.100s\"%s%.100s%s", key,
-                   self->package->path, name, near ? "; did you mean \"" : "", near ? near : "",
-                   near ? "\"?" : "");
+    return ld_fail(error, LD_ERR_INPUT, "%s: %.200s has no variable \"%.100s\"%s%s%s%.100s%s",
+                   given ? by : "base.file", self->package->path, name,
+                   given ? "" : ", the default of ", given ? "" : by,
+                   near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
 }
 
 // Powers of kg, m, s, rad of a quantity's unit, and the unit in words.
@@ -483,11 +485,14 @@ static ld_status check_variable(const fmu_base *self, int i, const char *key,
     return LD_OK;
 }
 
+// Quantity i, by a name of the scenario's, or by default (NULL).
 static ld_status connect(fmu_base *self, int i, const char *key, const char *name, ld_error *error)
 {
-    const foreign_variable *variable = foreign_variable_find(&self->package->description, name);
+    const char *wanted = name ? name : default_names[i];
+    const foreign_variable *variable = foreign_variable_find(&self->package->description, wanted);
     if (!variable)
-        return unknown(self, key, name, i >= LD_FMU_FORCE ? FOREIGN_INPUT : FOREIGN_OUTPUT, error);
+        return unknown(self, key, name != NULL, wanted,
+                       i >= LD_FMU_FORCE ? FOREIGN_INPUT : FOREIGN_OUTPUT, error);
     ld_status status = check_variable(self, i, key, variable, error);
     self->variable[i] = (fmu_variable){
         .there = true,
@@ -517,8 +522,7 @@ static ld_status connect_group(fmu_base *self, const fmu_names *group, ld_error 
         if (group->names && !length)
             return ld_fail(error, LD_ERR_INPUT, "%s: \"%.200s\" has %d names; expected %d",
                            group->key, group->names, i, group->count);
-        status = connect(self, group->first + i, group->key,
-                         group->names ? name : default_names[group->first + i], error);
+        status = connect(self, group->first + i, group->key, group->names ? name : NULL, error);
     }
     if (!status && at[strspn(at, " ")])
         status = ld_fail(error, LD_ERR_INPUT, "%s: \"%.200s\" has more than %d names", group->key,
@@ -557,7 +561,7 @@ static ld_status check_parameter(const fmu_base *self, int i, ld_error *error)
     const foreign_variable *variable =
         foreign_variable_find(&self->package->description, given->name);
     if (!variable)
-        return unknown(self, "base.parameters", given->name, FOREIGN_PARAMETER, error);
+        return unknown(self, "base.parameters", true, given->name, FOREIGN_PARAMETER, error);
     if (text != isnan(given->value))
         return ld_fail(error, LD_ERR_INPUT,
                        "base.parameters.%d: %.200s: expected one of value and text", i + 1,

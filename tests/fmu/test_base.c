@@ -556,6 +556,9 @@ static const struct {
      "base.parameters.1: mass: expected one of value and text"},
     {"  file: platform3.fmu\n  step: 1 ms\n  parameters: [{name: mass}]\n",
      "base.parameters.1: mass: expected one of value and text"},
+    {"  file: nameless.fmu\n  step: 1 ms\n",
+     "nameless.fmu has no variable \"base.position.x\", the default of "
+     "base.connect.position; did you mean \"bass.position.x\"?"},
     {"  file: platform3.fmu\n  step: 1 ms\n  connect: {angles: springs pitch roll}\n",
      "variable springs is an array of Float64; expected a Float64"},
 };
@@ -650,6 +653,7 @@ static int make_all(void **state)
         return -1;
     make_platform(in("platform2.fmu"), 2, PLATFORM_KEEPS_2);
     make_platform(in("platform3.fmu"), 3, PLATFORM_SAVES_3);
+    make_nameless_platform(in("nameless.fmu"));
     // where packages are unpacked
     return mkdir(in("unpacked"), 0700) || setenv("TMPDIR", in("unpacked"), 1);
 }

@@ -104,6 +104,25 @@ static void one_that_has_changed_is_refused(void **state)
     must("mv kept.fmu there/platform2.fmu && launchdyn run -q --again results --out again");
 }
 
+// A name that is not there is told where the file is named, or where the name is.
+static void a_missing_variable_is_told_where_it_is_wanted(void **state)
+{
+    (void)state;
+    char path[128];
+    snprintf(path, sizeof path, "%s/there/nameless.fmu", shell.folder);
+    make_nameless_platform(path);
+    must("sed -i 's/platform2/platform3/' there/platform.yaml && printf 'include: "
+         "platform.yaml\nbase:\n  file: nameless.fmu\n' >there/nameless.yaml && printf 'include: "
+         "platform.yaml\nbase:\n  connect: {position: a b c}\n' >there/abc.yaml");
+    expect_complaint("launchdyn check there/nameless.yaml", 2,
+                     "there/nameless.yaml:3:9: error: base.file: ");
+    expect_in(shell.err, "has no variable \"base.position.x\", the default of "
+                         "base.connect.position; did you mean \"bass.position.x\"?");
+    expect_complaint("launchdyn check there/abc.yaml", 2,
+                     "there/abc.yaml:3:23: error: base.connect.position: ");
+    expect_in(shell.err, "has no variable \"a\"");
+}
+
 // ---- the command's verbs
 
 static void verbs_work_on_it(void **state)
@@ -142,6 +161,8 @@ int main(void)
                                         shell_remove),
         cmocka_unit_test_setup_teardown(one_that_has_changed_is_refused, make_platforms,
                                         shell_remove),
+        cmocka_unit_test_setup_teardown(a_missing_variable_is_told_where_it_is_wanted,
+                                        make_platforms, shell_remove),
         cmocka_unit_test_setup_teardown(verbs_work_on_it, make_platforms, shell_remove),
         cmocka_unit_test_setup_teardown(modes_are_those_where_it_stands, make_platforms,
                                         shell_remove),

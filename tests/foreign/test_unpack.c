@@ -196,6 +196,33 @@ static void a_binary_that_is_none(void **state)
     foreign_close(package);
 }
 
+// A binary of this machine whose header says another one.
+static void a_binary_for_another_machine(void **state)
+{
+    (void)state;
+    enum { MACHINE = 18, AARCH64 = 183, X86_64 = 62 };
+    foreign_package *package;
+    ld_error error;
+    size_t size;
+    char *description = describe_platform(3, ""), expected[256];
+    char *bytes = read_whole(LD_BINARY_DIR "/tests/platform_fmu3.so", &size);
+    const bool is_x86 = bytes[MACHINE] == X86_64;
+    bytes[MACHINE] = (char)(is_x86 ? AARCH64 : X86_64);
+    zipFile zip = zipOpen64(in("made.fmu"), APPEND_STATUS_CREATE);
+    pack_entry(zip, "modelDescription.xml", description, strlen(description), 0);
+    pack_entry(zip, "binaries/" FOREIGN_BINARIES_3 "/platform.so", bytes, size, 0100755);
+    assert_int_equal(zipClose(zip, NULL), ZIP_OK);
+    free(description);
+    free(bytes);
+    assert_int_equal(foreign_open(in("made.fmu"), &package, &error), LD_ERR_INPUT);
+    snprintf(expected, sizeof expected,
+             "made.fmu: its binary binaries/" FOREIGN_BINARIES_3
+             "/platform.so is one for %s; this machine is %s",
+             is_x86 ? "AArch64" : "x86-64", is_x86 ? "x86-64" : "AArch64");
+    assert_non_null(strstr(error.text, expected));
+    assert_null(package);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -207,6 +234,7 @@ int main(void)
         cmocka_unit_test(damage),
         cmocka_unit_test(packages_without_what_they_need),
         cmocka_unit_test(a_binary_that_is_none),
+        cmocka_unit_test(a_binary_for_another_machine),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
