@@ -212,18 +212,87 @@ static void write_variable_3(FILE *stream, const fmu_variables *all, size_t refe
 
 // ---- structure ----
 
-// An element for each of the variables that are asked for.
-static void write_unknowns(FILE *stream, const fmu_description *self, const char *element,
-                           bool asked(const fmu_variable *))
+static bool begins(const char *text, const char *with)
 {
-    const fmu_variables *variables = self->variables;
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+// What an unknown is calculated from; in co-simulation the states are inside.
+typedef struct known {
+    bool time, told, states, works, parameters;
+} known;
+
+// Rates of places and modes, which are velocities: no force, so no time and no input, is in them.
+static bool is_velocity(const fmu_variable *v)
+{
+    return v->group == FMU_RATE &&
+           (begins(v->name, "der(state.tube.position") ||
+            begins(v->name, "der(state.tube.quaternion") || begins(v->name, "der(state.mode."));
+}
+
+// Works feed nothing but their sums.
+static bool sums_works(const fmu_variable *v)
+{
+    return v->group == FMU_COLUMN &&
+           (begins(v->name, "work.") || strcmp(v->name, "energy.residual") == 0);
+}
+
+// While time goes on; results are told once, by what has happened.
+static known known_of(const fmu_variables *all, const fmu_variable *v)
+{
+    if (v->group == FMU_RESULT)
+        return (known){0};
+    bool forced = !is_velocity(v);
+    return (known){.time = all->exchange && forced,
+                   .told = all->runner->follows && forced,
+                   .states = all->exchange,
+                   .works = all->exchange && sums_works(v)};
+}
+
+static bool is_known(const known *from, const fmu_variable *v)
+{
+    return v->group == FMU_TIME    ? from->time
+           : v->group == FMU_TOLD  ? from->told
+           : v->group == FMU_STATE ? (begins(v->name, "state.work.") ? from->works : from->states)
+                                   : fmu_is_parameter(v) && from->parameters;
+}
+
+// References are counted from `first`.
+static void write_dependencies(FILE *stream, const fmu_variables *all, const known *from,
+                               size_t first)
+{
+    const char *between = "";
+    fputs(" dependencies=\"", stream);
+    for (size_t i = 0; i < all->count; i++)
+        if (is_known(from, &all->item[i])) {
+            fprintf(stream, "%s%zu", between, i + first);
+            between = " ";
+        }
+    fputs("\"", stream);
+}
+
+// An element for each of the variables that are asked for. At the start (`initial`) what has no
+// list depends on all parameters and inputs.
+static void write_unknowns(FILE *stream, const fmu_description *self, const char *element,
+                           bool initial, bool asked(const fmu_variable *))
+{
+    const fmu_variables *all = self->variables;
+    const size_t first = self->version == 2 ? 1 : 0;
+    const bool listed = !initial || (all->runner->told_count > 0 && !all->runner->follows);
     if (self->version == 2)
         fprintf(stream, "    <%s>\n", element);
-    for (size_t i = 0; i < variables->count; i++)
-        if (asked(&variables->item[i]) && self->version == 2) // there counted from 1
-            fprintf(stream, "      <Unknown index=\"%zu\"/>\n", i + 1);
-        else if (asked(&variables->item[i]))
-            fprintf(stream, "    <%s valueReference=\"%zu\"/>\n", element, i);
+    for (size_t i = 0; i < all->count; i++) {
+        if (!asked(&all->item[i]))
+            continue;
+        known from = initial ? (known){.parameters = true} : known_of(all, &all->item[i]);
+        if (self->version == 2)
+            fprintf(stream, "      <Unknown index=\"%zu\"", i + first);
+        else
+            fprintf(stream, "    <%s valueReference=\"%zu\"", element, i);
+        if (listed)
+            write_dependencies(stream, all, &from, first);
+        fputs("/>\n", stream);
+    }
     if (self->version == 2)
         fprintf(stream, "    </%s>\n", element);
 }
@@ -247,12 +316,14 @@ static void write_structure(FILE *stream, const fmu_description *self)
 {
     bool old = self->version == 2;
     fputs("  <ModelStructure>\n", stream);
-    write_unknowns(stream, self, old ? "Outputs" : "Output", fmu_is_output);
+    write_unknowns(stream, self, old ? "Outputs" : "Output", false, fmu_is_output);
     if (self->variables->exchange)
-        write_unknowns(stream, self, old ? "Derivatives" : "ContinuousStateDerivative", is_rate);
-    write_unknowns(stream, self, old ? "InitialUnknowns" : "InitialUnknown", is_found_at_start);
+        write_unknowns(stream, self, old ? "Derivatives" : "ContinuousStateDerivative", false,
+                       is_rate);
+    write_unknowns(stream, self, old ? "InitialUnknowns" : "InitialUnknown", true,
+                   is_found_at_start);
     if (!old)
-        write_unknowns(stream, self, "EventIndicator", is_indicator);
+        write_unknowns(stream, self, "EventIndicator", false, is_indicator);
     fputs("  </ModelStructure>\n", stream);
 }
 

@@ -175,6 +175,6 @@ static ld_status place_outside(void *run, double t, const double *x, const doubl
 
 static const fmu_exchanging exchanging_outside = {begin_exchange_outside, load_exchange,
                                                   place_outside};
-const fmu_runner fmu_launch_outside = {ANY_BASE, .told_count = FMU_FRAME_NUMBERS,
-                                       .begin = begin_outside, .tell = tell,
-                                       .exchanging = &exchanging_outside};
+const fmu_runner fmu_launch_outside = {ANY_BASE,        .told_count = FMU_FRAME_NUMBERS,
+                                       .follows = true, .begin = begin_outside,
+                                       .tell = tell,    .exchanging = &exchanging_outside};

@@ -18,6 +18,7 @@ enum {
 typedef struct fmu_runner {
     int told_count;  // numbers that it is told by another FMU: a frame's, or none
     int tells_count; // that it tells another one: a wrench's
+    bool follows;    // outputs follow what it is told at once, not by its states alone
 
     // Columns of its rows; the first one is the time.
     size_t (*columns)(const ld_simulation *simulation, const ld_column **columns);
