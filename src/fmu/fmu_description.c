@@ -345,36 +345,49 @@ static void write_root(FILE *stream, const fmu_description *self)
     fputs(">\n", stream);
 }
 
-static void write_model_exchange(FILE *stream, int version)
+static void write_model_exchange(FILE *stream, const fmu_description *self)
 {
-    fputs("  <ModelExchange modelIdentifier=\"" FMU_MODEL_IDENTIFIER "\"\n", stream);
-    fputs(version == 2 ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
-                       : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
-                         "needsCompletedIntegratorStep=\"true\"/>\n",
+    fprintf(stream, "  <ModelExchange modelIdentifier=\"%s\"\n", self->identifier);
+    fputs(self->version == 2
+              ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
+              : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
+                "needsCompletedIntegratorStep=\"true\"/>\n",
           stream);
 }
 
-static void write_co_simulation(FILE *stream, int version)
+static void write_co_simulation(FILE *stream, const fmu_description *self)
 {
-    fputs("  <CoSimulation modelIdentifier=\"" FMU_MODEL_IDENTIFIER
-          "\" canHandleVariableCommunicationStepSize=\"true\"\n",
+    fprintf(stream,
+            "  <CoSimulation modelIdentifier=\"%s\" "
+            "canHandleVariableCommunicationStepSize=\"true\"\n",
+            self->identifier);
+    fputs(self->version == 2
+              ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
+              : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
+                "hasEventMode=\"true\"/>\n",
           stream);
-    fputs(version == 2 ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
-                       : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
-                         "hasEventMode=\"true\"/>\n",
-          stream);
+}
+
+void fmu_write_experiment(FILE *stream, double start, double stop, double tolerance)
+{
+    fprintf(stream, " startTime=\"%.17g\"", start);
+    if (!isnan(stop))
+        fprintf(stream, " stopTime=\"%.12g\"", stop);
+    if (!isnan(tolerance))
+        fprintf(stream, " tolerance=\"%.17g\"", tolerance);
 }
 
 void fmu_description_write(const fmu_description *self, FILE *stream)
 {
     write_root(stream, self);
     if (self->variables->exchange)
-        write_model_exchange(stream, self->version);
-    write_co_simulation(stream, self->version);
+        write_model_exchange(stream, self);
+    write_co_simulation(stream, self);
     write_units(stream, self->variables);
     fputs("  <LogCategories><Category name=\"logStatusError\"/></LogCategories>\n", stream);
-    fprintf(stream, "  <DefaultExperiment startTime=\"%.17g\" tolerance=\"%.17g\"/>\n", self->start,
-            self->tolerance);
+    fputs("  <DefaultExperiment", stream);
+    fmu_write_experiment(stream, self->start, self->stop, self->tolerance);
+    fputs("/>\n", stream);
     fputs("  <ModelVariables>\n", stream);
     for (size_t i = 0; i < self->variables->count; i++)
         (self->version == 2 ? write_variable_2 : write_variable_3)(stream, self->variables, i);

@@ -6,13 +6,11 @@
 
 #include "fmu/fmu_variables.h"
 
-// The name of the binary in the FMU.
-#define FMU_MODEL_IDENTIFIER "launchdyn"
-
 typedef struct fmu_description {
     int version; // of FMI: 2 or 3
     const char *title, *token;
-    double start, tolerance; // [s]; of the run
+    const char *identifier;        // the name of the binary in the FMU
+    double start, stop, tolerance; // [s], when the launch is over, NaN: not known; of the run
     const fmu_variables *variables;
 } fmu_description;
 
@@ -21,5 +19,7 @@ void fmu_description_write(const fmu_description *self, FILE *stream);
 
 // A text as it stands in XML.
 void fmu_write_text(FILE *stream, const char *text);
+// Start, stop and tolerance as attributes; NaN is left out.
+void fmu_write_experiment(FILE *stream, double start, double stop, double tolerance);
 
 #endif

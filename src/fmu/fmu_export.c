@@ -1,4 +1,6 @@
 // Packs an FMU: description, binary, resources, notices.
+#include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,13 +15,14 @@
 #include "launchdyn/scenario.h"
 #include "model/source.h"
 
-enum { NAME_SIZE = 512 };
+enum { NAME_SIZE = 512, IDENTIFIER_SIZE = 80 };
 
 // ---- what goes in ----
 
 typedef struct contents {
     const ld_model *model;
     int version;
+    char identifier[IDENTIFIER_SIZE];
     char *scenario, *description, *list, *part;
     size_t scenario_length, description_length, list_length, part_length;
 } contents;
@@ -49,10 +52,35 @@ static ld_status print_part(const fmu_part *part, contents *self, ld_error *erro
 // "Reference launcher: vehicle".
 static void name_part(const ld_model *model, ld_fmu_part part, char title[NAME_SIZE])
 {
-    char whole[NAME_SIZE - 16];
-    ld_model_text(model, "title", whole, sizeof whole, NULL);
     bool all = part == LD_FMU_ALL;
-    snprintf(title, NAME_SIZE, "%s%s%s", whole, all ? "" : ": ", all ? "" : fmu_part_name(part));
+    snprintf(title, NAME_SIZE, "%.400s%s%s", model->title ? model->title : "launch",
+             all ? "" : ": ", all ? "" : fmu_part_name(part));
+}
+
+// Adds "_word" for each word of a text, as far as there is room.
+static void add_words(char *identifier, size_t size, const char *text)
+{
+    size_t length = strlen(identifier);
+    bool inside = false;
+    for (; *text && length + 2 < size; text++) {
+        bool letter = isascii((unsigned char)*text) && isalnum((unsigned char)*text);
+        if (letter && !inside)
+            identifier[length++] = '_';
+        if (letter)
+            identifier[length++] = (char)tolower((unsigned char)*text);
+        inside = letter;
+    }
+    identifier[length] = '\0';
+}
+
+// A name of C: several FMUs may be open in one importer that tells their binaries by it.
+static void identify(const ld_model *model, ld_fmu_part part, char identifier[IDENTIFIER_SIZE])
+{
+    enum { LONGEST_TITLE = 64 };
+    strcpy(identifier, "launchdyn");
+    add_words(identifier, LONGEST_TITLE, model->title ? model->title : "");
+    if (part != LD_FMU_ALL)
+        add_words(identifier, IDENTIFIER_SIZE, fmu_part_name(part));
 }
 
 static ld_status print_description(const fmu_part *part, const fmu_variables *variables,
@@ -62,15 +90,38 @@ static ld_status print_description(const fmu_part *part, const fmu_variables *va
     fmu_description description = {.version = self->version,
                                    .title = title,
                                    .token = token,
+                                   .identifier = self->identifier,
                                    .start = variables->start,
+                                   .stop = variables->stop,
                                    .variables = variables};
     fmu_token(self->scenario, self->scenario_length, part->which, token);
     name_part(self->model, part->which, title);
+    identify(self->model, part->which, self->identifier);
     ld_model_number(self->model, "run.tolerance", &description.tolerance, NULL);
     FILE *stream = memory_stream(&self->description, &self->description_length);
     if (stream)
         fmu_description_write(&description, stream);
     return stream && fclose(stream) == 0 ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
+}
+
+// When the launch of the whole is over, a base outside at rest: its length rounded up to two
+// digits. NaN: it does not come to its end.
+static double find_stop(const ld_model *model, const ld_simulation *whole)
+{
+    const fmu_runner *runner = fmu_part_runner(LD_FMU_ALL, model);
+    fmu_part part;
+    ld_error unused;
+    void *run = fmu_part_find(LD_FMU_ALL, whole, &part, &unused)
+                    ? NULL
+                    : runner->begin(whole, part.start, &unused);
+    if (!run)
+        return NAN;
+    double start = runner->time(run);
+    bool ends = !runner->advance(run, INFINITY, &unused);
+    double length = runner->time(run) - start;
+    runner->end(run);
+    double digit = pow(10, floor(log10(length)) - 1);
+    return ends && length > 0 ? start + digit * ceil(length / digit * (1 - 1e-12)) : NAN;
 }
 
 // The launcher of a vehicle is simulated by itself.
@@ -88,6 +139,8 @@ ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part 
         status = ld_simulation_create(&of_part, &alone, error);
     if (!status)
         status = fmu_variables_make(part, &of_part, alone ? alone : whole, variables, error);
+    if (!status)
+        variables->stop = find_stop(model, whole);
     ld_simulation_free(alone);
     ld_simulation_free(whole);
     return status;
@@ -121,11 +174,11 @@ static void put_sources(package *self, const contents *from, const ld_source *so
 static void put_all(package *self, const void *data)
 {
     const contents *from = data;
+    char binary[IDENTIFIER_SIZE + 32];
+    snprintf(binary, sizeof binary, "binaries/%s/%s.so",
+             from->version == 2 ? "linux64" : "x86_64-linux", from->identifier);
     package_put(self, "modelDescription.xml", from->description, from->description_length);
-    package_put(self,
-                from->version == 2 ? "binaries/linux64/" FMU_MODEL_IDENTIFIER ".so"
-                                   : "binaries/x86_64-linux/" FMU_MODEL_IDENTIFIER ".so",
-                fmu_binary, (size_t)(fmu_binary_end - fmu_binary));
+    package_put(self, binary, fmu_binary, (size_t)(fmu_binary_end - fmu_binary));
     package_put(self, "resources/" FMU_SCENARIO_FILE, from->scenario, from->scenario_length);
     package_put(self, "resources/" FMU_PART_FILE, from->part, from->part_length);
     put_sources(self, from, ld_model_source(from->model));

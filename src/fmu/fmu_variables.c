@@ -334,7 +334,7 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
                              const ld_simulation *simulation, fmu_variables *self, ld_error *error)
 {
     const fmu_runner *runner = fmu_part_runner(part->which, model);
-    *self = (fmu_variables){.runner = runner};
+    *self = (fmu_variables){.runner = runner, .stop = NAN};
     gathering all = {.into = self, .model = model};
     double told[FMU_MOST_NUMBERS];
     if (!ld_model_has_launcher(model))

@@ -39,6 +39,7 @@ typedef struct fmu_variables {
     size_t count, capacity;
     fmu_variable *item;
     double start; // [s] of the run's clock
+    double stop;  // when the launch is over, rounded up; NaN: not known, as inside of an FMU
     const fmu_runner *runner;
     bool exchange; // it is one for model exchange, too
 } fmu_variables;

@@ -1,4 +1,5 @@
 // Packs vehicle and launcher of a scenario, connected with each other, as an archive of SSP 1.0.
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,12 +41,11 @@ static void write_component(FILE *stream, const system_structure *self, int k)
             name, name);
     for (size_t i = 0; i < self->variables[k].count; i++) {
         const fmu_variable *v = &self->variables[k].item[i];
-        bool is_told = v->group == FMU_TOLD;
-        if (is_told || v->group == FMU_TELLS || v->group == FMU_COLUMN)
-            fprintf(
-                stream,
-                "          <ssd:Connector name=\"%s\" kind=\"%s\"><ssc:Real/></ssd:Connector>\n",
-                v->name, is_told ? "input" : "output");
+        if (fmu_is_input(v) || fmu_is_output(v))
+            fprintf(stream,
+                    "          <ssd:Connector name=\"%s\" kind=\"%s\"><ssc:%s/></ssd:Connector>\n",
+                    v->name, fmu_is_input(v) ? "input" : "output",
+                    fmu_is_boolean(v) ? "Boolean" : "Real");
     }
     fputs("        </ssd:Connectors>\n      </ssd:Component>\n", stream);
 }
@@ -73,12 +73,10 @@ static void write_connections(FILE *stream, const system_structure *self, int k)
 
 static void write_structure(FILE *stream, const system_structure *self)
 {
-    char title[NAME_SIZE];
-    ld_model_text(self->model, "title", title, sizeof title, NULL);
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
           "<ssd:SystemStructureDescription version=\"1.0\" name=\"",
           stream);
-    fmu_write_text(stream, title);
+    fmu_write_text(stream, self->model->title ? self->model->title : "launch");
     fprintf(stream,
             "\" generationTool=\"launchdyn %s\"\n"
             "    xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\"\n"
@@ -90,10 +88,9 @@ static void write_structure(FILE *stream, const system_structure *self)
     fputs("    </ssd:Elements>\n    <ssd:Connections>\n", stream);
     for (int k = 0; k < PARTS; k++)
         write_connections(stream, self, k);
-    fprintf(stream,
-            "    </ssd:Connections>\n  </ssd:System>\n"
-            "  <ssd:DefaultExperiment startTime=\"%.17g\"/>\n</ssd:SystemStructureDescription>\n",
-            self->variables[0].start);
+    fputs("    </ssd:Connections>\n  </ssd:System>\n  <ssd:DefaultExperiment", stream);
+    fmu_write_experiment(stream, self->variables[0].start, self->variables[0].stop, NAN);
+    fputs("/>\n</ssd:SystemStructureDescription>\n", stream);
 }
 
 // ---- the archive ----

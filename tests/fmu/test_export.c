@@ -554,6 +554,44 @@ static void is_described(void **state)
     }
 }
 
+static double experiment_of(const unpacked_fmu *fmu, const char *name)
+{
+    char text[64];
+    attribute_after(strstr(fmu->description, "<DefaultExperiment"), name, text, sizeof text);
+    return atof(text);
+}
+
+// Its name is the title, its binary's a name of C made of that, a part's another; the experiment
+// ends soon after the launch does.
+static void is_named_and_timed(void **state)
+{
+    (void)state;
+    static const char *const part[] = {"", " --part vehicle", " --part launcher"},
+                             *const after[] = {"", ": vehicle", ": launcher"},
+                             *const behind[] = {"", "_vehicle", "_launcher"};
+    char line[256], name[128], wanted[128];
+    for (int i = 0; i < 3; i++) {
+        snprintf(line, sizeof line,
+                 "examples/reference.yaml --set run.lead_in=0.1s --set 'title=Its 2 & <b>'%s",
+                 part[i]);
+        unpacked_fmu fmu = fmu_open(line, 2 + i % 2);
+        attribute_after(fmu.description, "modelName", name, sizeof name);
+        snprintf(wanted, sizeof wanted, "Its 2 &amp; &lt;b&gt;%s", after[i]);
+        assert_string_equal(name, wanted);
+        attribute_after(fmu.description, "modelIdentifier", name, sizeof name);
+        snprintf(wanted, sizeof wanted, "launchdyn_its_2_b%s", behind[i]);
+        assert_string_equal(name, wanted);
+        CHECK_BELOW("start [s]", experiment_of(&fmu, "startTime") + 0.1, 0);
+        // the rocket is out at 0.1595 s, 0.2595 s after the start
+        CHECK_BELOW("stop [s]", experiment_of(&fmu, "stopTime") - 0.16, 1e-12);
+        fmu_close(&fmu);
+    }
+    unpacked_fmu stuck = fmu_open("examples/fixed.yaml --set run.end=0.3s --set title=none", 3);
+    CHECK_BELOW("stop of one that ends when it is told to [s]",
+                experiment_of(&stuck, "stopTime") - 0.3, 1e-12);
+    fmu_close(&stuck);
+}
+
 // ---- two at a time ----
 
 typedef struct side {
@@ -609,6 +647,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(speaks_version_2, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(refuses_wrong_values, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(is_described, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(is_named_and_timed, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(go_side_by_side, shell_make, shell_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

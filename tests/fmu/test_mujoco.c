@@ -37,7 +37,7 @@ static bool opened(void)
         printf("    skipped: MuJoCo is not here, so there is no vehicle of it\n");
         return false;
     }
-    fmu = fmu_unpack(PACKED, 2, "mujoco_vehicle");
+    fmu = fmu_unpack(PACKED, 2);
     return true;
 }
 

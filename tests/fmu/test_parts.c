@@ -498,12 +498,22 @@ static void archive_holds_both(void **state)
             "v.fmu && mkdir x && cd x && unzip -q ../both.ssp && "
             "cmp resources/vehicle.fmu ../v.fmu && ls . resources && "
             "grep -c '<ssd:Connection start' SystemStructure.ssd && "
-            "grep -o 'startConnector=\"base.position.y\".*' SystemStructure.ssd"),
+            "grep -o 'startConnector=\"base.position.y\".*' SystemStructure.ssd && "
+            "for part in vehicle launcher; do unzip -qp resources/$part.fmu modelDescription.xml | "
+            "grep -c 'causality=\"\\(input\\|output\\)\"'; done && "
+            "grep -c '<ssd:Connector ' SystemStructure.ssd && "
+            "grep -o '<ssd:Connector name=\"\\(input.ignition\\|summary.rocket.1.yaw\\)\".*' "
+            "SystemStructure.ssd"),
         0);
     assert_string_equal(
         shell.out, ".:\nSystemStructure.ssd\nresources\n\nresources:\nlauncher.fmu\n"
                    "vehicle.fmu\n19\nstartConnector=\"base.position.y\" endElement=\"launcher\" "
-                   "endConnector=\"input.base.position.y\"/>\n");
+                   "endConnector=\"input.base.position.y\"/>\n"
+                   "113\n227\n340\n"
+                   "<ssd:Connector name=\"input.ignition\" kind=\"input\"><ssc:Boolean/>"
+                   "</ssd:Connector>\n"
+                   "<ssd:Connector name=\"summary.rocket.1.yaw\" kind=\"output\"><ssc:Real/>"
+                   "</ssd:Connector>\n");
     assert_int_equal(run("ls | grep both"), 0);
     assert_string_equal(shell.out, "both.ssp\n");
 }

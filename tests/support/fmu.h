@@ -57,11 +57,11 @@ static inline void attribute_after(const char *at, const char *name, char *value
 }
 
 // Unpacks an FMU in the shell's folder and loads its binary.
-static inline unpacked_fmu fmu_unpack(const char *packed, int version, const char *identifier)
+static inline unpacked_fmu fmu_unpack(const char *packed, int version)
 {
     unpacked_fmu self = {0};
     static int number;
-    char file[256];
+    char file[512], identifier[128];
     snprintf(self.folder, sizeof self.folder, "%s/unpacked-%d", shell.folder, ++number);
     snprintf(self.resources, sizeof self.resources, "%s/resources", self.folder);
     unzFile zip = unzOpen64(packed);
@@ -78,6 +78,7 @@ static inline unpacked_fmu fmu_unpack(const char *packed, int version, const cha
     fclose(stream);
     attribute_after(self.description, version == 2 ? "guid" : "instantiationToken", self.token,
                     sizeof self.token);
+    attribute_after(self.description, "modelIdentifier", identifier, sizeof identifier);
 
     snprintf(file, sizeof file, "%s/binaries/%s/%s.so", self.folder,
              version == 2 ? "linux64" : "x86_64-linux", identifier);
@@ -98,7 +99,7 @@ static inline unpacked_fmu fmu_open(const char *scenario, int version)
     assert_int_equal(run(line), 0);
     assert_string_equal(shell.out, "");
     snprintf(file, sizeof file, "%s/%d.fmu", shell.folder, number);
-    return fmu_unpack(file, version, "launchdyn");
+    return fmu_unpack(file, version);
 }
 
 static inline void fmu_close(unpacked_fmu *self)
