@@ -50,6 +50,13 @@ ld_status fmu_set_time(fmu_instance *self, double t, ld_error *error)
     return LD_OK;
 }
 
+// The launch has come to its end. That is told at the end of the next step, so that an importer
+// records what came of it; until then all stands still.
+static bool is_over(const fmu_instance *self)
+{
+    return ld_run_is_finished(self->run);
+}
+
 static ld_status check_count(const fmu_instance *self, fmu_vector which, size_t count,
                              ld_error *error)
 {
@@ -97,9 +104,9 @@ ld_status fmu_get_vector(fmu_instance *self, fmu_vector which, double *value, si
         launch_outside_nominals(self->run, value);
         return LD_OK;
     case FMU_RATES:
-        return launch_outside_rates(self->run, value, error);
+        return fmu_rates(self, value, error);
     default:
-        return launch_outside_values(self->run, value, error);
+        return fmu_indicators(self, value, error);
     }
 }
 
@@ -118,11 +125,13 @@ ld_status fmu_complete_step(fmu_instance *self, bool *at_event, bool *ended, ld_
 {
     *at_event = *ended = false;
     ld_status status = check_mode(self, true, error);
-    if (!status)
-        status = fmu_place(self, error);
+    *ended = !status && is_over(self);
+    if (status || *ended)
+        return status;
+    status = fmu_place(self, error);
     if (!status)
         status = launch_outside_accept(self->run, at_event, error);
-    *ended = !status && ld_run_is_finished(self->run);
+    *at_event |= !status && is_over(self);
     return status;
 }
 
@@ -142,8 +151,10 @@ ld_status fmu_update_states(fmu_instance *self, fmu_update *update, ld_error *er
 {
     *update = (fmu_update){.next = INFINITY};
     ld_status status = check_mode(self, false, error);
-    if (!status)
-        status = fmu_place(self, error);
+    update->ended = !status && is_over(self);
+    if (status || update->ended)
+        return status;
+    status = fmu_place(self, error);
     if (!status)
         status = launch_outside_happen(self->run, &update->changed, error);
     if (!status)
@@ -152,8 +163,8 @@ ld_status fmu_update_states(fmu_instance *self, fmu_update *update, ld_error *er
     if (status)
         return status;
     launch_outside_get(self->run, self->exchange.x);
-    update->ended = ld_run_is_finished(self->run);
-    update->next = launch_outside_next(self->run) + self->ahead;
+    if (!is_over(self))
+        update->next = launch_outside_next(self->run) + self->ahead;
     return LD_OK;
 }
 

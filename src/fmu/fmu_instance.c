@@ -206,10 +206,35 @@ static void take_place(fmu_instance *self)
     launch_outside_get(self->run, self->exchange.x);
 }
 
+// It is the importer's, and over.
+static bool stands_still(const fmu_instance *self)
+{
+    return self->exchange.is && self->variables.runner->is_finished(self->run);
+}
+
+static ld_status fill(int count, double value, double *values)
+{
+    for (int i = 0; i < count; i++)
+        values[i] = value;
+    return LD_OK;
+}
+
+ld_status fmu_rates(fmu_instance *self, double *rates, ld_error *error)
+{
+    return stands_still(self) ? fill(launch_outside_states(self->run), 0, rates)
+                              : launch_outside_rates(self->run, rates, error);
+}
+
+ld_status fmu_indicators(fmu_instance *self, double *values, ld_error *error)
+{
+    return stands_still(self) ? fill(launch_outside_indicators(self->run), 1, values)
+                              : launch_outside_values(self->run, values, error);
+}
+
 ld_status fmu_place(fmu_instance *self, ld_error *error)
 {
     double told[FMU_MOST_NUMBERS];
-    if (!self->exchange.is || !self->exchange.moved)
+    if (!self->exchange.is || !self->exchange.moved || stands_still(self))
         return LD_OK;
     find_told(self, false, told);
     self->exchange.moved = self->row_known = false;
@@ -415,9 +440,9 @@ static ld_status exchanged(fmu_instance *self, const fmu_variable *variable, dou
     if (variable->group == FMU_STATE)
         launch_outside_get(self->run, all);
     else if (variable->group == FMU_RATE)
-        status = launch_outside_rates(self->run, all, error);
+        status = fmu_rates(self, all, error);
     else
-        status = launch_outside_values(self->run, all, error);
+        status = fmu_indicators(self, all, error);
     *value = status ? NAN : all[variable->index];
     return status;
 }

@@ -52,4 +52,8 @@ ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error);
 // The run is where an importer is that takes the steps: time, states and inputs.
 ld_status fmu_place(fmu_instance *self, ld_error *error);
 
+// Rates and event indicators there; after the launch an importer's states stand still.
+ld_status fmu_rates(fmu_instance *self, double *rates, ld_error *error);
+ld_status fmu_indicators(fmu_instance *self, double *values, ld_error *error);
+
 #endif

@@ -132,17 +132,63 @@ static void comes_to_what_the_library_comes_to(void **state)
     }
 }
 
+// ---- the end ----
+
+static bool same(double a, double b)
+{
+    return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
+}
+
+enum { EXIT_FIGURES = 4 };
+static const char *const exit_figures[EXIT_FIGURES] = {"summary.rocket.1.t_rear",
+                                                       "summary.rocket.1.muzzle_speed",
+                                                       "summary.rocket.1.yaw_rate", "rocket.s"};
+static double recorded[EXIT_FIGURES];
+
+static void record_exit(importer *self)
+{
+    for (int i = 0; i < EXIT_FIGURES; i++)
+        recorded[i] = importer_value(self, exit_figures[i]);
+}
+
+// An importer that stops at once where it is told to, and records no more then, has what is known
+// at the end alone: that is told a step later. Until then all stands still.
+static void the_end_is_recorded(void **state)
+{
+    (void)state;
+    static double x[IMPORTER_MOST], rate[IMPORTER_MOST];
+    for (int version = 2; version <= 3; version++) {
+        unpacked_fmu fmu = fmu_open("examples/fixed.yaml", version);
+        importer by;
+        importer_open(&by, &fmu, version);
+        by.sample = record_exit;
+        importer_start(&by, 0);
+        importer_integrate(&by, 1e-6);
+        importer_go(&by, INFINITY);
+        assert_true(by.ended);
+        for (int i = 0; i < EXIT_FIGURES; i++)
+            assert_true(same(recorded[i], importer_value(&by, exit_figures[i])));
+        CHECK_WITHIN("rear adaptor out, as recorded [s]", recorded[0], 0.1594, 0.1595);
+        CHECK_WITHIN("speed then, as recorded [m/s]", recorded[1], 30, 50);
+        memcpy(x, by.x, by.states * sizeof *x);
+        importer_place(&by, by.t + 1, x);
+        importer_rates(&by, rate);
+        for (size_t i = 0; i < by.states; i++)
+            assert_true(rate[i] == 0);
+        assert_false(importer_complete(&by));
+        importer_get_states(&by);
+        assert_memory_equal(x, by.x, by.states * sizeof *x);
+        importer_close(&by);
+        fmu_close(&fmu);
+    }
+}
+
 // ---- rates, states, outputs of one point ----
 
 static const char *const outputs[] = {"rocket.s",          "tip.y",
                                       "rocket.pitch_rate", "energy.kinetic",
                                       "wrench.moment.z",   "summary.rocket.1.t_release"};
 enum { OUTPUTS = sizeof outputs / sizeof *outputs };
-
-static bool same(double a, double b)
-{
-    return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
-}
 
 // The names of states, in their order: of a rate it is in brackets.
 static int state_names(const unpacked_fmu *fmu, char name[][64], int most)
@@ -552,6 +598,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(comes_to_what_the_library_comes_to, shell_make,
                                         shell_remove),
+        cmocka_unit_test_setup_teardown(the_end_is_recorded, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(tells_the_same_at_a_point, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(goes_back_from_an_event, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(asks_for_a_place_on_the_axis, shell_make, shell_remove),

@@ -23,6 +23,7 @@ struct importer {
     int version;
     void *instance;
     importer_input input;
+    void (*sample)(importer *self); // records, where it goes on from and before events; or NULL
     size_t states, indicators;
     double t, x[IMPORTER_MOST], next; // [s] where it is; when the next time event comes
     bool ended;
@@ -267,6 +268,8 @@ static inline void importer_integrate(importer *self, double tolerance)
 static inline void importer_go(importer *self, double t)
 {
     while (!self->ended && self->t < t) {
+        if (self->sample)
+            self->sample(self);
         double stop = fmin(fmin(t, self->next), self->t + 1); // finite
         CVodeSetStopTime(self->cvode, stop);
         int flag = CVode(self->cvode, stop, self->y, &self->t, CV_ONE_STEP);
@@ -276,6 +279,8 @@ static inline void importer_go(importer *self, double t)
         bool asked = importer_complete(self);
         if (!asked && flag != CV_ROOT_RETURN && self->t != self->next)
             continue;
+        if (self->sample)
+            self->sample(self);
         importer_event(self);
         if (!self->ended)
             assert_int_equal(CVodeReInit(self->cvode, self->t, self->y), 0);
