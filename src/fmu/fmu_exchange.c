@@ -131,6 +131,7 @@ ld_status fmu_complete_step(fmu_instance *self, bool *at_event, bool *ended, ld_
     status = fmu_place(self, error);
     if (!status)
         status = launch_outside_accept(self->run, at_event, error);
+    fmu_forget_outputs(self);
     *at_event |= !status && is_over(self);
     return status;
 }
@@ -159,7 +160,7 @@ ld_status fmu_update_states(fmu_instance *self, fmu_update *update, ld_error *er
         status = launch_outside_happen(self->run, &update->changed, error);
     if (!status)
         status = fmu_light(self, &update->changed, error);
-    self->row_known = false;
+    fmu_forget_outputs(self);
     if (status)
         return status;
     launch_outside_get(self->run, self->exchange.x);

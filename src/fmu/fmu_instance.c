@@ -24,12 +24,17 @@ static ld_status no_memory(ld_error *error)
 
 // ---- model, simulation, run ----
 
+void fmu_forget_outputs(fmu_instance *self)
+{
+    self->known.row = self->known.result = self->known.tells = false;
+}
+
 static void end_run(fmu_instance *self)
 {
     if (self->run)
         self->variables.runner->end(self->run);
     self->run = NULL;
-    self->row_known = false;
+    fmu_forget_outputs(self);
 }
 
 static void unbuild(fmu_instance *self)
@@ -237,7 +242,8 @@ ld_status fmu_place(fmu_instance *self, ld_error *error)
     if (!self->exchange.is || !self->exchange.moved || stands_still(self))
         return LD_OK;
     find_told(self, false, told);
-    self->exchange.moved = self->row_known = false;
+    self->exchange.moved = false;
+    fmu_forget_outputs(self);
     return self->variables.runner->exchanging->place(self->run, self->exchange.t - self->ahead,
                                                      self->exchange.x, told, error);
 }
@@ -312,7 +318,10 @@ static ld_status make_room(fmu_instance *self, ld_error *error)
     self->text = calloc(count, sizeof *self->text);
     self->changed = calloc(count, sizeof *self->changed);
     self->row = calloc(1 + fmu_group_count(&self->variables, FMU_COLUMN), sizeof *self->row);
-    return self->number && self->text && self->changed && self->row ? LD_OK : no_memory(error);
+    self->result = calloc(1 + fmu_group_count(&self->variables, FMU_RESULT), sizeof *self->result);
+    return self->number && self->text && self->changed && self->row && self->result
+               ? LD_OK
+               : no_memory(error);
 }
 
 // Whether the instance can be one for model exchange; else why not.
@@ -357,6 +366,7 @@ static void forget(fmu_instance *self)
     free(self->text);
     free(self->changed);
     free(self->row);
+    free(self->result);
 }
 
 void fmu_instance_free(fmu_instance *self)
@@ -447,6 +457,36 @@ static ld_status exchanged(fmu_instance *self, const fmu_variable *variable, dou
     return status;
 }
 
+// The variable of a result that is next in its place, as they come in their order.
+typedef struct result_reader {
+    fmu_instance *self;
+    size_t next, first, end;
+} result_reader;
+
+static void take_result(void *data, const ld_quantity *one)
+{
+    result_reader *at = data;
+    const fmu_variable *item = at->self->variables.item;
+    bool is_rocket = strncmp(one->name, "rocket.", strlen("rocket.")) == 0;
+    for (size_t i = at->next; i < at->end && is_rocket; i++)
+        if (strcmp(item[i].name + strlen("summary."), one->name) == 0) {
+            at->self->result[i - at->first] = one->value;
+            at->next = i + 1;
+            return;
+        }
+}
+
+// Of a rocket that is still to come there is none.
+static void read_results(fmu_instance *self)
+{
+    const fmu_variables *all = &self->variables;
+    size_t first = fmu_group_begin(all, FMU_RESULT), count = fmu_group_count(all, FMU_RESULT);
+    result_reader at = {self, first, first, first + count};
+    for (size_t i = 0; i < count; i++)
+        self->result[i] = NAN;
+    ld_summary_each(all->runner->summary(self->run), take_result, &at);
+}
+
 static ld_status tell(fmu_instance *self, ld_error *error);
 
 // Outputs follow inputs at once.
@@ -454,7 +494,6 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
                         ld_error *error)
 {
     const fmu_runner *runner = self->variables.runner;
-    double tells[FMU_MOST_NUMBERS];
     ld_status status = fmu_begin(self, error);
     if (!status && self->told_set && !self->exchange.is)
         status = tell(self, error);
@@ -467,22 +506,26 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
         *value = runner->time(self->run) + self->ahead;
         return LD_OK;
     case FMU_TELLS:
-        status = runner->tells(self->run, tells, error);
-        *value = tells[variable->index];
+        if (!self->known.tells)
+            status = runner->tells(self->run, self->tells, error);
+        self->known.tells = !status;
+        *value = self->tells[variable->index];
         return status;
     case FMU_COLUMN:
-        if (!self->row_known)
+        if (!self->known.row)
             status = runner->row(self->run, self->row, error);
-        self->row_known = !status;
+        self->known.row = !status;
         *value = self->row[variable->index];
         return status;
     case FMU_STATE:
     case FMU_RATE:
     case FMU_INDICATOR:
         return exchanged(self, variable, value, error);
-    default: // of a rocket that is still to come there is none
-        ld_summary_number(runner->summary(self->run), variable->name + strlen("summary."), value,
-                          error);
+    default:
+        if (!self->known.result)
+            read_results(self);
+        self->known.result = true;
+        *value = self->result[variable->index];
         return LD_OK;
     }
 }
@@ -576,7 +619,7 @@ static ld_status tell(fmu_instance *self, ld_error *error)
         return LD_OK;
     memcpy(self->told, told, sizeof told);
     self->told_at = now;
-    self->row_known = false;
+    fmu_forget_outputs(self);
     return runner->tell(self->run, told, error);
 }
 
@@ -588,7 +631,7 @@ ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error)
     if (!is || was)
         return LD_OK;
     *lit = true;
-    self->row_known = false;
+    fmu_forget_outputs(self);
     return runner->ignite(self->run, runner->time(self->run), error);
 }
 
@@ -616,7 +659,7 @@ ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events,
         return ld_fail(error, LD_ERR_INPUT,
                        "a step of %.17g s from %.17g s, where the run is at %.17g s", size, t, now);
     ld_status status = apply_inputs(self, error);
-    self->row_known = false;
+    fmu_forget_outputs(self);
     if (!status && at_events)
         status = runner->advance_to_event(self->run, end, &step->event, error);
     else if (!status)

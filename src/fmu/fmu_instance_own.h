@@ -38,13 +38,19 @@ struct fmu_instance {
     double told[FMU_MOST_NUMBERS]; // what the run was told last, and when
     double told_at;                // [s] on the run's clock
     bool lit;                      // the input of the last step
-    double *row;                   // columns at the present
-    bool row_known;
+    // outputs at the present, by index, where they have been asked for (`known`)
+    double *row, *result, tells[FMU_MOST_NUMBERS];
+    struct {
+        bool row, result, tells;
+    } known;
 
     fmu_exchange exchange; // of an instance for model exchange
 };
 
 typedef struct fmu_instance fmu_instance;
+
+// The present is another one: no output is known.
+void fmu_forget_outputs(fmu_instance *self);
 
 // Lights the rocket where the input has become true since the last step; then `*lit` becomes true.
 ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error);
