@@ -16,6 +16,7 @@ typedef struct component {
     fmu_instance *inside;
     fmi2CallbackFunctions call;
     char *name;
+    bool terminated;
     fmu_step last;
 } component;
 
@@ -31,9 +32,33 @@ static fmi2Status answer(const component *self, ld_status status, const ld_error
 {
     if (!status)
         return fmi2OK;
+    if (!self)
+        return fmi2Error;
     say(self, fmi2Error, "logStatusError", error->text);
     return fmi2Error;
 }
+
+// A call that cannot be taken; without an instance there is no log to say why.
+static fmi2Status refuse_call(const component *self, const char *function, const char *why)
+{
+    ld_error error;
+    return self ? answer(self, ld_fail(&error, LD_ERR_INPUT, "%s: %s", function, why), &error)
+                : fmi2Error;
+}
+
+// What a call needs: an instance, and what it points to; most of all that it has not been
+// terminated.
+#define NEEDS(pointers)                                                                            \
+    do {                                                                                           \
+        if (!self || !(pointers))                                                                  \
+            return refuse_call(self, __func__, "a pointer is null");                               \
+    } while (0)
+#define NEEDS_ALIVE(pointers)                                                                      \
+    do {                                                                                           \
+        NEEDS(pointers);                                                                           \
+        if (self->terminated)                                                                      \
+            return refuse_call(self, __func__, "the instance has been terminated");                \
+    } while (0)
 
 static fmi2Status not_offered(void *c, const char *function)
 {
@@ -135,6 +160,7 @@ fmi2Status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance,
                                int stop_defined, double stop)
 {
     component *self = c;
+    NEEDS_ALIVE(true);
     ld_error error;
     (void)stop_defined, (void)stop;
     return answer(
@@ -144,28 +170,34 @@ fmi2Status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance,
 
 fmi2Status fmi2EnterInitializationMode(void *c)
 {
-    (void)c;
+    component *self = c;
+    NEEDS_ALIVE(true);
     return fmi2OK;
 }
 
 fmi2Status fmi2ExitInitializationMode(void *c)
 {
     component *self = c;
+    NEEDS_ALIVE(true);
     ld_error error;
     return answer(self, fmu_go(self->inside, &error), &error);
 }
 
 fmi2Status fmi2Terminate(void *c)
 {
-    (void)c;
+    component *self = c;
+    NEEDS_ALIVE(true);
+    self->terminated = true;
     return fmi2OK;
 }
 
 fmi2Status fmi2Reset(void *c)
 {
     component *self = c;
+    NEEDS(true);
     ld_error error;
     self->last = (fmu_step){0};
+    self->terminated = false;
     return answer(self, fmu_instance_reset(self->inside, &error), &error);
 }
 
@@ -174,6 +206,7 @@ fmi2Status fmi2Reset(void *c)
 fmi2Status fmi2GetReal(void *c, const unsigned *reference, size_t count, double *value)
 {
     component *self = c;
+    NEEDS(count == 0 || (reference && value));
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
@@ -185,6 +218,7 @@ fmi2Status fmi2GetReal(void *c, const unsigned *reference, size_t count, double 
 fmi2Status fmi2SetReal(void *c, const unsigned *reference, size_t count, const double *value)
 {
     component *self = c;
+    NEEDS_ALIVE(count == 0 || (reference && value));
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
@@ -196,6 +230,7 @@ fmi2Status fmi2SetReal(void *c, const unsigned *reference, size_t count, const d
 fmi2Status fmi2GetBoolean(void *c, const unsigned *reference, size_t count, int *value)
 {
     component *self = c;
+    NEEDS(count == 0 || (reference && value));
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++) {
@@ -210,6 +245,7 @@ fmi2Status fmi2GetBoolean(void *c, const unsigned *reference, size_t count, int 
 fmi2Status fmi2SetBoolean(void *c, const unsigned *reference, size_t count, const int *value)
 {
     component *self = c;
+    NEEDS_ALIVE(count == 0 || (reference && value));
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
@@ -221,6 +257,7 @@ fmi2Status fmi2SetBoolean(void *c, const unsigned *reference, size_t count, cons
 fmi2Status fmi2GetString(void *c, const unsigned *reference, size_t count, const char **value)
 {
     component *self = c;
+    NEEDS(count == 0 || (reference && value));
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
@@ -231,6 +268,7 @@ fmi2Status fmi2GetString(void *c, const unsigned *reference, size_t count, const
 fmi2Status fmi2SetString(void *c, const unsigned *reference, size_t count, const char *const *value)
 {
     component *self = c;
+    NEEDS_ALIVE(count == 0 || (reference && value));
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
@@ -256,6 +294,7 @@ fmi2Status fmi2SetInteger(void *c, const unsigned *reference, size_t count, cons
 fmi2Status fmi2DoStep(void *c, double t, double size, int no_return)
 {
     component *self = c;
+    NEEDS_ALIVE(true);
     ld_error error;
     (void)no_return;
     fmi2Status status =
@@ -277,6 +316,7 @@ fmi2Status fmi2GetStatus(void *c, fmi2StatusKind kind, fmi2Status *value)
 fmi2Status fmi2GetRealStatus(void *c, fmi2StatusKind kind, double *value)
 {
     const component *self = c;
+    NEEDS(value);
     if (kind != fmi2LastSuccessfulTime)
         return not_offered(c, "fmi2GetRealStatus");
     *value = self->last.t;
@@ -292,6 +332,7 @@ fmi2Status fmi2GetIntegerStatus(void *c, fmi2StatusKind kind, int *value)
 fmi2Status fmi2GetBooleanStatus(void *c, fmi2StatusKind kind, int *value)
 {
     const component *self = c;
+    NEEDS(value);
     if (kind != fmi2Terminated)
         return not_offered(c, "fmi2GetBooleanStatus");
     *value = self->last.ended;
@@ -330,7 +371,8 @@ fmi2Status fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t
 
 fmi2Status fmi2FreeFMUstate(void *c, void **state)
 {
-    (void)c;
+    component *self = c;
+    NEEDS(state);
     free(*state);
     *state = NULL;
     return fmi2OK;
@@ -339,6 +381,7 @@ fmi2Status fmi2FreeFMUstate(void *c, void **state)
 fmi2Status fmi2GetFMUstate(void *c, void **state)
 {
     component *self = c;
+    NEEDS(state);
     ld_error error;
     fmu_state *saved;
     ld_status status = fmu_save(self->inside, &saved, &error);
@@ -352,31 +395,39 @@ fmi2Status fmi2GetFMUstate(void *c, void **state)
 fmi2Status fmi2SetFMUstate(void *c, void *state)
 {
     component *self = c;
+    NEEDS(state);
     ld_error error;
-    return answer(self, fmu_load(self->inside, state, &error), &error);
+    ld_status status = fmu_load(self->inside, state, &error);
+    self->terminated &= status != LD_OK;
+    return answer(self, status, &error);
 }
 
 fmi2Status fmi2SerializedFMUstateSize(void *c, void *state, size_t *size)
 {
-    (void)c;
+    component *self = c;
+    NEEDS(state && size);
     *size = ((const fmu_state *)state)->size;
     return fmi2OK;
 }
 
 fmi2Status fmi2SerializeFMUstate(void *c, void *state, char *bytes, size_t size)
 {
+    component *self = c;
+    NEEDS(state && bytes);
     ld_error error;
-    return answer(c, fmu_state_write(state, bytes, size, &error), &error);
+    return answer(self, fmu_state_write(state, bytes, size, &error), &error);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void **state)
 {
+    component *self = c;
+    NEEDS(bytes && state);
     ld_error error;
     fmu_state *read;
     ld_status status = fmu_state_read(bytes, size, &read, &error);
     if (!status)
         *state = read;
-    return answer(c, status, &error);
+    return answer(self, status, &error);
 }
 
 // ---- model exchange ----
@@ -394,6 +445,7 @@ static fmi2Status answer_trial(const component *self, ld_status status, const ld
 fmi2Status fmi2EnterEventMode(void *c)
 {
     component *self = c;
+    NEEDS_ALIVE(true);
     ld_error error;
     return answer(self, fmu_enter_event_mode(self->inside, &error), &error);
 }
@@ -401,6 +453,7 @@ fmi2Status fmi2EnterEventMode(void *c)
 fmi2Status fmi2NewDiscreteStates(void *c, fmi2EventInfo *info)
 {
     component *self = c;
+    NEEDS_ALIVE(info);
     ld_error error;
     fmu_update update;
     ld_status status = fmu_update_states(self->inside, &update, &error);
@@ -416,6 +469,7 @@ fmi2Status fmi2NewDiscreteStates(void *c, fmi2EventInfo *info)
 fmi2Status fmi2EnterContinuousTimeMode(void *c)
 {
     component *self = c;
+    NEEDS_ALIVE(true);
     ld_error error;
     return answer(self, fmu_enter_continuous_time(self->inside, &error), &error);
 }
@@ -423,6 +477,7 @@ fmi2Status fmi2EnterContinuousTimeMode(void *c)
 fmi2Status fmi2CompletedIntegratorStep(void *c, int no_return, int *enter_event, int *terminate)
 {
     component *self = c;
+    NEEDS_ALIVE(enter_event && terminate);
     ld_error error;
     bool at_event, ended;
     (void)no_return;
@@ -435,6 +490,7 @@ fmi2Status fmi2CompletedIntegratorStep(void *c, int no_return, int *enter_event,
 fmi2Status fmi2SetTime(void *c, double t)
 {
     component *self = c;
+    NEEDS_ALIVE(true);
     ld_error error;
     return answer(self, fmu_set_time(self->inside, t, &error), &error);
 }
@@ -442,6 +498,7 @@ fmi2Status fmi2SetTime(void *c, double t)
 fmi2Status fmi2SetContinuousStates(void *c, const double *x, size_t count)
 {
     component *self = c;
+    NEEDS_ALIVE(x || count == 0);
     ld_error error;
     return answer_trial(self, fmu_set_states(self->inside, x, count, &error), &error);
 }
@@ -449,6 +506,7 @@ fmi2Status fmi2SetContinuousStates(void *c, const double *x, size_t count)
 static fmi2Status get_vector(component *self, fmu_vector which, double *value, size_t count)
 {
     ld_error error;
+    NEEDS(value || count == 0);
     return answer_trial(self, fmu_get_vector(self->inside, which, value, count, &error), &error);
 }
 

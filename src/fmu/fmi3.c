@@ -16,16 +16,41 @@ typedef struct component {
     bool at_events; // steps end at events, where the importer is ready for them
     bool ended;
     bool exchange; // for model exchange
+    bool terminated;
 } component;
 
 static fmi3Status answer(const component *self, ld_status status, const ld_error *error)
 {
     if (!status)
         return fmi3OK;
+    if (!self)
+        return fmi3Error;
     if (self->log)
         self->log(self->environment, fmi3Error, "logStatusError", error->text);
     return fmi3Error;
 }
+
+// A call that cannot be taken; without an instance there is no log to say why.
+static fmi3Status refuse_call(const component *self, const char *function, const char *why)
+{
+    ld_error error;
+    return self ? answer(self, ld_fail(&error, LD_ERR_INPUT, "%s: %s", function, why), &error)
+                : fmi3Error;
+}
+
+// What a call needs: an instance, and what it points to; most of all that it has not been
+// terminated.
+#define NEEDS(pointers)                                                                            \
+    do {                                                                                           \
+        if (!self || !(pointers))                                                                  \
+            return refuse_call(self, __func__, "a pointer is null");                               \
+    } while (0)
+#define NEEDS_ALIVE(pointers)                                                                      \
+    do {                                                                                           \
+        NEEDS(pointers);                                                                           \
+        if (self->terminated)                                                                      \
+            return refuse_call(self, __func__, "the instance has been terminated");                \
+    } while (0)
 
 static fmi3Status not_offered(void *instance, const char *function)
 {
@@ -118,6 +143,7 @@ fmi3Status fmi3EnterInitializationMode(void *instance, bool tolerance_defined, d
                                        double start, bool stop_defined, double stop)
 {
     component *self = instance;
+    NEEDS_ALIVE(true);
     ld_error error;
     (void)stop_defined, (void)stop;
     return answer(
@@ -128,6 +154,7 @@ fmi3Status fmi3EnterInitializationMode(void *instance, bool tolerance_defined, d
 fmi3Status fmi3ExitInitializationMode(void *instance)
 {
     component *self = instance;
+    NEEDS_ALIVE(true);
     ld_error error;
     return answer(self, fmu_go(self->inside, &error), &error);
 }
@@ -144,15 +171,19 @@ fmi3Status fmi3ExitConfigurationMode(void *instance)
 
 fmi3Status fmi3Terminate(void *instance)
 {
-    (void)instance;
+    component *self = instance;
+    NEEDS_ALIVE(true);
+    self->terminated = true;
     return fmi3OK;
 }
 
 fmi3Status fmi3Reset(void *instance)
 {
     component *self = instance;
+    NEEDS(true);
     ld_error error;
     self->ended = false;
+    self->terminated = false;
     return answer(self, fmu_instance_reset(self->inside, &error), &error);
 }
 
@@ -174,6 +205,7 @@ fmi3Status fmi3GetFloat64(void *instance, const uint32_t *reference, size_t refe
                           double *value, size_t values)
 {
     component *self = instance;
+    NEEDS(references == 0 || (reference && value));
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
@@ -186,6 +218,7 @@ fmi3Status fmi3SetFloat64(void *instance, const uint32_t *reference, size_t refe
                           const double *value, size_t values)
 {
     component *self = instance;
+    NEEDS_ALIVE(references == 0 || (reference && value));
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
@@ -198,6 +231,7 @@ fmi3Status fmi3GetBoolean(void *instance, const uint32_t *reference, size_t refe
                           size_t values)
 {
     component *self = instance;
+    NEEDS(references == 0 || (reference && value));
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++) {
@@ -213,6 +247,7 @@ fmi3Status fmi3SetBoolean(void *instance, const uint32_t *reference, size_t refe
                           const bool *value, size_t values)
 {
     component *self = instance;
+    NEEDS_ALIVE(references == 0 || (reference && value));
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
@@ -225,6 +260,7 @@ fmi3Status fmi3GetString(void *instance, const uint32_t *reference, size_t refer
                          const char **value, size_t values)
 {
     component *self = instance;
+    NEEDS(references == 0 || (reference && value));
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
@@ -236,6 +272,7 @@ fmi3Status fmi3SetString(void *instance, const uint32_t *reference, size_t refer
                          const char *const *value, size_t values)
 {
     component *self = instance;
+    NEEDS_ALIVE(references == 0 || (reference && value));
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
@@ -316,6 +353,7 @@ fmi3Status fmi3DoStep(void *instance, double t, double size, bool no_return, boo
                       bool *terminate, bool *early, double *reached)
 {
     component *self = instance;
+    NEEDS_ALIVE(event && terminate && early && reached);
     ld_error error;
     fmu_step step;
     (void)no_return;
@@ -331,6 +369,7 @@ fmi3Status fmi3DoStep(void *instance, double t, double size, bool no_return, boo
 fmi3Status fmi3EnterEventMode(void *instance)
 {
     component *self = instance;
+    NEEDS_ALIVE(true);
     ld_error error;
     return self->exchange ? answer(self, fmu_enter_event_mode(self->inside, &error), &error)
                           : fmi3OK;
@@ -338,7 +377,8 @@ fmi3Status fmi3EnterEventMode(void *instance)
 
 fmi3Status fmi3EnterStepMode(void *instance)
 {
-    (void)instance;
+    component *self = instance;
+    NEEDS_ALIVE(true);
     return fmi3OK;
 }
 
@@ -347,6 +387,7 @@ fmi3Status fmi3UpdateDiscreteStates(void *instance, bool *again, bool *terminate
                                     bool *values, bool *next_defined, double *next)
 {
     component *self = instance;
+    NEEDS_ALIVE(again && terminate && nominals && values && next_defined && next);
     ld_error error;
     fmu_update update = {.ended = self->ended, .next = INFINITY};
     ld_status status = self->exchange ? fmu_update_states(self->inside, &update, &error) : LD_OK;
@@ -392,7 +433,8 @@ fmi3Status fmi3GetAdjointDerivative(void *instance, const uint32_t *unknown, siz
 
 fmi3Status fmi3FreeFMUState(void *instance, void **state)
 {
-    (void)instance;
+    component *self = instance;
+    NEEDS(state);
     free(*state);
     *state = NULL;
     return fmi3OK;
@@ -401,6 +443,7 @@ fmi3Status fmi3FreeFMUState(void *instance, void **state)
 fmi3Status fmi3GetFMUState(void *instance, void **state)
 {
     component *self = instance;
+    NEEDS(state);
     ld_error error;
     fmu_state *saved;
     ld_status status = fmu_save(self->inside, &saved, &error);
@@ -414,31 +457,39 @@ fmi3Status fmi3GetFMUState(void *instance, void **state)
 fmi3Status fmi3SetFMUState(void *instance, void *state)
 {
     component *self = instance;
+    NEEDS(state);
     ld_error error;
-    return answer(self, fmu_load(self->inside, state, &error), &error);
+    ld_status status = fmu_load(self->inside, state, &error);
+    self->terminated &= status != LD_OK;
+    return answer(self, status, &error);
 }
 
 fmi3Status fmi3SerializedFMUStateSize(void *instance, void *state, size_t *size)
 {
-    (void)instance;
+    component *self = instance;
+    NEEDS(state && size);
     *size = ((const fmu_state *)state)->size;
     return fmi3OK;
 }
 
 fmi3Status fmi3SerializeFMUState(void *instance, void *state, uint8_t *bytes, size_t size)
 {
+    component *self = instance;
+    NEEDS(state && bytes);
     ld_error error;
-    return answer(instance, fmu_state_write(state, bytes, size, &error), &error);
+    return answer(self, fmu_state_write(state, bytes, size, &error), &error);
 }
 
 fmi3Status fmi3DeserializeFMUState(void *instance, const uint8_t *bytes, size_t size, void **state)
 {
+    component *self = instance;
+    NEEDS(bytes && state);
     ld_error error;
     fmu_state *read;
     ld_status status = fmu_state_read(bytes, size, &read, &error);
     if (!status)
         *state = read;
-    return answer(instance, status, &error);
+    return answer(self, status, &error);
 }
 
 // ---- clocks: there are none ----
@@ -528,6 +579,7 @@ static fmi3Status answer_trial(const component *self, ld_status status, const ld
 fmi3Status fmi3EnterContinuousTimeMode(void *instance)
 {
     component *self = instance;
+    NEEDS_ALIVE(true);
     ld_error error;
     return answer(self, fmu_enter_continuous_time(self->inside, &error), &error);
 }
@@ -535,6 +587,7 @@ fmi3Status fmi3EnterContinuousTimeMode(void *instance)
 fmi3Status fmi3CompletedIntegratorStep(void *instance, bool no_return, bool *event, bool *terminate)
 {
     component *self = instance;
+    NEEDS_ALIVE(event && terminate);
     ld_error error;
     (void)no_return;
     return answer(self, fmu_complete_step(self->inside, event, terminate, &error), &error);
@@ -543,6 +596,7 @@ fmi3Status fmi3CompletedIntegratorStep(void *instance, bool no_return, bool *eve
 fmi3Status fmi3SetTime(void *instance, double t)
 {
     component *self = instance;
+    NEEDS_ALIVE(true);
     ld_error error;
     return answer(self, fmu_set_time(self->inside, t, &error), &error);
 }
@@ -550,6 +604,7 @@ fmi3Status fmi3SetTime(void *instance, double t)
 fmi3Status fmi3SetContinuousStates(void *instance, const double *x, size_t count)
 {
     component *self = instance;
+    NEEDS_ALIVE(x || count == 0);
     ld_error error;
     return answer_trial(self, fmu_set_states(self->inside, x, count, &error), &error);
 }
@@ -557,6 +612,7 @@ fmi3Status fmi3SetContinuousStates(void *instance, const double *x, size_t count
 static fmi3Status get_vector(component *self, fmu_vector which, double *value, size_t count)
 {
     ld_error error;
+    NEEDS(value || count == 0);
     return answer_trial(self, fmu_get_vector(self->inside, which, value, count, &error), &error);
 }
 
@@ -583,6 +639,7 @@ fmi3Status fmi3GetNominalsOfContinuousStates(void *instance, double *nominal, si
 fmi3Status fmi3GetNumberOfEventIndicators(void *instance, size_t *count)
 {
     component *self = instance;
+    NEEDS(count);
     ld_error error;
     return answer(self, fmu_count_vector(self->inside, FMU_INDICATORS, count, &error), &error);
 }
@@ -590,6 +647,7 @@ fmi3Status fmi3GetNumberOfEventIndicators(void *instance, size_t *count)
 fmi3Status fmi3GetNumberOfContinuousStates(void *instance, size_t *count)
 {
     component *self = instance;
+    NEEDS(count);
     ld_error error;
     return answer(self, fmu_count_vector(self->inside, FMU_STATES, count, &error), &error);
 }

@@ -590,6 +590,8 @@ ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text,
     const fmu_variable *variable = find(self, reference, VALUE_TEXT, error);
     if (!variable)
         return LD_ERR_INPUT;
+    if (!text)
+        return ld_fail(error, LD_ERR_INPUT, "the text of %s is a null pointer", variable->name);
     if (strlen(text) >= SAVED_TEXT)
         return ld_fail(error, LD_ERR_INPUT, "the text of %s is too long", variable->name);
     char *copy = strdup(text);

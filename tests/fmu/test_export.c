@@ -478,6 +478,116 @@ static void refuses_wrong_values(void **state)
     assert_int_equal(run("ls | grep -c '[.]part$'"), 1);
 }
 
+#define REFUSES_3(sentence, name, ...)                                                             \
+    do {                                                                                           \
+        logged[0] = '\0';                                                                          \
+        assert_int_equal(FMU_FUNCTION(&fmu, name)(__VA_ARGS__), fmi3Error);                        \
+        assert_string_equal(logged, sentence);                                                     \
+    } while (0)
+#define NO_POINTER_3(name, ...) REFUSES_3(#name ": a pointer is null", name, __VA_ARGS__)
+#define REFUSES_2(sentence, name, ...)                                                             \
+    do {                                                                                           \
+        logged[0] = '\0';                                                                          \
+        assert_int_equal(FMU_FUNCTION(&fmu, name)(__VA_ARGS__), fmi2Error);                        \
+        assert_string_equal(logged, sentence);                                                     \
+    } while (0)
+#define NO_POINTER_2(name, ...) REFUSES_2(#name ": a pointer is null", name, __VA_ARGS__)
+
+// Without an instance there is no log.
+static void refuses_null_pointers(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
+    void *one = begin_3(&fmu, false), *saved = NULL;
+    uint32_t law = reference_of(&fmu, "scenario.rocket.contact.law");
+    double value = 0;
+    bool a;
+    size_t size;
+    const char *text = NULL;
+    REFUSES_3("", fmi3ExitInitializationMode, NULL);
+    REFUSES_3("", fmi3GetFloat64, NULL, &law, 1, &value, 1);
+    REFUSES_3("", fmi3GetInt8, NULL, &law, 1, NULL, 1);
+    REFUSES_3("", fmi3UpdateDiscreteStates, NULL, &a, &a, &a, &a, &a, &value);
+    REFUSES_3("", fmi3Terminate, NULL);
+    REFUSES_3("", fmi3Reset, NULL);
+    NO_POINTER_3(fmi3GetFloat64, one, NULL, 1, &value, 1);
+    NO_POINTER_3(fmi3GetFloat64, one, &law, 1, NULL, 1);
+    NO_POINTER_3(fmi3SetFloat64, one, &law, 1, NULL, 1);
+    NO_POINTER_3(fmi3SetBoolean, one, NULL, 1, &a, 1);
+    NO_POINTER_3(fmi3GetString, one, &law, 1, NULL, 1);
+    REFUSES_3("the text of scenario.rocket.contact.law is a null pointer", fmi3SetString, one, &law,
+              1, &text, 1);
+    NO_POINTER_3(fmi3DoStep, one, 0, 0.1, true, NULL, &a, &a, &value);
+    NO_POINTER_3(fmi3GetFMUState, one, NULL);
+    NO_POINTER_3(fmi3SerializedFMUStateSize, one, NULL, &size);
+    NO_POINTER_3(fmi3SerializeFMUState, one, NULL, NULL, 0);
+    NO_POINTER_3(fmi3DeserializeFMUState, one, NULL, 0, &saved);
+    NO_POINTER_3(fmi3GetNumberOfContinuousStates, one, NULL);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetFloat64)(one, NULL, 0, NULL, 0), fmi3OK);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(one);
+    fmu_close(&fmu);
+}
+
+// Values and states can be had, and it can begin anew.
+static void has_ended_when_terminated(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
+    void *one = begin_3(&fmu, false), *saved = NULL;
+    taken_step s;
+    start_3(&fmu, one, 0);
+    step_3(&fmu, one, 0, 0.1);
+    double travel = value_3(&fmu, one, "rocket.s");
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetFMUState)(one, &saved), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3Terminate)(one), fmi3OK);
+    REFUSES_3("fmi3DoStep: the instance has been terminated", fmi3DoStep, one, 0.1, 0.01, true,
+              &s.event, &s.terminate, &s.early, &s.t);
+    REFUSES_3("fmi3Terminate: the instance has been terminated", fmi3Terminate, one);
+    assert_int_equal(set_3(&fmu, one, "scenario.rocket.mass", 61), fmi3Error);
+    assert_true(same(value_3(&fmu, one, "rocket.s"), travel));
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetFMUState)(one, saved), fmi3OK);
+    step_3(&fmu, one, 0.1, 0.01);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3Terminate)(one), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3Reset)(one), fmi3OK);
+    start_3(&fmu, one, 0);
+    step_3(&fmu, one, 0, 0.1);
+    assert_true(same(value_3(&fmu, one, "rocket.s"), travel));
+    FMU_FUNCTION(&fmu, fmi3FreeFMUState)(one, &saved);
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(one);
+    fmu_close(&fmu);
+}
+
+static void refuses_the_same_in_version_2(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 2);
+    const fmi2CallbackFunctions call = {.logger = keep_log_2};
+    void *c = FMU_FUNCTION(&fmu, fmi2Instantiate)("two", fmi2CoSimulation, fmu.token, fmu.resources,
+                                                  &call, 0, 0);
+    unsigned tip = reference_of(&fmu, "tip.y"), law = reference_of(&fmu, "scenario.title");
+    const char *text = NULL;
+    double value;
+    size_t size;
+    assert_non_null(c);
+    REFUSES_2("", fmi2DoStep, NULL, 0, 0.1, 1);
+    REFUSES_2("", fmi2GetReal, NULL, &tip, 1, &value);
+    REFUSES_2("", fmi2GetInteger, NULL, &tip, 1, NULL);
+    REFUSES_2("", fmi2NewDiscreteStates, NULL, NULL);
+    NO_POINTER_2(fmi2GetReal, c, &tip, 1, NULL);
+    NO_POINTER_2(fmi2SetReal, c, NULL, 1, &value);
+    NO_POINTER_2(fmi2GetRealStatus, c, fmi2LastSuccessfulTime, NULL);
+    NO_POINTER_2(fmi2GetFMUstate, c, NULL);
+    NO_POINTER_2(fmi2SerializedFMUstateSize, c, NULL, &size);
+    REFUSES_2("the text of scenario.title is a null pointer", fmi2SetString, c, &law, 1, &text);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2SetupExperiment)(c, 0, 0, 0, 0, 0), fmi2OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2ExitInitializationMode)(c), fmi2OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2Terminate)(c), fmi2OK);
+    REFUSES_2("fmi2DoStep: the instance has been terminated", fmi2DoStep, c, 0, 0.1, 1);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2GetReal)(c, &tip, 1, &value), fmi2OK);
+    FMU_FUNCTION(&fmu, fmi2FreeInstance)(c);
+    fmu_close(&fmu);
+}
+
 // ---- the description ----
 
 static int compare_names(const void *a, const void *b)
@@ -646,6 +756,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(waits_for_the_input, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(speaks_version_2, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(refuses_wrong_values, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(refuses_null_pointers, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(has_ended_when_terminated, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(refuses_the_same_in_version_2, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(is_described, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(is_named_and_timed, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(go_side_by_side, shell_make, shell_remove),
