@@ -105,23 +105,24 @@ static ld_status print_description(const fmu_part *part, const fmu_variables *va
 }
 
 // When the launch of the whole is over, a base outside at rest: its length rounded up to two
-// digits. NaN: it does not come to its end.
-static double find_stop(const ld_model *model, const ld_simulation *whole)
+// digits. NaN: it does not come to its end. LD_ERR_MEMORY alone is a failure.
+static ld_status find_stop(const ld_model *model, const ld_simulation *whole, double *stop,
+                           ld_error *error)
 {
     const fmu_runner *runner = fmu_part_runner(LD_FMU_ALL, model);
     fmu_part part;
-    ld_error unused;
-    void *run = fmu_part_find(LD_FMU_ALL, whole, &part, &unused)
-                    ? NULL
-                    : runner->begin(whole, part.start, &unused);
+    *stop = NAN;
+    ld_status status = fmu_part_find(LD_FMU_ALL, whole, &part, error);
+    void *run = status ? NULL : runner->begin(whole, part.start, error);
     if (!run)
-        return NAN;
+        return error->status == LD_ERR_MEMORY ? LD_ERR_MEMORY : LD_OK;
     double start = runner->time(run);
-    bool ends = !runner->advance(run, INFINITY, &unused);
-    double length = runner->time(run) - start;
+    status = runner->advance(run, INFINITY, error);
+    double length = runner->time(run) - start, digit = pow(10, floor(log10(length)) - 1);
     runner->end(run);
-    double digit = pow(10, floor(log10(length)) - 1);
-    return ends && length > 0 ? start + digit * ceil(length / digit * (1 - 1e-12)) : NAN;
+    if (!status && length > 0)
+        *stop = start + digit * ceil(length / digit * (1 - 1e-12));
+    return status == LD_ERR_MEMORY ? status : LD_OK;
 }
 
 // The launcher of a vehicle is simulated by itself.
@@ -140,7 +141,7 @@ ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part 
     if (!status)
         status = fmu_variables_make(part, &of_part, alone ? alone : whole, variables, error);
     if (!status)
-        variables->stop = find_stop(model, whole);
+        status = find_stop(model, whole, &variables->stop, error);
     ld_simulation_free(alone);
     ld_simulation_free(whole);
     return status;
