@@ -484,6 +484,31 @@ static void what_goes_wrong_is_one_sentence(void **state)
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); // no process is left
 }
 
+// One that closes its connection takes nothing from others of its package.
+static void the_package_stays_for_others(void **state)
+{
+    (void)state;
+    enum { MISHAP = 40, DEAF = 13, TIMES = 3 };
+    foreign_package *package;
+    foreign_instance *fmu;
+    ld_error error;
+    int pieces;
+    const foreign_value mishap = {.reference = MISHAP, .type = FOREIGN_INT32, .value = DEAF};
+    assert_int_equal(foreign_open(in("platform3.fmu"), &package, &error), LD_OK);
+    for (int i = 0; i < TIMES; i++) {
+        if (foreign_begin(package, 60, &fmu, &error))
+            fail_msg("%s", error.text);
+        assert_int_equal(foreign_set(fmu, 0, &mishap, 1, &error), LD_OK);
+        assert_int_equal(foreign_enter(fmu, 0, 0, &error), LD_OK);
+        assert_int_equal(foreign_leave(fmu, 0, &error), LD_OK);
+        const foreign_stepping step = {.size = 1e-3};
+        assert_int_equal(foreign_step(fmu, 0, &step, NULL, NULL, &pieces, &error), LD_ERR_NUMERIC);
+        assert_non_null(strstr(error.text, "closed the connection"));
+        foreign_end(fmu);
+    }
+    foreign_close(package);
+}
+
 // An FMU that ends the process which runs it leaves neither a process nor a folder.
 static void nothing_is_left_when_it_ends_who_asks(void **state)
 {
@@ -681,6 +706,7 @@ int main(void)
         cmocka_unit_test(a_step_broken_off_goes_on),
         cmocka_unit_test(a_unit_of_fixed_steps_is_where_it_was_sent),
         cmocka_unit_test(what_goes_wrong_is_one_sentence),
+        cmocka_unit_test(the_package_stays_for_others),
         cmocka_unit_test(nothing_is_left_when_it_ends_who_asks),
         cmocka_unit_test(what_does_not_fit_is_one_sentence),
         cmocka_unit_test(a_run_is_saved_where_the_FMU_gives_its_state),
