@@ -176,6 +176,9 @@ static void the_end_is_recorded(void **state)
         for (size_t i = 0; i < by.states; i++)
             assert_true(rate[i] == 0);
         assert_false(importer_complete(&by));
+        by.ended = false;
+        importer_event(&by); // one that asks then is told there
+        assert_true(by.ended);
         importer_get_states(&by);
         assert_memory_equal(x, by.x, by.states * sizeof *x);
         importer_close(&by);
