@@ -26,7 +26,8 @@ typedef struct ld_output ld_output;
 /// @param model  kept by reference: title and names of the adaptors
 /// @param csv    also write history.csv and, where rockets fly on, flights.csv
 /// @param output opened: end it with ld_output_finish() or ld_output_discard()
-/// @return LD_OK, LD_ERR_FILE (with the reason, nothing left behind) or LD_ERR_MEMORY
+/// @return LD_OK, LD_ERR_FILE (with the reason, nothing left behind), LD_ERR_MEMORY, or
+///         LD_ERR_INPUT: another run writes there, as it has for 2 s
 ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld_output **output,
                          ld_error *error);
 
@@ -35,7 +36,8 @@ const ld_sink *ld_output_sink(ld_output *output);
 
 /// Writes what is left and summary.json, puts all files in place of those of an earlier run, whose
 /// report.html goes, and frees `output`. Also for runs that ended early: summary->complete tells.
-/// @return LD_OK, or LD_ERR_FILE: then the earlier files stand as they were
+/// @return LD_OK, or LD_ERR_FILE: then the earlier files stand as they were. So it is where another
+///         program has removed or replaced a file of this run
 ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error);
 
 /// Removes what has been written, and the folders made for it, and frees `output` (may be NULL).

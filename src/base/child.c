@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/lock_file.h"
+
 enum { LONGEST = 4096, MOST_WRITTEN = 16 };
 
 // In memory that parent and child share.
@@ -18,6 +20,7 @@ typedef struct child_work {
     bool done; // the work has come to its end
     char read[LONGEST];
     char written[MOST_WRITTEN][LONGEST]; // "": free
+    char lock[LONGEST];                  // that guards them; "": none
 } child_work;
 
 static child_work *at_work; // of the child that this process is; NULL: it is none
@@ -47,6 +50,12 @@ void child_writes(const char *path)
 void child_wrote(const char *path)
 {
     replace(path, "");
+}
+
+void child_locks(const char *path)
+{
+    if (at_work)
+        snprintf(at_work->lock, LONGEST, "%s", path ? path : "");
 }
 
 // ---- in the parent ----
@@ -91,14 +100,25 @@ static ld_status died(const child_work *work, int number, ld_error *error)
                    *written ? " while writing " : "", written);
 }
 
+// Removes what the child has left, unless another process has taken its lock since: then that has
+// done so, and what lies there now is its own.
+static void clear_up(const child_work *work)
+{
+    int lock = -1;
+    if (*work->lock && lock_file_try(work->lock, "", &lock, NULL) == LD_ERR_INPUT)
+        return;
+    for (int i = 0; i < MOST_WRITTEN; i++)
+        if (*work->written[i])
+            unlink(work->written[i]);
+    lock_file_remove(work->lock, lock);
+}
+
 static ld_status judge(const child_work *work, int status, int *code, ld_error *error)
 {
     *code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (WIFEXITED(status) && work->done)
         return LD_OK;
-    for (int i = 0; i < MOST_WRITTEN; i++)
-        if (*work->written[i])
-            unlink(work->written[i]);
+    clear_up(work);
     if (WIFEXITED(status))
         return ld_fail(error, LD_ERR_FILE,
                        "ended by a library (code %d), as where there is no memory", *code);

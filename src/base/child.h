@@ -12,4 +12,7 @@ void child_reads(const char *path);
 void child_writes(const char *path);
 void child_wrote(const char *path);
 
+// The lock file (lock_file.h) that guards what it writes; NULL: none.
+void child_locks(const char *path);
+
 #endif

@@ -3,9 +3,11 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/child.h"
+#include "base/lock_file.h"
 #include "results/folder.h"
 #include "results/history.h"
 #include "results/kml.h"
@@ -17,12 +19,23 @@
 enum { MOST_FLIGHT_COLUMNS = 256 };
 enum { SUMMARY = MANIFEST_FILES, FILES };
 
+// Which file of the file system a temporary name stands for.
+typedef struct file_identity {
+    bool made;
+    dev_t device;
+    ino_t number;
+} file_identity;
+
 struct ld_output {
     const ld_model *model;
     char *folder;
     size_t made_from; // length of the folder's part that was there before
+    char *lock_path;  // history.lock, there while the folder is written
+    int lock;         // its descriptor; -1: not locked
+    bool begun;       // what lies there under temporary names is of this run
     char *path[FILES], *part[FILES];
-    char *report; // what launchdyn report made of an earlier run
+    file_identity made[FILES]; // under part[]
+    char *report;              // what launchdyn report made of an earlier run
     history_hdf5 *hdf5;
     history_csv *csv;     // NULL: not wanted
     history_csv *flights; // NULL: not wanted, or none has flown on
@@ -31,6 +44,25 @@ struct ld_output {
     ld_sink sink;
 };
 
+static bool identify(const char *path, file_identity *found)
+{
+    struct stat about;
+    *found = (file_identity){0};
+    if (stat(path, &about) != 0)
+        return false;
+    *found = (file_identity){true, about.st_dev, about.st_ino};
+    return true;
+}
+
+// Marks a file that this run has just made, where `status` is LD_OK.
+static ld_status mark_made(ld_output *output, int file, ld_status status, ld_error *error)
+{
+    if (!status && !identify(output->part[file], &output->made[file]))
+        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", output->part[file],
+                       strerror(errno));
+    return status;
+}
+
 // The rows that follow are of the flight of this rocket: a line of the map, where there is one.
 static ld_status begin_line(ld_output *output, int rocket, const ld_column *columns, size_t count,
                             ld_error *error)
@@ -38,8 +70,10 @@ static ld_status begin_line(ld_output *output, int rocket, const ld_column *colu
     if (!kml_has_place(output->model))
         return LD_OK;
     ld_status status = LD_OK;
-    if (!output->map)
+    if (!output->map) {
         status = kml_create(output->part[MANIFEST_MAP], output->model, &output->map, error);
+        status = mark_made(output, MANIFEST_MAP, status, error);
+    }
     return status ? status : kml_flight(output->map, rocket, columns, count, error);
 }
 
@@ -70,6 +104,7 @@ static ld_status begin_flights(ld_output *output, const ld_column *columns, size
     with_number[0] = (ld_column){"rocket", "1", "number in the order of firing"};
     memcpy(with_number + 1, columns, count * sizeof *columns);
     ld_status status = history_csv_create(output->part[MANIFEST_FLIGHTS], &output->flights, error);
+    status = mark_made(output, MANIFEST_FLIGHTS, status, error);
     if (!status)
         status = history_csv_begin(output->flights, with_number, count + 1, error);
     free(with_number);
@@ -130,6 +165,7 @@ static ld_status set_paths(ld_output *output, const char *folder, ld_error *erro
         fine = output->path[i] && output->part[i];
     }
     fine = fine && (output->report = join(folder, "report.html", "")) != NULL;
+    fine = fine && (output->lock_path = join(folder, "history.lock", "")) != NULL;
     if (!fine)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
     return LD_OK;
@@ -159,9 +195,36 @@ static void free_output(ld_output *output)
         free(output->path[i]);
         free(output->part[i]);
     }
+    lock_file_remove(output->lock_path, output->lock);
+    child_locks(NULL);
     free(output->report);
+    free(output->lock_path);
     free(output->folder);
     free(output);
+}
+
+// Makes the folder, and locks it where its file system has locks.
+static ld_status make_and_lock(ld_output *output, ld_error *error)
+{
+    ld_status status = folder_make(output->folder, &output->made_from, error);
+    if (!status)
+        status = lock_file_take(output->lock_path, output->folder, &output->lock, error);
+    return status == LD_ERR_MISSING ? LD_OK : status;
+}
+
+// The run before may have removed the folder that it had made, as it failed.
+static ld_status begin_folder(ld_output *output, ld_error *error)
+{
+    ld_status status = make_and_lock(output, error);
+    if (status == LD_ERR_FILE && access(output->folder, F_OK) != 0 && errno == ENOENT)
+        status = make_and_lock(output, error);
+    if (status)
+        return status;
+    output->begun = true;
+    child_locks(output->lock < 0 ? NULL : output->lock_path);
+    for (int i = 0; i < FILES; i++)
+        child_writes(output->part[i]);
+    return take_parts_away(output, error);
 }
 
 static ld_status create_hdf5(ld_output *output, ld_error *error)
@@ -170,6 +233,7 @@ static ld_status create_hdf5(ld_output *output, ld_error *error)
     ld_origin origin;
     ld_status status =
         history_hdf5_create(output->part[MANIFEST_HDF5], title ? title : "", &output->hdf5, error);
+    status = mark_made(output, MANIFEST_HDF5, status, error);
     if (!status)
         status = ld_origin_of(output->model, &origin, error);
     if (status)
@@ -188,19 +252,18 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
     if (!opened)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the results");
     opened->model = model;
+    opened->lock = -1;
     opened->sink = (ld_sink){
         .self = opened, .begin = begin, .row = row, .flight = flight, .geometry = geometry};
     ld_status status = set_paths(opened, folder, error);
-    for (int i = 0; i < FILES && !status; i++)
-        child_writes(opened->part[i]);
     if (!status)
-        status = folder_make(opened->folder, &opened->made_from, error);
-    if (!status)
-        status = take_parts_away(opened, error);
+        status = begin_folder(opened, error);
     if (!status)
         status = create_hdf5(opened, error);
-    if (!status && csv)
+    if (!status && csv) {
         status = history_csv_create(opened->part[MANIFEST_CSV], &opened->csv, error);
+        status = mark_made(opened, MANIFEST_CSV, status, error);
+    }
     if (status)
         ld_output_discard(opened);
     else
@@ -237,19 +300,40 @@ static ld_status close_histories(ld_output *output, const ld_summary *summary, l
     return status;
 }
 
-// Takes an earlier run's summary and report away, then gives every file its name.
+// Takes an earlier run's summary and report away, and the files that this run does not have, then
+// gives every file its name.
 static ld_status put_in_place(ld_output *output, ld_error *error)
 {
     ld_status status = take_away(output->path[SUMMARY], error);
     if (!status)
         status = take_away(output->report, error);
-    if (status)
-        return status;
-    for (int i = 0; i < FILES; i++)
-        if (rename(output->part[i], output->path[i]) != 0 &&
-            (errno != ENOENT || (unlink(output->path[i]) != 0 && errno != ENOENT)))
-            return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", output->path[i],
-                           strerror(errno));
+    for (int i = 0; i < FILES && !status; i++)
+        if (!output->made[i].made)
+            status = take_away(output->path[i], error);
+    for (int i = 0; i < FILES && !status; i++)
+        if (output->made[i].made && rename(output->part[i], output->path[i]) != 0)
+            status = ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", output->path[i],
+                             strerror(errno));
+    return status;
+}
+
+// Size and digest of a file of this run, which nobody has removed or replaced meanwhile.
+static ld_status measure_made(const ld_output *output, int file, manifest_file *found,
+                              ld_error *error)
+{
+    file_identity now;
+    ld_error problem;
+    const char *part = output->part[file];
+    *found = (manifest_file){0};
+    if (!output->made[file].made)
+        return LD_OK;
+    if (!identify(part, &now) || now.device != output->made[file].device ||
+        now.number != output->made[file].number)
+        return ld_fail(error, LD_ERR_FILE,
+                       "cannot write %s: another program has removed %s while the run wrote it",
+                       output->path[file], part);
+    if (manifest_measure(part, found, &problem))
+        return ld_fail(error, LD_ERR_FILE, "%s %s", part, problem.text);
     return LD_OK;
 }
 
@@ -257,11 +341,12 @@ static ld_status put_in_place(ld_output *output, ld_error *error)
 static ld_status write_summary(ld_output *output, const ld_summary *summary, ld_error *error)
 {
     manifest_file file[MANIFEST_FILES];
-    ld_error problem;
-    for (int i = 0; i < MANIFEST_FILES; i++)
-        if (manifest_measure(output->part[i], &file[i], &problem))
-            return ld_fail(error, LD_ERR_FILE, "%s %s", output->part[i], problem.text);
-    return summary_write(output->part[SUMMARY], output->model, summary, file, error);
+    ld_status status = LD_OK;
+    for (int i = 0; i < MANIFEST_FILES && !status; i++)
+        status = measure_made(output, i, &file[i], error);
+    if (!status)
+        status = summary_write(output->part[SUMMARY], output->model, summary, file, error);
+    return mark_made(output, SUMMARY, status, error);
 }
 
 ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error)
@@ -283,9 +368,10 @@ void ld_output_discard(ld_output *output)
     if (!output)
         return;
     close_histories(output, NULL, NULL);
-    for (int i = 0; i < FILES; i++)
-        if (output->part[i])
-            unlink(output->part[i]);
+    for (int i = 0; i < FILES && output->begun; i++)
+        unlink(output->part[i]);
+    lock_file_remove(output->lock_path, output->lock);
+    output->lock = -1;
     if (output->folder)
         folder_remove(output->folder, output->made_from);
     free_output(output);

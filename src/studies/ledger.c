@@ -182,6 +182,9 @@ ld_status ledger_close(study_ledger *self)
         ld_status status = store_settle(&self->store, true, &error);
         if (status && !interrupted)
             stop(self, status, &error);
+        status = store_check_place(&self->store, &error);
+        if (status) // there is nothing to go on with
+            stop(self, status, &error);
         store_close(&self->store);
     }
     if (self->status || !interrupted)

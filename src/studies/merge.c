@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/lock_file.h"
 #include "base/printed.h"
 #include "base/text_file.h"
 #include "studies/store.h"
@@ -203,8 +204,10 @@ static ld_status merge_file(study_store *self, const char *path, ld_error *damag
 
 static bool is_at_work(const char *path)
 {
+    char name[4096];
     int lock;
-    bool taken = store_lock(path, &lock, NULL) == LD_ERR_INPUT;
+    store_lock_name(path, name);
+    bool taken = lock_file_try(name, path, &lock, NULL) == LD_ERR_INPUT;
     if (lock >= 0)
         close(lock);
     return taken;

@@ -1,14 +1,13 @@
 #include "studies/store.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "base/lock_file.h"
 #include "base/random.h"
 #include "launchdyn/version.h"
 #include "results/folder.h"
@@ -129,22 +128,9 @@ bool store_step(sqlite3_stmt *statement)
 
 enum { PATIENCE = 10000 }; // [ms] with another who reads or writes
 
-ld_status store_lock(const char *path, int *lock, ld_error *error)
+void store_lock_name(const char *path, char name[4096])
 {
-    char name[4096];
-    snprintf(name, sizeof name, "%.*s.lock", (int)(strlen(path) - strlen(".db")), path);
-    *lock = open(name, O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-    if (*lock < 0)
-        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", name, strerror(errno));
-    if (flock(*lock, LOCK_EX | LOCK_NB) == 0)
-        return LD_OK;
-    ld_status status =
-        errno == EWOULDBLOCK
-            ? ld_fail(error, LD_ERR_INPUT, "another launchdyn works on %s", path)
-            : ld_fail(error, LD_ERR_FILE, "cannot lock %s: %s", name, strerror(errno));
-    close(*lock);
-    *lock = -1;
-    return status;
+    snprintf(name, 4096, "%.*s.lock", (int)(strlen(path) - strlen(".db")), path);
 }
 
 // "shard-03-of-64"
@@ -346,13 +332,25 @@ static ld_status insert_pending(study_store *self, ld_error *error)
     return status;
 }
 
+// A database whose name is gone takes rows all the same.
+ld_status store_check_place(const study_store *self, ld_error *error)
+{
+    int moved = 0;
+    sqlite3_file_control(self->database, "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+    return moved ? ld_fail(error, LD_ERR_FILE,
+                           "cannot write %s: another program has removed or moved it", self->path)
+                 : LD_OK;
+}
+
 ld_status store_settle(study_store *self, bool at_once, ld_error *error)
 {
     const double often = 0.1; // [s]
     if (self->pending.count == 0 || (!at_once && now() - self->settled < often))
         return LD_OK;
     const store_kept before = self->kept;
-    ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);
+    ld_status status = store_check_place(self, error);
+    if (!status)
+        status = store_execute(self, "BEGIN IMMEDIATE", error);
     if (!status)
         status = insert_pending(self, error);
     if (!status)
@@ -404,7 +402,9 @@ static ld_status open_locked(study_store *self, const char *folder, int shard, i
     if (strlen(folder) + 64 > sizeof self->path)
         return ld_fail(error, LD_ERR_INPUT, "the name of the folder is too long");
     name_file(self->path, sizeof self->path, folder, shard, shards);
-    ld_status status = store_lock(self->path, &self->lock, error);
+    char lock[4096];
+    store_lock_name(self->path, lock);
+    ld_status status = lock_file_take(lock, self->path, &self->lock, error);
     return status ? status : open_database(self, journal, error);
 }
 

@@ -75,6 +75,9 @@ ld_status store_put(study_store *self, const study_record *record, ld_error *err
 // Commits what was put, where a tenth of a second has gone by since the last time, or now.
 ld_status store_settle(study_store *self, bool now, ld_error *error);
 
+// LD_ERR_FILE where the database has been removed or moved since it was opened.
+ld_status store_check_place(const study_store *self, ld_error *error);
+
 // What the database's latest failure is: LD_ERR_INPUT, what it holds; LD_ERR_MEMORY; LD_ERR_FILE.
 ld_status store_status(const study_store *self);
 // Fails so, with the database's own words.
@@ -108,8 +111,8 @@ static inline bool store_is_of_rocket(const study_store *self, int factor)
 {
     return self->study->nominal->scatter.factor[factor].per_rocket;
 }
-// Opens and locks the lock file of the database at `path`; *lock -1: it could not be.
-ld_status store_lock(const char *path, int *lock, ld_error *error);
+// The lock file of the database at `path`.
+void store_lock_name(const char *path, char name[4096]);
 
 // ---- its tables (store_tables.c)
 

@@ -364,13 +364,19 @@ static void test_killed_at_work(void **state)
                                    "stopped/history.h5.part\n");
     assert_int_equal(run("ls stopped"), 0);
     assert_string_equal(shell.out, "");
-    // with the one that waits it ends, too
+    // with the one that waits it ends, too; until then a second one keeps away from its folder
     child = start_endless(false);
     pid_t worker = worker_of(child, SIGTERM);
+    while (access(part, F_OK) != 0)
+        usleep(10000);
+    expect_complaint("launchdyn run examples/fixed.yaml -q --out stopped", 2,
+                     "another launchdyn works on stopped: wait for its end");
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
     while (kill(worker, 0) == 0)
         usleep(10000);
+    assert_int_equal(run("launchdyn run examples/fixed.yaml -q --out stopped && ls -A stopped"), 0);
+    assert_string_equal(shell.out, "history.h5\nsummary.json\n");
 }
 
 static void test_modes_table(void **state)

@@ -92,6 +92,7 @@ static const fault failures[] = {
     {"folder", ENOSPC, {NULL}},
     {"length", ENOSPC, {"disk is full", "disk I/O error"}},
     {"close", EIO, {"disk I/O error"}},
+    {"lock", ENOLCK, {NULL}},
 };
 
 enum { FAILURES = sizeof failures / sizeof *failures };
@@ -130,7 +131,8 @@ static void mark_folder(const char *path, folder_mark *mark)
         size_t length = strlen(entry->d_name);
         bool of_database = length > 4 && (strcmp(entry->d_name + length - 4, "-wal") == 0 ||
                                           strcmp(entry->d_name + length - 4, "-shm") == 0);
-        if (entry->d_name[0] == '.' || entry->d_type == DT_LNK || of_database)
+        bool lock = length > 5 && strcmp(entry->d_name + length - 5, ".lock") == 0; // may stay
+        if (entry->d_name[0] == '.' || entry->d_type == DT_LNK || of_database || lock)
             continue;
         snprintf(inner, sizeof inner, "%.60s/%.90s", path, entry->d_name);
         if (entry->d_type == DT_DIR) {

@@ -2,7 +2,8 @@
 // that one on; its children by fork count with it, programs that it starts are left alone.
 //
 // By the environment: FAIL_KIND, one of the names below (none: nothing fails); FAIL_AT, the first
-// call that fails; FAIL_ON, if set: all after it, too; FAIL_ERROR, the error number; FAIL_LOG, a
+// call that fails; FAIL_ON, if set: all after it, too; FAIL_ERROR, the error number, or "wait": the
+// call does not come back; FAIL_LOG, a
 // file: of the call that fails, its stack, and, behind a line "crash", that of a signal which ends
 // the program; where nothing fails, a line "KIND N" for the first call of each kind from each
 // stack.
@@ -23,6 +24,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -42,18 +44,19 @@ typedef enum kind {
     FOLDER,  // mkdir
     LENGTH,  // ftruncate
     CLOSE,   // close, and a stream's
+    LOCK,    // flock
     KINDS
 } kind;
 
-static const char *const kind_names[KINDS] = {"memory", "open",   "read", "write",  "sync",
-                                              "rename", "remove", "map",  "thread", "process",
-                                              "folder", "length", "close"};
+static const char *const kind_names[KINDS] = {"memory", "open",   "read",  "write",  "sync",
+                                              "rename", "remove", "map",   "thread", "process",
+                                              "folder", "length", "close", "lock"};
 
 enum { MOST_WAYS = 1 << 15 };
 
 static struct {
     kind kind;
-    bool on;
+    bool on, waits;
     int error;
     long at;
     int log;
@@ -136,6 +139,8 @@ static bool fails(kind of)
     else if (self.log >= 0 && self.kind == KINDS)
         log_way(of, call);
     busy = false;
+    while (bad && self.waits)
+        pause();
     if (bad)
         errno = self.error;
     return bad;
@@ -219,6 +224,7 @@ PASS(SYNC, int, -1, fdatasync, (int file), (file))
 PASS(RENAME, int, -1, rename, (const char *from, const char *to), (from, to))
 PASS(REMOVE, int, -1, unlink, (const char *path), (path))
 PASS(REMOVE, int, -1, rmdir, (const char *path), (path))
+PASS(LOCK, int, -1, flock, (int file, int operation), (file, operation))
 PASS(FOLDER, int, -1, mkdir, (const char *path, mode_t mode), (path, mode))
 PASS(LENGTH, int, -1, ftruncate, (int file, off_t length), (file, length))
 PASS(LENGTH, int, -1, ftruncate64, (int file, off64_t length), (file, length))
@@ -361,12 +367,14 @@ static long number_from(const char *name, long otherwise)
 __attribute__((constructor)) static void begin(void)
 {
     void *frame[1];
-    const char *wanted = getenv("FAIL_KIND"), *log = getenv("FAIL_LOG");
+    const char *wanted = getenv("FAIL_KIND"), *log = getenv("FAIL_LOG"),
+               *how = getenv("FAIL_ERROR");
     for (int i = 0; wanted && i < KINDS; i++)
         if (strcmp(wanted, kind_names[i]) == 0)
             self.kind = i;
     self.at = number_from("FAIL_AT", 0);
     self.error = (int)number_from("FAIL_ERROR", ENOMEM);
+    self.waits = how && strcmp(how, "wait") == 0;
     self.on = getenv("FAIL_ON");
     self.log = log ? open(log, O_CREAT | O_WRONLY | O_TRUNC | O_APPEND | O_CLOEXEC, 0666) : -1;
     if (self.log >= 0) // out of the way of the program's own

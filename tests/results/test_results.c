@@ -6,9 +6,12 @@
 #include <hdf5.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "launchdyn/output.h"
@@ -393,6 +396,85 @@ static void test_replaces_an_earlier_run(void **state)
     history_free(&read);
 }
 
+// Who waits for a lock here does so in no time.
+int nanosleep(const struct timespec *asked, struct timespec *left)
+{
+    (void)asked, (void)left;
+    return 0;
+}
+
+static bool no_locks; // as on a file system without them
+
+int flock(int file, int operation)
+{
+    errno = ENOSYS;
+    return no_locks ? -1 : (int)syscall(SYS_flock, file, operation);
+}
+
+static void expect_unfinished(ld_output *output, const char *text)
+{
+    ld_error error = {.text = ""};
+    ld_summary summary;
+    made_summary(&summary, 1);
+    assert_int_equal(ld_output_finish(output, &summary, &error), LD_ERR_FILE);
+    if (!strstr(error.text, text))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, text);
+}
+
+// A second run keeps away from the first one's files; each of those that are gone at the end is
+// missed, and the earlier run's stand.
+static void test_two_at_once(void **state)
+{
+    place *here = *state;
+    ld_error error = {0};
+    ld_output *output, *second = NULL;
+    write_launch(here, "both", true, 100);
+    const char *const earlier = "history.csv\nhistory.h5\nsummary.json";
+    assert_string_equal(printed_by("ls -A %s", in(here, "both")), earlier);
+    assert_int_equal(ld_output_open(in(here, "both"), &here->model, true, &output, &error), LD_OK);
+    assert_int_equal(ld_output_open(in(here, "both"), &here->model, true, &second, &error),
+                     LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "another launchdyn works on "));
+    assert_null(second);
+    assert_int_equal(made_run(ld_output_sink(output), 2000, &error), LD_OK);
+    assert_true(exists(in(here, "both/history.h5.part")));
+    ld_output_discard(output);
+    static const char *const parts[] = {"history.h5.part", "history.csv.part"};
+    for (int i = 0; i < 2; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "both/%s", parts[i]);
+        assert_int_equal(ld_output_open(in(here, "both"), &here->model, true, &output, &error),
+                         LD_OK);
+        assert_int_equal(made_run(ld_output_sink(output), 2000, &error), LD_OK);
+        assert_int_equal(unlink(in(here, path)), 0);
+        expect_unfinished(output, "another program has removed ");
+        assert_string_equal(printed_by("ls -A %s", in(here, "both")), earlier);
+    }
+    // without locks it is told at the end
+    no_locks = true;
+    assert_int_equal(ld_output_open(in(here, "both"), &here->model, false, &output, &error), LD_OK);
+    assert_int_equal(ld_output_open(in(here, "both"), &here->model, false, &second, &error), LD_OK);
+    assert_int_equal(made_run(ld_output_sink(output), 2000, &error), LD_OK);
+    no_locks = false;
+    expect_unfinished(output, "another program has removed ");
+    ld_output_discard(second);
+    assert_string_equal(printed_by("ls -A %s", in(here, "both")), earlier);
+    write_launch(here, "both", true, 50);
+}
+
+// Whoever has to do with a folder that is gone is told.
+static void test_folder_removed(void **state)
+{
+    place *here = *state;
+    ld_error error = {0};
+    ld_output *output;
+    assert_int_equal(ld_output_open(in(here, "gone"), &here->model, true, &output, &error), LD_OK);
+    assert_int_equal(made_run(ld_output_sink(output), 2000, &error), LD_OK);
+    printed_by("rm -r %s", in(here, "gone"));
+    expect_unfinished(output, "cannot write ");
+    assert_false(exists(in(here, "gone")));
+}
+
 static void test_discard_leaves_nothing(void **state)
 {
     place *here = *state;
@@ -426,7 +508,7 @@ static int open_in_closed_folder(const place *here)
     ld_status status = ld_output_open(in(here, "closed"), &here->model, true, &output, &error);
     printf("    %s\n", error.text);
     fflush(stdout);
-    return status != LD_ERR_FILE || !strstr(error.text, "history.h5.part: Permission denied");
+    return status != LD_ERR_FILE || !strstr(error.text, "closed/history.lock: Permission denied");
 }
 
 static void test_closed_folder_is_one_message(void **state)
@@ -606,6 +688,8 @@ int main(void)
         TEST(test_numbers_keep_17_digits),
         TEST(test_terminal_table),
         TEST(test_replaces_an_earlier_run),
+        TEST(test_two_at_once),
+        TEST(test_folder_removed),
         TEST(test_discard_leaves_nothing),
         TEST(test_closed_folder_is_one_message),
         TEST(test_a_file_is_no_folder),

@@ -75,6 +75,48 @@ static void test_stopped(void **state)
     ld_study_free(study);
 }
 
+// Removes the folder as soon as a sample is kept.
+static void remove_folder(void *self, const ld_study_counts *counts)
+{
+    char command[128];
+    (void)self;
+    snprintf(command, sizeof command, "rm -rf %s", in("removed"));
+    if (counts->now == 1)
+        assert_int_equal(system(command), 0);
+}
+
+static bool while_it_is_there(void *self)
+{
+    (void)self;
+    return access(in("removed"), F_OK) == 0;
+}
+
+static bool until_kept(void *self)
+{
+    (void)self;
+    return true;
+}
+
+// A study that has nothing to show for its samples says so: at its end, and where it is stopped,
+// too.
+static void test_removed(void **state)
+{
+    (void)state;
+    ld_study *study = study_of(launch);
+    for (int stopped = 0; stopped < 2; stopped++) {
+        ld_error error = {.text = ""};
+        ld_study_counts counts;
+        ld_study_options options = {.threads = 1, .progress = remove_folder};
+        options.go_on = stopped ? while_it_is_there : until_kept;
+        assert_int_equal(mkdir(in("removed"), 0777), 0);
+        assert_int_equal(ld_study_run(study, in("removed"), &options, &counts, &error),
+                         LD_ERR_FILE);
+        if (!strstr(error.text, "removed/study.db: another program has removed or moved it"))
+            fail_msg("\"%s\"", error.text);
+    }
+    ld_study_free(study);
+}
+
 static void expect_refusal(const ld_study *study, const char *name, const char *part)
 {
     ld_error error = {0};
@@ -479,6 +521,7 @@ int main(void)
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_removed),
         cmocka_unit_test(test_shards),
         cmocka_unit_test(test_one_sample_alone),
         cmocka_unit_test(test_refusals),
