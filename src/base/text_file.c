@@ -71,9 +71,3 @@ ld_status text_file_read(const char *path, size_t limit, char **text, size_t *le
     fclose(stream);
     return status;
 }
-
-bool text_file_is_replaced(const char *path)
-{
-    struct stat there;
-    return stat(path, &there) != 0 || S_ISREG(there.st_mode) || S_ISDIR(there.st_mode);
-}

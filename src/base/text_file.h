@@ -2,7 +2,6 @@
 #ifndef LD_BASE_TEXT_FILE_H
 #define LD_BASE_TEXT_FILE_H
 
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -20,9 +19,5 @@ ld_status text_file_status(int number);
 
 // "cannot be read: REASON", of errno.
 ld_status text_file_failed(ld_error *error);
-
-// Whether a file is to be written under a temporary name, which then becomes its own: not where
-// something else than a file is, as /dev/stdout.
-bool text_file_is_replaced(const char *path);
 
 #endif

@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/child.h"
+#include "base/part_file.h"
 #include "results/manifest.h"
 
 enum { MOST_FIGURES = 32 };
@@ -166,17 +166,14 @@ static ld_status draw(plot_writer *write, const void *page, plot_format format, 
 }
 
 static ld_status draw_part(plot_writer *write, const void *page, plot_format format,
-                           const char *part, const char *file, ld_error *error)
+                           const part_file *part, ld_error *error)
 {
-    FILE *picture = fopen(part, "wb");
+    FILE *picture = fopen(part->path, "wb");
     if (!picture)
-        return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
-    ld_status status = draw(write, page, format, picture, file, error);
-    bool closed = fclose(picture) == 0;
-    if (!status && (!closed || rename(part, file) != 0))
-        status = ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(errno));
-    if (status)
-        unlink(part);
+        return part_file_failed(part, errno, error);
+    ld_status status = draw(write, page, format, picture, part->name, error);
+    if (fclose(picture) != 0 && !status)
+        status = part_file_failed(part, errno, error);
     return status;
 }
 
@@ -184,13 +181,12 @@ static ld_status draw_part(plot_writer *write, const void *page, plot_format for
 ld_status plot_draw(plot_writer *write, const void *page, plot_format format, const char *file,
                     ld_error *error)
 {
-    char part[4096];
-    if (snprintf(part, sizeof part, "%s.part", file) >= (int)sizeof part)
-        return ld_fail(error, LD_ERR_INPUT, "the picture's name is too long");
-    child_writes(part);
-    ld_status status = draw_part(write, page, format, part, file, error);
-    child_wrote(part);
-    return status;
+    part_file part;
+    ld_status status = part_file_begin(&part, file, error);
+    if (status)
+        return status;
+    status = draw_part(write, page, format, &part, error);
+    return part_file_end(&part, status, error);
 }
 
 // ---- the page ----

@@ -3,14 +3,10 @@
 #include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 #include <minizip/zip.h>
 
-#include "base/child.h"
-
-enum { PATH_SIZE = 4096 };
+#include "base/part_file.h"
 
 struct package {
     zipFile zip;
@@ -43,26 +39,30 @@ void package_put(package *self, const char *name, const void *bytes, size_t size
     note(self, result == ZIP_OK);
 }
 
-ld_status package_write(const char *file, void put_all(package *self, const void *data),
-                        const void *data, ld_error *error)
+static ld_status write_zip(const part_file *part, void put_all(package *self, const void *data),
+                           const void *data, ld_error *error)
 {
-    char part[PATH_SIZE + 8];
     package self = {0};
-    snprintf(part, sizeof part, "%.4000s.part", file);
-    child_writes(part);
-    self.zip = zipOpen64(part, APPEND_STATUS_CREATE);
+    self.zip = zipOpen64(part->path, APPEND_STATUS_CREATE);
     note(&self, self.zip != NULL);
     if (self.zip) {
         put_all(&self, data);
         errno = 0;
         note(&self, zipClose(self.zip, NULL) == ZIP_OK);
-        note(&self, self.failed || rename(part, file) == 0);
-        if (self.failed)
-            unlink(part);
     }
-    child_wrote(part);
-    if (self.failed)
-        return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file,
-                       self.number ? strerror(self.number) : "the package cannot be closed");
-    return LD_OK;
+    if (self.failed && self.number == 0)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: the package cannot be closed",
+                       part->name);
+    return self.failed ? part_file_failed(part, self.number, error) : LD_OK;
+}
+
+ld_status package_write(const char *file, void put_all(package *self, const void *data),
+                        const void *data, ld_error *error)
+{
+    part_file part;
+    ld_status status = part_file_begin(&part, file, error);
+    if (status)
+        return status;
+    status = write_zip(&part, put_all, data, error);
+    return part_file_end(&part, status, error);
 }

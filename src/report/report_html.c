@@ -4,10 +4,8 @@
 #include <stdarg.h>
 #include <stdbool.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/child.h"
-#include "base/text_file.h"
+#include "base/part_file.h"
 
 // Text between tags.
 static void write_text(FILE *page, const char *text)
@@ -65,30 +63,27 @@ void report_end_page(FILE *page, const report_bundle *bundle)
     fputs("</script>\n</html>\n", page);
 }
 
-ld_status report_write_file(const char *file, const char *text, size_t length, ld_error *error)
+static ld_status write_whole(const part_file *part, const char *text, size_t length,
+                             ld_error *error)
 {
-    char part[REPORT_PATH_SIZE + 8];
-    bool replaced = text_file_is_replaced(file);
-    snprintf(part, sizeof part, "%s%s", file, replaced ? ".part" : "");
-    if (replaced)
-        child_writes(part);
-    FILE *stream = fopen(part, "wb");
+    FILE *stream = fopen(part->path, "wb");
     bool fine = stream && fwrite(text, 1, length, stream) == length;
     int number = errno;
-    if (stream && fclose(stream) != 0) {
+    if (stream && fclose(stream) != 0 && fine) {
         number = errno;
         fine = false;
     }
-    if (fine && replaced && rename(part, file) != 0) {
-        number = errno;
-        fine = false;
-    }
-    if (!fine && stream && replaced)
-        unlink(part);
-    child_wrote(part);
-    if (fine)
-        return LD_OK;
-    return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: %s", file, strerror(number));
+    return fine ? LD_OK : part_file_failed(part, number, error);
+}
+
+ld_status report_write_file(const char *file, const char *text, size_t length, ld_error *error)
+{
+    part_file part;
+    ld_status status = part_file_begin(&part, file, error);
+    if (status)
+        return status;
+    status = write_whole(&part, text, length, error);
+    return part_file_end(&part, status, error);
 }
 
 void report_folder_name(const char *folder, char *name, size_t size)

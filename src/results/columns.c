@@ -1,12 +1,10 @@
 #include "results/columns.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/child.h"
+#include "base/part_file.h"
 #include "results/folder.h"
 #include "results/history.h"
 
@@ -44,19 +42,15 @@ static ld_status write_file(const char *path, const ld_column *columns, const do
 ld_status columns_write(const char *folder, const char *name, const ld_column *columns,
                         const double *const *values, size_t width, size_t rows, ld_error *error)
 {
-    char path[4096], part[4096];
-    if (!*folder || snprintf(part, sizeof part, "%s/%s.part", folder, name) >= (int)sizeof part)
+    char path[4096];
+    part_file part;
+    if (!*folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
         return ld_fail(error, LD_ERR_INPUT, "the folder has no name, or one that is too long");
-    snprintf(path, sizeof path, "%.*s", (int)(strlen(part) - strlen(".part")), part);
     ld_status status = make_folder(folder, error);
+    if (!status)
+        status = part_file_begin(&part, path, error);
     if (status)
         return status;
-    child_writes(part);
-    status = write_file(part, columns, values, width, rows, error);
-    if (!status && rename(part, path) != 0)
-        status = ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-    if (status)
-        unlink(part);
-    child_wrote(part);
-    return status;
+    status = write_file(part.path, columns, values, width, rows, error);
+    return part_file_end(&part, status, error);
 }

@@ -3,10 +3,8 @@
 #include <errno.h>
 #include <stdbool.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/child.h"
-#include "base/text_file.h"
+#include "base/part_file.h"
 
 static ld_status cannot_write(const char *file, int number, ld_error *error)
 {
@@ -15,19 +13,12 @@ static ld_status cannot_write(const char *file, int number, ld_error *error)
 
 ld_status table_file_write(table_writer *write, void *self, const char *name, ld_error *error)
 {
-    char part[4096];
-    if (!text_file_is_replaced(name))
-        return write(self, name, name, error);
-    if (snprintf(part, sizeof part, "%s.part", name) >= (int)sizeof part)
-        return ld_fail(error, LD_ERR_INPUT, "the table's name is too long");
-    child_writes(part);
-    ld_status status = write(self, part, name, error);
-    if (!status && rename(part, name) != 0)
-        status = cannot_write(name, errno, error);
+    part_file part;
+    ld_status status = part_file_begin(&part, name, error);
     if (status)
-        unlink(part);
-    child_wrote(part);
-    return status;
+        return status;
+    status = write(self, part.path, name, error);
+    return part_file_end(&part, status, error);
 }
 
 typedef struct printed_table {

@@ -75,21 +75,12 @@ static void test_status(void **state)
     assert_int_equal(text_file_status(EIO), LD_ERR_FILE);
 }
 
-static void test_replaced(void **state)
-{
-    (void)state;
-    assert_true(text_file_is_replaced(in("nothing")) && text_file_is_replaced(in("most")) &&
-                text_file_is_replaced(in("folder")));
-    assert_false(text_file_is_replaced("/dev/null"));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_files),
         cmocka_unit_test(test_standard_input),
         cmocka_unit_test(test_status),
-        cmocka_unit_test(test_replaced),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
