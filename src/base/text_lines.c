@@ -6,7 +6,9 @@ static const char blanks[] = " \t\r";
 
 text_lines text_lines_begin(const char *text, size_t length)
 {
-    return (text_lines){.next = text, .end = text + length};
+    static const char mark[] = "\xef\xbb\xbf"; // a byte order mark, which some programs write
+    size_t marked = length >= 3 && memcmp(text, mark, 3) == 0 ? 3 : 0;
+    return (text_lines){.next = text + marked, .end = text + length};
 }
 
 static bool refuse(text_lines *lines, const char *sentence)
@@ -44,6 +46,8 @@ static char *trim(char *text)
 
 static bool cut(text_lines *lines, bool commas)
 {
+    if (commas && strchr(lines->text, ';'))
+        return refuse(lines, "semicolons between fields; expected commas, and points in decimals");
     const char *between = commas ? "," : blanks;
     for (char *part = trim(lines->text); part;) {
         char *end = part + strcspn(part, between);
@@ -64,6 +68,8 @@ static bool cut(text_lines *lines, bool commas)
 bool text_lines_next(text_lines *lines, char comment, bool commas)
 {
     while (take(lines)) {
+        if (comment == ';')
+            lines->text[strcspn(lines->text, ";")] = '\0';
         char first = lines->text[strspn(lines->text, blanks)];
         if (first != comment && first != '\0')
             return cut(lines, commas);

@@ -37,6 +37,18 @@ bool line_number(line_reader *lines, int field, double *value)
     return false;
 }
 
+bool line_is_as_long(line_reader *lines, int fields)
+{
+    char text[128];
+    if (lines->at.count == fields)
+        return true;
+    snprintf(text, sizeof text,
+             "found %d fields; expected %d, as in the header (decimals take a point, no comma)",
+             lines->at.count, fields);
+    line_refuse(lines, 0, text);
+    return false;
+}
+
 bool line_append(line_reader *lines, ld_table *table, size_t columns, const double *row)
 {
     // room is doubled at each power of two

@@ -26,6 +26,9 @@ bool line_next(line_reader *lines, char comment, bool commas);
 // The number in a field; false after a message.
 bool line_number(line_reader *lines, int field, double *value);
 
+// Whether the line at hand has as many fields as a line above, its header; false after a message.
+bool line_is_as_long(line_reader *lines, int fields);
+
 // Appends a row to a table; false: there is no memory.
 bool line_append(line_reader *lines, ld_table *table, size_t columns, const double *row);
 

@@ -54,7 +54,7 @@ static const known_column list_columns[] = {
 enum { LIST_WIDTH = 7 }; // of a column, numbers at its right
 
 // Of NOAA's format GSD, whose pressures and winds have units of their own in each file.
-enum { GSD_COLUMNS = 7, GSD_DATA = 4, GSD_LAST_DATA = 9 };
+enum { GSD_COLUMNS = 7, GSD_MORE = 3, GSD_DATA = 4, GSD_LAST_DATA = 9 };
 #define GSD_MISSING 32767.0
 
 // A sounding as it is read.
@@ -64,7 +64,7 @@ typedef struct sounding {
     ld_table *table;
     const known_column *known[QUANTITIES];
     int column[QUANTITIES]; // of the file, from 0
-    int columns;            // of a list
+    int columns;            // of the file, GSD's aside
 } sounding;
 
 static bool has(const sounding *self, quantity is)
@@ -214,14 +214,17 @@ void sounding_read_csv(line_reader *lines, const table_format *format, ld_table 
                 self.known[known->is] = known;
                 self.column[known->is] = i;
             }
+    self.columns = lines->at.count;
     check_columns(&self);
     while (line_next(lines, '#', true)) {
         double value[QUANTITIES];
+        if (!line_is_as_long(lines, self.columns))
+            return;
         forget(value);
         for (int i = 0; i < QUANTITIES; i++) {
             int field = self.column[i];
             const known_column *known = self.known[i];
-            if (!known || field >= lines->at.count || !lines->at.field[field][0])
+            if (!known || !lines->at.field[field][0])
                 continue;
             if (!line_number(lines, field, &value[i]))
                 return;
@@ -270,6 +273,23 @@ static bool take_units(sounding *self)
     return true;
 }
 
+// Whether each number of a line stands in a column of its own; false after a message.
+static bool is_in_columns(const sounding *self)
+{
+    const text_lines *at = &self->lines->at;
+    for (int field = 0, before = -1; field < at->count; field++) {
+        int column = list_column(self, field);
+        if (column <= before || column >= self->columns) {
+            line_refuse(self->lines, field,
+                        "a number that is in no column of its own: it must end below the end of "
+                        "a name");
+            return false;
+        }
+        before = column;
+    }
+    return true;
+}
+
 static void read_list(sounding *self)
 {
     line_reader *lines = self->lines;
@@ -286,6 +306,8 @@ static void read_list(sounding *self)
     // the list ends where a line begins with a word
     while (line_next(lines, '-', false) && strchr("0123456789.", lines->at.field[0][0])) {
         double value[QUANTITIES];
+        if (!is_in_columns(self))
+            return;
         forget(value);
         for (int field = 0; field < lines->at.count; field++)
             for (int i = 0; i < QUANTITIES; i++) {
@@ -325,10 +347,10 @@ static void read_gsd_row(sounding *self, double speed, double *pressure)
     line_reader *lines = self->lines;
     double value[QUANTITIES];
     forget(value);
-    if (lines->at.count < GSD_COLUMNS) {
+    if (lines->at.count != GSD_COLUMNS && lines->at.count != GSD_COLUMNS + GSD_MORE) {
         line_refuse(lines, 0,
                     "a level has seven numbers: its type, pressure, height, temperature, dew "
-                    "point, direction and speed of the wind");
+                    "point, direction and speed of the wind; or ten, with time, bearing and range");
         return;
     }
     for (int i = 1; i < GSD_COLUMNS; i++) {

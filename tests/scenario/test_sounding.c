@@ -126,12 +126,65 @@ static void test_old_gsd(void **state)
     model_clear(&m);
 }
 
+// The same table behind a byte order mark, as spreadsheets write it.
+static void test_marked(void **state)
+{
+    (void)state;
+    char text[512];
+    FILE *file = fopen(SOUNDINGS "rocketpy.csv", "r");
+    size_t length = fread(text, 1, sizeof text, file);
+    fclose(file);
+    file = fopen(LD_BINARY_DIR "/marked.csv", "w");
+    fputs("\xef\xbb\xbf", file);
+    fwrite(text, 1, length, file);
+    fclose(file);
+    ld_model m = read_with("rocketpy.csv"), marked;
+    const char *const sets[] = {"environment.atmosphere.profile=" LD_BINARY_DIR "/marked.csv"};
+    ld_messages messages;
+    ld_status status =
+        scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", sets, 1, &marked, &messages);
+    ld_messages_print(&messages, stdout);
+    assert_int_equal(status, LD_OK);
+    const ld_table *air = &m.environment.atmosphere.profile,
+                   *same = &marked.environment.atmosphere.profile;
+    assert_true(air->rows == same->rows && air->columns == same->columns);
+    assert_memory_equal(air->data, same->data, air->rows * air->columns * sizeof *air->data);
+    model_clear(&m);
+    model_clear(&marked);
+}
+
+// An .eng file as some for Cesaroni's motors are: a mark, and comments behind points.
+static void test_engine_with_comments(void **state)
+{
+    (void)state;
+    const char text[] = "\xef\xbb\xbf; by hand\nCTI 75 757 0 3.1 5.2 Cesaroni ; diameter in mm\n"
+                        "0.05 100 ; ignition\n0.1 200;\n;\n3.9 0 ; burnout\n";
+    FILE *file = fopen(LD_BINARY_DIR "/commented.eng", "w");
+    fputs(text, file);
+    fclose(file);
+    const char *const sets[] = {"rocket.motor.thrust=" LD_BINARY_DIR "/commented.eng"};
+    ld_model m;
+    ld_messages messages;
+    ld_status status = scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", sets, 1, &m, &messages);
+    ld_messages_print(&messages, stdout);
+    assert_int_equal(status, LD_OK);
+    const ld_table *thrust = &m.rocket.motor.thrust;
+    assert_true(thrust->rows == 4);
+    assert_true(cell(thrust, 2, 0) == 0.1 && cell(thrust, 2, 1) == 200 &&
+                cell(thrust, 3, 0) == 3.9 && cell(thrust, 3, 1) == 0);
+    model_clear(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_list),        cmocka_unit_test(test_gsd),
-        cmocka_unit_test(test_wyoming_csv), cmocka_unit_test(test_rocketpy),
+        cmocka_unit_test(test_list),
+        cmocka_unit_test(test_gsd),
+        cmocka_unit_test(test_wyoming_csv),
+        cmocka_unit_test(test_rocketpy),
         cmocka_unit_test(test_old_gsd),
+        cmocka_unit_test(test_marked),
+        cmocka_unit_test(test_engine_with_comments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

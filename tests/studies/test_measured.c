@@ -251,7 +251,7 @@ static void test_wrong_files(void **state)
            "t_front: found the unit \"mss\"; expected one of s, did you mean \"ms\"?");
     refuse("t_front [m/s]\n96\n", "1:1", "t_front: found the unit \"m/s\"; expected one of s");
     refuse("t_front [ms\n96\n", "1:1", "expected a result with its unit");
-    refuse("t_front [ms];t_rear [ms]\n1;2\n", "1:1", "expected a result with its unit");
+    refuse("t_front [ms];t_rear [ms]\n1;2\n", "1:1", "semicolons between fields");
     refuse("t_front [ms], \n96,\n", "1:14", "expected a result with its unit");
     refuse("t_front [ms],t_front [s]\n", "1:14", "t_front: stands in a column before this one");
     refuse("salvo,salvo\n", "1:7", "the study has no result \"salvo\"");
