@@ -85,7 +85,10 @@ static void write_data(FILE *script, size_t index, int j, drawn_curve *drawn, co
                        double x_span, double y_span)
 {
     memset(drawn->keep, 0, drawn->count);
-    fprintf(script, "$c%zud%d << EOD\n", index, j);
+    char block[48];
+    int lines = 0;
+    snprintf(block, sizeof block, "$c%zud%d", index, j);
+    fprintf(script, "%s << EOD\n", block);
     for (size_t first = 0; first < drawn->count; first++) {
         if (!drawable(drawn, first))
             continue;
@@ -94,13 +97,16 @@ static void write_data(FILE *script, size_t index, int j, drawn_curve *drawn, co
             last++;
         plot_thin(drawn->x, drawn->y, x_span, y_span, first, last, drawn->keep, drawn->stack);
         for (size_t i = first; i <= last; i++)
-            if (drawn->keep[i])
+            if (drawn->keep[i]) {
                 fprintf(script, "%.6g %.6g\n", self->curve[j].x[i] * self->x_factor,
                         self->curve[j].y[i] * self->y_factor);
+                lines++;
+            }
         fputc('\n', script);
+        lines++;
         first = last;
     }
-    fputs("EOD\n", script);
+    plot_end_data(script, block, lines);
 }
 
 // The name of a faint curve where it leaves the chart on the right or below.

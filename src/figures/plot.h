@@ -149,7 +149,11 @@ void plot_begin(FILE *script, plot_format format, const plot_style *style, doubl
 ld_status plot_fits(plot_format format, const plot_style *style, double width, double height,
                     ld_error *error);
 
-// Text between the single quotes of gnuplot, as a terminal may show it.
+// Ends the data of a block, "$name", and the script where gnuplot has kept another number of lines:
+// short of memory it drops some and draws the rest.
+void plot_end_data(FILE *script, const char *block, int lines);
+
+// Text between quotes of gnuplot, as a terminal may show it.
 void plot_write_quoted(FILE *script, const char *text);
 
 // Marks in `keep` the points from first to last that a curve needs to be within 1/3000 of a panel

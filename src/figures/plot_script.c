@@ -338,13 +338,21 @@ static void set_ranges(plot_drawing *drawing)
     memcpy(drawing->y_range, y, sizeof y);
 }
 
+void plot_end_data(FILE *script, const char *block, int lines)
+{
+    fprintf(script, "EOD\nif (|%s| != %d) exit error 'no memory for a curve'\n", block, lines);
+}
+
 // Each run of drawable points becomes a line; an empty line of data parts them.
 static void write_curve(plot_drawing *drawing, int curve)
 {
     size_t rows = drawing->curve[curve].source->history->rows;
     set_points(drawing, &drawing->curve[curve]);
     memset(drawing->keep, 0, rows);
-    fprintf(drawing->script, "$p%dc%d << EOD\n", drawing->index, curve);
+    char block[32];
+    int lines = 0;
+    snprintf(block, sizeof block, "$p%dc%d", drawing->index, curve);
+    fprintf(drawing->script, "%s << EOD\n", block);
     for (size_t first = 0; first < rows; first++) {
         if (!drawable(drawing, first))
             continue;
@@ -355,28 +363,45 @@ static void write_curve(plot_drawing *drawing, int curve)
                   drawing->y_range[1] - drawing->y_range[0], first, last, drawing->keep,
                   drawing->stack);
         for (size_t i = first; i <= last; i++)
-            if (drawing->keep[i])
+            if (drawing->keep[i]) {
                 fprintf(drawing->script, "%.8g %.8g\n", drawing->x[i], drawing->y[i]);
+                lines++;
+            }
         fputc('\n', drawing->script);
+        lines++;
         first = last;
     }
-    fputs("EOD\n", drawing->script);
+    plot_end_data(drawing->script, block, lines);
 }
 
 // ---- the panel ----
 
+// Within double quotes, where gnuplot gives these signs a meaning.
+static void write_escaped(FILE *script, const char *shown)
+{
+    for (; *shown; shown++)
+        fprintf(script, strchr("'\"`\\@$", *shown) ? "\\%03o" : "%c", (unsigned char)*shown);
+}
+
+// In single quotes, where gnuplot expands nothing; a text that has such a quote in double ones,
+// for gnuplot 5.4 reads two of them in a row, or one at the beginning, as its end.
 void plot_write_quoted(FILE *script, const char *text)
 {
     char shown[5];
-    fputc('\'', script);
+    bool twice = strchr(text, '\'') != NULL;
+    const char *quote = twice ? "\"" : "'";
+    fputs(quote, script);
     for (const char *c = text; *c;) {
         // gnuplot escapes < and & in SVG, but leaves ]]>, which XML forbids
         bool ends = *c == '>' && c >= text + 2 && c[-1] == ']' && c[-2] == ']';
-        fputs(*c == '\'' ? "'" : "", script);
         c += printed_character(c, shown);
-        fputs(ends ? "\\x3e" : shown, script);
+        const char *written = ends ? "\\x3e" : shown;
+        if (twice)
+            write_escaped(script, written);
+        else
+            fputs(written, script);
     }
-    fputc('\'', script);
+    fputs(quote, script);
 }
 
 // ---- instants ----

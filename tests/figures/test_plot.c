@@ -155,7 +155,7 @@ static void test_instants_titles_and_names(void **state)
     (void)state;
     char *script = script_of("contact");
     static const char *const expected[] = {
-        "set label 'Made-up launch, \"in quotes\" and in ''quotes'', ±1 %' at screen",
+        "set label \"Made-up launch, \\042in quotes\\042 and in \\047quotes\\047, ±1 %\" at screen",
         "set arrow from 3.3336, graph 0 to 3.3336, graph 1 ",
         "set arrow from 95.2, graph 0 to 95.2, graph 1 ",
         "set arrow from 127.3, graph 0 to 127.3, graph 1 ",
@@ -180,7 +180,7 @@ static void test_several_runs(void **state)
     char *script = script_of_runs("tip", 2, NAN);
     static const char *const expected[] = {
         "set label 'the one' at screen",
-        "set label 'the other''s' at screen",
+        "set label \"the other\\047s\" at screen",
         "$p0c0 using 1:2 with lines ls 1 dt solid notitle",
         "$p0c1 using 1:2 with lines ls 2 dt solid notitle",
         "$p0c2 using 1:2 with lines ls 1 dt (8,4) notitle",
@@ -571,6 +571,51 @@ static void test_without_gnuplot(void **state)
     assert_int_not_equal(access(in("x.svg.part"), F_OK), 0);
 }
 
+// A gnuplot that has no memory for one of the lines of data, which it then leaves out.
+static void test_short_of_memory(void **state)
+{
+    (void)state;
+    char *path = strdup(getenv("PATH")), *first = malloc(strlen(path) + sizeof folder + 8);
+    FILE *script = fopen(in("gnuplot"), "w");
+    fprintf(script, "#!/bin/sh\nPATH='%s'\nsed '0,/^[-0-9.]* [-0-9.]*$/{//d}' | gnuplot \"$@\"\n",
+            path);
+    fclose(script);
+    chmod(in("gnuplot"), 0755);
+    sprintf(first, "%s:%s", folder, path);
+    setenv("PATH", first, 1);
+    expect(in("run"), "tip", in("x.svg"), LD_ERR_FILE, "no memory for a curve");
+    setenv("PATH", path, 1);
+    free(path);
+    free(first);
+    assert_int_not_equal(access(in("x.svg"), F_OK), 0);
+}
+
+// What gnuplot takes a quoted text for is the text.
+static void test_quoted_texts(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "plain",  "'begins",  "it''s",         "it's",    "ends'",
+        "'",      "''''",     "'`echo x` $x",  "`date`",  "'@x \\n ",
+        "\\n 'a", "{a_b^c}'", "\"both\" '±µ'", "a \"b\"",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        char line[160];
+        FILE *script = fopen(in("quoted"), "w");
+        fputs("x = 'expanded'\nset print '-'\nprint ", script);
+        plot_write_quoted(script, texts[i]);
+        fputs("\n", script);
+        fclose(script);
+        snprintf(line, sizeof line, "gnuplot --default-settings %s", in("quoted"));
+        FILE *printed = popen(line, "r"); // NOLINT(cert-env33-c)
+        assert_non_null(printed);
+        line[fread(line, 1, sizeof line - 1, printed)] = '\0';
+        assert_int_equal(pclose(printed), 0);
+        line[strcspn(line, "\n")] = '\0';
+        assert_string_equal(line, texts[i]);
+    }
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, scratch_remove)
 
 int main(void)
@@ -591,6 +636,8 @@ int main(void)
         TEST(test_nothing_to_show),
         TEST(test_what_can_be_wrong),
         TEST(test_without_gnuplot),
+        TEST(test_short_of_memory),
+        TEST(test_quoted_texts),
         cmocka_unit_test(test_relative_rates_are_of_the_angles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
