@@ -132,6 +132,21 @@ FIND(lock_across)
 
 // ---- motor
 
+// The shortest time between two corners of the thrust, and the row of the second; a jump has none.
+FIND(thrust_corner)
+{
+    const ld_motor *motor = &at->model->rocket.motor;
+    plausible_pair pair = plausible_nothing();
+    for (size_t i = 1; i < motor->thrust.rows; i++) {
+        double time = motor->thrust.data[2 * i] - motor->thrust.data[2 * (i - 1)];
+        if (time > 0 && !(time * motor->time_scale >= pair.value)) {
+            pair = plausible_alone(time * motor->time_scale);
+            pair.row = (int)i + 1;
+        }
+    }
+    return pair;
+}
+
 FIND(thrust_at_end)
 {
     const ld_motor *motor = &at->model->rocket.motor;
@@ -339,6 +354,8 @@ const plausible_rule plausible_of_rocket[] = {
     {"rocket.motor.thrust.#", "the thrust at its end", .unit = "N", .other = "the greatest thrust",
      NO_LOW, .high = 0.1, .find = thrust_at_end,
      .why = "a motor burns out, and the curve ends near 0 N"},
+    {"rocket.motor.thrust.#", "the time since the row before", .unit = "s", .low = 1e-6, NO_HIGH,
+     .find = thrust_corner, .why = "for a jump give the same time twice"},
     {"rocket.motor.thrust", "the greatest thrust", .unit = "N",
      .other = "the weight towards the rear", .low = 1, NO_HIGH, .find = thrust_by_weight,
      .why = "the rocket never leaves"},

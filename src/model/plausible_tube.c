@@ -113,15 +113,65 @@ FIND(support_frequency)
     return plausible_alone(stiffness > 0 ? sqrt(stiffness / mass) / (2 * PI) : NAN);
 }
 
-// Time [s] in which the supports' dampers along y take the tube's motion.
+// Time [s] in which the supports' dampers take the tube's motion along an axis, the shortest.
 FIND(support_time)
 {
     const ld_tubes *tubes = &at->model->tubes;
-    double damping = 0;
-    for (int i = 0; i < tubes->support_count; i++)
-        damping += tubes->support[i].damping[1];
-    return plausible_compare(damping > 0 ? plausible_tube_mass(tubes) / damping : NAN,
+    double greatest = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        double damping = 0;
+        for (int i = 0; i < tubes->support_count; i++)
+            damping += tubes->support[i].damping[axis];
+        greatest = fmax(greatest, damping);
+    }
+    return plausible_compare(greatest > 0 ? plausible_tube_mass(tubes) / greatest : NAN,
                              at->model->run.max_step);
+}
+
+// Time [s] in which their rotational dampers across the axis take the turning of the tube, as of a
+// rod, the shortest.
+FIND(support_turning_time)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double inertia = plausible_tube_mass(tubes) * tubes->length * tubes->length / 12, damping[2];
+    for (int axis = 0; axis < 2; axis++) {
+        damping[axis] = 0;
+        for (int i = 0; i < tubes->support_count; i++)
+            damping[axis] += tubes->support[i].rotational_damping[1 + axis];
+    }
+    double greatest = fmax(damping[0], damping[1]);
+    return plausible_compare(greatest > 0 ? inertia / greatest : NAN, at->model->run.max_step);
+}
+
+// Time [s] in which a slide's damper takes the tube's recoil.
+FIND(recoil_time)
+{
+    const ld_recoil *recoil = &at->model->tubes.support[at->i].recoil;
+    double mass = plausible_tube_mass(&at->model->tubes);
+    return plausible_compare(recoil->present && recoil->damping > 0 ? mass / recoil->damping : NAN,
+                             at->model->run.max_step);
+}
+
+static double greatest_spring(const ld_support *support)
+{
+    double greatest = 0;
+    for (ld_clamp axis = LD_CLAMP_X; axis <= LD_CLAMP_Z; axis++)
+        greatest = fmax(greatest, support_spring(support, axis));
+    return greatest;
+}
+
+// The stiffness of a support that has springs along the axes alone, if any, beside that of the
+// stiffest one.
+FIND(support_stiffness)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    const ld_support *support = &tubes->support[at->i];
+    double stiffest = 0;
+    for (int i = 0; i < tubes->support_count; i++)
+        stiffest = fmax(stiffest, greatest_spring(&tubes->support[i]));
+    if (support->clamped || plausible_norm(support->rotational_stiffness) > 0)
+        return plausible_nothing();
+    return plausible_compare(greatest_spring(support), stiffest);
 }
 
 // The distance of a station that is clamped from the nearest of those before it.
@@ -313,10 +363,20 @@ const plausible_rule plausible_of_tube[] = {
     {"tubes.supports", "the frequency of tube and rocket on their stiffness along y", .unit = "Hz",
      .low = 0.5, .high = 10000, .find = support_frequency, .of = "tubes.material.density",
      .why = "supports hold a tube tighter than rubber and softer than rock"},
-    {"tubes.supports", "the time in which their damping along y takes the tube's motion",
-     .unit = "s", .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_time,
+    {"tubes.supports", "the time in which their damping takes the tube's motion", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_time,
      .of = "tubes.material.density",
      .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.supports", "the time in which their rotational damping takes the tube's turning",
+     .unit = "s", .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_turning_time,
+     .of = "tubes.material.density",
+     .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.supports.#.stiffness", "its greatest stiffness", .unit = "N/m",
+     .other = "that of the stiffest support", .low = 1e-6, NO_HIGH, .find = support_stiffness,
+     .why = "a support without springs holds nothing"},
+    {"tubes.supports.#.recoil.damping", "the time in which it takes the recoil", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = recoil_time,
+     .of = "tubes.material.density", .why = "the slide does not move"},
     {"tubes.supports.#.recoil.preload", "the preload of all slides", .unit = "N",
      .other = "the weight of tube and rocket towards the rear", .low = 1, NO_HIGH, .find = preload,
      .of = "tubes.material.density", .why = "the tube rests out of battery"},
