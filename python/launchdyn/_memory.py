@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import threading
 import weakref
-from typing import Any, Callable, Iterable, Optional, TypeVar
+from typing import Any, Callable, Iterable, Optional, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,7 @@ import numpy.typing as npt
 from ._library import libc
 
 Array = npt.NDArray[np.float64]
+PathLike = Union[str, "os.PathLike[str]"]
 
 
 def _free(free: Callable[[int], Any], pointer: int, parents: tuple[Handle, ...]) -> None:
@@ -95,9 +97,27 @@ def text_of(text: Optional[bytes]) -> str:
     return text.decode("utf-8", "replace") if text else ""
 
 
+def coded(text: str) -> bytes:
+    """A text for the library. Raises TypeError for what is no text, ValueError for one with a NUL
+    character, at which it would end there."""
+    if not isinstance(text, str):
+        raise TypeError(f"expected a text (str), found {type(text).__name__}")
+    if "\0" in text:
+        raise ValueError(f"a text with a NUL character: {text[:60]!r}")
+    return text.encode()
+
+
+def coded_path(path: PathLike) -> bytes:
+    """The name of a file or folder for the library; ValueError for one with a NUL character."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError(f"a file's name with a NUL character: {name[:60]!r}")
+    return name
+
+
 def texts(items: Iterable[str]) -> Any:
     """An array of C strings."""
-    encoded = [item.encode() for item in items]
+    encoded = [coded(item) for item in items]
     return (ctypes.c_char_p * len(encoded))(*encoded)
 
 

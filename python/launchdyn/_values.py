@@ -84,6 +84,8 @@ def _find(tree: dict[str, Any], parts: list[str]) -> Optional[Key]:
 @functools.lru_cache(maxsize=4096)
 def key_of(path: str) -> Optional[Key]:
     """The key that a path leads to, or that of a vector whose component it is."""
+    if not isinstance(path, str):
+        raise TypeError(f"expected the path of a key (str), found {type(path).__name__}")
     parts = path.removeprefix("sweep.").split(".")  # whose keys are paths themselves
     found = _find(_tree(), parts)
     if not found and parts[-1] in ("w", "x", "y", "z"):
@@ -120,6 +122,8 @@ def _are_numbers(value: Any) -> bool:
 
 
 def _quoted(text: str) -> str:
+    if "\0" in text:
+        raise ValueError(f"a text with a NUL character: {text[:60]!r}")
     return text if _PLAIN.fullmatch(text) else json.dumps(text, ensure_ascii=False)
 
 

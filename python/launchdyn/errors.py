@@ -41,6 +41,8 @@ class Message:
     suggestion: Optional[str]  #: the name that was probably meant
 
     def __str__(self) -> str:
+        if self.file == "--set":  # a value set by its path, which no file holds
+            return f"{self.key or self.source}: {self.text}"
         place = f"{self.file}:{self.line}:{self.column}" if self.line > 0 else self.file
         return f"{place}: {self.key + ': ' if self.key else ''}{self.text}"
 

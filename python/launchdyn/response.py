@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ._interrupt import Interrupt
 from ._library import GO_ON, ld_column, ld_error, ld_loop_margins, ld_watch, library
-from ._memory import Array, Handle, Held, text_of, texts
+from ._memory import Array, Handle, Held, coded, text_of, texts
 from .errors import UnknownName, check, check_name
 from .result import Column
 
@@ -125,7 +125,7 @@ class Response(Held):
         gain = np.empty((len(f), len(names)), np.complex128)
         with self._lock:
             self._choose(names)
-            status = library.ld_response_gain(self._pointer, self._at(speed), input.encode(),
+            status = library.ld_response_gain(self._pointer, self._at(speed), coded(input),
                                               f.ctypes.data, len(f), gain.ctypes.data,
                                               ctypes.byref(error))
         self._check_input(input, status, error)
@@ -168,7 +168,7 @@ class Response(Held):
         with self._lock:
             self._choose(names)
             status = library.ld_response_random(
-                self._pointer, self._at(speed), input.encode(), f.ctypes.data, given.ctypes.data,
+                self._pointer, self._at(speed), coded(input), f.ctypes.data, given.ctypes.data,
                 len(f), rms.ctypes.data, strongest.ctypes.data, ctypes.byref(error))
         self._check_input(input, status, error)
         return _strengths(names, rms, strongest)
@@ -206,7 +206,7 @@ class Loop(Held):
 
     def __init__(self, model: Handle, hinge: str) -> None:
         error, pointer = ld_error(), ctypes.c_void_p()
-        check(library.ld_loop_create(model.pointer, hinge.encode(), ctypes.byref(pointer),
+        check(library.ld_loop_create(model.pointer, coded(hinge), ctypes.byref(pointer),
                                      ctypes.byref(error)), error, model.pointer)
         self.hinge = hinge
         super().__init__(Handle(pointer.value, library.ld_loop_free, model))

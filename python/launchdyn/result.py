@@ -10,7 +10,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Optional
 
 from ._library import QUANTITY_TAKER, ld_error, library
-from ._memory import Array, Handle, array_at, printed, text_of, texts
+from ._memory import Array, Handle, array_at, coded, printed, text_of, texts
 from .errors import MissingError, UnknownName, check_name
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def data_set(variables: Mapping[str, Any], coordinates: Mapping[str, Any]) -> xa
 
 def nearest(name: str, names: list[str]) -> Optional[str]:
     """The one of some names that is nearest to `name`; None if none is near."""
-    return text_of(library.ld_nearest_name(name.encode(), texts(names), len(names))) or None
+    return text_of(library.ld_nearest_name(coded(name), texts(names), len(names))) or None
 
 
 class History(Mapping[str, Array]):
@@ -78,7 +78,7 @@ class History(Mapping[str, Array]):
 
     def __getitem__(self, name: str) -> Array:
         rows = ctypes.c_size_t()
-        found = library.ld_history_column(self._pointer, name.encode(), ctypes.byref(rows))
+        found = library.ld_history_column(self._pointer, coded(name), ctypes.byref(rows))
         if not found and name not in self.columns:
             near = nearest(name, list(self.columns))
             raise UnknownName(f'there is no column "{name}"'
@@ -136,7 +136,7 @@ class Summary(Mapping[str, float]):
 
     def __getitem__(self, name: str) -> float:
         error, value = ld_error(), ctypes.c_double()
-        check_name(library.ld_summary_number(self._handle.pointer, name.encode(),
+        check_name(library.ld_summary_number(self._handle.pointer, coded(name),
                                              ctypes.byref(value), ctypes.byref(error)), error)
         return value.value
 

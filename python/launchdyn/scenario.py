@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import json
 import math
-import os
 from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Callable, Optional, Type, Union
@@ -14,7 +13,7 @@ import numpy as np
 
 from ._library import (ld_error, ld_messages, ld_response_wish, ld_stretch, ld_wind_section,
                        library)
-from ._memory import Array, Handle, printed, text_of, texts
+from ._memory import Array, Handle, PathLike, coded, coded_path, printed, text_of, texts
 from ._progress import Progress
 from ._values import Key, Sets, key_of, scenario_text, set_texts
 from .errors import (InputError, Message, UnknownName, check, check_messages, check_name,
@@ -24,7 +23,6 @@ from .result import Result
 from .simulation import BaseFrame, Run, Simulation
 from .views import View
 
-PathLike = Union[str, "os.PathLike[str]"]
 Value = Union[float, str, Array]
 
 
@@ -58,16 +56,16 @@ class Scenario:
     def read(cls, path: PathLike, sets: Sets = None) -> Scenario:
         """Reads a file; `sets` override it: {"rocket.mass": "61 kg"}."""
         items = texts(set_texts(sets))
-        return cls(read_model(library.ld_scenario_read, os.fsencode(path), items, len(items)))
+        return cls(read_model(library.ld_scenario_read, coded_path(path), items, len(items)))
 
     @classmethod
     def from_text(cls, text: str, sets: Sets = None, name: str = "text",
                   folder: PathLike = ".") -> Scenario:
         """Reads a text; `name` stands for the file in messages, `folder` is where files that it
         names are looked for."""
-        items, coded = texts(set_texts(sets)), text.encode()
-        return cls(read_model(library.ld_scenario_read_text, coded, len(coded), name.encode(),
-                              os.fsencode(folder), items, len(items)))
+        items, given = texts(set_texts(sets)), coded(text)
+        return cls(read_model(library.ld_scenario_read_text, given, len(given), coded(name),
+                              coded_path(folder), items, len(items)))
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any], sets: Sets = None, name: str = "dict",
@@ -111,7 +109,7 @@ class Scenario:
         if table is not None:
             return table
         error, value = ld_error(), ctypes.c_double()
-        if not library.ld_model_number(self.handle.pointer, path.encode(), ctypes.byref(value),
+        if not library.ld_model_number(self.handle.pointer, coded(path), ctypes.byref(value),
                                        ctypes.byref(error)):
             return value.value
         try:
@@ -143,7 +141,7 @@ class Scenario:
 
     def _number(self, path: str) -> float:
         error, value = ld_error(), ctypes.c_double()
-        check_name(library.ld_model_number(self.handle.pointer, path.encode(),
+        check_name(library.ld_model_number(self.handle.pointer, coded(path),
                                            ctypes.byref(value), ctypes.byref(error)), error)
         return value.value
 
@@ -151,7 +149,7 @@ class Scenario:
         error = ld_error()
         table = ctypes.POINTER(ctypes.c_double)()
         rows, columns = ctypes.c_size_t(), ctypes.c_size_t()
-        if library.ld_model_table(self.handle.pointer, path.encode(), ctypes.byref(table),
+        if library.ld_model_table(self.handle.pointer, coded(path), ctypes.byref(table),
                                   ctypes.byref(rows), ctypes.byref(columns), ctypes.byref(error)):
             return None
         shape = rows.value, columns.value
@@ -160,7 +158,7 @@ class Scenario:
     def text(self, path: str) -> str:
         """A value as a text that can be set again: "61 kg"; "" where it is not given."""
         error, text = ld_error(), ctypes.create_string_buffer(4096)
-        check_name(library.ld_model_text(self.handle.pointer, path.encode(), text, len(text),
+        check_name(library.ld_model_text(self.handle.pointer, coded(path), text, len(text),
                                          ctypes.byref(error)), error)
         return text_of(text.value)
 
@@ -264,7 +262,7 @@ class Scenario:
         slowest, fastest, step = speeds or (math.nan,) * 3
         return View("response", self.handle, ld_response_wish(
             texts(what), len(what), _coded(input), start, end, slowest, fastest, step,
-            _coded(loop), os.fsencode(density) if density else None, exit, rub, draws))
+            _coded(loop), coded_path(density) if density else None, exit, rub, draws))
 
     def road_view(self, start: float = math.nan, end: float = math.nan,
                   step: float = math.nan) -> View:
@@ -286,12 +284,12 @@ class Scenario:
         if part not in parts:
             raise ValueError(f"a part is one of {', '.join(parts)}; found {part!r}")
         check(library.ld_fmu_export(self.handle.pointer, parts.index(part), version,
-                                    os.fsencode(file), ctypes.byref(error)), error,
+                                    coded_path(file), ctypes.byref(error)), error,
               self.handle.pointer)
 
 
 def _coded(text: Optional[str]) -> Optional[bytes]:
-    return None if text is None else text.encode()
+    return None if text is None else coded(text)
 
 
 def dict_text(values: Mapping[str, Any]) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from ._interrupt import Interrupt
 from ._library import (SHARE_TOLD, ld_base_frame, ld_base_wrench, ld_column, ld_error, ld_event,
                        ld_mode, ld_pole, ld_run_options, library)
-from ._memory import Array, Handle, Held, text_of
+from ._memory import Array, Handle, Held, coded, coded_path, text_of
 from ._progress import Progress, followed
 from .errors import InputError, Status, check, check_name, failure
 from .result import Column, Quantity, Result, quantities_at
@@ -103,7 +103,7 @@ class _Recording:
             raise ValueError("csv needs a folder: out")
         if out is not None:
             output = ctypes.c_void_p()
-            check(library.ld_output_open(os.fsencode(out), model.pointer, csv,
+            check(library.ld_output_open(coded_path(out), model.pointer, csv,
                                          ctypes.byref(output), ctypes.byref(error)), error)
             self._output = Handle(output.value, library.ld_output_discard, model)
         sink = library.ld_output_sink(self._output.pointer) if self._output else None
@@ -179,6 +179,8 @@ class Simulation:
 
     def load(self, saved: bytes) -> Run:
         """Goes on where a run that was saved stood (Run.save()), with the same bits."""
+        if not isinstance(saved, bytes):
+            raise TypeError(f"expected what Run.save() gave (bytes), found {type(saved).__name__}")
         return Run(self, saved=saved)
 
     def begin_vehicle(self) -> VehicleRun:
@@ -331,7 +333,7 @@ class Run(Held):
         """A column at the present time, in SI."""
         error, value = ld_error(), ctypes.c_double()
         with self._lock:
-            status = library.ld_run_number(self._pointer, name.encode(), ctypes.byref(value),
+            status = library.ld_run_number(self._pointer, coded(name), ctypes.byref(value),
                                            ctypes.byref(error))
         if status == Status.INPUT:
             check_name(status, error)

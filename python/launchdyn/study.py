@@ -18,7 +18,7 @@ from ._interrupt import Interrupt
 from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_study_counts,
                        ld_study_options, ld_study_statistics, ld_study_values, ld_study_view,
                        library)
-from ._memory import Array, Handle, Held, printed, text_of, texts
+from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of, texts
 from ._progress import Progress, followed
 from ._values import Sets, set_texts
 from .errors import Status, check, check_name
@@ -99,15 +99,15 @@ class Study:
     def read(cls, path: PathLike, sets: Sets = None) -> Study:
         """Reads a file; `sets` override it."""
         items = texts(set_texts(sets))
-        return cls(_read_study(library.ld_study_read, os.fsencode(path), items, len(items)))
+        return cls(_read_study(library.ld_study_read, coded_path(path), items, len(items)))
 
     @classmethod
     def from_text(cls, text: str, sets: Sets = None, name: str = "text",
                   folder: PathLike = ".") -> Study:
         """Reads a text, as Scenario.from_text()."""
-        items, coded = texts(set_texts(sets)), text.encode()
-        return cls(_read_study(library.ld_study_read_text, coded, len(coded), name.encode(),
-                               os.fsencode(folder), items, len(items)))
+        items, given = texts(set_texts(sets)), coded(text)
+        return cls(_read_study(library.ld_study_read_text, given, len(given), coded(name),
+                               coded_path(folder), items, len(items)))
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any], sets: Sets = None, name: str = "dict",
@@ -218,7 +218,7 @@ class _Work:
 
         self._options = ld_study_options(threads=threads, shard=shard, shards=shards,
                                          progress=COUNTS_TOLD(told), go_on=GO_ON(may_go_on))
-        self._thread = threading.Thread(target=self._run, args=(study, os.fsencode(folder)))
+        self._thread = threading.Thread(target=self._run, args=(study, coded_path(folder)))
 
     def _run(self, study: Handle, folder: bytes) -> None:
         self.status = library.ld_study_run(study.pointer, folder, ctypes.byref(self._options),
@@ -246,7 +246,7 @@ class StudyData(Held):
     def __init__(self, folder: PathLike) -> None:
         """Opens the folder of a study."""
         error, pointer = ld_error(), ctypes.c_void_p()
-        check(library.ld_study_data_open(os.fsencode(folder), ctypes.byref(pointer),
+        check(library.ld_study_data_open(coded_path(folder), ctypes.byref(pointer),
                                          ctypes.byref(error)), error)
         self.folder = Path(folder)
         super().__init__(Handle(pointer.value, library.ld_study_data_close))
@@ -320,7 +320,7 @@ class StudyData(Held):
         error = ld_error()
         found = ctypes.POINTER(ld_study_statistics)()
         with self._lock:
-            check_name(library.ld_study_data_statistics(self._pointer, point, name.encode(),
+            check_name(library.ld_study_data_statistics(self._pointer, point, coded(name),
                                                         ctypes.byref(found),
                                                         ctypes.byref(error)), error)
             s = found[0]
@@ -334,7 +334,7 @@ class StudyData(Held):
         error, share = ld_error(), ld_estimate()
         with self._lock:
             check_name(library.ld_study_data_sensitivity(
-                self._pointer, point, result.encode(), factor.encode(), ctypes.byref(share),
+                self._pointer, point, coded(result), coded(factor), ctypes.byref(share),
                 ctypes.byref(error)), error)
         return _estimate(share)
 
@@ -388,12 +388,12 @@ class StudyData(Held):
         """The tables that `launchdyn study show` prints, of results by name or "all"; beside the
         `measured` shots of a CSV file; or how far points of the sweep are from one, `against`."""
         error, view = ld_error(), ld_study_view(
-            what=what.encode() if what else None, sensitivity=sensitivity,
-            measured=os.fsencode(measured) if measured else None,
-            against=against.encode() if against else None)
+            what=coded(what) if what else None, sensitivity=sensitivity,
+            measured=coded_path(measured) if measured else None,
+            against=coded(against) if against else None)
         status = []
         text = printed(lambda to: status.append(library.ld_study_show(
-            os.fsencode(self.folder), ctypes.byref(view), to, ctypes.byref(error))))
+            coded_path(self.folder), ctypes.byref(view), to, ctypes.byref(error))))
         named = what and not measured and not against
         check_name(status[0], error) if named else check(status[0], error)
         return text
@@ -404,9 +404,9 @@ class StudyData(Held):
         if not csv and not hdf5:
             raise ValueError("name a file to write: csv, hdf5")
         error = ld_error()
-        check(library.ld_study_export(os.fsencode(self.folder),
-                                      os.fsencode(csv) if csv else None,
-                                      os.fsencode(hdf5) if hdf5 else None,
+        check(library.ld_study_export(coded_path(self.folder),
+                                      coded_path(csv) if csv else None,
+                                      coded_path(hdf5) if hdf5 else None,
                                       ctypes.byref(error)), error)
 
     def plot(self, *names: str, over: Optional[str] = None, ax: Any = None, **style: Any) -> Any:
@@ -418,7 +418,7 @@ class StudyData(Held):
     def write_report(self, file: PathLike) -> None:
         """Writes one HTML file that shows the study in any browser, offline."""
         error, report = ld_error(), ld_report()
-        check(library.ld_report_write_studies(texts([str(self.folder)]), 1, os.fsencode(file),
+        check(library.ld_report_write_studies(texts([str(self.folder)]), 1, coded_path(file),
                                               ctypes.byref(report), ctypes.byref(error)), error)
 
     def __repr__(self) -> str:
@@ -443,7 +443,7 @@ def merge_shards(folder: PathLike) -> StudyData:
     often, and while shards run, but not while StudyData of the folder is open: FileError.
     Study.run() then runs what is still missing."""
     error, status = ld_error(), []
-    printed(lambda to: status.append(library.ld_study_merge(os.fsencode(folder), to,
+    printed(lambda to: status.append(library.ld_study_merge(coded_path(folder), to,
                                                             ctypes.byref(error))))
     check(status[0], error)
     return StudyData(folder)
@@ -453,6 +453,6 @@ def write_report(folder: PathLike, file: Optional[PathLike] = None) -> Path:
     """Writes one HTML file that shows the run in a folder in any browser, offline: report.html
     there, or `file`."""
     error, report = ld_error(), ld_report()
-    check(library.ld_report_write(os.fsencode(folder), os.fsencode(file) if file else None,
+    check(library.ld_report_write(coded_path(folder), coded_path(file) if file else None,
                                   ctypes.byref(report), ctypes.byref(error)), error)
     return Path(file) if file else Path(folder) / "report.html"

@@ -17,7 +17,7 @@ import numpy as np
 
 from ._interrupt import Interrupt
 from ._library import GO_ON, ld_error, ld_picture, ld_response_wish, ld_watch, library
-from ._memory import Array, Handle, printed, text_of, texts
+from ._memory import Array, Handle, coded, coded_path, printed, text_of, texts
 from .errors import check
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -53,13 +53,13 @@ class View:
     def write(self, folder: PathLike) -> None:
         """Writes its tables as CSV into a folder."""
         error = ld_error()
-        check(self._function("write")(self._handle.pointer, os.fsencode(folder),
+        check(self._function("write")(self._handle.pointer, coded_path(folder),
                                       ctypes.byref(error)), error)
 
     def draw(self, file: PathLike) -> None:
         """Draws it by gnuplot: file.svg, file.pdf or file.png."""
         error = ld_error()
-        check(self._function("draw")(self._handle.pointer, os.fsencode(file),
+        check(self._function("draw")(self._handle.pointer, coded_path(file),
                                      ctypes.byref(error)), error)
 
     def __str__(self) -> str:
@@ -101,7 +101,7 @@ def draw(file: PathLike, *folders: PathLike, figures: Sequence[str] = (),
     error, note = ld_error(), ctypes.create_string_buffer(ld_error.text.size)
     wanted = [os.fsdecode(folder) for folder in folders]
     picture = ld_picture(texts(wanted), len(wanted), texts(figures), len(figures), start, end,
-                         ctypes.addressof(note), style.encode() if style else None, width)
-    check(library.ld_plot(ctypes.byref(picture), os.fsencode(file), ctypes.byref(error)), error)
+                         ctypes.addressof(note), coded(style) if style else None, width)
+    check(library.ld_plot(ctypes.byref(picture), coded_path(file), ctypes.byref(error)), error)
     if note.value:
         warnings.warn(text_of(note.value), stacklevel=2)

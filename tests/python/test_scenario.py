@@ -212,6 +212,7 @@ class TestErrors(Case):
         with self.assertRaises(ld.InputError) as caught:
             read["rocket.mass"] = "61 m"
         self.assertEqual((caught.exception.file, caught.exception.key), ("--set", "rocket.mass"))
+        self.assertTrue(str(caught.exception).startswith('rocket.mass: found "61 m", a unit of'))
         self.assertEqual(read["rocket.mass"], 60)
         with self.assertRaises(ld.InputError) as caught:
             read.set({"rocket.mass": 61, "base.elevation": "1 m"})
@@ -219,6 +220,26 @@ class TestErrors(Case):
         with self.assertRaises(ld.InputError) as caught:
             read["tubes.modes.span"] = "suported"
         self.assertEqual(caught.exception.suggestion, "supported")
+
+    def test_what_is_no_text(self):
+        read = ld.Scenario.read(FIXED)
+        simulation = read.simulation()
+        with simulation.begin() as run:
+            for wrong in (3, None, b"t"):
+                for get in (run.__getitem__, read.__getitem__, read.text):
+                    with self.assertRaisesRegex(TypeError, "found (int|NoneType|bytes)"):
+                        get(wrong)
+            with self.assertRaises(ValueError):
+                run["t\0x"]
+        for saved in (None, "text", 3):
+            with self.assertRaisesRegex(TypeError, "expected what Run.save"):
+                simulation.load(saved)
+        for act in (lambda: read["rocket.mass\0x"], lambda: read.set({"title": "a\0b"}),
+                    lambda: read.set(["title=a\0b"]), lambda: ld.Scenario.from_text("title: a\0"),
+                    lambda: ld.Scenario.from_dict({"title": "a\0b"}),
+                    lambda: ld.Scenario.read(f"{FIXED}\0.yaml"), lambda: read.run("a\0b")):
+            with self.assertRaisesRegex(ValueError, "NUL character"):
+                act()
 
     def test_a_key_that_is_not_there(self):
         read = ld.Scenario.read(FIXED)
