@@ -119,6 +119,11 @@ void report_free_source(report_source *source)
 
 // ---- the file ----
 
+size_t report_title_length(const report_source *source)
+{
+    return source->history.title ? strlen(source->history.title) : 0;
+}
+
 static ld_status write_data(FILE *json, const void *self, const report_detail *detail,
                             ld_error *error)
 {
@@ -156,7 +161,10 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
         status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
                          report->note[0], report->note[report->note_count - 1]);
     if (!status)
-        status = report_write_as_fits(&(report_page){source, write_data, write_page, false},
+        status = report_write_as_fits(&(report_page){.self = source,
+                                                     .write_data = write_data,
+                                                     .write_page = write_page,
+                                                     .title = report_title_length(source)},
                                       file ? file : usual, report, error);
     if (!status && found)
         status = ld_fail(error, found, "%s; the report shows the rest", damage.text);

@@ -53,6 +53,10 @@ static ld_status make_page_that_fits(const report_page *self, ld_report *report,
             return status;
         free(*text);
         *text = NULL;
+        if (detail.pixel > 0.1 && self->title > REPORT_BYTES / 10)
+            return ld_fail(error, LD_ERR_INPUT,
+                           "the title has %zu bytes, too many for a report of %d bytes",
+                           self->title, REPORT_BYTES);
         if (detail.pixel > 0.1)
             return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
                            REPORT_BYTES);

@@ -40,6 +40,7 @@ typedef struct report_page {
     ld_status (*write_page)(FILE *page, const void *self, const char *data, size_t length,
                             ld_error *error);
     bool figures_alone; // see report_detail
+    size_t title;       // bytes of its titles, which no detail makes shorter
 } report_page;
 
 // Writes the page into `file` as fine as it fits, and what it took into `report`.
@@ -50,6 +51,9 @@ ld_status report_write_as_fits(const report_page *page, const char *file, ld_rep
 // is; LD_ERR_FILE, LD_ERR_MEMORY. `source` is zero but for who takes notes; to be freed either way.
 ld_status report_read_folder(report_source *source, const char *folder, ld_error *error);
 void report_free_source(report_source *source);
+
+// Bytes of the run's title.
+size_t report_title_length(const report_source *source);
 
 // Whether a history is that of a flight.
 bool report_is_flight(const history_data *history);

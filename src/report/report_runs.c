@@ -126,9 +126,11 @@ ld_status ld_report_write_runs(const char *const *folder, size_t count, const ch
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     self->report = report;
     ld_status status = read_runs(self, folder, count, error);
+    report_page page = {self, write_data, write_page, true, 0};
+    for (int i = 0; i < self->count; i++)
+        page.title += report_title_length(&self->run[i].source);
     if (!status)
-        status = report_write_as_fits(&(report_page){self, write_data, write_page, true}, file,
-                                      report, error);
+        status = report_write_as_fits(&page, file, report, error);
     if (!status && self->problem.status)
         status = ld_fail(error, LD_ERR_INPUT, "%s; the report shows the rest", self->problem.text);
     for (int i = 0; i < self->count; i++)

@@ -499,6 +499,29 @@ static void test_part_of_a_run(void **state)
     free(page);
 }
 
+// A title that no report has room for is told as what it is, of one run and of several.
+static void test_title_without_room(void **state)
+{
+    (void)state;
+    enum { BYTES = 1000000 };
+    history_hdf5 *history;
+    ld_error error = {.text = ""};
+    char *title = malloc(BYTES + 1);
+    memset(title, 'x', BYTES);
+    title[BYTES] = '\0';
+    assert_int_equal(run("mkdir -p %1$s/titled"), 0);
+    assert_int_equal(history_hdf5_create(in("titled/history.h5"), title, &history, NULL), LD_OK);
+    assert_int_equal(history_hdf5_begin(history, made_columns(), MADE_COLUMNS, NULL), LD_OK);
+    assert_int_equal(history_hdf5_close(history, NULL, NULL), LD_OK);
+    free(title);
+    assert_int_equal(ld_report_write(in("titled"), NULL, NULL, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "the title has 1000000 bytes, too many for a report of 2000000 "
+                                    "bytes");
+    const char *const both[] = {in("titled"), in("titled")};
+    assert_int_equal(ld_report_write_runs(both, 2, in("both.html"), NULL, &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "the title has 2000000 bytes"));
+}
+
 // Runs laid over each other: what is not there is noted and left out, titles stay texts.
 static void test_runs_over_each_other(void **state)
 {
@@ -553,6 +576,7 @@ int main(void)
         TEST(test_long_lead_in_and_flight),
         TEST(test_what_is_missing_is_said),
         TEST(test_part_of_a_run),
+        TEST(test_title_without_room),
         TEST(test_runs_over_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
