@@ -1,4 +1,8 @@
 /// Status codes and error messages, returned by every function that can fail.
+///
+/// A pointer is NULL only where the comment of a function or a member says so. Anywhere else NULL
+/// is a fault of the calling program: reading, running and writing end it by an assertion that
+/// names what is missing (release builds too), other functions have no defined behaviour.
 #ifndef LAUNCHDYN_STATUS_H
 #define LAUNCHDYN_STATUS_H
 

@@ -1,6 +1,7 @@
 // Drawing figures: from folders of results through gnuplot to a picture.
 #include "figures/plot.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -309,6 +310,7 @@ static ld_status check_picture(const ld_picture *picture, ld_error *error)
 
 ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
 {
+    assert(picture && file);
     plot_format format = PLOT_SVG;
     ld_status status = check_picture(picture, error);
     if (!status)

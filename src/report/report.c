@@ -1,6 +1,7 @@
 // From a folder of results to one HTML file.
 #include "launchdyn/report.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -138,6 +139,7 @@ static ld_status write_page(FILE *page, const void *self, const char *data, size
 
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error)
 {
+    assert(folder);
     ld_report unwanted;
     char usual[REPORT_PATH_SIZE];
     report = report ? report : &unwanted;

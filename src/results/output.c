@@ -1,5 +1,6 @@
 #include "launchdyn/output.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -246,6 +247,7 @@ static ld_status create_hdf5(ld_output *output, ld_error *error)
 ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld_output **output,
                          ld_error *error)
 {
+    assert(folder && model && output);
     if (!*folder)
         return ld_fail(error, LD_ERR_INPUT, "the results need the name of a folder");
     ld_output *opened = calloc(1, sizeof *opened);
@@ -351,6 +353,7 @@ static ld_status write_summary(ld_output *output, const ld_summary *summary, ld_
 
 ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error)
 {
+    assert(output && summary);
     ld_status status = close_histories(output, summary, error);
     if (!status)
         status = write_summary(output, summary, error);

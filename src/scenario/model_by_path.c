@@ -1,4 +1,5 @@
 // A model's values by the paths of their keys.
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,6 +95,7 @@ ld_status ld_model_set(ld_model *model, const char *path, const char *value, ld_
 
 ld_status ld_model_number(const ld_model *model, const char *path, double *value, ld_error *error)
 {
+    assert(model && path && value);
     field_place place;
     char why[LD_ERROR_TEXT];
     *value = NAN;

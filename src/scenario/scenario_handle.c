@@ -1,4 +1,5 @@
 // Models as handles.
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,6 +17,7 @@ static ld_status hand_out(ld_status status, ld_model *read, ld_model **model)
 ld_status ld_scenario_read(const char *path, const char *const *sets, size_t count,
                            ld_model **model, ld_messages *messages)
 {
+    assert(path && model && messages);
     ld_model *self = malloc(sizeof *self);
     *messages = (ld_messages){0};
     return hand_out(self ? scenario_read(path, sets, count, self, messages) : LD_ERR_MEMORY, self,
@@ -26,6 +28,7 @@ ld_status ld_scenario_read_text(const char *text, size_t length, const char *nam
                                 const char *folder, const char *const *sets, size_t count,
                                 ld_model **model, ld_messages *messages)
 {
+    assert(text && name && folder && model && messages);
     ld_model *self = malloc(sizeof *self);
     *messages = (ld_messages){0};
     return hand_out(

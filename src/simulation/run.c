@@ -1,6 +1,7 @@
 // A run that is stepped: what is asked of it and told to it; launch.c takes its steps.
 #include "launchdyn/run.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,6 +70,7 @@ static ld_status begin(const ld_simulation *simulation, const ld_run_options *op
 ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *options, ld_run **out,
                        ld_error *error)
 {
+    assert(simulation && out);
     return begin(simulation, options, false, NULL, out, error);
 }
 
@@ -335,6 +337,7 @@ static ld_status run_whole(const ld_simulation *simulation, const ld_run_options
 ld_status ld_simulation_run(const ld_simulation *simulation, const ld_run_options *options,
                             ld_summary *summary, ld_error *error)
 {
+    assert(simulation && summary);
     ld_error own;
     if (!error)
         error = &own;

@@ -1,6 +1,7 @@
 // A simulation: made, renewed for another model, freed.
 #include "simulation/simulation.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -116,6 +117,7 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
 
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
 {
+    assert(model && out);
     double start = simulation_cpu_now();
     ld_simulation *self = NULL;
     ld_status status = simulation_renew(&self, model, error);

@@ -1,4 +1,5 @@
 // Summaries as handles: numbers by their names.
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -120,6 +121,7 @@ static ld_status refuse(const ld_summary *self, const char *name, ld_error *erro
 ld_status ld_summary_number(const ld_summary *self, const char *name, double *value,
                             ld_error *error)
 {
+    assert(self && name && value);
     const quantity_things things = quantity_things_of(self->model);
     section s;
     *value = NAN;

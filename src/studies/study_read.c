@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,6 +124,7 @@ static ld_status make_study(ld_status status, ld_model *nominal, const char *nam
 ld_status ld_study_read(const char *path, const char *const *sets, size_t count, ld_study **study,
                         ld_messages *messages)
 {
+    assert(path && study && messages);
     ld_model nominal;
     ld_status status = scenario_read(path, sets, count, &nominal, messages);
     return make_study(status, &nominal, path, study, messages);

@@ -1,6 +1,8 @@
 // Samples side by side on the threads of one process.
 #include "studies/ledger.h"
+
 #include "studies/worker.h"
+#include <assert.h>
 
 static ld_status check_shard(const ld_study *study, const ld_study_options *options,
                              ld_error *error)
@@ -19,6 +21,7 @@ static ld_status check_shard(const ld_study *study, const ld_study_options *opti
 ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study_options *options,
                        ld_study_counts *counts, ld_error *error)
 {
+    assert(study && folder && counts);
     static const ld_study_options none = {0};
     ld_error own;
     study_ledger ledger;

@@ -3,6 +3,8 @@
 #include "support/check.h"
 #include "support/shell.h"
 
+#include <errno.h>
+
 // Starts a line that writes `file`, and sends it a signal while it does. It does not come further
 // than to giving the file its name, at any speed.
 static void expect_stopped(const char *line, const char *file, const char *signal, int code)
@@ -41,6 +43,18 @@ static void test_writing(void **state)
         expect_stopped("plot a --what all -o x.svg", "x.svg", signal, ends[i].code);
         expect_stopped("report a", "a/report.html", signal, ends[i].code);
         expect_stopped("study export s --csv x.csv", "x.csv", signal, ends[i].code);
+    }
+    // a lock that is held at first, as by a process that was killed and has not ended yet
+    static const char *const waiting[] = {"study study.yaml --out s",
+                                          "run examples/fixed.yaml --out a"};
+    for (int i = 0; i < 2; i++) {
+        char line[512];
+        snprintf(line, sizeof line,
+                 "LD_PRELOAD=" LD_BINARY_DIR "/tests/libfailing_calls.so FAIL_KIND=lock FAIL_AT=1 "
+                 "FAIL_ERROR=%d launchdyn %s --quiet",
+                 EWOULDBLOCK, waiting[i]);
+        if (run(line) != 0)
+            fail_msg("%s: code %d, \"%s\"", line, shell.code, shell.err);
     }
 }
 

@@ -1,9 +1,12 @@
 // Values of a model by path: set as by --set, told as numbers, texts and tables.
 #include "support/check.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "launchdyn/scenario.h"
 #include "model/model.h"
@@ -307,6 +310,50 @@ static void test_a_model_of_overrides_alone(void **state)
     ld_model_free(model);
 }
 
+// A fault of the calling program ends it with a name, not by a bad access.
+static void expect_assertion(void (*call)(void), const char *named)
+{
+    char text[512] = "";
+    int ends[2], status;
+    assert_int_equal(pipe(ends), 0);
+    fflush(NULL);
+    pid_t child = fork();
+    if (child == 0) {
+        signal(SIGABRT, SIG_DFL);
+        dup2(ends[1], STDERR_FILENO);
+        call();
+        _exit(0);
+    }
+    close(ends[1]);
+    for (ssize_t more, used = 0;
+         (more = read(ends[0], text + used, sizeof text - 1 - (size_t)used)) > 0; used += more)
+        ;
+    close(ends[0]);
+    waitpid(child, &status, 0);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
+    assert_non_null(strstr(text, named));
+}
+
+static void read_nothing(void)
+{
+    ld_model *model;
+    ld_messages messages;
+    ld_scenario_read(NULL, NULL, 0, &model, &messages);
+}
+
+static void ask_no_model(void)
+{
+    double value;
+    ld_model_number(NULL, "rocket.mass", &value, NULL);
+}
+
+static void test_null(void **state)
+{
+    (void)state;
+    expect_assertion(read_nothing, "path && model && messages");
+    expect_assertion(ask_no_model, "model && path && value");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -320,6 +367,7 @@ int main(void)
         cmocka_unit_test(test_a_dot_at_the_end_is_no_path),
         cmocka_unit_test(test_every_text_can_be_set_again),
         cmocka_unit_test(test_a_model_of_overrides_alone),
+        cmocka_unit_test(test_null),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
