@@ -1,6 +1,8 @@
 // What the eye measures by, drawn over the picture: the axes of I, a length and a force, both as long as they are at the
 // place that is looked at.
-const MARGIN = 12, AXIS = 24, FORCE_COLOUR = "#17a05d";
+import { placeBeside } from "../report/labels.js";
+
+const MARGIN = 12, AXIS = 24, HEAD = 34, LINE = 15, FORCE_COLOUR = "#17a05d";
 
 // The largest of 1, 2, 5 times a power of ten that is not above a value.
 export function roundBelow(value) {
@@ -58,7 +60,23 @@ function drawBar(ctx, x, y, { pixels, text }, arrow, paper) {
   write(ctx, text, x + pixels / 2, y - 10, paper);
 }
 
-// `seen`: axes as [right, up] of the picture, pixels a metre and a newton; `ink`, `paper`: colours of lines and
+// The instants of a flight: a ring at each, its name beside it and off the path where there is room.
+function drawNames(ctx, { names = [], way }, width, height, ink, paper) {
+  const boxes = placeBeside(names.map(({ x, y, name }) => ({ x, y, width: ctx.measureText(name).width + 4 })), LINE,
+    { left: 2, right: width - 2, top: HEAD, bottom: height - 2 }, way);
+  ctx.strokeStyle = ctx.fillStyle = ink;
+  names.forEach(({ name, x, y }, i) => {
+    ctx.beginPath();
+    ctx.arc(x, y, 3, 0, 2 * Math.PI);
+    ctx.fillStyle = paper;
+    ctx.fill();
+    ctx.stroke();
+    ctx.fillStyle = ink;
+    if (boxes[i]) write(ctx, name, 0.5 * (boxes[i].left + boxes[i].right), 0.5 * (boxes[i].top + boxes[i].bottom), paper);
+  });
+}
+
+// `seen`: axes as [right, up] of the picture, pixels a metre and a newton, names of places in it; `ink`, `paper`: colours of lines and
 // of what is about their texts.
 export function drawGauge(canvas, seen, { ink, paper }, scale) {
   const ctx = canvas.getContext("2d"), width = canvas.width / scale, height = canvas.height / scale;
@@ -69,6 +87,7 @@ export function drawGauge(canvas, seen, { ink, paper }, scale) {
   ctx.textBaseline = "middle";
   ctx.lineWidth = 1.5;
   ctx.lineCap = "round";
+  drawNames(ctx, seen, width, height, ink, paper);
   drawAxes(ctx, seen.axes, MARGIN + 30, height - MARGIN - 28, ink, paper);
   const { length, force } = measures(seen, Math.min(120, 0.25 * width));
   ctx.strokeStyle = ctx.fillStyle = ink;

@@ -1,6 +1,6 @@
 // What a launcher stands on: a road with its heights, a grid, and the way of a rocket in flight.
 import { BufferAttribute, BufferGeometry, CircleGeometry, Float32BufferAttribute, Group, Line, LineLoop, LineSegments, Mesh,
-  MeshBasicMaterial, Points, PointsMaterial } from "three";
+  MeshBasicMaterial } from "three";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -150,7 +150,7 @@ export class Map {
   }
 }
 
-// The way of a rocket: all of it faint, what it has flown strong, with a point that is seen from afar.
+// The way of a rocket: all of it faint, what it has flown strong.
 export class Path {
   constructor(flight, group) {
     const [x, y, z] = flight.points(), points = [];
@@ -168,22 +168,15 @@ export class Path {
     const track = new BufferGeometry(), ground = Math.min(0, ...y) - y[0];
     track.setAttribute("position", new Float32BufferAttribute(points.map((v, i) => (i % 3 === 1 ? ground : v)), 3));
     this.track = new Line(track, line(COLOURS.other, { transparent: true, opacity: 0.7 }));
-    const dot = new BufferGeometry();
-    dot.setAttribute("position", new BufferAttribute(new Float32Array(3), 3));
-    this.dot = new Points(dot, new PointsMaterial({ color: COLOURS.rocket, size: 7, sizeAttenuation: false }));
-    this.track.frustumCulled = this.whole.frustumCulled = this.flown.frustumCulled = this.dot.frustumCulled = false;
+    this.track.frustumCulled = this.whole.frustumCulled = this.flown.frustumCulled = false;
     this.group = new Group();
-    this.group.add(this.track, this.whole, this.flown, this.wide, this.dot);
+    this.group.add(this.track, this.whole, this.flown, this.wide);
     group.add(this.group);
   }
   show(anchor, state, afar) {
     this.group.position.set(...this.origin.map((v, i) => v - anchor[i]));
     this.track.visible = afar;
-    this.flown.visible = this.dot.visible = Boolean(state);
-    if (!state) return;
-    const at = state.center.map((v, i) => v - this.origin[i]);
-    this.flown.geometry.setDrawRange(0, state.row + 1);
-    this.dot.position.set(...at);
-    this.dot.visible = afar;
+    this.flown.visible = Boolean(state);
+    if (state) this.flown.geometry.setDrawRange(0, state.row + 1);
   }
 }

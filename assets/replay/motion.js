@@ -251,10 +251,11 @@ function numbered(segments) {
   });
 }
 
-// A rocket in free flight.
+// A rocket in free flight; `zero`: its ignition on the run's clock, from which its instants count.
 export class Flight {
-  constructor(table, { filled, rowAt }) {
+  constructor(table, zero, { filled, rowAt }) {
     this.t = table.t;
+    this.marks = table.marks.map(({ name, t }) => ({ name, t: t + zero }));
     this.rowAt = rowAt;
     this.values = new Map();
     for (const name of ["center.x", "center.y", "center.z", "rocket.pitch", "rocket.yaw", "rocket.spin", "thrust"])
@@ -281,5 +282,10 @@ export class Flight {
   }
   points() {
     return ["x", "y", "z"].map((name) => this.values.get(`center.${name}`));
+  }
+  // About so many of its places in I, evenly over its rows, the first and the last among them.
+  some(count) {
+    const rows = this.t.length - 1, [x, y, z] = this.points(), step = Math.max(1, rows / count);
+    return Array.from({ length: Math.floor(rows / step) + 1 }, (_, i) => Math.min(rows, Math.round(i * step))).map((row) => [x[row], y[row], z[row]]);
   }
 }

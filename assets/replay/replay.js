@@ -8,24 +8,28 @@ const SLIDER = 10000, LARGEST = 1000;
 const SPEEDS = [["auto", "automatic"], [1, "1"], [1 / 3, "1/3"], [1 / 10, "1/10"], [1 / 30, "1/30"],
   [1 / 100, "1/100"], [1 / 300, "1/300"], [1 / 1000, "1/1000"]];
 const AUTOMATIC = { before: 1, tube: 1 / 50, after: 1, flight: 4 };
+const LONGEST = 20; // seconds that a whole flight takes at most
 
 const capital = (word) => word[0].toUpperCase() + word.slice(1);
 
 // The time slider gives each phase a share of its width: the tube half of it. `chosen`: the rocket whose launch and flight
-// it covers, null for all.
+// it covers, null for all; `aloft`: it covers the flight alone.
 class Clock {
-  constructor(motion, flights, chosen) {
+  constructor(motion, flights, chosen, aloft) {
     const all = motion.segments.map(({ name, first, end, number }) => ({ name, number, from: motion.t[first], to: motion.t[end - 1] }));
     all.forEach((part, i) => { if (all[i + 1]) part.to = all[i + 1].from; });
-    const own = all.filter(({ number }) => number === chosen), parts = own.length > 0 ? own : all;
-    const end = Math.max(...flights.map((flight, i) => (chosen === null || i === chosen ? flight?.t.at(-1) : null) ?? -Infinity));
-    if (end > parts.at(-1).to) parts.push({ name: "flight", from: parts.at(-1).to, to: end });
+    const own = all.filter(({ number }) => number === chosen), launch = own.length > 0 ? own : all;
+    const flown = flights.filter((flight, i) => flight && (chosen === null || i === chosen)).map(({ t }) => t);
+    const end = Math.max(...flown.map((t) => t.at(-1)));
+    const begin = aloft && flown.length > 0 ? Math.min(...flown.map(([t]) => t)) : launch.at(-1).to;
+    const flight = end > begin ? [{ name: "flight", from: begin, to: end }] : [], parts = aloft && flight.length > 0 ? flight : [...launch, ...flight];
     const weight = ({ name, from, to }) => (to > from ? { tube: 4, before: 1.6, after: 0.4, flight: 2.4 }[name] : 0);
     const sum = parts.reduce((before, part) => before + weight(part), 0);
     let at = 0;
     this.parts = parts.map((part) => ({ ...part, low: at, high: (at += weight(part) / sum) }));
     this.first = parts[0].from;
     this.last = parts.at(-1).to;
+    this.automatic = { ...AUTOMATIC, flight: Math.max(AUTOMATIC.flight, aloft ? (this.last - this.first) / LONGEST : 0) };
   }
   partAt(time) {
     return this.parts.find(({ to }) => time < to) ?? this.parts.at(-1);
@@ -54,13 +58,13 @@ class Replay {
     Object.assign(this, given);
     this.motion = this.table.kind === "flight" ? new FreeMotion(this.table, this.tools)
       : new Motion(this.table, this.geometry, this.rockets, this.tools);
-    this.ways = this.rockets.map((_, i) => this.flights[i] && new Flight(this.flights[i], this.tools));
+    this.ways = this.rockets.map(({ ignition }, i) => this.flights[i] && new Flight(this.flights[i], ignition ?? 0, this.tools));
     this.chosen = this.rockets.length > 1 ? 0 : null; // of several launches the one that is shown, null: all
-    this.clock = new Clock(this.motion, this.ways, this.chosen);
     this.build(host);
     this.stage = new Stage(this.canvas, this.motion, this.ways, this.rockets);
     this.stage.rendered = () => this.measure();
     this.stage.chosen = this.chosen;
+    this.setClock();
     this.speed = "auto";
     this.playing = null;
     this.setScale(usualScale(this.motion));
@@ -79,10 +83,16 @@ class Replay {
   choose(rocket) {
     this.pause();
     this.chosen = this.stage.chosen = rocket;
-    this.clock = new Clock(this.motion, this.ways, rocket);
+    this.setClock();
     this.choice.value = rocket ?? "all";
-    this.nameInstants(this.ticks.clientWidth);
     this.show(this.opening());
+  }
+  // Who looks at the path plays the flight.
+  setClock() {
+    const aloft = this.stage.view === "path";
+    this.clock = new Clock(this.motion, this.ways, this.chosen, aloft);
+    this.colourKey.hidden = aloft && !this.motion.free;
+    this.nameInstants(this.ticks.clientWidth);
   }
   // Where the replay stands at first: the rocket on its way through the tube. It plays from shortly
   // before its ignition then, as after its end.
@@ -120,7 +130,7 @@ class Replay {
       button(capital(view === "tube" ? this.motion.guide.words.guide : view), () => this.look(view), { value: view }));
     this.reading = element("output", { className: "reading" });
     host.append(
-      element("div", { className: "screen" }, this.canvas, this.gauge, this.photo, this.legend(), this.saving(button)),
+      element("div", { className: "screen" }, this.canvas, this.gauge, this.photo, this.colourKey = this.legend(), this.saving(button)),
       this.reading,
       element("div", { className: "timeline" }, this.play, element("div", { className: "track" }, this.slider, this.ticks)),
       element("div", { className: "controls" },
@@ -144,14 +154,20 @@ class Replay {
     return element("div", { className: "key" }, item("tube", guide), item("rocket", "rocket"),
       item("adaptor", shoes), item("force", "contact forces"), ...(this.motion.clamps.length > 0 ? [item("clamp", "clamps")] : []));
   }
+  // What the clock covers of the launches' instants and, of one flight, of its own; the launch's own name of the exit is `rear`.
+  instants() {
+    const { first, last, parts } = this.clock, launch = this.motion.free ? [] : this.marks, number = this.ways.length > 1 ? this.chosen : 0;
+    const aloft = parts[0].name === "flight", flight = (this.ways[number]?.marks ?? []).filter(({ name }) => aloft || name !== "exit");
+    return [...launch.filter(({ rocket }) => !aloft && (this.chosen === null || rocket === this.chosen)).map(({ name, t }) => ({ name, t: t + this.zero })),
+      ...flight].filter(({ t }) => t > first - 1e-6 && t < last + 1e-6);
+  }
   // The key instants below the slider, their names in two lines where the ones before leave room,
   // before the line where there is none behind it.
   nameInstants(width) {
     const { element } = this.tools, free = [-1, -1];
     const one = this.chosen !== null, text = (name) => (one ? name.replace(/ \d+$/, "") : name);
-    const shown = this.marks.filter(({ rocket }) => this.chosen === null || rocket === this.chosen);
-    this.ticks.replaceChildren(...shown.map(({ name, t }) => {
-      const at = width * this.clock.share(t + this.zero), row = free.findIndex((end) => at >= end);
+    this.ticks.replaceChildren(...this.instants().map(({ name, t }) => {
+      const at = width * this.clock.share(t), row = free.findIndex((end) => at >= end);
       const room = 8 + 6.5 * text(name).length, side = at + room > width ? " end" : "";
       if (row >= 0) free[row] = at + room;
       const kind = ["tick bare", "tick", "tick low"][row + 1];
@@ -183,6 +199,7 @@ class Replay {
   }
   look(view) {
     this.stage.look(view);
+    this.setClock();
     this.show(this.time);
   }
   setScale(scale) {
@@ -222,7 +239,7 @@ class Replay {
     let time = this.time;
     for (const { name, to } of this.clock.parts) {
       if (time >= to) continue;
-      const speed = this.speed === "auto" ? AUTOMATIC[name] : this.speed, used = Math.min(passed, (to - time) / speed);
+      const speed = this.speed === "auto" ? this.clock.automatic[name] : this.speed, used = Math.min(passed, (to - time) / speed);
       time = used < passed ? to : time + speed * used;
       passed -= used;
     }
@@ -241,7 +258,7 @@ class Replay {
     if (!quiet) this.shown(this.time);
   }
   read() {
-    const { fixed, playing, readable } = this.tools, { state } = this.stage, flies = this.clock.partAt(this.time).name === "flight";
+    const { fixed, playing } = this.tools, { state } = this.stage, flies = this.clock.partAt(this.time).name === "flight";
     const between = [this.clock.first, this.clock.last].map((time) => time - this.zero);
     const words = [`t ${fixed(this.time - this.zero, flies ? 2 : 4, between)} s`];
     const say = (name, column, unit, ...alike) => words.push(`${name} ${playing(state.read(column), unit, this.motion.range(column, ...alike))}`);
@@ -256,7 +273,7 @@ class Replay {
       say("tip z", "tip.z", "m", "tip.y");
       for (const name of this.motion.slides) say("recoil", `recoil.${name}.travel`, "m");
     }
-    if (this.stage.view === "path") words.push(`squares of ${readable(this.stage.map.cell / 1000, 3)} km`);
+    if (this.stage.view === "path") words.push("rocket enlarged");
     else if (this.motion.t.at(-1) < this.time) words.push("launcher as it was when its history ended");
     this.reading.textContent = words.join(" · ");
     this.canvas.setAttribute("aria-label", `Replay of the launch: ${words.join(", ")}`);

@@ -4,6 +4,8 @@ import { COLOURS, edge, RING } from "./launcher.js";
 import { angular, Beams, material, place, point, Sleeve } from "./shapes.js";
 import { add, scaled, subtract } from "./vector.js";
 
+const SLENDER = 16; // length over radius of what is seen from afar
+
 // The body is drawn slimmer than it is, so that adaptors and clearances can be seen.
 export class Rocket {
   constructor(motion, group) {
@@ -50,7 +52,8 @@ export class Rocket {
   // In flight: rigid, origin at its mass centre.
   showInFlight(flight, anchor, burning) {
     const { motion } = this;
-    place(this.group, subtract(flight.center, anchor), flight.A);
+    this.flying = { center: subtract(flight.center, anchor), A: flight.A };
+    this.enlarge(1);
     const still = (l, y = 0, z = 0) => [l - motion.center, y, z];
     if (!this.straight) {
       this.drawAlong(still, 0, () => (motion.guide.ring(0, 0) ? 1.02 * this.bodyRadius : null), 0);
@@ -60,6 +63,11 @@ export class Rocket {
     this.straight = true;
     this.fins.visible = this.powered;
     this.burn([-motion.center + this.profile[0].l, 0, 0], [-1, 0, 0], burning);
+  }
+  // So many times as long about its mass centre, in flight; a slender one then is as thick as is seen from afar.
+  enlarge(times) {
+    const across = times > 1 ? times * Math.max(1, this.length / (SLENDER * this.bodyRadius)) : 1;
+    place(this.group, this.flying.center, this.flying.A.map((v, i) => (i % 3 === 0 ? times : across) * v));
   }
   drawAlong(at, roll, radius, burning) {
     this.group.visible = true;

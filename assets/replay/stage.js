@@ -14,6 +14,8 @@ import { add, apply, cross, dot, scaled, subtract, turnedBack, unit } from "./ve
 const FIELD = 32; // degrees that the eye takes in from top to bottom
 const MARGIN = 0.94; // of that what is looked at may take
 const HEAD = 34, FOOT = 16; // pixels at the top that words and buttons have, and at the bottom
+const AFAR = 56; // pixels that a rocket on its path is long
+const SOME = 200; // points of a flight that its picture is made to hold
 const NARROW = 420, GAUGE = 40; // so narrow a picture leaves no room beside axes and scales, but above them
 
 // Where an eye that looks along -`towards` sees all of the points, as near as it may: what it looks at, and how far from it
@@ -47,6 +49,7 @@ export class Stage {
     this.forces = motion.free ? null : new Forces(motion, this.scene);
     this.paths = flights.map((flight) => flight && new Path(flight, this.scene));
     this.map = this.paths.some(Boolean) ? new Map(this.extent(), this.scene) : null;
+    if (this.map) this.survey();
     this.thrust = Math.max(motion.largest("thrust"), 1e-9);
     this.scale = this.gap = 1;
     this.view = motion.free ? "path" : "launcher";
@@ -135,7 +138,26 @@ export class Stage {
     const [, y, z] = turnedBack(state.tube.A, to);
     this.tube?.show(state, this.anchor, this.scale, Math.atan2(z, y));
     this.horizon?.show(this.camera.position, this.view !== "path");
+    this.enlarge();
     if (this.seen) this.render();
+  }
+  // Along its path a rocket is as long as can be seen, in pixels of the picture.
+  enlarge() {
+    this.flying.forEach((flight, i) => {
+      if (!flight) return;
+      const far = this.camera.position.distanceTo(new Vector3(...subtract(flight.center, this.anchor)));
+      const times = this.view === "path" ? Math.max(1, AFAR / (this.pixels(far) * this.bodies[i].length)) : 1;
+      this.bodies[i].enlarge(times);
+    });
+  }
+  // Pixels a metre at a distance.
+  pixels(far) {
+    return this.renderer.domElement.clientHeight / (2 * Math.tan((FIELD * Math.PI) / 360) * far);
+  }
+  // Where points of I, from the anchor, are in the picture, in pixels from its upper left corner.
+  seenAt(points) {
+    const { clientWidth: width, clientHeight: height } = this.renderer.domElement;
+    return points.map((point) => new Vector3(...point).project(this.camera)).map(({ x, y }) => [0.5 * width * (1 + x), 0.5 * height * (1 - y)]);
   }
   render() {
     this.renderer.render(this.scene, this.camera);
@@ -164,7 +186,7 @@ export class Stage {
     const { motion, state, anchor } = this, inTube = (x) =>
       subtract(add(state.tube.r, apply(state.tube.A, [x, 0, 0])), anchor);
     const i = this.watched(), flying = this.flying[i];
-    if (this.view === "path" && this.paths.some(Boolean)) return this.pathBox().centre;
+    if (this.view === "path" && this.map) return subtract(this.launched, anchor);
     if (this.view === "rocket" && flying) return subtract(flying.center, anchor);
     if (this.view === "rocket" && state.rocket) return inTube(state.rocket.s + 0.5 * Math.max(...motion.adaptors));
     if (this.view === "launcher") return motion.vehicle ? [0, state.chassis.r[1], 0] : inTube(0.5 * motion.length);
@@ -173,10 +195,7 @@ export class Stage {
   // From where, in the view's own place.
   stand() {
     const { motion, state } = this, wide = Math.max(1, 1.5 / this.camera.aspect);
-    if (this.view === "path" && this.paths.some(Boolean)) {
-      const { size } = this.pathBox();
-      return scaled(0.9 * wide * Math.max(size, 1), [-0.3, 0.42, 1]);
-    }
+    if (this.view === "path" && this.map) return this.beside;
     const across = (v) => apply(state.tube.A, v);
     if (this.view === "rocket")
       return this.flying[this.watched()] ? scaled(wide * 2.2 * motion.length / 3, [-1.7, 0.9, 3.1])
@@ -186,6 +205,7 @@ export class Stage {
   }
   // What a view has to show all of, from the anchor: nothing where it has a distance of its own.
   shownPoints() {
+    if (this.view === "path" && this.map) return this.skyline.map((p) => subtract(p, this.anchor));
     if (this.motion.free) return null;
     const { motion, state, anchor } = this, { low, high } = motion.envelope, corners = (from, to) => [from, to].flatMap((x) =>
       [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => subtract(add(state.tube.r, apply(state.tube.A, [x, y, z])), anchor))));
@@ -193,6 +213,15 @@ export class Stage {
     if (this.view !== "launcher") return null;
     const nose = state.rocket && subtract(add(state.tube.r, apply(state.tube.A, state.rocket.point(this.bodies[state.number].length))), anchor);
     return [...corners(0, 1.02 * motion.length), ...(nose ? [nose] : []), ...this.base.corners(state, anchor)];
+  }
+  // What a picture of all flights has to show, some points of each and those below them, in I, from where they began, and
+  // from which side: across the way to the farthest of them.
+  survey() {
+    this.skyline = this.flights.flatMap((flight) => (flight ? flight.some(SOME) : [])).flatMap(([x, y, z]) => [[x, y, z], [x, this.map.origin[1], z]]);
+    this.launched = this.skyline[0];
+    const away = this.skyline.map((p) => subtract(p, this.launched)).map(([x, , z]) => [x, z]), size = ([x, z]) => Math.hypot(x, z);
+    const [x, z] = away.reduce((most, one) => (size(one) > size(most) ? one : most), [1e-9, 0]).map((v, _, all) => v / size(all));
+    this.beside = [-0.3 * x - z, 0.42, x - 0.3 * z];
   }
   // Corners of all flights together.
   extent() {
@@ -203,10 +232,6 @@ export class Stage {
         high[i] = Math.max(high[i], v);
       }));
     return { low, high };
-  }
-  pathBox() {
-    const { low, high } = this.extent();
-    return { centre: subtract(scaled(0.5, add(low, high)), this.anchor), size: Math.hypot(...subtract(high, low)) };
   }
   look(view) {
     this.view = view;
@@ -240,11 +265,17 @@ export class Stage {
     this.controls.update();
     this.following = false;
   }
+  // The instants of a flight and the way itself, in the picture.
+  namesOf(flight) {
+    const seen = (points) => this.seenAt(points.map((point) => subtract(point, this.anchor)));
+    const at = seen(flight.marks.map(({ t }) => flight.at(t).center));
+    return { names: flight.marks.map(({ name }, i) => ({ name, x: at[i][0], y: at[i][1] })), way: seen(flight.some(SOME)) };
+  }
   // What the gauge shows: axes of I in the picture, pixels a metre and a newton where the view looks at.
   measured() {
     const { camera, controls } = this, d = camera.position.distanceTo(controls.target), e = camera.matrixWorldInverse.elements;
-    const perMetre = this.renderer.domElement.clientHeight / (2 * Math.tan((FIELD * Math.PI) / 360) * d);
+    const perMetre = this.pixels(d), flight = this.view === "path" && this.flights[this.watched()];
     const forces = this.view !== "path" && this.forces ? perMetre * this.forces.metresPerNewton : 0;
-    return { axes: [0, 1, 2].map((i) => [e[4 * i], e[4 * i + 1]]), perMetre, perNewton: forces };
+    return { axes: [0, 1, 2].map((i) => [e[4 * i], e[4 * i + 1]]), perMetre, perNewton: forces, ...(flight && this.namesOf(flight)) };
   }
 }

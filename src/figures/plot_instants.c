@@ -58,7 +58,7 @@ static void mark_flight(plot_marks *marks, const history_data *flight, double st
     mark(marks, "apogee", flight->t_apogee, 1, FLIGHT);
     for (int i = 0; i < flight->openings; i++)
         mark(marks, flight->opening[i].name, flight->opening[i].t, 2, FLIGHT);
-    mark(marks, "impact", flight->t_impact, 0, FLIGHT);
+    mark(marks, "landing", flight->t_impact, 0, FLIGHT);
 }
 
 // As they come; what comes at one time stays as it was.

@@ -381,7 +381,7 @@ static void test_marks_of_a_flight(void **state)
                            .openings = 2};
     static const plot_mark expected[] = {{"exit", 1.25, 0, 0, IN},   {"burnout", 6, 2, 0, IN},
                                          {"drogue", 6.25, 2, 0, IN}, {"apogee", 6.5, 1, 0, IN},
-                                         {"main", 9, 2, 0, IN},      {"impact", 11, 0, 0, IN}};
+                                         {"main", 9, 2, 0, IN},      {"landing", 11, 0, 0, IN}};
     static plot_marks marks;
     plot_find_marks(&flight, true, &marks);
     expect_marks(&marks, expected, 6);

@@ -671,7 +671,7 @@ async function checkTexts(page) {
   check("a launch has all five instants", launch.length > 10 && launch.every((names) => names.join() === "ignition,release,front,middle,rear"), launch.length);
   const moving = await page.$eval("#table0-chassis canvas", ({ names }) => names.map(({ text }) => text).join());
   check("a vehicle's motion the first and the last", moving === "ignition,rear", moving);
-  check("a flight those of its own", flight.length > 5 && flight.every((names) => names.join() === "exit,burnout,apogee,impact"), flight.join("; "));
+  check("a flight those of its own", flight.length > 5 && flight.every((names) => names.join() === "exit,burnout,apogee,landing"), flight.join("; "));
 }
 
 async function checkLooks(browser) {
@@ -714,19 +714,75 @@ async function checkLooks(browser) {
 async function checkFlight(browser) {
   console.log("flight.yaml");
   const run = runOf("flight.yaml"), page = await open(browser, run.file, { width: 500 });
-  const before = await look(page), bare = await look(page, "replay.stage.paths[0].group.visible = false;");
+  const before = await look(page), bare = await look(page, "replay.stage.paths[0].group.visible = replay.stage.bodies[0].group.visible = false;");
   check("its way is seen", before.rocket > 200 && bare.rocket < 0.2 * before.rocket, `${before.rocket} points, ${bare.rocket} without`);
   const said = await page.textContent(".replay .reading");
   const views = await page.$$eval(".controls button[value]", (list) => list.map(({ value }) => value));
-  check("it is looked at by its way and from beside it", views.join() === "rocket,path" && /height .* squares of/.test(said), `${views}: ${said}`);
+  check("it is looked at by its way and from beside it", views.join() === "rocket,path" && /height .* rocket enlarged/.test(said), `${views}: ${said}`);
   await page.keyboard.press("Tab");
-  const rocket = await look(page, "replay.stage.paths[0].group.visible = true; replay.look('rocket');");
+  const rocket = await look(page, "replay.stage.paths[0].group.visible = replay.stage.bodies[0].group.visible = true; replay.look('rocket');");
   check("the rocket is seen", rocket.rocket > 500, rocket.rocket);
   const [shown, pitch] = await page.evaluate(() => {
     const { stage, time, flights: [{ t, column }] } = window.launchdyn.current, row = t.findIndex((at) => at >= time);
     return [Math.asin(stage.flying[0].A[3]), column.get("rocket.pitch").value.find((v, i) => i >= row && v !== undefined)];
   });
   check("its nose points up by the pitch of the results", Math.abs(pitch) > 0.05 && Math.abs(shown - pitch) < 0.02, `${shown} and ${pitch} rad`);
+  await leave(page);
+}
+
+// The whole path is in the picture and fills its width or height at every size; the flight's instants are named where they
+// are; the rocket flies along it, as large as can be seen.
+async function checkPath(browser) {
+  console.log("a path: the student rocket's");
+  const run = runOf("student-rocket/student-rocket.yaml"), page = await open(browser, run.file);
+  const [{ flight: of }] = JSON.parse(readFileSync(join(run.out, "summary.json"), "utf8")).rockets;
+  for (const width of [1400, 1000, 400]) {
+    await page.setViewportSize({ width, height: 900 });
+    await drawn(page);
+    const { all: [[left, right], [low, high]] } = await spans(page, "path");
+    const { seen, names, key } = await page.evaluate(([apogee, landing]) => {
+      const replay = window.launchdyn.current, { stage, flights: [{ t, column }] } = replay, { clientWidth, clientHeight } = replay.canvas;
+      const place = (row) => ["x", "y", "z"].map((name, i) => column.get(`center.${name}`).value[row] - stage.anchor[i]);
+      const pixel = (row) => {
+        const { x, y } = stage.camera.position.clone().set(...place(row)).project(stage.camera);
+        return [0.5 * clientWidth * (1 + x), 0.5 * clientHeight * (1 - y)];
+      };
+      const rowAt = (time) => t.reduce((best, at, i) => (Math.abs(at - time) < Math.abs(t[best] - time) ? i : best), 0);
+      const off = ([time, name]) => {
+        const [x, y] = pixel(rowAt(time + replay.zero)), mark = stage.measured().names.find((one) => one.name === name);
+        return Math.hypot(mark.x - x, mark.y - y);
+      };
+      const known = t.map((_, row) => row).filter((row) => place(row).every(Number.isFinite)).map(pixel);
+      return { seen: known.every(([x, y]) => x >= 0 && x <= clientWidth && y >= 0 && y <= clientHeight), key: replay.colourKey.hidden,
+        names: { said: stage.measured().names.map(({ name }) => name).join(), off: Math.max(...[[apogee, "apogee"], [landing, "landing"]].map(off)) } };
+    }, [of.t_apogee, of.t_impact]);
+    check(`${width} pixels: all of the path is seen`, seen && left >= -0.5 && right <= 0.5 && low >= -0.5 && high <= 0.5, `${left} to ${right}, ${low} to ${high}`);
+    check("and fills the picture's width or height", Math.max(right - left, high - low) > 0.75, `${right - left}, ${high - low}`);
+    check("its instants are named where they are", names.said === "exit,burnout,apogee,drogue,main,landing" && names.off < 4 && key, JSON.stringify(names));
+    await picture(page, `path-${width}.png`);
+  }
+  const covered = await page.evaluate(() => {
+    const { clock, zero } = window.launchdyn.current, names = [...document.querySelectorAll(".tick")].map(({ title }) => title).join();
+    return { from: clock.first - zero, to: clock.last - zero, names, parts: clock.parts.length, pace: (clock.last - clock.first) / clock.automatic.flight };
+  });
+  check("the slider has the flight and its instants", near(covered.to, of.t_impact, 1e-9) && covered.from < 0.3 && covered.parts === 1 &&
+    covered.names === "exit,burnout,apogee,drogue,main,landing", JSON.stringify(covered));
+  check("which plays in 20 seconds at most", covered.pace < 20.001 && covered.pace > 5, covered.pace);
+  const whole = await look(page, show(30)), bare = await look(page, "replay.stage.bodies[0].group.visible = false;"), at = await page.evaluate(() => {
+    const { stage } = window.launchdyn.current, [body] = stage.bodies, end = (l) => body.group.localToWorld(stage.camera.position.clone().set(l, 0, 0));
+    const pixels = (p) => [p.project(stage.camera)].map(({ x, y }) => [0.5 * stage.renderer.domElement.clientWidth * x, 0.5 * stage.renderer.domElement.clientHeight * y])[0];
+    body.group.updateMatrixWorld(true);
+    const [tail, nose, middle] = [-0.5, 0.5, 0].map((share) => pixels(end(share * body.length)));
+    const { x, y } = stage.camera.position.clone().set(...stage.flying[0].center.map((v, i) => v - stage.anchor[i])).project(stage.camera);
+    return { long: Math.hypot(nose[0] - tail[0], nose[1] - tail[1]), off: Math.hypot(middle[0] - 0.5 * stage.renderer.domElement.clientWidth * x, middle[1] - 0.5 * stage.renderer.domElement.clientHeight * y) };
+  });
+  check("the rocket flies along it and is seen", whole.rocket - bare.rocket > 60 && at.off < 0.5 && at.long > 15 && at.long < 60, `${whole.rocket - bare.rocket} points, ${JSON.stringify(at)}`);
+  const back = await page.evaluate(() => {
+    const replay = window.launchdyn.current;
+    replay.look("launcher");
+    return { from: replay.clock.first <= replay.zero, key: replay.colourKey.hidden, large: replay.stage.bodies[0].group.matrix.elements.slice(0, 3) };
+  });
+  check("the launcher's view has the whole launch again, the rocket of its own size", back.from && !back.key && near(Math.hypot(...back.large), 1, 1e-6), JSON.stringify(back));
   await leave(page);
 }
 
@@ -754,5 +810,6 @@ await inBrowser(async (browser) => {
   await checkRail(browser);
   await checkLooks(browser);
   await checkFlight(browser);
+  await checkPath(browser);
   await checkHostile(browser);
 });
