@@ -15,6 +15,9 @@ export const paint = Object.fromEntries(Object.entries(COLOURS).map(([name, colo
 
 // ---- what carries the tubes ----
 
+const LORRY = { wheelbase: 3, wheel: 0.4 }; // at least, axle to axle and radius [m]; less is a trailer
+const DRAWBAR = 1.1; // its length [m]
+
 export class Vehicle {
   constructor(motion, group) {
     this.motion = motion;
@@ -27,7 +30,9 @@ export class Vehicle {
     this.chassis = new Group();
     this.chassis.add(box([rear - 1.3 * R, floor, -0.55], [front + 1.3 * R, deck - 0.25, 0.55], paint.vehicle, edge));
     this.chassis.add(box([rear - 1.3 * R, deck - 0.25, -side], [front - 0.2, deck, side], paint.vehicle, edge));
-    if (front + 1.4 * R > reach + 0.3)
+    this.trailer = front - rear < LORRY.wheelbase || R < LORRY.wheel;
+    if (this.trailer) this.chassis.add(drawbar(front + 1.3 * R, floor, side, Math.min(...mounts.map((m) => m[1])) - R));
+    else if (front + 1.4 * R > reach + 0.3)
       this.chassis.add(cab(Math.max(reach + 0.1, front - 0.5), front + 1.5 * R, floor, deck, side));
     this.azimuth = new Group();
     this.azimuth.add(cylinder([0, -0.12, 0], [0, 0.1, 0], 0.75, paint.platform, edge, 40));
@@ -37,7 +42,7 @@ export class Vehicle {
     this.azimuth.add(box([Math.min(0, e[0]) - 0.2, 0.05, -width], [Math.max(0, e[0]) + 0.3, 0.16, width], paint.platform, edge));
     this.wheels = mounts.map(() => wheel(R));
     this.seenFrom = [4.4, 2.8, 9.9];
-    this.ends = [-R, R].map((room) => [(room < 0 ? rear : front) + 1.3 * room, Math.min(...mounts.map((m) => m[1])) - R]);
+    this.ends = [-R, this.trailer ? R + DRAWBAR / 1.3 : R].map((room) => [(room < 0 ? rear : front) + 1.3 * room, Math.min(...mounts.map((m) => m[1])) - R]);
     this.side = side;
     group.add(this.chassis, this.azimuth, ...this.wheels);
   }
@@ -60,6 +65,18 @@ export class Vehicle {
       place(this.wheels[i], subtract(r, anchor), spin);
     });
   }
+}
+
+// Two beams from the front of a trailer to its coupling, with a wheel on a post to stand on.
+function drawbar(front, height, side, ground) {
+  const group = new Group(), tip = front + DRAWBAR, thick = 0.05;
+  for (const z of [-0.6 * side, 0.6 * side])
+    group.add(cylinder([front, height, z], [tip - 0.12, height, 0], thick, paint.vehicle, edge));
+  group.add(cylinder([tip - 0.2, height, 0], [tip, height, 0], 1.4 * thick, paint.platform, edge));
+  const at = tip - 0.35;
+  group.add(cylinder([at, ground + 0.1, 0.16], [at, height + 0.35, 0.16], 0.03, paint.platform, edge),
+    cylinder([at, ground + 0.1, 0.12], [at, ground + 0.1, 0.2], 0.1, paint.wheel, edge));
+  return group;
 }
 
 // A cab with a raked windscreen, side windows, lamps and a bumper.

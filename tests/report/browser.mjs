@@ -730,6 +730,36 @@ async function checkFlight(browser) {
   await leave(page);
 }
 
+// A lorry has a cab above its deck; short or small on wheels, it is a trailer with a drawbar before it, and all of that in the picture.
+async function checkTrailer(browser) {
+  console.log("a truck, and a trailer");
+  const wheels = [[1.2, -0.8], [1.2, 0.8], [-1, -0.8], [-1, 0.8]].flatMap(([x, z], i) => ["--set", `base.wheels.${i + 1}.mount=${x} -0.5 ${z} m`]);
+  const shape = async (...options) => {
+    const run = runOf("rail/truck.yaml", ...options), page = await open(browser, run.file, { width: 500 });
+    const found = await page.evaluate(() => {
+      const { stage, motion } = window.launchdyn.current, { chassis } = stage.base, corners = [];
+      stage.scene.updateMatrixWorld();
+      const back = chassis.matrixWorld.clone().invert();
+      chassis.traverse(({ geometry, matrixWorld }) => {
+        const at = geometry?.attributes.position;
+        for (let i = 0; i < (at?.count ?? 0); i++) {
+          const { x, y } = stage.camera.position.clone().fromBufferAttribute(at, i).applyMatrix4(matrixWorld).applyMatrix4(back);
+          corners.push([x, y]);
+        }
+      });
+      return { above: Math.max(...corners.map(([, y]) => y)) - motion.azimuthHinge[1], before: Math.max(...corners.map(([x]) => x)) - Math.max(...motion.mounts.map(([x]) => x)) };
+    });
+    const { all } = await spans(page, "launcher");
+    check("all of it is in the picture", all.flat().every((v) => Math.abs(v) <= 0.5), JSON.stringify(all));
+    await picture(page, `wheels-${options.length}.png`);
+    await leave(page);
+    return found;
+  };
+  const lorry = await shape(), trailer = await shape(...wheels);
+  check("a lorry has a cab", lorry.above > 0.4 && lorry.before < 1, JSON.stringify(lorry));
+  check("a trailer has none, but a drawbar", trailer.above < 0.3 && trailer.before > 1.5, JSON.stringify(trailer));
+}
+
 // The whole path is in the picture and fills its width or height at every size; the flight's instants are named where they
 // are; the rocket flies along it, as large as can be seen.
 async function checkPath(browser) {
@@ -810,6 +840,7 @@ await inBrowser(async (browser) => {
   await checkRail(browser);
   await checkLooks(browser);
   await checkFlight(browser);
+  await checkTrailer(browser);
   await checkPath(browser);
   await checkHostile(browser);
 });
