@@ -2,6 +2,7 @@
 // Frames: I inertial, T undeformed launching tube (origin at its rear end, x along it), R tube.
 import { rowsOf } from "./geometry.js";
 import { guideOf } from "./guide.js";
+import { outlineOf } from "./outline.js";
 import { add, apply, aboutX, aboutY, aboutZ, multiply, pose, rotation, scaled, subtract } from "./vector.js";
 
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
@@ -36,6 +37,7 @@ export class Motion {
     this.empty = rows("tubes.empty").map(([number]) => number);
     this.adaptors = rows("rocket.adaptor").map(([x]) => x);
     this.center = single("rocket.center")?.[0] ?? 0;
+    this.outline = outlineOf(rows);
     this.mounts = rows("wheel.mount");
     this.wheelRadius = single("wheel.radius")?.[0] ?? 0;
     this.azimuthHinge = single("azimuth.hinge");
@@ -224,7 +226,7 @@ export class FreeMotion {
   constructor(table, { filled, rowAt }) {
     const thrust = table.column.get("thrust");
     Object.assign(this, {
-      free: true, t: table.t, rowAt, length: 3, adaptors: [0, 1.9], center: 1.1, slides: [], clamps: [], adaptorNames: [],
+      free: true, outline: null, t: table.t, rowAt, length: 3, adaptors: [0, 1.9], center: 1.1, slides: [], clamps: [], adaptorNames: [],
       segments: [{ name: "flight", first: 0, end: table.t.length, number: 0 }], vehicle: false, empty: [],
       thrust: thrust ? filled(thrust.value, table.t) : [],
       guide: { body: 0.08, mostGap: 0, room: 0, clearances: [], ring: () => null, pads: () => [], words: { guide: "tube", shoes: "adaptors" } },

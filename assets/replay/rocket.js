@@ -1,6 +1,7 @@
 // A rocket with its adaptors or shoes, and the forces on it.
 import { ConeGeometry, CylinderGeometry, BufferGeometry, DoubleSide, Float32BufferAttribute, Group, Mesh, MeshBasicMaterial } from "three";
 import { COLOURS, edge, RING } from "./launcher.js";
+import { finCorners } from "./outline.js";
 import { angular, Beams, material, place, point, Sleeve } from "./shapes.js";
 import { add, scaled, subtract } from "./vector.js";
 
@@ -9,11 +10,11 @@ const SLENDER = 16; // length over radius of what is seen from afar
 // The body is drawn slimmer than it is, so that adaptors and clearances can be seen.
 export class Rocket {
   constructor(motion, group) {
-    const { adaptors, guide } = motion, { body } = guide, front = Math.max(...adaptors);
+    const { adaptors, guide, outline } = motion, { body } = guide, front = Math.max(...adaptors);
     this.motion = motion;
     this.bodyRadius = body;
-    this.length = front + 7.2 * body;
-    this.profile = profile(body, front + 2.2 * body, this.length);
+    this.length = outline ? outline.tip : front + 7.2 * body;
+    this.profile = outline ? profileOf(outline, body) : profile(body, front + 2.2 * body, this.length);
     this.skin = material(0xffffff, { vertexColors: true });
     this.body = new Sleeve(this.profile.length, RING, this.skin);
     this.body.geometry.setAttribute("color", stripes(this.profile.length));
@@ -25,7 +26,8 @@ export class Rocket {
       { transparent: true, opacity: 0.75, depthWrite: false, emissive: 0xff7a00 }));
     this.powered = motion.largest("thrust") > 0;
     this.fins = new Group();
-    for (let i = 0; i < 4; i++) this.fins.add(fin(body, (Math.PI * i) / 2));
+    for (const corners of outline ? finsOf(outline, body) : [0, 1, 2, 3].map((i) => across(MADE_UP.map(([x, r]) => [x, r * body]), (Math.PI * i) / 2)))
+      this.fins.add(fin(corners));
     this.group = new Group();
     this.group.add(this.body.mesh, this.flame, this.fins, ...this.rings.map(({ mesh }) => mesh),
       ...this.shoes.map((shoe) => shoe.group), ...this.ghosts.map(({ ghost }) => ghost));
@@ -61,7 +63,7 @@ export class Rocket {
     }
     this.fins.position.set(-motion.center, 0, 0);
     this.straight = true;
-    this.fins.visible = this.powered;
+    this.fins.visible = this.powered || motion.outline !== null;
     this.burn([-motion.center + this.profile[0].l, 0, 0], [-1, 0, 0], burning);
   }
   // So many times as long about its mass centre, in flight; a slender one then is as thick as is seen from afar.
@@ -136,9 +138,24 @@ function stripes(rings) {
   return new Float32BufferAttribute(colours, 3);
 }
 
-function fin(body, angle) {
-  const geometry = new BufferGeometry(), c = Math.cos(angle), s = Math.sin(angle);
-  const corners = [[-0.03, 0.9], [0.28, 0.9], [0.1, 3], [-0.03, 3]].map(([x, r]) => [x, r * body * c, r * body * s]);
+// The told body, as slim as the other is drawn, with a nozzle; the slope at a point is that of what is behind it.
+function profileOf({ body, rear, widest }, radius) {
+  const told = body.map(([l, r]) => ({ l, r: Math.max(0.002 * widest, r) * (radius / widest) })).reverse();
+  const slope = (i) => (told[i].l > told[i - 1].l ? (told[i].r - told[i - 1].r) / (told[i].l - told[i - 1].l) : 0), [{ r }] = told;
+  const points = told.flatMap((point, i) => [...(i > 0 ? [{ ...point, slope: slope(i) }] : []), ...(i + 1 < told.length ? [{ ...point, slope: slope(i + 1) }] : [])]);
+  return [{ l: rear - 0.6 * r, r: 0.66 * r }, { l: rear, r: 0.5 * r }, { l: rear, r }, ...points];
+}
+
+// Corners across the body at an angle, from places along it and distances from its axis.
+const across = (corners, angle) => corners.map(([x, r]) => [x, r * Math.cos(angle), r * Math.sin(angle)]);
+
+const finsOf = ({ fins, widest }, radius) => fins.flatMap((of) => Array.from({ length: of.count }, (_, k) =>
+  across(finCorners(of).map(([x, r]) => [x, r * (radius / widest)]), (2 * Math.PI * (k + 0.5)) / of.count)));
+
+const MADE_UP = [[-0.03, 0.9], [0.28, 0.9], [0.1, 3], [-0.03, 3]]; // a fin where none is told: along the body, in its radii
+
+function fin(corners) {
+  const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(corners.flat(), 3));
   geometry.setIndex([0, 1, 2, 0, 2, 3]);
   geometry.computeVertexNormals();

@@ -2,6 +2,7 @@
 // before ignition, and how the whole stands on its base. What the results do not say is drawn dashed.
 import { rowsOf } from "../replay/geometry.js";
 import { guideOf } from "../replay/guide.js";
+import { finCorners, outlineOf } from "../replay/outline.js";
 import { svg } from "./chart.js";
 import { filled } from "./data.js";
 import { placeOnLine } from "./labels.js";
@@ -58,7 +59,7 @@ function launcherOf(geometry, table, rockets) {
     guide, end, names, stations, rows,
     supports: rows("tube.support").map(([x], i) => ({ x, clamped: rows("tube.clamped")[i]?.some((held) => held === 1) })),
     adaptors: rows("rocket.adaptor").map(([x]) => x), clearances: guide.clearances[0] ?? [],
-    centre: rows("rocket.center")[0] ?? [], diameter: rows("rocket.diameter")[0]?.[0],
+    outline: outlineOf(rows), centre: rows("rocket.center")[0] ?? [], diameter: rows("rocket.diameter")[0]?.[0],
     travel: first("rocket.s") ?? 0, pitch: first("base.pitch") ?? 0, mount: rows("base.mount")[0],
     places: rows("tubes.rear_end"), tube: rockets[0]?.tube ?? 1, closed: table.column.has("pressure.force"),
     wheels: rows("wheel.mount"), wheelRadius: rows("wheel.radius")[0]?.[0] ?? 0,
@@ -99,12 +100,34 @@ function drawSupports(it, low, X, Y) {
   });
 }
 
-// Body, nose and nozzle are of the size that is known; where that ends they are made up, and dashed.
-function drawRocket(it, X, Y) {
-  const { travel: s, adaptors, guide } = it, front = Math.max(...adaptors), radius = it.diameter > 0 ? it.diameter / 2 : guide.body;
-  const known = it.diameter > 0, rear = s - 0.5 * radius, shoulder = s + front + radius, tip = shoulder + 4 * radius;
-  const out = [shape([[X(rear), Y(radius)], [X(shoulder), Y(radius)], [X(shoulder), Y(-radius)], [X(rear), Y(-radius)]], known ? "rocket" : "rocket made-up"),
+const radiusOf = (it) => (it.outline ? it.outline.widest : it.diameter > 0 ? it.diameter / 2 : it.guide.body);
+
+// Where the fins stand about the axis: the guide, below, between two of them; those that a bore has no room for are not
+// drawn. Shares of their distance from the axis that one sees from the side.
+function seenFins({ outline, guide }) {
+  const fits = ({ radius, span }) => guide.kind !== "bore" || radius + span <= guide.radius;
+  return (outline?.fins ?? []).filter(fits).flatMap((of) => Array.from({ length: of.count }, (_, k) => -Math.cos((2 * Math.PI * (k + 0.5)) / of.count))
+    .map((share) => finCorners(of).map(([x, r]) => [x, share * r])));
+}
+
+// From where to where the rocket reaches along the guide, and how high above its axis.
+function reachOf(it) {
+  const { travel: s, outline } = it, radius = radiusOf(it), high = Math.max(radius, ...seenFins(it).flat().map(([, y]) => y));
+  if (outline) return { rear: s + outline.rear, tip: s + outline.tip, high };
+  return { rear: s - 0.5 * radius, tip: s + Math.max(...it.adaptors) + 5 * radius, high };
+}
+
+// The body as it is told; else of the size that is known, and where that ends made up, and dashed.
+function drawBody(it, X, Y) {
+  const { travel: s, outline } = it, radius = radiusOf(it), { rear, tip } = reachOf(it), shoulder = tip - 4 * radius;
+  if (outline) return [...seenFins(it).map((corners) => shape(corners.map(([x, y]) => [X(s + x), Y(y)]), "rocket fin")),
+    shape([1, -1].flatMap((side) => (side > 0 ? outline.body : [...outline.body].reverse()).map(([x, r]) => [X(s + x), Y(side * r)])), "rocket body")];
+  return [shape([[X(rear), Y(radius)], [X(shoulder), Y(radius)], [X(shoulder), Y(-radius)], [X(rear), Y(-radius)]], it.diameter > 0 ? "rocket" : "rocket made-up"),
     shape([[X(shoulder), Y(radius)], [X(tip), Y(0)], [X(shoulder), Y(-radius)]], "rocket made-up")];
+}
+
+function drawRocket(it, X, Y) {
+  const { travel: s, adaptors } = it, radius = radiusOf(it), out = drawBody(it, X, Y);
   adaptors.forEach((l, i) => {
     const half = Math.max(2.5, 0.006 * (X(it.end) - X(0)));
     for (const [low, high] of adaptorHeights(it, i))
@@ -124,16 +147,17 @@ function adaptorHeights({ guide, clearances }, i) {
 // `words`: puts the right ones for the guide into a text.
 function guideDrawing(it, words, left, width, top) {
   const parts = partsOf(it), low = it.guide.kind === "bore" ? -parts.top : Math.min(...parts.beams.map(({ y }) => y[0]), -it.guide.body);
-  const radius = it.diameter > 0 ? it.diameter / 2 : it.guide.body;
-  const from = Math.min(-0.04 * it.end, it.travel - radius), to = Math.max(it.end, it.travel + Math.max(...it.adaptors) + 5 * radius);
-  const scale = (width - 24) / (to - from), X = (x) => left + 12 + scale * (x - from), high = Math.max(parts.top, radius);
+  const radius = radiusOf(it), reach = reachOf(it), from = Math.min(-0.04 * it.end, reach.rear - 0.02 * it.end), to = Math.max(it.end, reach.tip);
+  const scale = (width - 24) / (to - from), X = (x) => left + 12 + scale * (x - from), high = Math.max(parts.top, reach.high);
   const middle = top + 62 + scale * high, Y = (y) => middle - scale * y, under = Y(low);
   const adaptors = it.adaptors.map((l, i) => ({ x: X(it.travel + l), y: Y(radius), rank: 1,
     name: `${it.names[i] ?? ""}${it.clearances[i] > 0 ? `, gap ${length(it.clearances[i])}` : ""}` }));
   const centre = it.centre.length ? [{ x: X(it.travel + it.centre[0]), y: Y(0) - 5, name: "mass centre", rank: 0 }] : [];
   const supports = it.supports.map(({ x, clamped }, i) => ({ x: X(x), y: under + 14, rank: i,
     name: `${i === 0 ? (clamped ? "clamp at " : "support at ") : ""}${length(x, it.end)}` }));
-  const bore = it.guide.kind === "bore" ? `, bore ${length(2 * it.guide.radius)}` : it.diameter > 0 ? `, rocket ${length(it.diameter)} thick` : "";
+  const thick = it.outline ? 2 * radius : it.diameter, long = it.outline ? ` ${length(it.outline.tip - it.outline.rear)} long` : "";
+  const rocket = [long, it.guide.kind !== "bore" && thick > 0 ? ` ${length(thick)} thick` : ""].filter(Boolean).join(",");
+  const bore = `${it.guide.kind === "bore" ? `, bore ${length(2 * it.guide.radius)}` : ""}${rocket && `, rocket${rocket}`}`;
   return {
     nodes: [...dimension(X(0), X(it.end), top + 10, words(`tube ${length(it.end)}`) + bore), ...drawGuide(it, parts, X, Y),
       ...drawSupports(it, low, X, Y), ...drawRocket(it, X, Y),

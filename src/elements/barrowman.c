@@ -12,9 +12,7 @@ typedef struct nose_shares {
     double volume, side, side_center;
 } nose_shares;
 
-// Radius of the nose over that of its base at the share x of its length; slenderness: length over
-// radius.
-static double nose_radius(ld_nose_shape shape, double slenderness, double x)
+double barrowman_nose_radius(ld_nose_shape shape, double slenderness, double x)
 {
     double angle = acos(1 - 2 * x), arc = 0.5 * (1 + slenderness * slenderness);
     double behind = slenderness * (1 - x);
@@ -42,7 +40,7 @@ static nose_shares nose_shares_of(ld_nose_shape shape, double slenderness)
     for (int i = 0; i <= STEPS; i++) {
         double u = 0.5 * PI * i / STEPS, x = pow(sin(u), 2);
         double weight = (i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2) * sin(2 * u);
-        double r = nose_radius(shape, slenderness, x);
+        double r = barrowman_nose_radius(shape, slenderness, x);
         sum[0] += weight * r * r;
         sum[1] += weight * r;
         sum[2] += weight * r * x;

@@ -17,6 +17,10 @@ typedef struct barrowman_body {
     double side, side_center;
 } barrowman_body;
 
+// Radius of a nose over that of its base at the share x of its length from the tip; slenderness:
+// length over radius.
+double barrowman_nose_radius(ld_nose_shape shape, double slenderness, double x);
+
 barrowman_body barrowman_nose(ld_nose_shape shape, double length, double radius, double area);
 barrowman_body barrowman_tail(double front_radius, double rear_radius, double length, double area);
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "elements/barrowman.h"
 #include "model/guide.h"
 #include "model/salvo.h"
 #include "simulation/simulation.h"
@@ -168,6 +169,74 @@ static void add_layout(geometry *all, const ld_tubes *tubes)
 
 // ---- rocket, base ----
 
+enum { NOSE_STEPS = 16 }; // of a nose's curve
+
+// The curve of a nose, close where it is blunt; of a body and a tail both ends.
+static int outline_of(const ld_air_surface *of, double (*to)[2])
+{
+    bool nose = of->kind == LD_AIR_NOSE, tail = of->kind == LD_AIR_TAIL;
+    int steps = nose ? NOSE_STEPS : 1;
+    for (int i = 0; i <= steps; i++) {
+        double x = pow((double)i / steps, 2), front = tail ? of->front_radius : of->radius;
+        to[i][0] = of->at - x * of->length;
+        to[i][1] = nose ? of->radius * barrowman_nose_radius(of->shape, of->length / of->radius, x)
+                        : front + x * ((tail ? of->rear_radius : of->radius) - front);
+    }
+    return steps + 1;
+}
+
+static bool is_body(const ld_air_surface *of)
+{
+    return of->kind == LD_AIR_NOSE || of->kind == LD_AIR_BODY || of->kind == LD_AIR_TAIL;
+}
+
+static void add_fins(geometry *all, const ld_aerodynamics *aero)
+{
+    size_t fins = 0;
+    for (int i = 0; i < aero->surface_count; i++)
+        fins += aero->surface[i].kind == LD_AIR_FINS;
+    double *fin = add(all, "rocket.fins", "m", fins, 7,
+                      "x in B of the root's front end, root chord, tip chord, span, sweep length, "
+                      "radius of the body; number of fins");
+    for (int i = 0; i < aero->surface_count; i++) {
+        const ld_air_surface *of = &aero->surface[i];
+        if (of->kind != LD_AIR_FINS)
+            continue;
+        const double row[7] = {of->at,           of->root_chord, of->tip_chord, of->span,
+                               of->sweep_length, of->radius,     of->count};
+        for (int k = 0; k < 7; k++)
+            *fin++ = row[k];
+    }
+}
+
+// Body and fins, where the air is given by surface and a nose is among them.
+static void add_outline(geometry *all, const ld_aerodynamics *aero)
+{
+    const ld_air_surface *sorted[LD_MAX_AIR_SURFACES];
+    double outline[LD_MAX_AIR_SURFACES * (NOSE_STEPS + 1)][2];
+    int bodies = 0, points = 0;
+    bool nose = false;
+    for (int i = 0; i < aero->surface_count; i++) {
+        const ld_air_surface *of = &aero->surface[i];
+        nose = nose || of->kind == LD_AIR_NOSE;
+        if (!is_body(of))
+            continue;
+        int k = bodies++;
+        for (; k > 0 && sorted[k - 1]->at < of->at; k--) // from the tip backwards
+            sorted[k] = sorted[k - 1];
+        sorted[k] = of;
+    }
+    if (!nose)
+        return;
+    for (int i = 0; i < bodies; i++)
+        points += outline_of(sorted[i], outline + points);
+    double *body = add(all, "rocket.outline", "m", (size_t)points, 2,
+                       "x in B and radius along the body from its tip; straight between");
+    for (int i = 0; i < 2 * points; i++)
+        body[i] = outline[i / 2][i % 2];
+    add_fins(all, aero);
+}
+
 static void add_rocket(geometry *all, const ld_model *model)
 {
     const ld_rocket *rocket = salvo_rocket(model, 0);
@@ -186,6 +255,7 @@ static void add_rocket(geometry *all, const ld_model *model)
     if (rocket->aerodynamics.present)
         add_row(all, "rocket.diameter", "m", 1, &rocket->aerodynamics.reference_diameter,
                 "reference diameter of the aerodynamics");
+    add_outline(all, &rocket->aerodynamics);
 }
 
 static void add_base(geometry *all, const base_system *base)
@@ -218,7 +288,8 @@ static size_t room_for(const ld_simulation *self)
     size_t nodes = (size_t)tube->element_count + 1;
     return nodes * (size_t)(1 + 2 * tube->nb + tube->nt + tube->na) + 3 * LD_MAX_SECTIONS +
            2 * LD_MAX_SECTIONS + (1 + LD_CLAMPS) * LD_MAX_SUPPORTS + 5 * LD_MAX_SURFACES +
-           4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS + 20;
+           4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS +
+           LD_MAX_AIR_SURFACES * (2 * (NOSE_STEPS + 1) + 7) + 20;
 }
 
 ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error)

@@ -760,11 +760,35 @@ async function checkTrailer(browser) {
   check("a trailer has none, but a drawbar", trailer.above < 0.3 && trailer.before > 1.5, JSON.stringify(trailer));
 }
 
+// The student rocket's numbers: tip 2 m before the lower button, 203 mm thick, fins 165 mm beyond a radius of 77.5 mm to
+// 1.202 m behind the button, between which the rail lies.
+async function checkOutline(page) {
+  const [[body], fins, [rear]] = await Promise.all([".body", ".fin", ".adaptor"].map((kind) => page.$$eval(`.plan ${kind}`, (list) =>
+    list.map((node) => node.getBBox()).map(({ x, y, width, height }) => ({ x, y, width, height })))));
+  const scale = Number(await page.$eval(".plan svg", (svg) => svg.dataset.scale)), button = rear.x + rear.width / 2, close = (pixels, metres) => Math.abs(pixels / scale - metres) < 1e-3;
+  const said = `body ${body.width / scale} by ${body.height / scale} m`;
+  check("the drawing has the rocket's length and thickness", close(body.width, 3.202) && close(body.height, 0.203) && close(body.x + body.width - button, 2), said);
+  const middle = body.y + body.height / 2, out = (0.0775 + 0.165) * Math.SQRT1_2;
+  check("and its fins", fins.length === 4 && fins.every(({ x, y, width, height }) => close(width, 0.152) && close(button - x, 1.202) &&
+    (close(middle - y, out) || close(y + height - middle, out))), JSON.stringify(fins.map(({ y }) => (middle - y) / scale)));
+  const text = (await page.textContent(".plan")).replaceAll("\u00a0", " ");
+  check("which it says", text.includes("rail 3.35 m, rocket 3.2 m long, 203 mm thick") && (await page.$$(".plan .made-up")).length === 0, text);
+  const solid = await page.evaluate(() => {
+    const [body] = window.launchdyn.current.stage.bodies, { profile } = body;
+    const at = body.fins.children[0].geometry.attributes.position, corners = [0, 1, 2, 3].map((i) => [at.getX(i), Math.hypot(at.getY(i), at.getZ(i))]);
+    return { length: body.length, rear: profile[2].l, fins: body.fins.children.length, corners, most: Math.max(...profile.map(({ r }) => r)), radius: body.bodyRadius };
+  });
+  const slim = solid.radius / 0.1015, wanted = [[-1.05, 0.0775], [-1.088093, 0.2425], [-1.164293, 0.2425], [-1.202, 0.0775]];
+  check("the replay's rocket too, slimmer", solid.length === 2 && near(solid.rear, -1.202, 1e-6) && solid.fins === 4 && near(solid.most, solid.radius, 1e-6) &&
+    wanted.every(([x, r], i) => near(solid.corners[i][0], x, 1e-5) && near(solid.corners[i][1], slim * r, 1e-5)), JSON.stringify(solid));
+}
+
 // The whole path is in the picture and fills its width or height at every size; the flight's instants are named where they
 // are; the rocket flies along it, as large as can be seen.
 async function checkPath(browser) {
   console.log("a path: the student rocket's");
   const run = runOf("student-rocket/student-rocket.yaml"), page = await open(browser, run.file);
+  await checkOutline(page);
   const [{ flight: of }] = JSON.parse(readFileSync(join(run.out, "summary.json"), "utf8")).rockets;
   for (const width of [1400, 1000, 400]) {
     await page.setViewportSize({ width, height: 900 });

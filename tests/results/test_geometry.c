@@ -218,6 +218,48 @@ static void test_outline(void **state)
     history_free(&read);
 }
 
+// Of a rocket whose air is given by surface: its curve from tip to tail and its fins, as the
+// scenario says; a cone's radius grows along its length, an ellipse's curve ends level.
+static void test_rocket_outline(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "run.end=tip",
+        "rocket.aerodynamics={model: surfaces, reference_diameter: 160 mm, axial: [[0, 0.4], [3, "
+        "0.4]], surfaces: ["
+        "{name: fins, kind: fins, at: 0.3 m, fin_count: 3, root_chord: 0.2 m, tip_chord: 0.1 m, "
+        "span: 60 mm, "
+        "sweep_length: 50 mm, radius: 70 mm}, "
+        "{name: tail, kind: tail, at: 0.4 m, length: 0.3 m, front_radius: 80 mm, rear_radius: 70 "
+        "mm}, "
+        "{name: nose, kind: nose, shape: cone, at: 2.6 m, length: 0.5 m, radius: 80 mm}]}"};
+    static const double fin[7] = {0.3, 0.2, 0.1, 0.06, 0.05, 0.07, 3};
+    history_data read;
+    run_example("fixed.yaml", sets, 2, &read);
+    const history_array *outline = array(&read, "rocket.outline");
+    assert_int_equal(outline->rows, 17 + 2);
+    double cone = 0, order = 0, fins = 0;
+    for (size_t i = 0; i < 17; i++)
+        cone = fmax(cone, fabs(outline->value[2 * i + 1] - 0.16 * (2.6 - outline->value[2 * i])));
+    for (size_t i = 1; i < outline->rows; i++)
+        order = fmax(order, outline->value[2 * i] - outline->value[2 * i - 2]);
+    CHECK_BELOW("a cone's radius less its slope times the way from the tip [m]", cone, 1e-15);
+    CHECK_BELOW("from the tip backwards [m]", order, 0);
+    CHECK_BELOW("shoulder [m]", fabs(outline->value[32] - 2.1) + fabs(outline->value[33] - 0.08),
+                1e-15);
+    CHECK_BELOW("tail [m]", fabs(outline->value[36] - 0.1) + fabs(outline->value[37] - 0.07),
+                1e-15);
+    const history_array *row = array(&read, "rocket.fins");
+    assert_int_equal(row->rows * row->columns, 7);
+    for (int k = 0; k < 7; k++)
+        fins = fmax(fins, fabs(row->value[k] - fin[k]));
+    CHECK_BELOW("fins [m]", fins, 0);
+    history_free(&read);
+    run_example("fixed.yaml", NULL, 0, &read);
+    assert_null(history_array_named(&read, "rocket.outline"));
+    history_free(&read);
+}
+
 // The launching tube's rear end is where chassis, hinges and layout put it; wheels hang where their
 // travel says.
 static void test_vehicle(void **state)
@@ -275,7 +317,8 @@ static void test_without(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(test_fixed),   TEST(test_ship),    TEST(test_guide),
-                                       TEST(test_outline), TEST(test_vehicle), TEST(test_without)};
+    const struct CMUnitTest tests[] = {
+        TEST(test_fixed),          TEST(test_ship),    TEST(test_guide),  TEST(test_outline),
+        TEST(test_rocket_outline), TEST(test_vehicle), TEST(test_without)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
