@@ -31,6 +31,7 @@ const grid = (children) => {
 const scatters = ({ series }) => series.some((own) => own && own.greatest - own.least > 1e-12 * Math.abs(own.greatest));
 
 const MOST_FIRST = 8, MOST_SENSITIVITIES = 4; // results with a plot that is not folded
+const MOST_BESIDE = 4; // plots beside the answer
 
 // Something folded, or nothing where there is nothing in it.
 function folded(title, ...children) {
@@ -92,9 +93,15 @@ host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeS
 const notes = data.notes.map((note) => element("p", { className: "warning" }, note));
 const shots = data.measured?.results.map(describe) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
 const told = first.length ? answer(data, first) : null, [shares, otherShares] = sensitivities();
-if (data.series.length === 1 && told && shares) { // beside each other
-  section("summary", "Answer and sensitivities", ...notes, ...states(), element("div", { className: "lead" }, told, shares), otherShares);
-} else {
+const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, pair)).filter(Boolean);
+const lead = (title, plots, others) => // beside each other
+  section("summary", title, ...notes, ...states(), element("div", { className: "lead" }, told, plots), others);
+const besides = one && !shares ? clouds.length > 0 ? "scatter" : "results" : "";
+const distributions = first.map((result) => distribution(data, result));
+if (one && shares) lead("Answer and sensitivities", shares, otherShares);
+else if (besides === "scatter") lead("Answer and scatter", grid(clouds.slice(0, MOST_BESIDE)), rest(folded("Scatter of other results", grid(clouds.slice(MOST_BESIDE)))));
+else if (besides === "results") lead("Answer and results", grid(distributions.splice(0, MOST_BESIDE)));
+else {
   section("summary", "Answer", ...notes, ...states(), told);
   section("sensitivities", "Sensitivities", shares, otherShares);
 }
@@ -102,8 +109,8 @@ section("measured", "Measured beside simulated", shots.length ? measured(data, s
   shots.length ? element("p", { className: "shown" }, "Difference: mean measured less mean simulated; ratio: how many times as far measured values lie from " +
     "their median as simulated ones. p: how often chance alone makes so much where nothing differs; * below 5\u00a0%, as one in twenty is then.") : null,
   grid(shots.map((result) => beside(data, result))));
-section("scatter", "Scatter", grid(data.pairs.map((pair) => scatter(data, pair))));
-section("distributions", "Results", grid(first.map((result) => distribution(data, result))), sameEverywhere(),
+section("scatter", "Scatter", besides === "scatter" ? null : grid(clouds));
+section("distributions", "Results", grid(distributions), sameEverywhere(),
   rest(...parts.flatMap(partOf)));
 section("numbers", "Numbers", rest(data.series.length > 0 ? folded("What was run", counts(data)) : null,
   folded("Statistics", ...(results.length ? statistics(data, results) : [])), folded("Ellipses", ellipses(data)),

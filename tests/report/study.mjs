@@ -173,6 +173,36 @@ async function checkOne(browser, study) {
   await checkInjected(browser, file);
 }
 
+// Where nothing tells factors apart, clouds stand beside the answer, and fill the first screen with it at every width.
+async function checkWithout(browser) {
+  console.log("a study without sensitivities");
+  const scenario = join(folder, "seeds.yaml"), out = join(folder, "seeds");
+  writeFileSync(scenario, `include: ${example("marching/15-kmh.yaml")}\nscatter: {samples: 12, factors: {base.road.seed: {each: sample}}}\n`);
+  launchdyn("study", scenario, "--out", out, "--quiet");
+  const page = await open(browser, reportOf("seeds.html", { out }), { width: 1400 });
+  const heads = await page.$$eval("h2", (list) => list.map((node) => node.textContent));
+  check("the answer and clouds stand first", heads.join() === "Answer and scatter,Results,Numbers,Origin", heads);
+  for (const [width, least] of [[1400, 0.7], [1000, 0.7], [400, 0.8]]) {
+    await page.setViewportSize({ width, height: 900 });
+    await drawn(page);
+    const { share, narrow, titles } = await page.evaluate(() => {
+      const cards = [...document.querySelectorAll(".lead .answer, .lead .panel")].map((node) => node.getBoundingClientRect());
+      const seen = cards.map(({ width, top, bottom }) => width * Math.max(0, Math.min(900, bottom) - Math.max(0, top)));
+      const top = document.querySelector(".lead").getBoundingClientRect().top, end = Math.min(900, document.querySelector(".lead").getBoundingClientRect().bottom);
+      return { share: seen.reduce((sum, v) => sum + v, 0) / (document.querySelector("main").clientWidth * (end - top)),
+        narrow: Math.min(...cards.map(({ width }) => width)), titles: [...document.querySelectorAll(".lead .panel")].map(({ dataset }) => dataset.title) };
+    });
+    check(`${width} pixels: cards fill it, none too narrow`, share > least && narrow > 270 && titles.length === 4, `${share}, ${narrow} pixels, ${titles}`);
+    await checkFits(page);
+    await picture(page, `study-without-${width}.png`);
+  }
+  const all = await page.$$eval(".panel", (list) => list.map(({ dataset }) => dataset.title));
+  await unfold(page);
+  const shown = await page.$$eval(".panel", (list) => list.map(({ dataset }) => dataset.title));
+  check("no plot twice", all.length > 6 && new Set(shown).size === shown.length, shown.length);
+  await leave(page);
+}
+
 async function checkSideBySide(browser, studies) {
   console.log("three studies beside each other, dark, 400 pixels wide");
   const file = reportOf("three.html", ...studies), page = await open(browser, file, { width: 400, dark: true });
@@ -269,6 +299,7 @@ await inBrowser(async (browser) => {
   const studies = [studyOf("slow", 150), studyOf("middle", 150, { speed: "39.8 12.6 0 m/s", factors: UNIFORM }),
     studyOf("fast", 150, { speed: "44 12.6 0 m/s" })];
   await checkOne(browser, studies[0]);
+  await checkWithout(browser);
   await checkSideBySide(browser, studies);
   await checkColumns(browser, studies);
   await checkMeasured(browser, [studies[0], studies[2]]);
