@@ -2,7 +2,7 @@
 // place that is looked at.
 import { placeBeside } from "../report/labels.js";
 
-const MARGIN = 12, AXIS = 24, HEAD = 34, LINE = 15, FORCE_COLOUR = "#17a05d";
+const MARGIN = 12, AXIS = 24, HEAD = 34, LINE = 15, RING = 8, FORCE_COLOUR = "#17a05d";
 
 // The largest of 1, 2, 5 times a power of ten that is not above a value.
 export function roundBelow(value) {
@@ -60,9 +60,18 @@ function drawBar(ctx, x, y, { pixels, text }, arrow, paper) {
   write(ctx, text, x + pixels / 2, y - 10, paper);
 }
 
+// Places of which the rings would meet share one, and have one name.
+export function together(names) {
+  return names.reduce((list, one) => {
+    const near = list.find(({ x, y }) => Math.hypot(one.x - x, one.y - y) < RING);
+    if (!near) return [...list, one];
+    return list.map((other) => (other === near ? { ...near, name: `${near.name}, ${one.name}` } : other));
+  }, []);
+}
+
 // The instants of a flight: a ring at each, its name beside it and off the path where there is room.
-function drawNames(ctx, { names = [], way }, width, height, ink, paper) {
-  const boxes = placeBeside(names.map(({ x, y, name }) => ({ x, y, width: ctx.measureText(name).width + 4 })), LINE,
+function drawNames(ctx, { names: all = [], way }, width, height, ink, paper) {
+  const names = together(all), boxes = placeBeside(names.map(({ x, y, name }) => ({ x, y, width: ctx.measureText(name).width + 4 })), LINE,
     { left: 2, right: width - 2, top: HEAD, bottom: height - 2 }, way);
   ctx.strokeStyle = ctx.fillStyle = ink;
   names.forEach(({ name, x, y }, i) => {

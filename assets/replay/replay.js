@@ -91,7 +91,7 @@ class Replay {
   setClock() {
     const aloft = this.stage.view === "path";
     this.clock = new Clock(this.motion, this.ways, this.chosen, aloft);
-    this.colourKey.hidden = aloft && !this.motion.free;
+    this.colourKey.hidden = aloft;
     this.nameInstants(this.ticks.clientWidth);
   }
   // Where the replay stands at first: the rocket on its way through the tube. It plays from shortly
@@ -167,9 +167,9 @@ class Replay {
     const { element } = this.tools, free = [-1, -1];
     const one = this.chosen !== null, text = (name) => (one ? name.replace(/ \d+$/, "") : name);
     this.ticks.replaceChildren(...this.instants().map(({ name, t }) => {
-      const at = width * this.clock.share(t), row = free.findIndex((end) => at >= end);
-      const room = 8 + 6.5 * text(name).length, side = at + room > width ? " end" : "";
-      if (row >= 0) free[row] = at + room;
+      const at = width * this.clock.share(t), room = 8 + 6.5 * text(name).length, side = at + room > width ? " end" : "";
+      const from = side ? at - room : at, row = free.findIndex((end) => from >= end);
+      if (row >= 0) free[row] = from + room;
       const kind = ["tick bare", "tick", "tick low"][row + 1];
       return element("span", { className: kind + side, title: name, style: `left:${at.toFixed(1)}px` },
         row >= 0 ? text(name) : "");

@@ -783,6 +783,16 @@ async function checkOutline(page) {
     wanted.every(([x, r], i) => near(solid.corners[i][0], x, 1e-5) && near(solid.corners[i][1], slim * r, 1e-5)), JSON.stringify(solid));
 }
 
+// Names below the slider, also those that stand before their instants at its end, do not meet.
+async function checkTicks(browser) {
+  const page = await open(browser, runOf("parachutes.yaml").file, { width: 400, replay: true });
+  const meet = await page.$$eval(".tick", (list) => list.map((node) => [node.textContent, node.getBoundingClientRect()]).filter(([text]) => text)
+    .flatMap(([text, a], i, all) => all.slice(0, i).filter(([, b]) => a.left < b.right - 1 && b.left < a.right - 1 && Math.abs(a.bottom - b.bottom) < 4)
+      .map(([other]) => `${other} and ${text}`)));
+  check("no names meet below the slider", meet.length === 0, meet);
+  await leave(page);
+}
+
 // The whole path is in the picture and fills its width or height at every size; the flight's instants are named where they
 // are; the rocket flies along it, as large as can be seen.
 async function checkPath(browser) {
@@ -866,5 +876,6 @@ await inBrowser(async (browser) => {
   await checkFlight(browser);
   await checkTrailer(browser);
   await checkPath(browser);
+  await checkTicks(browser);
   await checkHostile(browser);
 });

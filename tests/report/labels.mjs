@@ -5,6 +5,7 @@ import { motions } from "../../assets/report/answer.js";
 import { linesOf, placeBeside, placeOnLine } from "../../assets/report/labels.js";
 import { fixed, inUnit, playing, rounded } from "../../assets/report/rounded.js";
 import { ticks, tickTexts } from "../../assets/report/ticks.js";
+import { together } from "../../assets/replay/gauge.js";
 
 const cases = [];
 for (const line of readFileSync(new URL("../figures/labels.txt", import.meta.url), "utf8").split("\n")) {
@@ -49,6 +50,8 @@ const said = [
   [wide(playing(0.9996, "m", [0, 0.9996])), "1.00 m"], [parts.join("; "), "rear adaptor across the tube 12.5 at 3; tip of the tube 5 at 2; chassis, up and down 1 at 3"],
   [ticks(0, 1, 5), "0,0.2,0.4,0.6000000000000001,0.8,1"], [tickTexts(ticks(0, 1, 5)), "0,0.2,0.4,0.6,0.8,1"], [tickTexts(ticks(-0.25, 0.38, 3)), "−0.2,0,0.2"],
   [tickTexts(ticks(1163, 1177, 3)), "1165,1170,1175"], [ticks(3, 3, 4).length, "0"],
+  [together([[9, 9, "exit"], [50, 20, "apogee"], [52, 23, "drogue"], [60, 30, "main"]].map(([x, y, name]) => ({ x, y, name })))
+    .map(({ x, name }) => `${x} ${name}`).join("; "), "9 exit; 50 apogee, drogue; 60 main"],
   [linesOf("yaw [deg]", 20), "yaw [deg]"], [linesOf("yaw rate, the launcher's axes held still [mrad/s]", 27).join("|"), "yaw rate, the launcher's|axes held still [mrad/s]"],
 ];
 const unlike = said.filter(([found, wanted]) => String(found) !== wanted);
