@@ -85,8 +85,9 @@ function launchRows(rockets, named) {
 
 function flightRows(rockets) {
   const each = (name) => rockets.map(({ flight }) => flight?.[name]);
+  const above = saidOf(each("apogee_altitude"), "m");
   return [
-    row("Apogee", saidOf(each("apogee"), "m")), row("Range", saidOf(each("range"), "m")),
+    row("Apogee", saidOf(each("apogee"), "m"), above ? `above ground; ${above.join("\u00a0")} above sea level` : ""), row("Range", saidOf(each("range"), "m")),
     row("Time of flight", saidOf(each("time_of_flight"), "s")),
     row("Largest Mach number", saidOf(each("max_mach"), "")),
     row("Speed at impact", saidOf(each("impact_speed"), "m/s")),

@@ -26,7 +26,8 @@ struct kml_file {
     bool geodetic;          // rows have latitude and longitude
     bool in_line;           // a flight's line is open
     int rocket;             // whose it is
-    double last[4];         // its latest longitude, latitude [deg], altitude [m], time [s]
+    // its latest and its highest longitude, latitude [deg], altitude [m], time [s]
+    double last[4], highest[4];
 };
 
 bool kml_has_place(const ld_model *model)
@@ -110,19 +111,39 @@ ld_status kml_create(const char *path, const ld_model *model, kml_file **file, l
     return state_of(created, error);
 }
 
-// Its end is a point with its time.
+static void write_point(const kml_file *file, const double place[3], const char *name)
+{
+    fprintf(file->stream,
+            "<Placemark>\n<name>Rocket %d, %s</name>\n<Point>\n"
+            "<altitudeMode>absolute</altitudeMode>\n<coordinates>%.9f,%.9f,%.3f"
+            "</coordinates>\n</Point>\n</Placemark>\n",
+            file->rocket, name, place[0], place[1], place[2]);
+}
+
+// Points: where a flight ends, and its highest one unless it ends while it rises.
+static void write_points(const kml_file *file)
+{
+    const ld_environment *environment = &file->model->environment;
+    const double *last = file->last, *highest = file->highest;
+    bool flat = environment->earth.kind == LD_EARTH_FLAT;
+    double ground = environment->ground_height + (flat ? environment->site.altitude : 0);
+    char name[128];
+    if (highest[2] > last[2] || file->model->run.end == LD_END_APOGEE) {
+        snprintf(name, sizeof name, "apogee %.1f m above ground, %.1f m above sea level",
+                 printed_fixed(highest[2] - ground, 1), printed_fixed(highest[2], 1));
+        write_point(file, highest, name);
+    }
+    snprintf(name, sizeof name, "t = %.3f s", last[3]);
+    write_point(file, last, name);
+}
+
 static void end_line(kml_file *file)
 {
-    const double *last = file->last;
     if (file->in_line) {
         locale_t before = numeric_locale_enter();
         fputs("</coordinates>\n</LineString>\n</Placemark>\n", file->stream);
-        if (!isnan(last[0]))
-            fprintf(file->stream,
-                    "<Placemark>\n<name>Rocket %d, t = %.3f s</name>\n<Point>\n"
-                    "<altitudeMode>absolute</altitudeMode>\n<coordinates>%.9f,%.9f,%.3f"
-                    "</coordinates>\n</Point>\n</Placemark>\n",
-                    file->rocket, last[3], last[0], last[1], last[2]);
+        if (!isnan(file->last[0]))
+            write_points(file);
         numeric_locale_leave(before);
     }
     file->in_line = false;
@@ -154,6 +175,7 @@ ld_status kml_flight(kml_file *file, int rocket, const ld_column *columns, size_
     end_line(file);
     file->rocket = rocket;
     file->last[0] = NAN;
+    file->highest[2] = -INFINITY;
     fprintf(file->stream, "<Placemark>\n<name>Rocket %d", rocket);
     if (rocket <= file->model->firing_count)
         fprintf(file->stream, ", tube %d", file->model->firing[rocket - 1].tube);
@@ -182,6 +204,8 @@ ld_status kml_row(kml_file *file, const double *values, ld_error *error)
     file->last[1] = printed_fixed(place.latitude * DEGREES, 9);
     file->last[2] = printed_fixed(values[file->column[ALTITUDE]], 3);
     file->last[3] = values[file->column[TIME]];
+    if (file->last[2] > file->highest[2])
+        memcpy(file->highest, file->last, sizeof file->highest);
     locale_t before = numeric_locale_enter();
     fprintf(file->stream, "%.9f,%.9f,%.3f\n", file->last[0], file->last[1], file->last[2]);
     numeric_locale_leave(before);

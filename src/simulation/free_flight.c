@@ -838,6 +838,15 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
     return status ? status : begin(run, state);
 }
 
+// A flight that ends while it rises has its highest point still ahead.
+static void forget_apogee_ahead(flight_run *run)
+{
+    double t = run->steps.step.t;
+    if (t == run->t_apogee && !run->topped &&
+        flight_height_rate(run->job->system, &run->phase, t, run->steps.step.y) > 0)
+        run->apogee = run->t_apogee = NAN;
+}
+
 void flight_run_end(flight_run *run, ld_status status, double *state)
 {
     const measuring measured = measuring_of(run);
@@ -847,8 +856,11 @@ void flight_run_end(flight_run *run, ld_status status, double *state)
     memcpy(state, run->steps.step.y, FLIGHT_STATES * sizeof(double));
     ld_flight_summary *flight = &run->rocket->flight;
     take_height(run, run->steps.step.t, state);
+    forget_apogee_ahead(run);
     double t_ignition = run->job->t_ignition;
-    flight->apogee = run->apogee;
+    const flight_system *system = run->job->system;
+    flight->apogee = run->apogee - system->ground;
+    flight->apogee_altitude = run->apogee + (system->earth.flat ? system->earth.altitude : 0);
     flight->t_apogee = run->t_apogee - t_ignition;
     flight->max_mach = run->extremes.mach;
     flight->max_dynamic_pressure = run->extremes.pressure;

@@ -55,8 +55,8 @@ typedef struct flight_run {
     double next_output, last_row, output_from;
     int64_t output_index;
     double next_progress;
-    double next_look; // [steps]
-    double apogee, t_apogee;
+    double next_look;        // [steps]
+    double apogee, t_apogee; // [m] as flight_height counts, [s]; NaN at the end: it rises still
     flight_extremes extremes;
     double t_beyond;   // when the Mach number first went past the table's last; NaN: not
     double t_tumbling; // when the angle of attack first passed 90 degrees; NaN: not

@@ -13,10 +13,11 @@ enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_A
 
 /// Free flight of one rocket, of its mass centre in I against the ground; NaN where it has not
 /// landed, or has not flown. The launch point has x and z of the rear adaptor at ignition (of a
-/// flight alone: at its start). A height is y on a flat Earth, else above sphere or ellipsoid.
+/// flight alone: at its start). The apogee is NaN where the flight ended while rising.
 typedef struct ld_flight_summary {
     double stability_margin;       ///< [reference diameters] at its start
-    double apogee;                 ///< [m] greatest height
+    double apogee;                 ///< [m] greatest height above environment.ground
+    double apogee_altitude;        ///< [m] the same above sea level: sphere or ellipsoid
     double t_apogee;               ///< [s] from ignition
     double downrange, drift;       ///< [m] x and z of the impact from the launch point
     double range;                  ///< [m] distance of the two

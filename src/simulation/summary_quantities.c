@@ -142,7 +142,8 @@ static const quantity change[] = {
 };
 static const quantity flight[] = {
     {"stability_margin", "1", "at the flight's start (the exit): mass centre ahead of the centre of pressure, in reference diameters", ROCKET(flight.stability_margin), "flight.stability_margin", KEPT, LINE("stability margin", "calibres", 1, 3)},
-    {"apogee", "m", "greatest height of the mass centre: y, on a round or WGS 84 Earth above sphere or ellipsoid", ROCKET(flight.apogee), "flight.apogee", KEPT, LINE("apogee", "m", 1, 3)},
+    {"apogee", "m", "greatest height of the mass centre above the launch site's ground (`environment.ground`); none where the flight ends while rising", ROCKET(flight.apogee), "flight.apogee", KEPT, LINE("apogee above ground", "m", 1, 3)},
+    {"apogee_altitude", "m", "the same above sea level (the sphere or ellipsoid of the Earth)", ROCKET(flight.apogee_altitude), "flight.apogee_altitude", KEPT, LINE("apogee above sea level", "m", 1, 3)},
     {"t_apogee", "s", "when the mass centre is there", ROCKET(flight.t_apogee), "flight.t_apogee", KEPT, LINE("apogee from ignition", "s", 1, 4)},
     {"downrange", "m", "x of the impact in I from the launch point", ROCKET(flight.downrange), "flight.downrange", KEPT, LINE("downrange, drift", "m", 1, 3)},
     {"drift", "m", "z of the impact in I from the launch point", ROCKET(flight.drift), "flight.drift", KEPT, BESIDE(1)},

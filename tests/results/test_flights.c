@@ -138,6 +138,18 @@ static void place_on_map(const char *name, int rocket, int i, double place[3])
     fclose(file);
 }
 
+static bool has_line(const char *name, const char *expected)
+{
+    char line[256];
+    bool found = false;
+    FILE *file = fopen(in(name), "r");
+    assert_non_null(file);
+    while (!found && fgets(line, sizeof line, file))
+        found = strcmp(line, expected) == 0;
+    fclose(file);
+    return found;
+}
+
 // x to the north, z to the east: the arcs are those of the ellipsoid's radii of curvature, to the
 // second order in the distance over the radius.
 static void test_map_of_a_flat_earth(void **state)
@@ -157,6 +169,9 @@ static void test_map_of_a_flat_earth(void **state)
     CHECK_BELOW("east of the site, from its arc [m]",
                 fabs((place[0] - 10) * degree * (N + 100) * sqrt(0.5) - row[2]), 3e-2);
     CHECK_BELOW("height [m]", fabs(place[2] - row[3]), 5.1e-4);
+    assert_true(has_line(
+        "run/trajectories.kml",
+        "<name>Rocket 2, apogee 1125.0 m above ground, 1225.0 m above sea level</name>\n"));
     assert_int_equal(access(in("run/trajectories.kml.part"), F_OK), -1);
 }
 
@@ -198,17 +213,11 @@ static void write_flight_alone(const char *name)
 static void test_flight_alone(void **state)
 {
     (void)state;
-    char line[256], expected[64];
+    char expected[64];
     history_data read;
-    bool found = false;
     write_flight_alone("alone");
     snprintf(expected, sizeof expected, "%.9f,%.9f,9144.000\n", -1.25 / degree, 0.5 / degree);
-    FILE *file = fopen(in("alone/trajectories.kml"), "r");
-    assert_non_null(file);
-    while (fgets(line, sizeof line, file))
-        found = found || strcmp(line, expected) == 0;
-    fclose(file);
-    assert_true(found);
+    assert_true(has_line("alone/trajectories.kml", expected));
     assert_int_equal(history_read(in("alone/history.h5"), &read, NULL), LD_OK);
     assert_int_equal(read.flights, 1);
     assert_int_equal(read.flight[0].rows, 2);
@@ -285,6 +294,22 @@ static void test_map_of_an_ellipsoid(void **state)
     CHECK_NEAR("altitude of the impact [m]", place[2], 0, 0);
     assert_line(file, "</coordinates>");
     assert_line(file, "</LineString>");
+    assert_line(file, "</Placemark>");
+    const ld_flight_summary *flight = &summary.rocket[0].flight;
+    snprintf(line, sizeof line,
+             "<name>Rocket 1, apogee %.1f m above ground, %.1f m above sea level</name>",
+             flight->apogee, flight->apogee_altitude);
+    assert_line(file, "<Placemark>");
+    assert_line(file, line);
+    assert_line(file, "<Point>");
+    assert_line(file, "<altitudeMode>absolute</altitudeMode>");
+    double highest[3];
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_int_equal(sscanf(line, "<coordinates>%lf,%lf,%lf</coordinates>", &highest[0],
+                            &highest[1], &highest[2]),
+                     3);
+    CHECK_NEAR("altitude of the apogee [m]", highest[2], flight->apogee_altitude, 5.1e-4);
+    assert_line(file, "</Point>");
     assert_line(file, "</Placemark>");
     // where it ended, and when
     snprintf(digits, sizeof digits, "<name>Rocket 1, t = %.3f s</name>", final->t);

@@ -314,8 +314,8 @@ static void test_results_of_a_study_are_those_of_the_summary(void **state)
     made_summary(&summary, 1);
     ld_rocket_summary *rocket = &summary.rocket[0];
     rocket->flown = true;
-    rocket->flight = (ld_flight_summary){2.5, 900,  13.5, 8600, -50, 8601,  41.5, 41.375,
-                                         210, 0.75, 1.5,  9e4,  3.5, 250.5, 1.25, 0.01};
+    rocket->flight = (ld_flight_summary){2.5, 900,  1100, 13.5, 8600, -50,   8601, 41.5, 41.375,
+                                         210, 0.75, 1.5,  9e4,  3.5,  250.5, 1.25, 0.01};
     const char *file = in(here, "summary.json");
     assert_int_equal(ld_summary_write(file, &here->model, &summary, &error), LD_OK);
     char *text = strdup(printed_by(

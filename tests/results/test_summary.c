@@ -325,7 +325,9 @@ static void say_flight(const finished_run *run, column_book *book, const char *a
         rocket->full.center[0] + burnt * (rocket->empty.center[0] - rocket->full.center[0]);
     // the table's centre of pressure below Mach 0.4
     expect_at(book, at, "stability_margin", (center - 0.838) / 0.164);
-    expect_at(book, at, "apogee", largest_of(flight, "altitude"));
+    expect_at(book, at, "apogee",
+              largest_of(flight, "altitude") - run->model.environment.ground_height);
+    expect_at(book, at, "apogee_altitude", largest_of(flight, "altitude"));
     expect_at(book, at, "t_apogee", time[top] - t0);
     expect_at(book, at, "max_dynamic_pressure", q / 2);
     expect_at(book, at, "t_max_dynamic_pressure", time[pressed] - t0);
@@ -601,6 +603,7 @@ static const column_bound bounds[] = {
     {"*torque_peak", 1e-4, false},
     {"*power_peak", 1e-3, false},
     {"*apogee", 1e-7, false},
+    {"*apogee_altitude", 1e-7, false},
     {"*downrange", 1e-8, false},
     {"*drift", 1e-8, false},
     {"*range", 1e-8, false},
@@ -722,7 +725,8 @@ static const struct {
      {"rockets.0.elevation.torque_rms", "rockets.0.elevation.torque_peak"}},
     {"elevation power, peak", {"rockets.0.elevation.power_mean", "rockets.0.elevation.power_peak"}},
     {"stability margin", {"rockets.0.flight.stability_margin"}},
-    {"apogee", {"rockets.0.flight.apogee"}},
+    {"apogee above ground", {"rockets.0.flight.apogee"}},
+    {"apogee above sea level", {"rockets.0.flight.apogee_altitude"}},
     {"apogee from ignition", {"rockets.0.flight.t_apogee"}},
     {"downrange, drift", {"rockets.0.flight.downrange", "rockets.0.flight.drift"}},
     {"range", {"rockets.0.flight.range"}},

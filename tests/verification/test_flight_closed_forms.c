@@ -15,14 +15,17 @@ static void test_parabola(void **state)
 {
     (void)state;
     ld_model model = read_text("launchdyn: 1\n"
-                               "environment: {atmosphere: none, ground: -3 m}\n"
+                               "environment: {atmosphere: none, ground: -3 m, "
+                               "site: {altitude: 300 m}}\n"
                                "rocket: {mass: 10 kg, inertia: 0.1 1 1 kg.m2}\n"
                                "flight: {position: 2 7 -1 m, speed: 50 m/s, attitude: {pitch: 30 "
                                "deg, yaw: 10 deg}, rate: 5 1 2 rad/s}\n");
     ld_rocket_summary rocket = fly_model(&model);
     double vy = 50 * sin(30 * degree), v = 50 * cos(30 * degree);
     double t = (vy + sqrt(vy * vy + 2 * g * 10)) / g;
-    CHECK_NEAR("apogee [m]", rocket.flight.apogee, 7 + vy * vy / (2 * g), 5e-14);
+    CHECK_NEAR("apogee above ground [m]", rocket.flight.apogee, 10 + vy * vy / (2 * g), 5e-14);
+    CHECK_NEAR("apogee above sea level [m]", rocket.flight.apogee_altitude, 307 + vy * vy / (2 * g),
+               1e-13);
     CHECK_NEAR("time of flight [s]", rocket.flight.time_of_flight, t, 1e-13);
     CHECK_NEAR("downrange [m]", rocket.flight.downrange, v * t * cos(10 * degree), 1e-11);
     CHECK_NEAR("drift [m]", rocket.flight.drift, -v * t * sin(10 * degree), 1e-11);
@@ -60,7 +63,10 @@ static void test_ellipse(void **state)
     double east = 12 * degree + asin(sin(arc) * sin(azimuth) / cos(north));
     printf("    to %.3f km of arc in %.3f s; the tangent plane is %.1f m off there\n",
            arc * r1 / 1000, t, r0 - r1 * cos(arc));
-    CHECK_NEAR("apogee, over its height", rocket.flight.apogee / (a * (1 + e) - R), 1, 1e-13);
+    CHECK_NEAR("apogee, over its altitude", rocket.flight.apogee_altitude / (a * (1 + e) - R), 1,
+               1e-13);
+    CHECK_NEAR("apogee above ground, relative", rocket.flight.apogee / (a * (1 + e) - r1), 1,
+               1e-13);
     CHECK_NEAR("time of flight, relative", rocket.flight.time_of_flight / t, 1, 5e-13);
     CHECK_NEAR("downrange, relative", rocket.flight.downrange / (r1 * sin(arc)), 1, 5e-13);
     CHECK_NEAR("drift [m]", rocket.flight.drift, 0, 5e-9);
