@@ -19,7 +19,7 @@ enum {
     COLUMN_FORCING = 2,
     COLUMN_DAMPING = 3,
     MOST_PARTS = 2 + 3 * LD_MAX_AIR_SURFACES,
-    FIN_POINTS = 60, // Mach numbers at which the slopes of fins are taken
+    FIN_POINTS = 122, // Mach numbers at which the slopes of fins are taken
 };
 
 typedef struct part_list {
@@ -203,19 +203,19 @@ static int ascending(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-// Mach numbers at which cubics meet the slopes of fins within 1e-7: up to 10, beyond which the
-// slopes stay what they are.
+// Mach numbers at which cubics meet the slopes of fins within 1.3e-6 of themselves, whatever their
+// aspect ratio, and within 2.4e-7 up to one of 5: up to 10, beyond which the slopes stay what they
+// are. Above Mach 1 they lie as Mach - 1 grows, by which the slopes of wide fins fall.
 static void fin_points(double mach[FIN_POINTS])
 {
-    enum { SUBSONIC = 20 };
-    const double most = 10;
+    enum { SUBSONIC = 40 };
+    const double first = BARROWMAN_SUPERSONIC - 1, most = 10 - 1;
     for (int i = 0; i < SUBSONIC; i++)
         mach[i] = BARROWMAN_SUBSONIC * i / SUBSONIC;
     mach[SUBSONIC] = BARROWMAN_SUBSONIC;
     int steps = FIN_POINTS - SUBSONIC - 2;
     for (int i = 0; i <= steps; i++)
-        mach[SUBSONIC + 1 + i] =
-            BARROWMAN_SUPERSONIC * pow(most / BARROWMAN_SUPERSONIC, (double)i / steps);
+        mach[SUBSONIC + 1 + i] = 1 + first * pow(most / first, (double)i / steps);
 }
 
 // The corners of all parts up to `last`, each once; at least two. Returns how many there are.
