@@ -20,6 +20,7 @@ enum {
     COLUMN_DAMPING = 3,
     MOST_PARTS = 2 + 3 * LD_MAX_AIR_SURFACES,
     FIN_POINTS = 122, // Mach numbers at which the slopes of fins are taken
+    FIN_MOST = 10,    // the last of them
 };
 
 typedef struct part_list {
@@ -40,15 +41,15 @@ static part *add(part_list *list, int column, double factor)
     return added;
 }
 
-// Notes that a table ends at its last Mach number.
-static void take_end(air_surfaces *air, const ld_table *table, const char *name, const char *key)
+// Notes that the slopes of a surface (NULL: the axial coefficients) end at a Mach number; key: the
+// table's, NULL: none.
+static void take_end(air_surfaces *air, double last, const char *name, const char *key)
 {
-    double last = table->data[(table->rows - 1) * table->columns];
-    if (table->rows == 1 || last >= air->last_mach)
+    if (last >= air->last_mach)
         return;
     air->last_mach = last;
     snprintf(air->last_of, sizeof air->last_of, "rocket.aerodynamics.%s%s%s%s",
-             name ? "surfaces." : "", name ? name : "", name ? "." : "", key);
+             name ? "surfaces." : "", name ? name : "", name && key ? "." : "", key ? key : "");
 }
 
 // A table of two columns, or the column given of one of three.
@@ -68,7 +69,8 @@ static ld_status add_table(part_list *list, int column, double factor, const ld_
     }
     ld_status status = curves_build(&add(list, column, factor)->given, table->rows, 2, pairs,
                                     kind[list->model->interpolation], list->error);
-    take_end(list->air, table, name, key);
+    if (table->rows > 1)
+        take_end(list->air, table->data[(table->rows - 1) * table->columns], name, key);
     free(pairs);
     return status;
 }
@@ -107,6 +109,7 @@ static void add_fins(part_list *list, const ld_air_surface *surface)
     add(list, COLUMN_FORCING, surface->slope_scale * surface->cant * fins.forcing)->aspect =
         fins.aspect;
     add(list, COLUMN_DAMPING, surface->slope_scale * fins.damping)->aspect = fins.aspect;
+    take_end(list->air, FIN_MOST, surface->name, NULL);
 }
 
 static ld_status add_coefficients(part_list *list, const ld_air_surface *surface)
@@ -204,12 +207,12 @@ static int ascending(const void *left, const void *right)
 }
 
 // Mach numbers at which cubics meet the slopes of fins within 1.3e-6 of themselves, whatever their
-// aspect ratio, and within 2.4e-7 up to one of 5: up to 10, beyond which the slopes stay what they
-// are. Above Mach 1 they lie as Mach - 1 grows, by which the slopes of wide fins fall.
+// aspect ratio, and within 2.4e-7 up to one of 5. Above Mach 1 they lie as Mach - 1 grows, by which
+// the slopes of wide fins fall.
 static void fin_points(double mach[FIN_POINTS])
 {
     enum { SUBSONIC = 40 };
-    const double first = BARROWMAN_SUPERSONIC - 1, most = 10 - 1;
+    const double first = BARROWMAN_SUPERSONIC - 1, most = FIN_MOST - 1;
     for (int i = 0; i < SUBSONIC; i++)
         mach[i] = BARROWMAN_SUBSONIC * i / SUBSONIC;
     mach[SUBSONIC] = BARROWMAN_SUBSONIC;

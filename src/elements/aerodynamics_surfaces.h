@@ -16,7 +16,7 @@ enum {
 
 // Places [m, x of B] of the surfaces with a slope, and of those on which a drag of the lateral
 // speed acts, with its coefficients on S; the Mach number at which the first of the tables given
-// ends, infinity where none does, and its key.
+// or of the slopes of fins ends, infinity where none does, and its key.
 typedef struct air_surfaces {
     int slopes, acrosses;
     double slope_at[LD_MAX_AIR_SURFACES];

@@ -55,6 +55,28 @@ FIND(air_at_rest)
     return worst;
 }
 
+// Height of a table's last row above the launch site, where it has several; rows count from `zero`.
+static plausible_pair top_above_site(const ld_table *table, double zero)
+{
+    double top = table->rows > 1 ? table->data[(table->rows - 1) * table->columns] : NAN;
+    return plausible_alone(top - zero);
+}
+
+FIND(top_of_air)
+{
+    const ld_environment *environment = &at->model->environment;
+    bool given = environment->atmosphere.kind == LD_ATMOSPHERE_PROFILE;
+    return given ? top_above_site(&environment->atmosphere.profile, environment->site.altitude)
+                 : plausible_nothing();
+}
+
+FIND(top_of_wind)
+{
+    const ld_environment *environment = &at->model->environment;
+    bool geographic = environment->wind.axes == LD_WIND_GEOGRAPHIC;
+    return top_above_site(&environment->wind.profile, geographic ? environment->site.altitude : 0);
+}
+
 // Altitude at the start where there are air forces by a table that ends.
 static double altitude_in_air(const ld_model *model, double altitude)
 {
@@ -259,12 +281,17 @@ const plausible_rule plausible_of_run[] = {
     {"environment.atmosphere.profile.#", "the fall of the pressure from the row before",
      .unit = "Pa", .other = "the weight of the air between", .low = 0.99, .high = 1.01,
      .find = air_at_rest, .why = "air at rest is carried by the air below"},
+    {"environment.atmosphere.profile", "the last row's height above the launch site", .unit = "m",
+     .low = 0, NO_HIGH, .find = top_of_air, .why = "the rocket meets none of the measured air"},
     {"environment.density_scale", .unit = "", NO_LOW, .high = 3,
      .why = "it is a correction of the atmosphere"},
     {"environment.wind.speed", .unit = "m/s", .low = -100, .high = 100,
      .why = "no wind blows so at every height"},
     {"environment.wind.profile", "the greatest speed", .unit = "m/s", NO_LOW, .high = 150,
      .find = profile_speed, .why = "jet streams have up to 100 m/s"},
+    {"environment.wind.profile", "the last row's height above the launch site", .unit = "m",
+     .low = 0, NO_HIGH, .find = top_of_wind,
+     .why = "above it the wind of that row blows at every height"},
     {"environment.wind.gust.#.speed", .unit = "m/s", .low = -100, .high = 100,
      .why = "gusts of hurricanes have 80 m/s"},
     {"environment.wind.turbulence.wind_at_6m", .unit = "m/s", NO_LOW, .high = 40,

@@ -1324,7 +1324,8 @@ static const field_row aerodynamics_fields[] = {
     {"interpolation", CHOICE(ld_aerodynamics, interpolation, interpolation_words),
      DEFAULT(LD_PCHIP), OVER_MACH, .doc = "between the rows of tables over the Mach number"},
     {"beyond_table", CHOICE(ld_aerodynamics, beyond_table, beyond_words), DEFAULT(LD_BEYOND_ERROR),
-     OVER_MACH, .doc = "past the last Mach number: stop, or keep its values"},
+     OVER_MACH,
+     .doc = "past the last Mach number, of fins by their shape 10: stop, or keep its values"},
     {"table", TABLE(ld_aerodynamics, table, coefficient_table), .required = true, TABLED,
      .doc =
          "coefficients; cn_alpha and cl_delta per radian, x_cp in m forward of the rear adaptor, "

@@ -807,6 +807,30 @@ static void note(flight_run *run)
         note_closed(run);
 }
 
+// Neither fins nor spin keep the rocket straight: the centre of pressure lies before the mass
+// centre, and (J_x w_x)^2/(4 J_t M'), M' the slope of the air's moment over the angle of attack, is
+// below 1 (R. L. McCoy, Modern Exterior Ballistics, 1999, chapter 10).
+static void note_unstable(flight_run *run, const double *state, const flight_flow *flow)
+{
+    const flight_system *system = run->job->system;
+    const aerodynamics *body = &system->aerodynamics;
+    double margin = run->rocket->flight.stability_margin, t = run->job->t_start;
+    if (!(margin < 0) || run->phase.hangs)
+        return;
+    rocket_mass mass = flight_mass(system, &run->phase, t);
+    double area = acos(-1) * body->diameter * body->diameter / 4;
+    double slope = aerodynamics_center(body, flow->mach).slope * flow->pressure * area * -margin *
+                   body->diameter;
+    double across = sqrt(mass.J.a[1][1] * mass.J.a[2][2]);
+    double factor = pow(mass.J.a[0][0] * state[FLIGHT_W], 2) / (4 * across * slope);
+    if (factor < 1)
+        simulation_note(run->summary,
+                        "the rocket is unstable at t = %.4f s: its stability margin is %.2f "
+                        "calibres, and its spin does not keep it straight (gyroscopic factor "
+                        "%.3g, where more than 1 is needed)",
+                        t, margin, factor);
+}
+
 ld_status flight_run_begin(flight_run *run, const free_flight *job, const double *state,
                            ld_rocket_summary *rocket, ld_summary *summary, ld_error *error)
 {
@@ -831,6 +855,7 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
     flight_flow about = flight_flow_at(job->system, job->t_start, state);
     rocket->flight.stability_margin =
         flight_stability_margin(job->system, &run->phase, job->t_start, about.mach);
+    note_unstable(run, state, &about);
     const measuring measured = measuring_of(run);
     ld_status status = LD_OK;
     if (measuring_is_there(&measured))

@@ -141,6 +141,38 @@ static void test_columns(void **state)
     model_clear(&model);
 }
 
+// A rocket whose centre of pressure lies before its mass centre is noted, unless it spins fast
+// enough: J_x^2 p^2 = 4 J_t M'.
+static void test_unstable(void **state)
+{
+    (void)state;
+    const double S = acos(-1) * 0.0025, slope = 0.5 * 1.2 * 6400 * S * 2 * 0.07;
+    const double spin = sqrt(4 * 1.5 * slope) / 0.03;
+    const double rate[] = {0, 0.999 * spin, 1.001 * spin};
+    printf("    spin at which it stands: %.4g rad/s\n", spin);
+    for (int i = 0; i < 3; i++) {
+        ld_model model = read_text(
+            "launchdyn: 1\n"
+            "environment: {atmosphere: {density: 1.2 kg/m3, speed_of_sound: 340 m/s}}\n"
+            "rocket: {mass: 10 kg, center: 1 0 0 m, inertia: 0.03 1.5 1.5 kg.m2,\n"
+            "  aerodynamics: {reference_diameter: 0.1 m,\n"
+            "    table: [[0, 0.3, 0.3, 2, 1.07 m, 0, 0, 0], [3, 0.3, 0.3, 2, 1.07 m, 0, 0, 0]]}}\n"
+            "flight: {position: 0 9 0 m, velocity: 80 0 0 m/s}\n"
+            "run: {end: 1 ms}\n");
+        model.flight.rate[0] = rate[i];
+        recorded_run run;
+        recorded_run_make(&run, &model);
+        CHECK_NEAR("margin", run.summary.rocket[0].flight.stability_margin, -0.7, 1e-14);
+        assert_int_equal(run.summary.note_count, i < 2);
+        if (i < 2) {
+            printf("    %s\n", run.summary.note[0]);
+            assert_non_null(strstr(run.summary.note[0], "its stability margin is -0.70 calibres"));
+        }
+        recorded_run_free(&run);
+        model_clear(&model);
+    }
+}
+
 // A plain body has no centre of pressure.
 static void test_no_margin(void **state)
 {
@@ -157,7 +189,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_within_a_step), cmocka_unit_test(test_within_a_step_of_a_fall),
         cmocka_unit_test(test_at_corners),    cmocka_unit_test(test_columns),
-        cmocka_unit_test(test_no_margin),
+        cmocka_unit_test(test_no_margin),     cmocka_unit_test(test_unstable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
