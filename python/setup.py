@@ -1,6 +1,7 @@
-"""Puts the library of the build folder beside it, where there is one, into the package."""
+"""Puts the library of the build folder beside it into the package; without one it says so and fails."""
 
 import shutil
+import sys
 from pathlib import Path
 
 from setuptools import Distribution, setup
@@ -12,8 +13,15 @@ LIBRARY = Path(__file__).resolve().parents[1] / "build/liblaunchdyn.so.1"
 class WithLibrary(build_py):
     def run(self):
         super().run()
-        if LIBRARY.exists() and not self.editable_mode:  # which finds it in the tree
-            shutil.copy2(LIBRARY, Path(self.build_lib, "launchdyn"))
+        if self.editable_mode:  # which finds it in the tree
+            return
+        if not LIBRARY.exists():
+            sys.exit(
+                f"launchdyn: {LIBRARY} is missing, without which the package is of no use; "
+                f"build it first: cmake -S {LIBRARY.parents[1]} -B {LIBRARY.parent} && "
+                f"cmake --build {LIBRARY.parent}"
+            )
+        shutil.copy2(LIBRARY, Path(self.build_lib, "launchdyn"))
 
 
 class OfThisMachine(Distribution):

@@ -4,7 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
-void wrong_argument(const char *routine, const int *number, size_t length) __asm__("xerbla_");
+#include "math/lapack.h"
+
 void concatenate(size_t size, char *text, size_t size_a, const char *a, size_t size_b,
                  const char *b) __asm__("_gfortran_concat_string");
 

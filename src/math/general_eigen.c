@@ -1,8 +1,9 @@
 #include "math/general_eigen.h"
 
-#include <lapacke.h>
 #include <lapacke_utils.h>
 #include <stdlib.h>
+
+#include "math/lapack.h"
 
 // The interface's own workspace is not asked for: it prints where there is no memory.
 int general_eigen(int n, double *A, double *re, double *im, double *left, double *right)

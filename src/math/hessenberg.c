@@ -1,11 +1,11 @@
 #include "math/hessenberg.h"
 
-#include <lapacke.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "math/lanes.h"
+#include "math/lapack.h"
 
 int hessenberg_make(hessenberg *self, int n)
 {

@@ -1,8 +1,9 @@
 #include "math/spline.h"
 
-#include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "math/lapack.h"
 
 // Slopes d of the C2 cubic: h_i d_(i-1) + 2 (h_(i-1) + h_i) d_i + h_(i-1) d_(i+1) = right-hand
 // side, not-a-knot rows at the ends (de Boor, A Practical Guide to Splines, ch. IV).

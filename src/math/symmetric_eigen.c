@@ -1,9 +1,10 @@
 #include "math/symmetric_eigen.h"
 
 #include <float.h>
-#include <lapacke.h>
 #include <lapacke_utils.h>
 #include <stdlib.h>
+
+#include "math/lapack.h"
 
 // What LAPACK is given: the problem, and its work space, [size] and [5 n].
 typedef struct eigenproblem {

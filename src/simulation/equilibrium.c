@@ -1,9 +1,9 @@
 // The start of a launch: undeformed, or in static equilibrium found by Newton's method.
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/lapack.h"
 #include "math/rotation_vector.h"
 #include "simulation/carried.h"
 #include "simulation/launch_state.h"

@@ -63,20 +63,23 @@ class TestLibrary(Case):
         (self.folder / "build").mkdir()
         library = self.folder / "build/liblaunchdyn.so.1"
         modules = {path.name for path in (SOURCE / "python/launchdyn").glob("*.py")}
-        for content, tag in ((b"", "py3-none-any"), (b"the library", sysconfig.get_platform())):
-            if content:
-                library.write_bytes(content)
-            subprocess.run([sys.executable, "-c",
-                            "from setuptools import build_meta; build_meta.build_wheel('../out')"],
-                           cwd=self.folder / "python", check=True, capture_output=True)
-            wheel, = (self.folder / "out").glob(f"*{tag.replace('-', '_' if content else '-')}.whl")
-            with zipfile.ZipFile(wheel) as package:
-                held = {name.removeprefix("launchdyn/") for name in package.namelist()
-                        if name.startswith("launchdyn/")}
-                self.assertEqual(held, modules | {"py.typed"} | ({library.name} if content else
-                                                                 set()))
-                if content:
-                    self.assertEqual(package.read(f"launchdyn/{library.name}"), content)
+        build = [sys.executable, "-c",
+                 "from setuptools import build_meta; build_meta.build_wheel('../out')"]
+        ran = subprocess.run(build, cwd=self.folder / "python", check=False, capture_output=True,
+                             text=True)
+        self.assertNotEqual(ran.returncode, 0)
+        self.assertIn(f"launchdyn: {library} is missing, without which the package is of no use; "
+                      "build it first: cmake -S ", ran.stderr)
+        library.write_bytes(b"the library")
+        subprocess.run(build, cwd=self.folder / "python", check=True, capture_output=True)
+        tag = sysconfig.get_platform().replace("-", "_")
+        wheel, = (self.folder / "out").glob("*.whl")
+        self.assertTrue(wheel.name.endswith(f"{tag}.whl"), wheel.name)
+        with zipfile.ZipFile(wheel) as package:
+            held = {name.removeprefix("launchdyn/") for name in package.namelist()
+                    if name.startswith("launchdyn/")}
+            self.assertEqual(held, modules | {"py.typed", library.name})
+            self.assertEqual(package.read(f"launchdyn/{library.name}"), b"the library")
 
     def test_another_library_is_refused(self):
         code, _, said = python(FOUND, LAUNCHDYN_LIBRARY="libc.so.6")
