@@ -618,10 +618,19 @@ static void print_speeds(const ld_response_view *view, FILE *stream)
     }
 }
 
-static void print_exit(const ld_response_view *view, FILE *stream)
+// How the exit's figures are found.
+static void print_exit_method(const ld_response_view *view, FILE *stream)
 {
     if (view->draws)
         fprintf(stream, "%d launches with drawn phases of the road\n", view->draws);
+    else
+        fputs("First order in the road: contacts that open and close make some deviations too "
+              "large, pitch and yaw by up to one half; --draws N has no such error\n",
+              stream);
+}
+
+static void print_exit(const ld_response_view *view, FILE *stream)
+{
     fprintf(stream, "\n%-28s %-8s %14s %20s\n", "", "", view->draws ? "mean" : "from rest",
             "standard deviation");
     for (size_t i = 0; i < view->columns; i++) {
@@ -683,6 +692,8 @@ void ld_response_view_print(const ld_response_view *view, FILE *stream)
     bool on_road = view->kind == SPECTRUM || is_over_speeds(view);
     if (on_road && (road->bump_count > 0 || road->profile.rows > 0))
         fputs("Bumps and profile of the road are left out: they come once\n", stream);
+    if (view->kind == EXIT)
+        print_exit_method(view, stream);
     if (view->kind == LOOP)
         print_loop(view, stream);
     else if (view->kind == FREQUENCY)

@@ -1,5 +1,5 @@
-// What a random road makes of the exit: launches from the states that its sines leave at the
-// ignition, over what follows of it.
+// What a random road makes of the exit: launches from the states that its sines leave, over what
+// follows of it.
 //
 // Height and state are linear in the cosines and sines that the road is a sum of. Either their
 // phases are drawn, launch by launch. Or Gram-Schmidt's method, with pivots, finds the few
@@ -18,6 +18,9 @@
 static const double TWO_PI = 6.283185307179586476925286766559;
 // A pattern is left out where all that is left is this share of each number's own deviation.
 static const double LEAST_SHARE = 1e-3;
+// [s] that a drawn launch stays on its road before the ignition: motions that are not linear in the
+// road, as adaptors rolling in the bore, come to what they are there.
+static const double SETTLING = 0.2;
 // Points of the road to its shortest wave, at which the launch sees it by a cubic spline.
 enum { POINTS_A_WAVE = 12, MOST_POINTS = 2000 };
 
@@ -25,6 +28,7 @@ enum { POINTS_A_WAVE = 12, MOST_POINTS = 2000 };
 typedef struct road_rows {
     int unknowns, points; // of the state; of the road
     double from, step;    // [m] the points
+    double start;         // [m] where the chassis is as the launch begins
     size_t columns;
     int count, pivots; // rows; the first ones, which count for whether a pattern is left out
     double *value;     // [count][columns]
@@ -106,14 +110,14 @@ static void read_figures(const exit_bench *self, double *value)
 
 // ---- the launch ----
 
-// The scenario's first rocket alone, lit at once on a flat road.
-static void set_model(exit_bench *self, const ld_model *of, double speed)
+// The scenario's first rocket alone, ignited after `settling` [s] on a flat road.
+static void set_model(exit_bench *self, const ld_model *of, double speed, double settling)
 {
     ld_model *model = &self->model;
     *model = *of;
     model->firing_count = 1;
     model->firing[0].at = 0;
-    model->run.lead_in = 0;
+    model->run.lead_in = settling;
     model->run.start = LD_START_EQUILIBRIUM;
     model->run.end = LD_END_TIP;
     model->base.vehicle.speed = speed;
@@ -139,10 +143,7 @@ static ld_status launch(exit_bench *self, const double *pattern, double share, l
 {
     const road_rows *rows = &self->rows;
     const double *height = pattern + row_at(rows, HEIGHT);
-    double *y = self->start.y;
-    memcpy(y, self->rest.y, sizeof self->start.y);
-    for (int i = 0; i < rows->unknowns; i++)
-        linear_displace(&self->state, &self->rest, i, share * pattern[i], y);
+    linear_displace_all(&self->state, &self->rest, pattern, share, self->start.y);
     for (int i = 0; i < rows->points; i++) {
         double *point = self->profile + 3 * i;
         point[0] = rows->from + i * rows->step;
@@ -167,18 +168,21 @@ static ld_status find_rest(exit_bench *self, ld_error *error)
 
 // ---- rows ----
 
-// The stretch under the wheels from the ignition on, longer than a launch by a tenth.
-static void set_points(exit_bench *self, const ld_model *model, double speed, double shortest)
+// The stretch under the wheels, longer than a launch by a tenth.
+static void set_points(exit_bench *self, double speed, double shortest)
 {
+    const ld_model *model = &self->model;
     double rear = INFINITY, front = -INFINITY;
     for (int j = 0; j < model->base.vehicle.wheel_count; j++) {
         rear = fmin(rear, model->base.vehicle.wheel[j].mount[0]);
         front = fmax(front, model->base.vehicle.wheel[j].mount[0]);
     }
     double margin = 0.2, step = shortest / POINTS_A_WAVE;
-    double length = front - rear + 2 * margin + 1.1 * speed * self->summary.rocket[0].t_rear;
+    double lasts = model->run.lead_in + 1.1 * self->summary.rocket[0].t_rear; // [s]
+    double length = front - rear + 2 * margin + speed * lasts;
+    self->rows.start = -speed * model->run.lead_in;
     self->rows.points = (int)fmin(ceil(length / step), MOST_POINTS) + 4;
-    self->rows.from = rear - margin;
+    self->rows.from = self->rows.start + rear - margin;
     self->rows.step = length / (self->rows.points - 4);
 }
 
@@ -187,16 +191,19 @@ static double *row(const road_rows *self, int part, int i)
     return self->value + self->columns * (size_t)(row_at(self, part) + i);
 }
 
-// One normal number: the state, times e^(i w t), and the heights of the tracks' sines.
+// One normal number: the state, times e^(i k x), and the heights of the tracks' sines.
 static void put_columns(const road_rows *self, size_t column, const road_line *line, double omega,
                         const ld_phasor *state, const double height[2])
 {
     double a = sqrt(line->square), k = TWO_PI * line->n;
+    double c = cos(k * self->start), s = sin(k * self->start);
     for (int i = 0; i < self->unknowns; i++) {
-        row(self, STATE, i)[column] = a * state[i].real;
-        row(self, STATE, i)[column + 1] = -a * state[i].imaginary;
-        row(self, RATE, i)[column] = -a * omega * state[i].imaginary;
-        row(self, RATE, i)[column + 1] = -a * omega * state[i].real;
+        double real = a * (c * state[i].real - s * state[i].imaginary);
+        double imaginary = a * (c * state[i].imaginary + s * state[i].real);
+        row(self, STATE, i)[column] = real;
+        row(self, STATE, i)[column + 1] = -imaginary;
+        row(self, RATE, i)[column] = -omega * imaginary;
+        row(self, RATE, i)[column + 1] = -omega * real;
     }
     for (int track = 0; track < 2; track++)
         for (int i = 0; i < self->points; i++) {
@@ -244,7 +251,7 @@ static ld_status make_rows(exit_bench *self, ld_response *response, double speed
     for (size_t k = 0; k < lines; k++)
         highest = fmax(highest, line[k].n);
     rows->unknowns = response_unknowns(response);
-    set_points(self, &self->model, speed, 1 / highest);
+    set_points(self, speed, 1 / highest);
     rows->columns = 4 * lines;
     rows->pivots = row_at(rows, HEIGHT);
     rows->count = rows->pivots + 2 * rows->points;
@@ -436,7 +443,7 @@ ld_status ld_response_exit(ld_response *response, double speed, int draws, const
         return no_memory(error);
     memset(self, 0, sizeof *self);
     self->response = response;
-    set_model(self, response_model(response), speed);
+    set_model(self, response_model(response), speed, draws ? SETTLING : 0);
     status = find_figures(self, names, count, error);
     if (!status)
         status = scatter(self, response, speed, draws, mean, deviation, error);

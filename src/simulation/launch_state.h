@@ -134,6 +134,11 @@ ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
 // Changes an unknown in the state y.
 void linear_displace(const launch_state *self, const linear_system *system, int unknown,
                      double change, double *y);
+// Changes all unknowns of the state about which the system is linearised by `share` times `change`
+// [count]; `y` takes the outcome. The tube against its base and the rocket against the tube change
+// linearly, so a base that turns strains no support.
+void linear_displace_all(const launch_state *self, const linear_system *system,
+                         const double *change, double share, double *y);
 // d/dt of the unknowns [count] in the state y, behind them what holds the base's displacements
 // [base]. Other than 0: there are none.
 int linear_rates(const launch_state *self, const linear_system *system, const double *y, double *r);

@@ -6,6 +6,7 @@
 
 #include "math/dense.h"
 #include "math/general_eigen.h"
+#include "math/rotation_vector.h"
 #include "simulation/launch_state.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
@@ -57,6 +58,95 @@ void linear_displace(const launch_state *self, const linear_system *system, int 
         y[base_speed_at(launcher, unknown - half - both)] += change;
     else
         y[base_extra_at(launcher, unknown - 2 * half)] += change;
+}
+
+// How tube and rocket stand and move against what carries each: R's place and attitude against T,
+// in T; v and w against T, V against the tube, in R.
+typedef struct relative_motion {
+    v3 r, turn, v, w, V, W;
+} relative_motion;
+
+// Velocity of the point of T at R's origin, and T's angular velocity, in R.
+static void carried_by_base(const base_frame *base, const double *y, const launching_layout *at,
+                            v3 *v, v3 *w)
+{
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    v3 arm = v3_sub(v3_from(y + at->r), base->r);
+    *v = m3_apply_transposed(A, v3_add(base->v, v3_cross(base->w, arm)));
+    *w = m3_apply_transposed(A, base->w);
+}
+
+static relative_motion relative_of(const launch_state *self, double t, const double *y)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    launcher_input input;
+    launching_output unused;
+    launching_pose pose;
+    v3 v_T, w_T, v = v3_from(y + at->v), w = v3_from(y + at->w);
+    launcher_place(&self->launcher, t, y, &input);
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+    const base_frame *base = &input.launching.base;
+    carried_by_base(base, y, at, &v_T, &w_T);
+    m3 A = m3_mul(m3_transpose(base->A), q_matrix(q_from(y + at->quaternion)));
+    return (relative_motion){
+        .r = m3_apply_transposed(base->A, v3_sub(v3_from(y + at->r), base->r)),
+        .turn = rv_log(A),
+        .v = v3_sub(v, v_T),
+        .w = v3_sub(w, w_T),
+        .V = v3_sub(v3_from(y + at->V), v3_add(v, v3_cross(w, pose.p1))),
+        .W = v3_sub(v3_from(y + at->V + 3), w),
+    };
+}
+
+// Puts tube and rocket on the base of y as `is` says.
+static void set_relative(const launch_state *self, double t, const relative_motion *is, double *y)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    launcher_input input;
+    launching_output unused;
+    launching_pose pose;
+    v3 v, w;
+    launcher_place(&self->launcher, t, y, &input);
+    const base_frame *base = &input.launching.base;
+    quat q = q_multiply(base->q, rv_quaternion(is->turn));
+    v3_store(y + at->r, v3_add(base->r, m3_apply(base->A, is->r)));
+    memcpy(y + at->quaternion, &q, sizeof q);
+    carried_by_base(base, y, at, &v, &w);
+    v = v3_add(v, is->v);
+    w = v3_add(w, is->w);
+    v3_store(y + at->v, v);
+    v3_store(y + at->w, w);
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+    v3_store(y + at->V, v3_add(is->V, v3_add(v, v3_cross(w, pose.p1))));
+    v3_store(y + at->V + 3, v3_add(is->W, w));
+}
+
+static void displace_each(const launch_state *self, const linear_system *system,
+                          const double *change, double share, double *y)
+{
+    memcpy(y, system->y, (size_t)self->launcher.state_count * sizeof *y);
+    for (int i = 0; i < system->count; i++)
+        linear_displace(self, system, i, share * change[i], y);
+}
+
+void linear_displace_all(const launch_state *self, const linear_system *system,
+                         const double *change, double share, double *y)
+{
+    const double step = 1e-4; // of the unknown that changes most: rounding and third order are far
+    double most = 0;
+    for (int i = 0; i < system->count; i++)
+        most = fmax(most, fabs(change[i]));
+    double h = most > 0 ? step / most : 1;
+    relative_motion is = relative_of(self, system->t, system->y), beside[2];
+    for (int side = 0; side < 2; side++) {
+        displace_each(self, system, change, side ? -h : h, y);
+        beside[side] = relative_of(self, system->t, y);
+    }
+    v3 *part = &is.r, *plus = &beside[0].r, *minus = &beside[1].r;
+    for (size_t i = 0; i < sizeof is / sizeof *part; i++)
+        part[i] = v3_axpy(part[i], 0.5 * share / h, v3_sub(plus[i], minus[i]));
+    displace_each(self, system, change, share, y);
+    set_relative(self, system->t, &is, y);
 }
 
 // d/dt of the state of the whole, without thrust, and what holds the base's displacements still.

@@ -496,6 +496,12 @@ static void test_exit_scatter(void **state)
     assert_string_equal(shell.out,
                         "speed [m/s],pitch_rate.mean [rad/s],pitch_rate.deviation [rad/s],"
                         "t_release.mean [s],t_release.deviation [s]\n");
+    assert_int_equal(run("launchdyn response examples/reference.yaml --exit --what pitch_rate "
+                         "--set base.road.harmonics=2"),
+                     0);
+    expect_in(shell.out, "\nFirst order in the road: contacts that open and close make some "
+                         "deviations too large, pitch and yaw by up to one half; --draws N has no "
+                         "such error\n");
 }
 
 static void test_loop(void **state)
