@@ -231,7 +231,9 @@ static void take_result(void *data, const ld_quantity *result)
 {
     gathering *self = data;
     char name[NAME_SIZE];
-    if (strncmp(result->name, "rocket.", 7) != 0)
+    // a run that is stepped estimates no errors
+    if (strncmp(result->name, "rocket.", 7) != 0 ||
+        strncmp(result->name, "rocket.exit_error.", 18) == 0)
         return;
     snprintf(name, sizeof name, "summary.%s", result->name);
     add(self, FMU_RESULT, name, result->unit, result->description, NAN, NULL);

@@ -65,10 +65,11 @@ typedef struct quantity_place {
 typedef struct quantity_line {
     const char *label; // NULL: not shown, or as the second number of the line before it
     const char *unit;
-    double factor; // from SI
-    int digits;    // after the point
-    bool beside;   // the second number of the line before it
-    bool nonzero;  // shown only where it is not 0
+    double factor;        // from SI
+    int digits;           // after the point
+    bool beside;          // the second number of the line before it
+    bool nonzero;         // shown only where it is not 0
+    quantity_place error; // how far off both numbers may be, where that is known
 } quantity_line;
 
 typedef struct quantity {

@@ -1600,6 +1600,8 @@ static const field_word formulation_words[] = {
     {"reduced", LD_FORMULATION_REDUCED}, {"overall", LD_FORMULATION_OVERALL}, {NULL, 0}};
 static const field_word lead_in_words[] = {
     {"explicit", LD_LEAD_IN_EXPLICIT}, {"exponential", LD_LEAD_IN_EXPONENTIAL}, {NULL, 0}};
+static const field_word exit_error_words[] = {
+    {"yes", LD_EXIT_ERROR_YES}, {"no", LD_EXIT_ERROR_NO}, {NULL, 0}};
 static const field_word end_words[] = {{"tip", LD_END_TIP},
                                        {"", LD_END_TIME},
                                        {"apogee", LD_END_APOGEE},
@@ -1628,6 +1630,9 @@ static const field_row run_fields[] = {
     {"max_step", NUMBER(ld_run_settings, max_step, "s"), FROM_TO(1e-7, 1),
      NO_DEFAULT("0.2 ms, times (tolerance/1e-5)^(1/5) above 1e-5"),
      .doc = "longest step in the tube; a longer one may pass over a touch"},
+    {"exit_error", CHOICE(ld_run_settings, exit_error, exit_error_words),
+     DEFAULT(LD_EXIT_ERROR_YES),
+     .doc = "whether a run estimates how far its steps leave the rates at the exit off"},
     {"output_step", SAME_STRUCT(output_step_block), .initial_doc = "as below",
      .doc = "time between rows of the history; one value for all, or one each"},
     {"stuck_time", NUMBER(ld_run_settings, stuck_time, "s"), ABOVE_TO(0, 10000),

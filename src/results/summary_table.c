@@ -7,12 +7,22 @@
 #include "simulation/summary.h"
 #include "simulation/summary_quantities.h"
 
+// " ± error" of the values in a line, never less than their last digit; "" where it is not known.
+static const char *print_error(const quantity_line *line, const void *from, char text[32])
+{
+    double error = quantity_number(&line->error, 0, from) * line->factor;
+    text[0] = '\0';
+    if (isfinite(error))
+        snprintf(text, 32, " ± %.2g", fmax(error, pow(10, -line->digits)));
+    return text;
+}
+
 // "  label           value unit", with two values side by side where the next quantity is said to
 // stand there; nothing where there is no value.
 static void print_line(const quantity_walk *at, const void *from, FILE *stream)
 {
     const quantity_line *line = &at->row->line;
-    char label[QUANTITY_TEXT], second[32] = "";
+    char label[QUANTITY_TEXT], second[32] = "", error[32];
     double value = quantity_value(at, from);
     quantity_walk next = *at;
     quantity_next(&next);
@@ -24,9 +34,9 @@ static void print_line(const quantity_walk *at, const void *from, FILE *stream)
         value = isfinite(beside) ? value : NAN;
     }
     if (isfinite(value) && !(line->nonzero && value == 0))
-        fprintf(stream, "  %-22s %12.*f%s %s\n", label, line->digits,
+        fprintf(stream, "  %-22s %12.*f%s%s %s\n", label, line->digits,
                 printed_fixed(value * line->factor, line->digits), second,
-                line->unit ? line->unit : quantity_unit(at));
+                print_error(line, from, error), line->unit ? line->unit : quantity_unit(at));
 }
 
 // The lines of one block.

@@ -531,6 +531,13 @@ int integrator_event(const integrator *self, int i)
     return self->found[i];
 }
 
+void integrator_error(integrator *self, double *error)
+{
+    if (ERKStepGetEstLocalErrors(self->erk, self->work) != ARK_SUCCESS)
+        N_VConst(0, self->work);
+    memcpy(error, data(self->work), self->settings.n * sizeof(double));
+}
+
 int64_t integrator_steps(const integrator *self)
 {
     long steps = 0;

@@ -78,6 +78,9 @@ void integrator_interpolate(integrator *self, double t, double *y);
 // 0, or the direction (-1, +1) in which g[i] went through zero at the event just landed on.
 int integrator_event(const integrator *self, int i);
 
+// Estimated error of the last step [n], not known before one.
+void integrator_error(integrator *self, double *error);
+
 int64_t integrator_steps(const integrator *self);
 int64_t integrator_evaluations(const integrator *self);
 

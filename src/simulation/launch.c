@@ -140,6 +140,8 @@ static ld_status step(ld_run *run)
     ld_status status = launch_check_base(run, t);
     if (status)
         return status;
+    if (run->exit_error)
+        exit_error_begin_step(run->exit_error, run);
     run->outcome = propagator_step(run->propagator, fmin(stop, input), &run->error);
     if (run->outcome == INTEGRATOR_FAILED)
         return launch_step_failed(run);
@@ -153,6 +155,8 @@ static ld_status step(ld_run *run)
 ld_status launch_arrive(ld_run *run)
 {
     run->ahead = false;
+    if (run->exit_error)
+        exit_error_end_step(run->exit_error, run);
     ld_status status = after_step(run, run->outcome);
     if (!status)
         status = launch_sample_base(run);

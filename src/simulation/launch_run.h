@@ -29,6 +29,9 @@ typedef struct launch_start {
     road *road;
 } launch_start;
 
+// What a run keeps of how far the errors of its steps have come.
+typedef struct exit_error exit_error;
+
 struct ld_run {
     launch_state launch;
     const launch_start *start; // NULL: the scenario's
@@ -38,7 +41,8 @@ struct ld_run {
     ld_error error;
     ld_error archived; // why what the base has besides its state could not be saved or loaded
     propagator *propagator;
-    base_frame told; // frame T at the start, of a base that is told
+    exit_error *exit_error; // NULL: not estimated
+    base_frame told;        // frame T at the start, of a base that is told
     // where it was told last [s], and its state before that: told again there it was not told
     // before
     double told_at, before_told[BASE_MOST_STATES];
@@ -168,6 +172,20 @@ void launch_watch_hinges(ld_run *run, double t, const double *y);
 void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,
                       ld_energy *energy);
 void launch_summarise(ld_run *run);
+
+// ---- how far the errors of the steps leave the rates of a rocket at its exit off, found beside
+// the run, whose bits stay as they are (launch_exit_error.c; formulation.md, section 6)
+
+// Nothing is made (NULL) where the tube cannot be linearised. LD_ERR_MEMORY.
+ld_status exit_error_create(const ld_simulation *simulation, exit_error **out, ld_error *error);
+void exit_error_free(exit_error *self);
+// Around each step of the run: where it begins, and where it ends before anything has happened.
+void exit_error_begin_step(exit_error *self, ld_run *run);
+void exit_error_end_step(exit_error *self, ld_run *run);
+// At the exit, in the state y: fills the rocket's exit_error.
+void exit_error_record(const exit_error *self, ld_run *run, double t, const double *y);
+// Says which rates at an exit may be off by more than EXIT_ERROR_NOTED.
+void exit_error_note(ld_run *run);
 
 // ---- measures (launch_measures.c)
 

@@ -131,6 +131,12 @@ ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error
 ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
                                linear_system *system, ld_error *error);
 
+// The tube on its supports alone, straight: its accelerations are -K x - C v of the small changes x
+// and v of its displacements and speeds, R's place and attitude and q, R's speeds and q_dot; K and
+// C by rows, `count` of them (6 + modes).
+ld_status simulation_tube_matrices(const ld_simulation *simulation, int *count, double *K,
+                                   double *C, ld_error *error);
+
 // Changes an unknown in the state y.
 void linear_displace(const launch_state *self, const linear_system *system, int unknown,
                      double change, double *y);

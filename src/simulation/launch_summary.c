@@ -57,6 +57,8 @@ void launch_record_exit(ld_run *run, double t, const double *landed)
     rocket_motion motion = rocket_motion_of(&pose, input.launching.mass.c, y, at);
     rocket->tip_off = tip_off_of(&input.launching.base, &motion);
     rocket->aim = aim_of(self, t, &motion);
+    if (run->exit_error)
+        exit_error_record(run->exit_error, run, t, y);
 }
 
 // Where the rocket is when it is lit, over the ground, and how its tube is aimed.
@@ -256,6 +258,7 @@ void launch_summarise(ld_run *run)
             simulation_note(summary, "the lock of tube %d let go %.4g s before its ignition",
                             summary->rocket[i].tube, -summary->rocket[i].t_release);
     note_measures(run);
+    exit_error_note(run);
     if (self->system->growing.real > 0)
         simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
                         self->system->growing.real, self->system->growing.shape);

@@ -660,6 +660,19 @@ static bool on_slides(const ld_model *model)
     return any;
 }
 
+// The equations of the tube without rocket, linearised where it is straight.
+static ld_status linearise_tube(launch_state *self, linear_system *system, ld_error *error)
+{
+    // straight it rests without gravity alone, and no pose of the base counts
+    launching_system weightless = self->launcher.launching;
+    weightless.tube.gravity = 0;
+    simulation_straight(self, &ORIGIN, system->y);
+    if (on_slides(self->model))
+        system->y[weightless.layout.r] += IN_BATTERY;
+    count_unknowns(self, true, system);
+    return linearise(self, &weightless, system, error);
+}
+
 ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
                                 int *count, ld_error *error)
 {
@@ -671,16 +684,31 @@ ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes,
     ld_status status = launch_state_begin(self, simulation, error);
     if (status)
         return status;
-    // straight it rests without gravity alone, and no pose of the base counts
-    launching_system weightless = self->launcher.launching;
-    weightless.tube.gravity = 0;
-    simulation_straight(self, &ORIGIN, system.y);
-    if (on_slides(simulation->model))
-        system.y[weightless.layout.r] += IN_BATTERY;
-    count_unknowns(self, true, &system);
-    status = linearise(self, &weightless, &system, error);
+    status = linearise_tube(self, &system, error);
     if (!status)
         status = undamped_modes(self, &system, modes, capacity, count, error);
+    free(system.J);
+    launch_state_end(self);
+    return status;
+}
+
+ld_status simulation_tube_matrices(const ld_simulation *simulation, int *count, double *K,
+                                   double *C, ld_error *error)
+{
+    launch_state state, *self = &state;
+    linear_system system = {.phase.frictionless = true};
+    ld_status status = launch_state_begin(self, simulation, error);
+    if (status)
+        return status;
+    status = linearise_tube(self, &system, error);
+    int n = *count = system.half, all = system.count;
+    for (int i = 0; i < n && !status; i++)
+        for (int j = 0; j < n; j++) {
+            C[i * n + j] = -system.J[n + i + all * (n + j)];
+            K[i * n + j] = 0;
+            for (int k = 0; k < n; k++) // x_dot = T v
+                K[i * n + j] -= system.J[n + i + all * k] * system.J[k + all * (n + j)];
+        }
     free(system.J);
     launch_state_end(self);
     return status;

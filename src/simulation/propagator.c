@@ -938,6 +938,15 @@ int propagator_event(const propagator *self, event_kind kind, int index)
     return i < 0 || self->long_step ? 0 : integrator_event(self->integrator, i);
 }
 
+void propagator_error(propagator *self, double *error)
+{
+    size_t size = (size_t)self->launch->launcher.base_at * sizeof *error;
+    double all[LD_MAX_STATES] = {0};
+    if (!self->outside && !self->long_step)
+        integrator_error(self->integrator, all);
+    memcpy(error, all, size);
+}
+
 int64_t propagator_steps(const propagator *self)
 {
     if (self->outside)

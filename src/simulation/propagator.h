@@ -23,6 +23,8 @@ double propagator_previous_time(const propagator *self);
 const double *propagator_state(const propagator *self);
 void propagator_interpolate(propagator *self, double t, double *y);
 int propagator_event(const propagator *self, event_kind kind, int index);
+// Estimated error of the last step, of tube and rocket alone [base_at]; 0 of a long one.
+void propagator_error(propagator *self, double *error);
 int64_t propagator_steps(const propagator *self);
 // Of the integrator that took most: apart from the tube's, the base's have theirs.
 int64_t propagator_most_steps(const propagator *self);

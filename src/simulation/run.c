@@ -38,6 +38,7 @@ static ld_run *run_create(const ld_simulation *simulation, const ld_run_options 
 static void run_free(ld_run *run)
 {
     propagator_free(run->propagator);
+    exit_error_free(run->exit_error);
     launch_state_end(&run->launch);
     free(run);
 }
@@ -321,6 +322,18 @@ ld_status ld_run_end(ld_run *run, ld_summary *summary, ld_error *error)
     return status;
 }
 
+// Of a run that nobody steps, tells or saves.
+static ld_status begin_exit_error(ld_run *run)
+{
+    const launch_state *launch = &run->launch;
+    if (!has_launch(run) || launch->model->run.exit_error != LD_EXIT_ERROR_YES)
+        return LD_OK;
+    double start = simulation_cpu_now();
+    ld_status status = exit_error_create(launch->system, &run->exit_error, &run->error);
+    run->cpu += simulation_cpu_now() - start;
+    return status;
+}
+
 static ld_status run_whole(const ld_simulation *simulation, const ld_run_options *options,
                            const launch_start *start, ld_summary *summary, ld_error *error)
 {
@@ -330,6 +343,8 @@ static ld_status run_whole(const ld_simulation *simulation, const ld_run_options
         *summary = (ld_summary){0};
         return status;
     }
+    if (!run->status && !start)
+        run->status = begin_exit_error(run);
     ld_run_advance(run, INFINITY, error);
     return ld_run_end(run, summary, error);
 }

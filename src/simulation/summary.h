@@ -132,6 +132,11 @@ typedef struct ld_rocket_summary {
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
     ld_tip_off tip_off; ///< rocket at t_rear against the undeformed tube on the base
     ld_aim aim;         ///< the same against where that stood at the ignition
+    struct {
+        double rates;    ///< [rad/s] of each of tip_off's and aim's
+        double yaw_rate; ///< [rad/s] of the rate of yaw in I, which grows towards the vertical
+        double relative; ///< [-] of the rates of tip_off together, or of 1 mrad/s
+    } exit_error;        ///< what the steps' errors may make of rates at t_rear; NaN: not estimated
     double max_contact_force[LD_MAX_ADAPTORS];   ///< [N] norm of normal force and friction
     double max_slot_force;                       ///< [N] |N|
     double max_pressure;                         ///< [Pa] net
@@ -147,6 +152,9 @@ typedef struct ld_rocket_summary {
     ld_parachute_summary parachute[LD_MAX_PARACHUTES]; ///< in the model's order
     ld_final_state final;
 } ld_rocket_summary;
+
+// exit_error.relative above which the rates at an exit are worth a note.
+static const double EXIT_ERROR_NOTED = 0.01;
 
 enum { LD_MAX_WORKS = 24 };
 

@@ -11,6 +11,9 @@
 #define KEPT .studied = true
 
 #define LINE(label, unit, factor, digits) .line = {label, unit, factor, digits, false, false}
+#define LINE_OFF(label, unit, factor, digits, error_of)                                            \
+    .line = {label, unit, factor, digits,                                                          \
+             .error = QUANTITY_AT(ld_rocket_summary, exit_error.error_of)}
 #define NONZERO(label, unit, factor, digits) .line = {label, unit, factor, digits, false, true}
 #define BESIDE(from_si) .line = {.factor = from_si, .beside = true}
 #define MILLI 1e3
@@ -42,7 +45,7 @@ static const quantity at_exit[] = {
     {"spin_rate", "rad/s", "x component of the rate of B against I at t_rear, in B", ROCKET(spin_rate), KEPT, LINE("spin rate", "rad/s", 1, 4)},
     {"pitch", "rad", "pitch of the rocket's axis in I at t_rear", ROCKET(pitch), KEPT, LINE("pitch, yaw", "deg", DEGREES, 5)},
     {"yaw", "rad", "yaw of the rocket's axis in I at t_rear, positive to the left", ROCKET(yaw), KEPT, BESIDE(DEGREES)},
-    {"pitch_rate", "rad/s", "rate of pitch", ROCKET(pitch_rate), KEPT, LINE("pitch rate, yaw rate", "mrad/s", MILLI, 3)},
+    {"pitch_rate", "rad/s", "rate of pitch", ROCKET(pitch_rate), KEPT, LINE_OFF("pitch rate, yaw rate", "mrad/s", MILLI, 3, yaw_rate)},
     {"yaw_rate", "rad/s", "rate of yaw", ROCKET(yaw_rate), KEPT, BESIDE(MILLI)},
 };
 static const quantity state_at_exit[] = {
@@ -83,9 +86,9 @@ static const quantity tip[] = {
 static const quantity tip_off[] = {
     {"tip_off.pitch", "rad", "rocket's axis in T: pitch", ROCKET(tip_off.pitch), KEPT, LINE("tip-off pitch, yaw", "mrad", MILLI, 4)},
     {"tip_off.yaw", "rad", "rocket's axis in T: yaw, positive to the left", ROCKET(tip_off.yaw), KEPT, BESIDE(MILLI)},
-    {"tip_off.pitch_rate", "rad/s", "rate of tip_off.pitch, T held still", ROCKET(tip_off.pitch_rate), KEPT, LINE("tip-off rates", "mrad/s", MILLI, 3)},
+    {"tip_off.pitch_rate", "rad/s", "rate of tip_off.pitch, T held still", ROCKET(tip_off.pitch_rate), KEPT, LINE_OFF("tip-off rates", "mrad/s", MILLI, 3, rates)},
     {"tip_off.yaw_rate", "rad/s", "rate of tip_off.yaw, T held still", ROCKET(tip_off.yaw_rate), KEPT, BESIDE(MILLI)},
-    {"tip_off.pitch_rate_relative", "rad/s", "rate of tip_off.pitch, T moving", ROCKET(tip_off.pitch_rate_relative), KEPT, LINE("relative rates", "mrad/s", MILLI, 3)},
+    {"tip_off.pitch_rate_relative", "rad/s", "rate of tip_off.pitch, T moving", ROCKET(tip_off.pitch_rate_relative), KEPT, LINE_OFF("relative rates", "mrad/s", MILLI, 3, rates)},
     {"tip_off.yaw_rate_relative", "rad/s", "rate of tip_off.yaw, T moving", ROCKET(tip_off.yaw_rate_relative), KEPT, BESIDE(MILLI)},
     {"tip_off.vy", "m/s", "inertial velocity of the mass centre along T's y", ROCKET(tip_off.vy), KEPT, LINE("tip-off vy, vz", "m/s", 1, 5)},
     {"tip_off.vz", "m/s", "inertial velocity of the mass centre along T's z", ROCKET(tip_off.vz), KEPT, BESIDE(1)},
@@ -95,10 +98,15 @@ static const quantity tip_off[] = {
 static const quantity aim[] = {
     {"aim.pitch", "rad", "rocket's axis in T of the ignition: pitch", ROCKET(aim.pitch), KEPT, LINE("aim pitch, yaw", "mrad", MILLI, 4)},
     {"aim.yaw", "rad", "rocket's axis in T of the ignition: yaw", ROCKET(aim.yaw), KEPT, BESIDE(MILLI)},
-    {"aim.pitch_rate", "rad/s", "rate of aim.pitch", ROCKET(aim.pitch_rate), KEPT, LINE("aim rates", "mrad/s", MILLI, 3)},
+    {"aim.pitch_rate", "rad/s", "rate of aim.pitch", ROCKET(aim.pitch_rate), KEPT, LINE_OFF("aim rates", "mrad/s", MILLI, 3, rates)},
     {"aim.yaw_rate", "rad/s", "rate of aim.yaw", ROCKET(aim.yaw_rate), KEPT, BESIDE(MILLI)},
     {"aim.vy", "m/s", "inertial velocity of the mass centre along y of that T", ROCKET(aim.vy), KEPT, LINE("aim vy, vz", "m/s", 1, 5)},
     {"aim.vz", "m/s", "inertial velocity of the mass centre along z of that T", ROCKET(aim.vz), KEPT, BESIDE(1)},
+};
+static const quantity exit_error[] = {
+    {"exit_error.rates", "rad/s", "how far the steps' errors may leave each of the rates of tip_off and aim off", ROCKET(exit_error.rates), KEPT},
+    {"exit_error.yaw_rate", "rad/s", "the same of yaw_rate, which near the vertical is the larger one", ROCKET(exit_error.yaw_rate)},
+    {"exit_error.relative", "1", "exit_error.rates over the magnitude of both tip_off rates, or over 1 mrad/s where that is less", ROCKET(exit_error.relative), KEPT},
 };
 static const quantity contact_peaks[] = {
     {"max_contact_force.%s", "N", "adaptor %s: largest norm of normal force and friction", ADAPTOR(max_contact_force), KEPT, .from_zero = true, LINE("largest force, %s", "N", 1, 1)},
@@ -213,6 +221,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "tip against the undeformed tube at t_rear", .launch = true, .block = SHOWN_TIP, QUANTITY_ROWS(tip)},
     {.title = "rocket against the undeformed tube at t_rear", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(tip_off)},
     {.title = "the same against where that stood at the ignition", .launch = true, .block = SHOWN_LAUNCH, QUANTITY_ROWS(aim)},
+    {.title = "what the steps' errors leave of the rates at t_rear; null where that is not estimated", .launch = true, QUANTITY_ROWS(exit_error)},
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
     {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
     {.title = "greatest pressure", .each = EACH_PRESSURE, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(pressure_peak)},

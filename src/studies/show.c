@@ -9,6 +9,7 @@
 #include "base/printed.h"
 #include "launchdyn/study.h"
 #include "simulation/study_results.h"
+#include "simulation/summary.h"
 #include "studies/show_json.h"
 #include "studies/show_numbers.h"
 #include "studies/shown.h"
@@ -32,6 +33,19 @@ static ld_status print_counts(const shown *self, const study_point *point, ld_er
         fprintf(self->stream, "  %" PRId64 " failed (%s), the first of them %" PRId64 ": %s\n",
                 failure[i].count, VISIBLE(failure[i].status), failure[i].first,
                 VISIBLE(failure[i].reason));
+    return status;
+}
+
+// How many rockets left with rates that the errors of the steps leave uncertain.
+static ld_status print_exit_errors(shown *self, const study_point *point, ld_error *error)
+{
+    size_t known, above;
+    ld_status status = shown_exit_errors(self, point, &known, &above, error);
+    if (above > 0 && !status)
+        fprintf(self->stream,
+                "rates at the exit off by more than %g %% through errors of the steps: %.3g %% of "
+                "%zu rockets\n",
+                100 * EXIT_ERROR_NOTED, 100 * (double)above / (double)known, known);
     return status;
 }
 
@@ -240,6 +254,9 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     }
     fprintf(self->stream, "%zu rockets, %zu independent groups; 95 %% intervals over groups\n",
             most->count, most->groups);
+    status = print_exit_errors(self, point, error);
+    if (status)
+        return status;
     if (self->view->sensitivity)
         return print_sensitivities(self, point, error);
     print_statistics(self, of);

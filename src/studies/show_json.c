@@ -45,6 +45,18 @@ static ld_status write_counts(json_writer *json, const shown *self, const study_
     return status;
 }
 
+static ld_status write_exit_errors(json_writer *json, shown *self, const study_point *point,
+                                   ld_error *error)
+{
+    size_t known, above;
+    ld_status status = shown_exit_errors(self, point, &known, &above, error);
+    json_open(json, "exit_errors", '{');
+    json_integer(json, "known", (long long)known);
+    json_integer(json, "above", (long long)above);
+    json_close(json, '}');
+    return status;
+}
+
 static void write_moments(json_writer *json, const group_statistics *of)
 {
     json_integer(json, "count", (long long)of->count);
@@ -264,6 +276,8 @@ static ld_status write_point(json_writer *json, shown *self, const study_point *
         json_text(json, data->swept[k], point->text[k]);
     json_close(json, '}');
     ld_status status = write_counts(json, self, point, error);
+    if (!status)
+        status = write_exit_errors(json, self, point, error);
     if (!status)
         status = write_view(json, self, point, error);
     json_close(json, '}');

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "simulation/study_results.h"
+#include "simulation/summary.h"
 #include "studies/sensitivity.h"
 
 static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,pitch,yaw,pitch_rate,"
@@ -156,6 +157,22 @@ static bool is_shown(const shown *self, const study_column *column)
         if (self->column[i] == column)
             return true;
     return false;
+}
+
+ld_status shown_exit_errors(shown *self, const study_point *point, size_t *known, size_t *above,
+                            ld_error *error)
+{
+    const char *nearest;
+    const study_column *column = study_data_find(self->data, "exit_error.relative", &nearest);
+    *known = *above = 0;
+    if (!column)
+        return LD_OK;
+    ld_status status = study_data_read(self->data, point, &column, 1, &self->values, error);
+    for (size_t i = 0; i < self->values.count && !status; i++) {
+        (*known)++;
+        *above += self->values.value[0][i] > EXIT_ERROR_NOTED;
+    }
+    return status;
 }
 
 ld_status shown_ellipse_of(shown *self, const study_point *point, size_t index,

@@ -257,7 +257,7 @@ static void test_summary_is_json(void **state)
         {".rockets[0]|keys_unsorted|join(\",\")",
          "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,muzzle_speed,inertial_speed,"
          "spin_rate,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,tip_off,aim,"
-         "max_contact_force,max_slot_force,energy_dropped"},
+         "exit_error,max_contact_force,max_slot_force,energy_dropped"},
         {".rockets[0].exit|tostring",
          "{\"position\":[1.5,2.25,-0.5],\"velocity\":[35.5,12.75,0.125],"
          "\"quaternion\":[0.5,-0.5,0.5,0.5],\"rate\":[32,0.25,-0.75]}"},
@@ -275,6 +275,8 @@ static void test_summary_is_json(void **state)
         {".rockets[0].aim|tostring",
          "{\"pitch\":-0.0008,\"yaw\":-0.001,\"pitch_rate\":-0.27,\"yaw_rate\":0.008,"
          "\"vy\":-1.25,\"vz\":5.25}"},
+        {".rockets[0].exit_error|tostring",
+         "{\"rates\":2e-05,\"yaw_rate\":0.0012,\"relative\":0.002}"},
         {".rockets[0].max_contact_force|tostring", "{\"rear\":1500,\"middle\":500,\"front\":900}"},
         {".rockets[0]|[.tube,.t_release,.t_front,.t_middle,.t_rear]|tostring",
          "[8,0.0033336,0.0952,null,0.1604]"},
@@ -361,12 +363,12 @@ static void test_terminal_table(void **state)
     assert_non_null(strstr(text, "  muzzle speed                37.7000 m/s\n"));
     static const char *const against_launcher =
         "  tip-off pitch, yaw          -7.0000       0.2000 mrad\n"
-        "  tip-off rates              -260.000        7.000 mrad/s\n"
-        "  relative rates             -300.000       15.000 mrad/s\n"
+        "  tip-off rates              -260.000        7.000 ± 0.02 mrad/s\n"
+        "  relative rates             -300.000       15.000 ± 0.02 mrad/s\n"
         "  tip-off vy, vz             -1.50000      5.12500 m/s\n"
         "  relative vy, vz            -0.37500     -0.02000 m/s\n"
         "  aim pitch, yaw              -0.8000      -1.0000 mrad\n"
-        "  aim rates                  -270.000        8.000 mrad/s\n"
+        "  aim rates                  -270.000        8.000 ± 0.02 mrad/s\n"
         "  aim vy, vz                 -1.25000      5.25000 m/s\n";
     assert_non_null(strstr(text, against_launcher));
     assert_null(strstr(text, "nan"));

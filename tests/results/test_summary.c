@@ -413,6 +413,17 @@ static void say_peaks(const finished_run *run, column_book *book, const char *at
     expect_at(book, at, "max_slot_force", largest_of(&run->tube, "slot.force"));
 }
 
+// By so short steps the rates are as good as their tolerance, of which three times are told.
+static double say_exit_error(const finished_run *run, column_book *book, const char *at)
+{
+    double rates =
+        hypot(last_of(&run->tube, "tip_off.pitch_rate"), last_of(&run->tube, "tip_off.yaw_rate"));
+    double told = 3 * run->model.run.tolerance * rates;
+    expect_at(book, at, "exit_error.rates", told);
+    expect_at(book, at, "exit_error.relative", told / rates);
+    return told;
+}
+
 // How a hinge was held from the ignition to the exit, by the rows.
 static void say_hinge(const finished_run *run, column_book *book, const char *at, const char *hinge)
 {
@@ -465,6 +476,8 @@ static void say_rocket(finished_run *run)
     say(book, at, at_landing, COUNT(at_landing), run->tube.flight);
     say_exit(run, book);
     say_peaks(run, book, at);
+    double told = say_exit_error(run, book, at);
+    expect_at(book, at, "exit_error.yaw_rate", told / cos(last_of(&run->tube, "rocket.pitch")));
     say_hinge(run, book, at, "azimuth");
     say_hinge(run, book, at, "elevation");
     say_flight(run, book, "rockets.0.flight.");
@@ -668,6 +681,7 @@ static void test_study_results(void **state)
     }
     say_instants(run, book, "");
     say_peaks(run, book, "");
+    say_exit_error(run, book, "");
     say_hinge(run, book, "", "azimuth");
     say_hinge(run, book, "", "elevation");
     say(book, "", at_exit, COUNT(at_exit), &run->tube);
@@ -756,7 +770,29 @@ static double unit_of(const char *text)
     return 1;
 }
 
-// A line "  label   number [number] unit": each number is that of its path, to its last digit.
+// " ± number" at the end of a line of rates: their error, to the two digits that are shown, and
+// where that is less to the last digit of the rates.
+static const char *check_error(const finished_run *run, const char *text, const char *field,
+                               size_t which)
+{
+    const char *sign = strstr(field, "± "), *path = "rockets.0.exit_error.rates";
+    bool rates = strstr(lines[which].label, "rate") && !strstr(lines[which].label, "spin") &&
+                 !strstr(lines[which].label, "tip pitch");
+    if ((sign != NULL) != rates)
+        fail_msg("%s: an error is told of rates at the exit alone", text);
+    if (!sign)
+        return field;
+    if (strcmp(lines[which].path[0], "rockets.0.pitch_rate") == 0)
+        path = "rockets.0.exit_error.yaw_rate";
+    char *end;
+    double told = strtod(sign + strlen("± "), &end), error = column_value(&run->json, path) / 1e-3;
+    if (!(fabs(told - fmax(error, 1e-3)) <= 0.051 * told))
+        fail_msg("%s: expected an error of %.9g", text, error);
+    return end;
+}
+
+// A line "  label   number [number] [± error] unit": each number is that of its path, to its last
+// digit.
 static void check_line(const finished_run *run, const char *text, size_t which)
 {
     const char *field = text + 25;
@@ -768,6 +804,7 @@ static void check_line(const finished_run *run, const char *text, size_t which)
         digit[count++] = point ? pow(10, -(double)(end - point - 1)) : 1;
         field = end;
     }
+    field = check_error(run, text, field, which);
     sscanf(field, "%15s", unit);
     for (int k = 0; k < 2 && lines[which].path[k]; k++) {
         double value = column_value(&run->json, lines[which].path[k]) / unit_of(unit);

@@ -161,6 +161,7 @@ static void test_reference_model(void **state)
     filled.tubes.modes.elements = read.tubes.modes.elements;
     filled.rocket.contact.damping = 0;
     filled.run.lead_in_method = read.run.lead_in_method;
+    filled.run.exit_error = read.run.exit_error;
     filled.tubes.material = read.tubes.material;
     filled.tubes.section[0].outer_radius = read.tubes.section[0].outer_radius;
     filled.tubes.section[0].area = read.tubes.section[0].area;

@@ -209,6 +209,7 @@ void made_summary(ld_summary *summary, int middle)
         .tip = {-1.1e-3, 2e-4, -5e-4, 1e-4, 0.3, -0.02, 0.2, 0.01},
         .tip_off = {-7e-3, 2e-4, -0.26, 0.007, -0.3, 0.015, -1.5, 5.125, -0.375, -0.02},
         .aim = {-8e-4, -1e-3, -0.27, 0.008, -1.25, 5.25},
+        .exit_error = {2e-5, 1.2e-3, 2e-3},
         .max_contact_force = {1500, 500, 900},
         .max_slot_force = 700,
         .energy_dropped = 0.0625};
