@@ -333,6 +333,14 @@ static void find_rocket(const launch_state *self, const double *y, launch_instan
 static void find(const launch_state *self, double t, const double *y, double energy_start,
                  launch_instant *now)
 {
+    const launching_system *launching = &self->launcher.launching;
+    double within[LD_MAX_STATES], length = launching->tube.flexible.length;
+    if (self->phase.rocket && y[launching->layout.x + X_S] > length) {
+        // the curvature jumps at the tip: its inner value counts, as in the summary
+        memcpy(within, y, (size_t)self->launcher.state_count * sizeof *within);
+        within[launching->layout.x + X_S] = length;
+        y = within;
+    }
     now->t = t;
     now->phase = phase_number(self, t);
     now->rocket = self->phase.rocket;
