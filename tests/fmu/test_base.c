@@ -111,7 +111,7 @@ typedef struct outcome {
 
 static outcome shoot(const char *base, double step)
 {
-    on_platform self = begin(base, 1e-9, step);
+    on_platform self = begin(base, 1e-10, step);
     ld_run *run = start(&self);
     ld_summary summary;
     ld_error error;

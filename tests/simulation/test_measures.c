@@ -173,7 +173,8 @@ static void test_rows(void **state)
                  "%s{name: m%d, of: %s, take: %s, from: t_front, to: t_rear}", i ? ", " : "", i,
                  columns[i / 3], takes[i % 3]);
     strcat(text, "]");
-    const char *sets[] = {text, "run={lead_in: 0.2 s, end: tip, output_step: {tube: 2 us}}"};
+    const char *sets[] = {
+        text, "run={lead_in: 0.2 s, end: tip, tolerance: 1e-7, output_step: {tube: 2 us}}"};
     read_example("marching/30-kmh.yaml", sets, 2, &model);
     run_model(&model, NULL, &first);
     reference rows = {.model = &model};

@@ -13,7 +13,7 @@ static ld_summary launch(double start_at, double lead_in, bool at_sea)
     reference_model(&model);
     model.rocket.start_at = start_at;
     model.run.lead_in = lead_in;
-    model.run.tolerance = 1e-8;
+    model.run.tolerance = 1e-9;
     if (at_sea) {
         model.base.kind = LD_BASE_PRESCRIBED;
         model.base.heave = (ld_sines){1, {{0.05, 1.5, 1}}};
