@@ -11,17 +11,10 @@
 // out as -0.000.
 static inline double printed_fixed(double value, int decimals)
 {
-    return fabs(value) * pow(10, decimals) <= 0.5 ? 0 : value;
-}
-
-// Significant digits that show a value of this size to two digits of `spread`, at least `least`;
-// 12 at most.
-static inline int printed_digits(double value, double spread, int least)
-{
-    if (!(fabs(value) > 0) || !(spread > 0) || !isfinite(value) || !isfinite(spread))
-        return least;
-    double digits = floor(log10(fabs(value))) - floor(log10(spread)) + 2;
-    return (int)fmin(fmax(digits, least), 12);
+    double size = fabs(value);
+    for (; decimals > 0; decimals--)
+        size *= 10;
+    return size <= 0.5 ? 0 : value;
 }
 
 // The character at the front of the text and the bytes that it takes; -1 and one byte where it is

@@ -1,11 +1,11 @@
 #include "elements/aerodynamics_surfaces.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/barrowman.h"
+#include "math/functions.h"
 
 // What adds to a column of the table: a factor times a given table, the slope of a fin, or 1.
 typedef struct part {

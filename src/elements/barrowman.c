@@ -1,6 +1,6 @@
 #include "elements/barrowman.h"
 
-#include <math.h>
+#include "math/functions.h"
 
 #define PI 3.14159265358979323846
 

@@ -3,6 +3,7 @@
 #ifndef LD_ELEMENTS_CONTACT_H
 #define LD_ELEMENTS_CONTACT_H
 
+#include "math/functions.h"
 #include "math/vec3.h"
 #include "model/model.h"
 

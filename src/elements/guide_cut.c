@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "math/functions.h"
+
 // ---- set-up ----
 
 static int functions_of(const flexible_tube *tube)

@@ -9,6 +9,7 @@
 
 #include "elements/adaptor.h"
 #include "elements/constraint.h"
+#include "math/functions.h"
 
 // Rate of t = dP/dx of a section as its station moves, less what turns with the section's frame.
 LD_INLINE v3 tangent_rate(const constraint_section *section)

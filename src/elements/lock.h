@@ -7,6 +7,7 @@
 #define LD_ELEMENTS_LOCK_H
 
 #include "elements/constraint.h"
+#include "math/functions.h"
 
 typedef struct lock_system {
     v3 at; // [m] L in B

@@ -1,5 +1,7 @@
 #include "elements/pressure.h"
 
+#include "math/functions.h"
+
 ld_status pressure_build(const ld_tubes *tubes, pressure_system *self, ld_error *error)
 {
     const ld_pressure *given = &tubes->pressure;

@@ -12,6 +12,7 @@
 #define LD_ELEMENTS_SHOE_H
 
 #include "elements/adaptor.h"
+#include "math/functions.h"
 #include "model/guide.h"
 
 typedef struct guide_surface {

@@ -7,6 +7,7 @@
 #define LD_ELEMENTS_SLOT_H
 
 #include "elements/constraint.h"
+#include "math/functions.h"
 
 typedef struct slot_system {
     bool present;          // false: smooth bore

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "environment/atmosphere_real.h"
+#include "math/functions.h"
 #include "model/moist_air.h"
 
 static const double layer_base[] = {0, 11000, 20000, 32000, 47000, 51000, 71000};

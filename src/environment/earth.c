@@ -2,6 +2,7 @@
 #include "environment/earth.h"
 
 #include "environment/earth_real.h"
+#include "math/functions.h"
 
 static double or_default(double value, double otherwise)
 {

@@ -1,10 +1,10 @@
 #include "environment/road.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/random.h"
+#include "math/functions.h"
 #include "math/sine_cosine.h"
 #include "math/spline.h"
 
@@ -296,9 +296,10 @@ static double sines_height(const ld_road *model, double x, double *slope)
     double height = 0;
     for (int i = 0; i < model->sine_count; i++) {
         const ld_road_sine *sine = &model->sine[i];
-        double k = TWO_PI / sine->wavelength, angle = k * x + sine->phase;
-        height += sine->amplitude * sin(angle);
-        *slope += sine->amplitude * k * cos(angle);
+        double k = TWO_PI / sine->wavelength, s, c;
+        sincos(k * x + sine->phase, &s, &c);
+        height += sine->amplitude * s;
+        *slope += sine->amplitude * k * c;
     }
     return height;
 }
@@ -312,8 +313,10 @@ static double bumps_height(const ld_road *model, road_track track, double x, dou
         if (bump->tracks == (track == ROAD_LEFT ? LD_TRACK_RIGHT : LD_TRACK_LEFT) ||
             !(along > 0 && along < bump->length))
             continue;
-        height += bump->height / 2 * (1 - cos(k * along));
-        *slope += bump->height / 2 * k * sin(k * along);
+        double s, c;
+        sincos(k * along, &s, &c);
+        height += bump->height / 2 * (1 - c);
+        *slope += bump->height / 2 * k * s;
     }
     return height;
 }

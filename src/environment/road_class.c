@@ -1,10 +1,10 @@
 #include "environment/road_class.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "environment/road.h"
 #include "math/distributions.h"
+#include "math/functions.h"
 #include "math/spectrum.h"
 
 static const double N0 = 0.1, LOWEST = 0.011, HIGHEST = 2.83; // [1/m]

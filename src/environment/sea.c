@@ -1,10 +1,10 @@
 #include "environment/sea.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/random.h"
 #include "math/distributions.h"
+#include "math/functions.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 

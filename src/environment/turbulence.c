@@ -1,9 +1,9 @@
 #include "environment/turbulence.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/random.h"
+#include "math/functions.h"
 
 static const double PI = 3.14159265358979323846;
 static const double FOOT = 0.3048;

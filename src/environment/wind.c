@@ -1,6 +1,6 @@
 #include "environment/wind.h"
 
-#include <math.h>
+#include "math/functions.h"
 
 static v3 along(double speed, double heading)
 {

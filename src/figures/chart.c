@@ -1,11 +1,11 @@
 #include "figures/chart.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/numeric_locale.h"
 #include "figures/plot.h"
+#include "math/functions.h"
 
 // Pixels of the svg: of the heading, a chart, and from its edges to the axes.
 enum { HEADING = 40, HEIGHT = 330, LEFT = 78, RIGHT = 25, TOP = 58, BOTTOM = 52 };

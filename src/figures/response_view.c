@@ -1,11 +1,11 @@
 // Linear responses to look at: as tables, files and charts.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "figures/chart.h"
 #include "figures/density_file.h"
 #include "launchdyn/response_view.h"
+#include "math/functions.h"
 #include "model/model.h"
 #include "results/columns.h"
 #include "simulation/measures.h"

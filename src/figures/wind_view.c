@@ -1,5 +1,4 @@
 // Winds to look at: profile, gusts and turbulence as tables, files and charts.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +7,7 @@
 #include "environment/wind.h"
 #include "figures/chart.h"
 #include "launchdyn/environment.h"
+#include "math/functions.h"
 #include "math/spectrum.h"
 #include "results/columns.h"
 

@@ -2,6 +2,7 @@
 #ifndef LD_MATH_MAT3_H
 #define LD_MATH_MAT3_H
 
+#include "math/functions.h"
 #include "math/vec3.h"
 
 typedef struct m3 {
@@ -93,17 +94,20 @@ LD_INLINE v3 m3_apply_transposed(m3 m, v3 v)
 }
 LD_INLINE m3 m3_rotation_x(double angle)
 {
-    double c = cos(angle), s = sin(angle);
+    double c, s;
+    sincos(angle, &s, &c);
     return (m3){{{1, 0, 0}, {0, c, -s}, {0, s, c}}};
 }
 LD_INLINE m3 m3_rotation_y(double angle)
 {
-    double c = cos(angle), s = sin(angle);
+    double c, s;
+    sincos(angle, &s, &c);
     return (m3){{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}};
 }
 LD_INLINE m3 m3_rotation_z(double angle)
 {
-    double c = cos(angle), s = sin(angle);
+    double c, s;
+    sincos(angle, &s, &c);
     return (m3){{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
 }
 /// Yaw, pitch, roll of m = Ry(yaw) Rz(pitch) Rx(roll).

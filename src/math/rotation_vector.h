@@ -2,6 +2,7 @@
 #ifndef LD_MATH_ROTATION_VECTOR_H
 #define LD_MATH_ROTATION_VECTOR_H
 
+#include "math/functions.h"
 #include "math/quaternion.h"
 
 // Coefficients of Exp(~th) = E + a ~th + b ~th^2 and Jl(th) = E + b ~th + c ~th^2, with
@@ -161,8 +162,8 @@ LD_INLINE quat rv_quaternion(v3 th)
         s = 0.5 + h2 * (-1.0 / 12 + h2 * (1.0 / 240 + h2 * (-1.0 / 10080 + h2 * (1.0 / 725760))));
     } else {
         double h = sqrt(h2);
-        c = cos(h);
-        s = 0.5 * sin(h) / h;
+        sincos(h, &s, &c);
+        s = 0.5 * s / h;
     }
     return (quat){c, s * th.x, s * th.y, s * th.z};
 }

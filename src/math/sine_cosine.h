@@ -2,9 +2,9 @@
 #ifndef LD_MATH_SINE_COSINE_H
 #define LD_MATH_SINE_COSINE_H
 
-#include <math.h>
 #include <stdint.h>
 
+#include "math/functions.h"
 #include "math/lanes.h"
 
 // sin and cos, by their series while the angle is small.
@@ -16,14 +16,14 @@ LD_INLINE void sine_cosine_small(double x, double *s, double *c)
             x * (1 + x2 * (-1.0 / 6 + x2 * (1.0 / 120 + x2 * (-1.0 / 5040 + x2 * (1.0 / 362880)))));
         *c = 1 + x2 * (-1.0 / 2 + x2 * (1.0 / 24 + x2 * (-1.0 / 720 + x2 * (1.0 / 40320))));
     } else {
-        *s = sin(x);
-        *c = cos(x);
+        sincos(x, s, c);
     }
 }
 
 typedef uint64_t lane_bits __attribute__((vector_size(32)));
 
 #define NAME sine_cosine_lanes
+#define NAME_WITHIN sine_cosine_lanes_within
 #define NUMBER v4d
 #define BITS lane_bits
 #define TO_BITS(x) ((lane_bits)(x))
@@ -36,10 +36,8 @@ LD_INLINE void sine_cosine_four(const double *angle, double *sine, double *cosin
     if (fabs(angle[0]) + fabs(angle[1]) + fabs(angle[2]) + fabs(angle[3]) < 5e5) {
         sine_cosine_lanes(*v4d_lanes_of(angle), v4d_lanes(sine), v4d_lanes(cosine));
     } else {
-        for (int k = 0; k < 4; k++) {
-            sine[k] = sin(angle[k]);
-            cosine[k] = cos(angle[k]);
-        }
+        for (int k = 0; k < 4; k++)
+            sincos(angle[k], sine + k, cosine + k);
     }
 }
 

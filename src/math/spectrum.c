@@ -1,7 +1,8 @@
 #include "math/spectrum.h"
 
-#include <math.h>
 #include <stdlib.h>
+
+#include "math/functions.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 
@@ -82,10 +83,8 @@ ld_status spectrum_in_bands(size_t count, double step, const double *a, const do
     if (!re)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a spectrum of %zu samples", count);
     double *sine = cosine + size / 2;
-    for (size_t i = 0; i < size / 2; i++) {
-        cosine[i] = cos(TWO_PI * (double)i / (double)size);
-        sine[i] = sin(TWO_PI * (double)i / (double)size);
-    }
+    for (size_t i = 0; i < size / 2; i++)
+        sincos(TWO_PI * (double)i / (double)size, sine + i, cosine + i);
     double scale = 2 * step / taper(count, a, b, re, im);
     transform(size, re, im, cosine, sine);
     double *out[3] = {aa, bb, ab};

@@ -1,3 +1,4 @@
+#include "math/functions.h"
 #include "model/field.h"
 
 #include <stdlib.h>

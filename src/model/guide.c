@@ -1,7 +1,8 @@
 #include "model/guide.h"
 
-#include <math.h>
 #include <stdio.h>
+
+#include "math/functions.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -2,7 +2,7 @@
 #ifndef LD_MODEL_MOIST_AIR_H
 #define LD_MODEL_MOIST_AIR_H
 
-#include <math.h>
+#include "math/functions.h"
 
 // Pressure of water vapour [Pa] at a temperature [K] and a relative humidity over water, by the
 // Magnus formula with the numbers of the WMO (Guide to Instruments and Methods of Observation,

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "math/functions.h"
+
 enum { TABLES = 6, MOST_RULES = 256 };
 static const plausible_rule *const tables[TABLES] = {plausible_of_tube,       plausible_of_base,
                                                      plausible_of_rocket,     plausible_of_vehicle,

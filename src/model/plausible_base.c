@@ -1,6 +1,7 @@
 // Plausibility of a base whose motion is given: sines, measured rows, a sea.
 #include <stdlib.h>
 
+#include "math/functions.h"
 #include "math/spline.h"
 #include "model/motion_rows.h"
 #include "model/plausible.h"

@@ -1,4 +1,5 @@
 // Plausibility of the rocket, its motor and its aerodynamics.
+#include "math/functions.h"
 #include "model/plausible.h"
 
 #define PI 3.14159265358979323846

@@ -1,4 +1,5 @@
 // Plausibility of the environment, flights, runs and studies.
+#include "math/functions.h"
 #include "model/moist_air.h"
 #include "model/plausible.h"
 

@@ -1,4 +1,5 @@
 // Plausibility of tubes and their supports.
+#include "math/functions.h"
 #include "model/guide.h"
 #include "model/plausible.h"
 

@@ -1,4 +1,5 @@
 // Plausibility of a vehicle: wheels, road, chassis and platforms.
+#include "math/functions.h"
 #include "model/plausible.h"
 
 #define PI 3.14159265358979323846

@@ -1,7 +1,7 @@
 // Histograms, places and points of the report of studies.
-#include <math.h>
 
 #include "base/random.h"
+#include "math/functions.h"
 #include "report/report_study.h"
 
 // 0: the rule gives none.
@@ -9,7 +9,7 @@ static double bin_width(const double *sorted, size_t count)
 {
     double middle_half =
         sorted_quantile(sorted, count, 0.75) - sorted_quantile(sorted, count, 0.25);
-    return 2 * middle_half / cbrt((double)count);
+    return 2 * middle_half * pow((double)count, -1.0 / 3);
 }
 
 study_bins study_choose_bins(const double *const *sorted, const size_t *count, int series)

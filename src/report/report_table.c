@@ -225,7 +225,7 @@ static double offset_of(const double *values, size_t count)
 // curve does not need are zeros then.
 static double step_of(double bound)
 {
-    return bound > 0 ? exp2(floor(log2(bound / 8))) : 0;
+    return bound > 0 ? ldexp(1, ilogb(bound / 8)) : 0;
 }
 
 // The offset, then second differences, first the lowest bytes of all, then the next.

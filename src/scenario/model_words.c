@@ -1,11 +1,11 @@
 // A launcher in words: what carries, guides, holds and drives the rocket, a line for each.
 #include <assert.h>
 #include <locale.h>
-#include <math.h>
 
 #include "base/printed.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/status.h"
+#include "math/functions.h"
 #include "model/field.h"
 #include "model/model.h"
 

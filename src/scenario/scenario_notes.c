@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "model/plausible.h"
 #include "scenario/scenario_reader.h"
 

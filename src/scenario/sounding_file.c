@@ -1,9 +1,9 @@
 #include "scenario/sounding_file.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "model/moist_air.h"
 
 // What a column of a sounding may be, in SI units; winds by where they come from.

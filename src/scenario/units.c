@@ -2,7 +2,6 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +9,7 @@
 
 #include "base/suggestion.h"
 #include "launchdyn/scenario.h"
+#include "math/functions.h"
 
 // Powers of the base units m, kg, s, rad and K.
 enum { METRE, KILOGRAM, SECOND, RADIAN, KELVIN, BASES };

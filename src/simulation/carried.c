@@ -1,6 +1,6 @@
 #include "simulation/carried.h"
 
-#include <math.h>
+#include "math/functions.h"
 
 static double dot(const double *a, const double *b)
 {

@@ -1,7 +1,8 @@
 #include "simulation/dormand_prince.h"
 
-#include <math.h>
 #include <string.h>
+
+#include "math/functions.h"
 
 enum { N = DORMAND_PRINCE_STATES };
 

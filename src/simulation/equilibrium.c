@@ -1,8 +1,8 @@
 // The start of a launch: undeformed, or in static equilibrium found by Newton's method.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "math/lapack.h"
 #include "math/rotation_vector.h"
 #include "simulation/carried.h"

@@ -5,12 +5,12 @@
 // phases are drawn, launch by launch. Or Gram-Schmidt's method, with pivots, finds the few
 // independent combinations of them, patterns, by which all that the launch begins with and drives
 // over can vary; a launch on each, and one on its opposite, give what it adds to the variance.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/random.h"
 #include "launchdyn/response.h"
+#include "math/functions.h"
 #include "simulation/launch_run.h"
 #include "simulation/response_state.h"
 #include "simulation/study_results.h"
@@ -207,12 +207,13 @@ static void put_columns(const road_rows *self, size_t column, const road_line *l
     }
     for (int track = 0; track < 2; track++)
         for (int i = 0; i < self->points; i++) {
-            double x = self->from + i * self->step, b = a * height[track];
+            double x = self->from + i * self->step, b = a * height[track], s, c;
             int at = track * self->points + i;
-            row(self, HEIGHT, at)[column] = b * cos(k * x);
-            row(self, HEIGHT, at)[column + 1] = -b * sin(k * x);
-            row(self, SLOPE, at)[column] = -b * k * sin(k * x);
-            row(self, SLOPE, at)[column + 1] = -b * k * cos(k * x);
+            sincos(k * x, &s, &c);
+            row(self, HEIGHT, at)[column] = b * c;
+            row(self, HEIGHT, at)[column + 1] = -b * s;
+            row(self, SLOPE, at)[column] = -b * k * s;
+            row(self, SLOPE, at)[column + 1] = -b * k * c;
         }
 }
 

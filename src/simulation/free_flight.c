@@ -1,8 +1,8 @@
 #include "simulation/free_flight.h"
 
-#include <math.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "simulation/simulation.h"
 #include "simulation/step_limit.h"
 

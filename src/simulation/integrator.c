@@ -3,12 +3,12 @@
 #include <arkode/arkode_erkstep.h>
 #include <assert.h>
 #include <float.h>
-#include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_version.h>
 
+#include "math/functions.h"
 #include "simulation/serial_vector.h"
 
 #if SUNDIALS_VERSION_MAJOR < 7

@@ -1,6 +1,6 @@
 // What ends a launch early, and who hears how far it is.
-#include <math.h>
 
+#include "math/functions.h"
 #include "simulation/launch_run.h"
 #include "simulation/step_limit.h"
 

@@ -1,9 +1,9 @@
 // What a launch leaves besides its rows.
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "simulation/launch_run.h"
 
 void launch_record_exit(ld_run *run, double t, const double *landed)

@@ -1,10 +1,10 @@
 // Natural frequencies and damping: eigenvalues of the equations linearised at rest.
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "math/dense.h"
+#include "math/functions.h"
 #include "math/general_eigen.h"
 #include "math/rotation_vector.h"
 #include "simulation/launch_state.h"

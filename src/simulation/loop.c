@@ -7,12 +7,12 @@
 #include "launchdyn/loop.h"
 
 #include <complex.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggestion.h"
 #include "math/dense.h"
+#include "math/functions.h"
 #include "math/mat3.h"
 #include "model/model.h"
 #include "simulation/response_state.h"
@@ -52,6 +52,16 @@ static ld_phasor phasor(double complex z)
     return (ld_phasor){creal(z), cimag(z)};
 }
 
+static double modulus(double complex z)
+{
+    return hypot(creal(z), cimag(z));
+}
+
+static double argument(double complex z)
+{
+    return atan2(cimag(z), creal(z));
+}
+
 static double complex sensitivity(const look *at)
 {
     return 1 / (1 + at->open);
@@ -86,6 +96,14 @@ static ld_status see(const ld_loop *self, const char *input, double frequency,
     return status;
 }
 
+// e^(-s late)
+static double complex delay_of(const ld_loop *self, double frequency)
+{
+    double sine, cosine;
+    sincos(TWO_PI * frequency * self->late, &sine, &cosine);
+    return cosine - I * sine;
+}
+
 static ld_status look_at(const ld_loop *self, double frequency, look *at, ld_error *error)
 {
     double complex seen[SEEN], s = I * TWO_PI * frequency, rate = 0;
@@ -96,7 +114,7 @@ static ld_status look_at(const ld_loop *self, double frequency, look *at, ld_err
         rate += self->axis[i] * seen[1 + i];
     at->error = seen[0];
     double complex left = at->error - feedforward(self->stabiliser, s) * rate;
-    at->delay = cexp(-s * self->late);
+    at->delay = delay_of(self, frequency);
     at->open = at->delay * (1 - left) / left;
     return LD_OK;
 }
@@ -110,7 +128,7 @@ static double frequency_of(int k)
 
 static double above_one(double complex open)
 {
-    return cabs(open) - 1;
+    return modulus(open) - 1;
 }
 
 static double beside_axis(double complex open)
@@ -120,7 +138,7 @@ static double beside_axis(double complex open)
 
 static double above_tracking(const look *at)
 {
-    return cabs(tracking(at)) - sqrt(0.5);
+    return modulus(tracking(at)) - sqrt(0.5);
 }
 
 // Halves the step between two frequencies on both sides of a zero of L's function; what is there.
@@ -156,8 +174,8 @@ static void note_axis(ld_loop_margins *to, double frequency, double complex open
 static void note_unity(ld_loop *self, double frequency, const look *at)
 {
     ld_loop_margins *to = &self->margins;
-    double omega = TWO_PI * frequency, lag = carg(-at->open / at->delay);
-    to->phase = fmin(to->phase, fabs(carg(-at->open)));
+    double omega = TWO_PI * frequency, lag = argument(-at->open / at->delay);
+    to->phase = fmin(to->phase, fabs(argument(-at->open)));
     to->crossover = frequency;
     self->lateness = fmin(self->lateness, (lag < 0 ? lag + TWO_PI : lag) / omega);
 }
@@ -181,8 +199,8 @@ static ld_status note_step(ld_loop *self, int k, const look *from, const look *t
     double before = above_tracking(from), after = above_tracking(to);
     if (isnan(self->margins.bandwidth) && before >= 0 && after < 0)
         self->margins.bandwidth = low + (high - low) * before / (before - after);
-    if (cabs(sensitivity(to)) > self->margins.peak) {
-        self->margins.peak = cabs(sensitivity(to));
+    if (modulus(sensitivity(to)) > self->margins.peak) {
+        self->margins.peak = modulus(sensitivity(to));
         self->margins.peak_at = high;
     }
     return status;
@@ -394,7 +412,8 @@ static ld_status reject(const ld_loop *self, double frequency, double complex *r
         seen[1 + i] = -seen[1 + i];
     }
     double complex left = seen[0] + error_at(&by, seen + 1), open = (1 - left) / left;
-    double complex fed = open * s * feedforward(self->stabiliser, s), delay = cexp(-s * self->late);
+    double complex fed = open * s * feedforward(self->stabiliser, s),
+                   delay = delay_of(self, frequency);
     double complex through = -error_at(&by, turn) * (1 + open) + fed;
     *rejection = (through - delay * fed) / (1 + delay * open);
     return LD_OK;

@@ -3,13 +3,13 @@
 #include "launchdyn/response.h"
 
 #include <assert.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggestion.h"
 #include "environment/road.h"
+#include "math/functions.h"
 #include "math/hessenberg.h"
 #include "simulation/plant.h"
 #include "simulation/response_state.h"

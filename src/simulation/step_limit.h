@@ -2,8 +2,9 @@
 #ifndef LD_SIMULATION_STEP_LIMIT_H
 #define LD_SIMULATION_STEP_LIMIT_H
 
-#include <math.h>
 #include <stdint.h>
+
+#include "math/functions.h"
 
 // Average length [s] of `steps` steps below which it hardly goes on: 10 ps for each of them (a
 // microsecond of 100 000), of a tolerance finer than the usual one less by as much as steps are

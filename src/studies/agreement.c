@@ -1,9 +1,9 @@
 #include "studies/agreement.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "math/distributions.h"
+#include "math/functions.h"
 
 // The difference of two estimates with its interval; *chance: p.
 static estimate welch(const uncertain *first, const uncertain *second, double *chance)

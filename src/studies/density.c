@@ -1,9 +1,9 @@
 #include "studies/density.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "studies/statistics.h"
 
 const double density_share[DENSITY_LEVELS] = {0.5, 0.95};

@@ -2,6 +2,7 @@
 
 #include "base/random.h"
 #include "math/distributions.h"
+#include "math/functions.h"
 
 // Feistel network on pairs of halves, walked again while it leaves 0 ... n - 1 (Black and Rogaway,
 // Ciphers with arbitrary finite domains, 2002).

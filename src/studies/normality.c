@@ -1,8 +1,9 @@
 #include "studies/normality.h"
 
-#include <math.h>
 #include <string.h>
 
+#include "math/distributions.h"
+#include "math/functions.h"
 #include "studies/statistics.h"
 
 // The third moments of two numbers and the fourth of their distance.
@@ -86,7 +87,7 @@ normality normality_of(const double *x, const double *y, const int64_t *group, s
     double chi = result.effective * result.skewness / 6;
     double sigma = mean[FOURTH] / sqrt(64 / result.effective);
     result.chance[0] = exp(-0.5 * chi) * (1 + 0.5 * chi); // above chi, with 4 degrees of freedom
-    result.chance[1] = erfc(fabs(sigma) / sqrt(2));
+    result.chance[1] = 2 * normal_cumulative(-fabs(sigma));
     result.tested = result.effective >= NORMALITY_LEAST;
     result.normal =
         result.tested && fmin(result.chance[0], result.chance[1]) > 0.5 * normality_level;

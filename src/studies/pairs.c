@@ -1,9 +1,9 @@
 #include "studies/pairs.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "math/distributions.h"
+#include "math/functions.h"
 
 // What is summed over pairs, and can be taken away again: a group is left out without another pass.
 // `between`: of the squares and products of a sample's sums over the number of its pairs.

@@ -1,9 +1,9 @@
 #include "studies/sensitivity.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "math/distributions.h"
+#include "math/functions.h"
 
 // Degree of the polynomials; draws for each degree; blocks of groups for the jackknife.
 enum { DEGREE = 6, DRAWS = 20, BLOCKS = 100 };

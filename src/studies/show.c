@@ -62,8 +62,8 @@ static void print_statistics(const shown *self, const group_statistics *of)
         show_half(stream, 25, &s->mean, 6);
         show_estimate(stream, 33, &s->deviation, NAN);
         show_number(stream, 8, s->skewness, 3);
-        show_number(stream, 11, s->least, printed_digits(s->least, s->deviation.value, 6));
-        show_number(stream, 11, s->greatest, printed_digits(s->greatest, s->deviation.value, 6));
+        show_number(stream, 11, s->least, show_digits(s->least, s->deviation.value, 6));
+        show_number(stream, 11, s->greatest, show_digits(s->greatest, s->deviation.value, 6));
         fputc('\n', stream);
     }
     fprintf(stream, "\n%-26s %-30s %-30s %s\n", "", "5 %", "median", "95 %");

@@ -1,9 +1,17 @@
 #include "studies/show_numbers.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/printed.h"
+#include "math/functions.h"
+
+int show_digits(double value, double spread, int least)
+{
+    if (!(fabs(value) > 0) || !(spread > 0) || !isfinite(value) || !isfinite(spread))
+        return least;
+    double digits = floor(log10(fabs(value))) - floor(log10(spread)) + 2;
+    return (int)fmin(fmax(digits, least), 12);
+}
 
 void show_name(FILE *stream, const char *result, const char *unit)
 {
@@ -31,7 +39,7 @@ void show_half(FILE *stream, int width, const estimate *e, int least)
 {
     char text[64], value[32];
     double half = 0.5 * (e->high - e->low);
-    int digits = printed_digits(e->value, half, least), length;
+    int digits = show_digits(e->value, half, least), length;
     do {
         show_text(value, e->value, digits);
         length = snprintf(text, sizeof text, isfinite(half) ? "%s +- %.2g" : "%s", value, half);
@@ -44,7 +52,7 @@ void show_estimate(FILE *stream, int width, const estimate *e, double spread)
     enum { ROOM = 31 }; // of what ends a line
     char text[128], value[32], low[32], high[32];
     double largest = fmax(fabs(e->value), fmax(fabs(e->low), fabs(e->high)));
-    int digits = printed_digits(largest, spread, 4), length;
+    int digits = show_digits(largest, spread, 4), length;
     do {
         show_text(value, e->value, digits);
         show_text(low, e->low, digits);

@@ -6,6 +6,10 @@
 
 #include "studies/statistics.h"
 
+// Significant digits that show a value of this size to two digits of `spread`, at least `least`;
+// 12 at most.
+int show_digits(double value, double spread, int least);
+
 // "t_front [s]", 26 characters wide.
 void show_name(FILE *stream, const char *result, const char *unit);
 

@@ -1,12 +1,12 @@
 #include "studies/statistics.h"
 
-#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/random.h"
 #include "math/distributions.h"
+#include "math/functions.h"
 
 const double statistics_level[STATISTICS_QUANTILES] = {0.05, 0.5, 0.95};
 

@@ -1,9 +1,9 @@
 // A base that moves over time as the scenario says, at constant velocity, in sines, by a table and
 // as a ship in its sea.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "systems/base.h"
 #include "systems/motion_table.h"
 #include "systems/sea_motion.h"
@@ -39,10 +39,11 @@ static double coordinate(const base_motion *self, int i, double t, double *rate,
     const ld_sines *sines = sines_of(self->model, i);
     for (int k = 0; k < sines->count; k++) {
         double omega = TWO_PI * sines->term[k].frequency;
-        double angle = omega * t + sines->term[k].phase;
-        value += sines->term[k].amplitude * sin(angle);
-        *rate += sines->term[k].amplitude * omega * cos(angle);
-        *acceleration -= sines->term[k].amplitude * omega * omega * sin(angle);
+        double s, c;
+        sincos(omega * t + sines->term[k].phase, &s, &c);
+        value += sines->term[k].amplitude * s;
+        *rate += sines->term[k].amplitude * omega * c;
+        *acceleration -= sines->term[k].amplitude * omega * omega * s;
     }
     return value;
 }

@@ -1,10 +1,10 @@
 // A base that is a vehicle: the orientating and the marching subsystem, which exchange positions,
 // velocities and spring-damper forces with each other and with the tube (model.md, sections 2, 6
 // and 7).
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "systems/base.h"
 
 const vehicle_system *base_as_vehicle(const base_system *self)

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "math/functions.h"
 #include "model/salvo.h"
 
 // ---- what is computed once

@@ -7,7 +7,7 @@
 #include "elements/aerodynamics_real.h"
 #include "environment/atmosphere_real.h"
 #include "environment/earth_real.h"
-#include "math/real_functions.h"
+#include "math/real_sine_cosine.h"
 #include "math/real_vec3.h"
 #include "systems/flight.h"
 

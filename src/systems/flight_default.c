@@ -1,5 +1,6 @@
 // One flight.
 #define LANES 1
+#include "math/functions.h"
 #include "math/mat3.h"
 #include "systems/flight_code.h"
 

@@ -1,11 +1,10 @@
 #include "systems/orientating.h"
 
-#include <math.h>
-
 #include <stdlib.h>
 
 #include "base/random.h"
 #include "elements/motor.h"
+#include "math/functions.h"
 #include "math/sine_cosine.h"
 
 static const double PI = 3.141592653589793238462643383280;

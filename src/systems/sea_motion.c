@@ -1,10 +1,10 @@
 #include "systems/sea_motion.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "environment/sea.h"
+#include "math/functions.h"
 #include "math/lanes.h"
 
 enum { SURGE, SWAY, HEAVE, ROLL, PITCH, YAW, MOTIONS, MOST_CELLS = 1 << 14 };
@@ -87,7 +87,8 @@ static void sum_lines(const sea_motion *self, double t, double width, int count,
     memset(sum, 0, (size_t)count * sizeof *sum);
     for (size_t i = 0; i < self->count; i++) {
         const sea_line *line = &self->line[i];
-        double c = cos(line->omega * t), s = sin(line->omega * t), step = line->omega * width;
+        double c, s, step = line->omega * width;
+        sincos(line->omega * t, &s, &c);
         for (int order = 0; order < count; order++) {
             for (int j = 0; j < SEA_LANES; j++)
                 sum[order][j] += line->re[j] * c - line->im[j] * s;

@@ -3,10 +3,10 @@
 // With small displacements d in the sense of the speeds, M d_ddot + C d_dot + K d = 0: M column by
 // column from inverse dynamics (exact), C from the dampers (all velocity terms of the motion are of
 // second order at rest), K from differences of the static forces.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "math/general_eigen.h"
 #include "math/lapack.h"
 #include "math/rotation_vector.h"

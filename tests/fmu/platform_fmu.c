@@ -68,7 +68,7 @@ typedef struct platform {
 static void say(const platform *self, const char *text)
 {
     if (self->log)
-        self->log(self->environment, fmi3Error, "error", text);
+        (self->log)(self->environment, fmi3Error, "error", text);
     else if (self->call.logger)
         self->call.logger(self->call.componentEnvironment, "base", fmi2Error, "error", "%s", text);
 }

@@ -38,6 +38,21 @@ static void test_normal_quantile(void **state)
     CHECK_BELOW("and back, over z^2", back, 1e-15);
 }
 
+// From where it is a few of the smallest numbers to where it is 1.
+static void test_normal_cumulative(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (int i = 0; i < 40000; i++) {
+        double z = -37.5 + i * 1.15e-3;
+        long double exact = 0.5L * erfcl(-z * 0.707106781186547524400844362104849039L);
+        worst = fmax(worst, fabs((double)(normal_cumulative(z) / exact - 1)));
+    }
+    CHECK_BELOW("normal distribution function, relative", worst, 1.5e-15);
+    assert_true(normal_cumulative(0) == 0.5 && normal_cumulative(INFINITY) == 1);
+    assert_true(normal_cumulative(-INFINITY) == 0 && isnan(normal_cumulative(NAN)));
+}
+
 // One side by its own coefficients, the other by its mirror image.
 static void test_normal_quantile_rises(void **state)
 {
@@ -98,8 +113,11 @@ static void test_no_numbers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normal_quantile),  cmocka_unit_test(test_normal_quantile_rises),
-        cmocka_unit_test(test_student_quantile), cmocka_unit_test(test_binomial),
+        cmocka_unit_test(test_normal_cumulative),
+        cmocka_unit_test(test_normal_quantile),
+        cmocka_unit_test(test_normal_quantile_rises),
+        cmocka_unit_test(test_student_quantile),
+        cmocka_unit_test(test_binomial),
         cmocka_unit_test(test_no_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
