@@ -153,11 +153,14 @@ static void assemble_mass(const tube_line *line, const ld_tubes *model, double *
     }
 }
 
-static double stiffness_of(line_kind kind, const ld_section *section)
+static double stiffness_of(const tube_line *line, const ld_section *section)
 {
-    switch (kind) {
+    double along_y = section_stiffness_z(section), along_z = section_stiffness_y(section);
+    switch (line->kind) {
     case LINE_BENDING:
-        return 0.5 * (section_stiffness_y(section) + section_stiffness_z(section));
+        return line->plane == PLANE_Y   ? along_y
+               : line->plane == PLANE_Z ? along_z
+                                        : 0.5 * (along_z + along_y);
     case LINE_TORSION:
         return section->torsion_stiffness;
     default:
@@ -170,7 +173,7 @@ static double stiffness_of(line_kind kind, const ld_section *section)
 static double element_deformation(const tube_line *line, const ld_tubes *model, int e)
 {
     double h = line->mesh->node[e + 1] - line->mesh->node[e];
-    return sqrt(h / stiffness_of(line->kind, &model->section[line->mesh->section[e]]));
+    return sqrt(h / stiffness_of(line, &model->section[line->mesh->section[e]]));
 }
 
 // Nodal vectors of the clamped line with one element deformed, the others rigid: with constant
@@ -265,7 +268,7 @@ static ld_status check_mass(const tube_line *line, const ld_tubes *model, ld_err
     return LD_OK;
 }
 
-ld_status tube_line_build(tube_line *line, line_kind kind, const tube_mesh *mesh,
+ld_status tube_line_build(tube_line *line, line_kind kind, int plane, const tube_mesh *mesh,
                           const ld_tubes *model, ld_error *error)
 {
     int w = kind == LINE_BENDING ? 2 : 1, n = w * mesh->elements, N = n + w;
@@ -277,7 +280,7 @@ ld_status tube_line_build(tube_line *line, line_kind kind, const tube_mesh *mesh
         free(M);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a line of %d elements", mesh->elements);
     }
-    *line = (tube_line){.kind = kind, .mesh = mesh, .width = w, .n = n};
+    *line = (tube_line){.kind = kind, .plane = plane, .mesh = mesh, .width = w, .n = n};
     line->shape = block;
     line->mass = block + nn;
     line->moment[0] = line->mass + nn;

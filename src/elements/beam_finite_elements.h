@@ -19,15 +19,16 @@ typedef struct tube_mesh {
     int *section; // [elements] index of the section an element lies in, owned
 } tube_mesh;
 
-enum { PLANE_Y, PLANE_Z }; // of deflections along y, along z
+// Of deflections along y, along z; and both planes as one line with the mean of what they have.
+enum { PLANE_Y, PLANE_Z, PLANES_ALIKE };
 
-// Bending has the mean of both planes' stiffnesses, which are equal in most tubes.
 typedef enum line_kind { LINE_BENDING, LINE_TORSION, LINE_STRETCH } line_kind;
 
 // One family of deformation. Nodal vectors have `width` numbers a node, first the value and then,
 // in bending, the slope; those of clamped shapes leave out the node at x = 0.
 typedef struct tube_line {
     line_kind kind;
+    int plane; // of bending
     const tube_mesh *mesh;
     int width;     // degrees of freedom a node, and rigid shapes (1, x): 2 bending, 1 bars
     int n;         // degrees of freedom of the clamped line
@@ -48,8 +49,8 @@ void tube_mesh_free(tube_mesh *mesh);
 // that begins there at an inner node.
 int tube_mesh_find(const tube_mesh *mesh, double x);
 
-// Assembles a line on `mesh` (which must outlive it).
-ld_status tube_line_build(tube_line *line, line_kind kind, const tube_mesh *mesh,
+// Assembles a line on `mesh` (which must outlive it), for bending that of a plane.
+ld_status tube_line_build(tube_line *line, line_kind kind, int plane, const tube_mesh *mesh,
                           const ld_tubes *model, ld_error *error);
 void tube_line_free(tube_line *line);
 

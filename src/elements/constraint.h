@@ -50,9 +50,10 @@ typedef struct constraint_section {
     section_bias bias;
 } constraint_section;
 
-// Products of the shapes at two sections p, q.
+// Products of the shapes at two sections p, q, by plane (the first of both, where they are shared).
 typedef struct shape_products {
-    double bb, bb1, b1b, b1b1, tt; // b_p . b_q, b_p . b'_q, b'_p . b_q, ...
+    double bb[2], bb1[2], b1b[2], b1b1[2]; // b_p . b_q, b_p . b'_q, b'_p . b_q, ...
+    double tt;
 } shape_products;
 
 // The constraints in force, in the order in which their elements have put them; friction of one of
@@ -89,25 +90,59 @@ typedef struct constrained {
     v3 force[LD_MAX_CONSTRAINT_SECTIONS], mu[LD_MAX_CONSTRAINT_SECTIONS];
 } constrained;
 
+// A plane's part of B_1^T M^-1 B_2 where it has shapes of its own: force and couple (that the slope
+// works on) of each direction; one section is two alike.
+LD_INLINE double plane_product(double bb, double bb1, double b1b, double b1b1, double f_p,
+                               double mu_p, double f_q, double mu_q)
+{
+    return bb * f_p * f_q + bb1 * f_p * mu_q + b1b * mu_p * f_q + b1b1 * mu_p * mu_q;
+}
+
+LD_OUTLINE double modal_product_apart(const section_shapes *shapes, const constraint_direction *p,
+                                      const constraint_direction *q)
+{
+    const plane_shapes *y = &shapes->plane[PLANE_Y], *z = &shapes->plane[PLANE_Z];
+    return plane_product(y->bb, y->bb1, y->bb1, y->b1b1, p->force.y, p->mu.z, q->force.y, q->mu.z) +
+           plane_product(z->bb, z->bb1, z->bb1, z->b1b1, p->force.z, -p->mu.y, q->force.z,
+                         -q->mu.y) +
+           shapes->tt * p->mu.x * q->mu.x;
+}
+
+LD_OUTLINE double modal_cross_product_apart(const shape_products *of, const constraint_direction *p,
+                                            const constraint_direction *q)
+{
+    const int z = PLANE_Z;
+    return plane_product(of->bb[0], of->bb1[0], of->b1b[0], of->b1b1[0], p->force.y, p->mu.z,
+                         q->force.y, q->mu.z) +
+           plane_product(of->bb[z], of->bb1[z], of->b1b[z], of->b1b1[z], p->force.z, -p->mu.y,
+                         q->force.z, -q->mu.y) +
+           of->tt * p->mu.x * q->mu.x;
+}
+
 // Modal part of B_1^T M^-1 B_2 for forces at one section.
-LD_INLINE double modal_product(const section_shapes *shapes, const constraint_direction *p,
+LD_INLINE double modal_product(const section_shapes *of, const constraint_direction *p,
                                const constraint_direction *q)
 {
+    const plane_shapes *shapes = &of->plane[PLANE_Y];
+    if (__builtin_expect(of->z == PLANE_Z, 0))
+        return modal_product_apart(of, p, q);
     return shapes->bb * (p->force.y * q->force.y + p->force.z * q->force.z) +
            shapes->b1b1 * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
            shapes->bb1 * (p->force.y * q->mu.z + p->mu.z * q->force.y - p->force.z * q->mu.y -
                           p->mu.y * q->force.z) +
-           shapes->tt * p->mu.x * q->mu.x;
+           of->tt * p->mu.x * q->mu.x;
 }
 
 // The same for forces at two sections.
-LD_INLINE double modal_cross_product(const shape_products *shapes, const constraint_direction *p,
-                                     const constraint_direction *q)
+LD_INLINE double modal_cross_product(const shape_products *shapes, bool apart,
+                                     const constraint_direction *p, const constraint_direction *q)
 {
-    return shapes->bb * (p->force.y * q->force.y + p->force.z * q->force.z) +
-           shapes->b1b1 * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
-           shapes->bb1 * (p->force.y * q->mu.z - p->force.z * q->mu.y) +
-           shapes->b1b * (p->mu.z * q->force.y - p->mu.y * q->force.z) +
+    if (__builtin_expect(apart, 0))
+        return modal_cross_product_apart(shapes, p, q);
+    return shapes->bb[0] * (p->force.y * q->force.y + p->force.z * q->force.z) +
+           shapes->b1b1[0] * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
+           shapes->bb1[0] * (p->force.y * q->mu.z - p->force.z * q->mu.y) +
+           shapes->b1b[0] * (p->mu.z * q->force.y - p->mu.y * q->force.z) +
            shapes->tt * p->mu.x * q->mu.x;
 }
 
@@ -115,10 +150,13 @@ LD_INLINE void shape_products_load(const int lanes, const tube_system *guide,
                                    const section_shapes *p, const section_shapes *q,
                                    shape_products *products)
 {
-    products->bb = v4d_dot(lanes, p->b, q->b);
-    products->bb1 = v4d_dot(lanes, p->b, q->b1);
-    products->b1b = v4d_dot(lanes, p->b1, q->b);
-    products->b1b1 = v4d_dot(lanes, p->b1, q->b1);
+    for (int k = PLANE_Y; k <= guide->z; k++) {
+        const plane_shapes *of_p = &p->plane[k], *of_q = &q->plane[k];
+        products->bb[k] = v4d_dot(lanes, of_p->b, of_q->b);
+        products->bb1[k] = v4d_dot(lanes, of_p->b, of_q->b1);
+        products->b1b[k] = v4d_dot(lanes, of_p->b1, of_q->b);
+        products->b1b1[k] = v4d_dot(lanes, of_p->b1, of_q->b1);
+    }
     products->tt = 0;
     for (int j = 0; j < guide->flexible.nt; j++)
         products->tt += p->tau[j] * q->tau[j];
@@ -130,22 +168,21 @@ LD_INLINE void direction_load_tube(const launching_instant *now, const constrain
                                    v3 f, v3 m, v3 r_T, constraint_direction *e)
 {
     const tube_state *tube = &now->tube;
-    const element_motion *motion = section->motion;
     const section_shapes *shapes = &section->shapes;
+    const plane_shapes *y = &shapes->plane[PLANE_Y], *z = &shapes->plane[shapes->z];
     const axis_section *s = section->at;
     v3 W = v3_add(s->P, r_T);
     e->force = f;
     e->moment = v3_add(m, v3_cross(r_T, f));
     e->mu = m3_apply_transposed(s->Jl, v3_add(m, v3_cross(v3_sub(W, s->root), f)));
     // B_r - C B_q, with C B_q from the shapes' own products
-    double uz = poly0(motion->z, s->xi), uz1 = poly1(motion->z, s->xi);
-    double uy = poly0(motion->y, s->xi), uy1 = poly1(motion->y, s->xi);
     v3 B_f = f, B_m = v3_add(m, v3_cross(W, f));
-    B_f.y -= shapes->ct0 * f.y + shapes->ct1 * e->mu.z;
-    B_f.z -= shapes->ct0 * f.z - shapes->ct1 * e->mu.y;
-    B_m.x -= uy * f.z - uy1 * e->mu.y - uz * f.y - uz1 * e->mu.z + shapes->cp_tau * e->mu.x;
-    B_m.y += shapes->c0 * f.z - shapes->c1 * e->mu.y;
-    B_m.z -= shapes->c0 * f.y + shapes->c1 * e->mu.z;
+    B_f.y -= y->ct0 * f.y + y->ct1 * e->mu.z;
+    B_f.z -= z->ct0 * f.z - z->ct1 * e->mu.y;
+    B_m.x -= shapes->uy * f.z - shapes->uy1 * e->mu.y - shapes->uz * f.y - shapes->uz1 * e->mu.z +
+             shapes->cp_tau * e->mu.x;
+    B_m.y += z->c0 * f.z - z->c1 * e->mu.y;
+    B_m.z -= y->c0 * f.y + y->c1 * e->mu.z;
     tube_forward(tube, B_f, B_m, e->rigid);
 }
 
@@ -164,10 +201,11 @@ LD_INLINE double direction_product(const tube_state *tube, const constraint_set 
                                    const constraint_products *D, const constraint_direction *p,
                                    const constraint_direction *q)
 {
+    bool apart = tube->modal.apart;
     double modal = p->section == q->section ? modal_product(&set->section[p->section].shapes, p, q)
                    : p->section < q->section
-                       ? modal_cross_product(&D->cross[p->section][q->section], p, q)
-                       : modal_cross_product(&D->cross[q->section][p->section], q, p);
+                       ? modal_cross_product(&D->cross[p->section][q->section], apart, p, q)
+                       : modal_cross_product(&D->cross[q->section][p->section], apart, q, p);
     return v3_dot(p->G_f, q->r_a) + v3_dot(p->G_m, q->r_alpha) +
            tube_product(tube, p->rigid, q->rigid) + modal;
 }
@@ -177,9 +215,9 @@ LD_INLINE double free_acceleration(const int lanes, const tube_system *self, con
                                    const section_shapes *shapes, const constraint_direction *e,
                                    v3 r_a, v3 r_alpha, const double rigid[6], const tube_force *h)
 {
-    double modal =
-        e->force.y * v4d_dot(lanes, shapes->b, h->y) + e->mu.z * v4d_dot(lanes, shapes->b1, h->y) +
-        e->force.z * v4d_dot(lanes, shapes->b, h->z) - e->mu.y * v4d_dot(lanes, shapes->b1, h->z);
+    const plane_shapes *y = &shapes->plane[PLANE_Y], *z = &shapes->plane[shapes->z];
+    double modal = e->force.y * v4d_dot(lanes, y->b, h->y) + e->mu.z * v4d_dot(lanes, y->b1, h->y) +
+                   e->force.z * v4d_dot(lanes, z->b, h->z) - e->mu.y * v4d_dot(lanes, z->b1, h->z);
     for (int j = 0; j < self->flexible.nt; j++)
         modal += e->mu.x * shapes->tau[j] * h->t[j];
     return v3_dot(e->G_f, r_a) + v3_dot(e->G_m, r_alpha) - tube_product(tube, e->rigid, rigid) -
@@ -244,7 +282,7 @@ LD_INLINE int constraint_section_add(const int lanes, const tube_system *guide,
                                      const tube_state *tube, constraint_set *set)
 {
     constraint_section *section = &set->section[set->section_count];
-    shapes_load(lanes, guide, section->at, &section->shapes);
+    shapes_load(lanes, guide, &tube->modal, section->motion, section->at, &section->shapes);
     section->bias = bias_of(tube, section);
     return set->section_count++;
 }

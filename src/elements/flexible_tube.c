@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "elements/tube_modes.h"
-#include "math/symmetric_eigen.h"
 
 static double dot(int n, const double *a, const double *b)
 {
@@ -15,14 +14,24 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
+// The lines that a tube has, each with the shapes chosen on it. That of z is left out where the
+// planes share their shapes, and that of y has the mean of both.
+enum { OF_Y, OF_Z, OF_TORSION, OF_STRETCH, LINES };
+
+typedef struct tube_lines {
+    tube_mesh mesh;
+    tube_line line[LINES];
+    line_shapes shapes[LINES];
+} tube_lines;
+
 // Line and shapes of one kind; shapes->count = 0 leaves both empty.
-static ld_status build_line(tube_line *line, line_shapes *shapes, line_kind kind,
+static ld_status build_line(tube_line *line, line_shapes *shapes, line_kind kind, int plane,
                             const tube_mesh *mesh, const ld_tubes *model, ld_error *error)
 {
     static const char *const names[] = {"bending", "torsion", "axial"};
     if (shapes->count == 0)
         return LD_OK;
-    ld_status status = tube_line_build(line, kind, mesh, model, error);
+    ld_status status = tube_line_build(line, kind, plane, mesh, model, error);
     if (status)
         return status;
     if (shapes->count > line->n)
@@ -31,8 +40,35 @@ static ld_status build_line(tube_line *line, line_shapes *shapes, line_kind kind
     return line_shapes_choose(shapes, line, model, error);
 }
 
-// Copies the polynomials of all shapes of a line into the elements.
-static void fill_elements(flexible_tube *tube, const tube_line *line, const line_shapes *shapes)
+static ld_status build_lines(tube_lines *of, const ld_tubes *model, ld_error *error)
+{
+    static const line_kind kind[LINES] = {LINE_BENDING, LINE_BENDING, LINE_TORSION, LINE_STRETCH};
+    const ld_modes *modes = &model->modes;
+    bool alike = tube_planes_alike(model);
+    const int plane[LINES] = {alike ? PLANES_ALIKE : PLANE_Y, PLANE_Z};
+    const int count[LINES] = {modes->bending, alike ? 0 : modes->bending, modes->torsion,
+                              modes->axial};
+    ld_status status = tube_mesh_build(&of->mesh, model, error);
+    for (int i = 0; i < LINES && !status; i++) {
+        of->shapes[i].count = count[i];
+        status =
+            build_line(&of->line[i], &of->shapes[i], kind[i], plane[i], &of->mesh, model, error);
+    }
+    return status;
+}
+
+static void free_lines(tube_lines *of)
+{
+    for (int i = 0; i < LINES; i++) {
+        tube_line_free(&of->line[i]);
+        line_shapes_free(&of->shapes[i]);
+    }
+    tube_mesh_free(&of->mesh);
+}
+
+// Copies the polynomials of all shapes of a line into the elements; bending into those of a plane.
+static void fill_elements(flexible_tube *tube, int plane, const tube_line *line,
+                          const line_shapes *shapes)
 {
     for (int e = 0; e < tube->element_count; e++)
         for (int k = 0; k < shapes->count; k++) {
@@ -41,7 +77,7 @@ static void fill_elements(flexible_tube *tube, const tube_line *line, const line
             tube_line_polynomial(line, &shapes->nodal[k * line->n], e, p);
             for (int i = 0; i < 2 * line->width; i++)
                 if (line->kind == LINE_BENDING)
-                    element->b[i][k] = p[i];
+                    element->b[plane][i][k] = p[i];
                 else if (line->kind == LINE_TORSION)
                     element->tau[i][k] = p[i];
                 else
@@ -49,123 +85,110 @@ static void fill_elements(flexible_tube *tube, const tube_line *line, const line
         }
 }
 
-// Frequencies, damping and the integrals of f and x f (the latter may be NULL) of a line's shapes.
-static void fill_family(const tube_line *line, const line_shapes *shapes, double zeta, double *om2,
-                        double *damping, double *first, double *second)
+// The integrals of f and x f (the latter may be NULL) of a line's shapes.
+static void fill_integrals(const tube_line *line, const line_shapes *shapes, double *first,
+                           double *second)
 {
     for (int k = 0; k < shapes->count; k++) {
         const double *nodal = &shapes->nodal[k * line->n];
-        om2[k] = shapes->om2[k];
-        damping[k] = 2 * zeta * sqrt(om2[k]);
         first[k] = dot(line->n, line->moment[0], nodal);
         if (second)
             second[k] = dot(line->n, line->moment[1], nodal);
     }
 }
 
-// K [m][m] of a plane in the shapes, whose elastic energy its sections have their shares of.
-static void plane_stiffness(const line_shapes *shapes, const tube_mesh *mesh, const ld_tubes *model,
-                            int plane, double *K)
+// Stiffness omega^2 and damping of a line's shapes, of which a plane has a share.
+static void fill_frequencies(const line_shapes *shapes, double share, double zeta, double *om2,
+                             double *damping)
 {
-    double share[LD_MAX_SECTIONS];
-    for (int i = 0; i < model->section_count; i++)
-        share[i] = section_share(&model->section[i], plane);
-    int m = shapes->count, n = 2 * mesh->elements;
-    for (int k = 0; k < m; k++)
-        for (int l = 0; l < m; l++) {
-            double sum = 0;
-            for (int i = 0; i < n; i++)
-                sum +=
-                    share[mesh->section[i / 2]] * shapes->part[k * n + i] * shapes->part[l * n + i];
-            K[k * m + l] = sqrt(shapes->om2[k]) * sqrt(shapes->om2[l]) * sum;
-        }
-}
-
-// Puts a symmetric matrix [m][m] where a plane has its diagonal and what is off it.
-static void store_plane(int m, const double *matrix, double *diagonal, double off[LD_NB][LD_NB])
-{
-    for (int k = 0; k < m; k++)
-        for (int l = 0; l < m; l++)
-            if (k == l)
-                diagonal[k] = matrix[k * m + l];
-            else
-                off[k][l] = matrix[k * m + l];
-}
-
-// K of a plane whose sections' shares differ, and D = 2 zeta K^(1/2): the one damping ratio for its
-// own clamped modes in the space of the shapes.
-static ld_status fill_mixed_plane(flexible_tube *tube, int plane, const line_shapes *shapes,
-                                  const tube_mesh *mesh, const ld_tubes *model, ld_error *error)
-{
-    double zeta = model->modes.damping;
-    int m = shapes->count;
-    double K[LD_NB * LD_NB], D[LD_NB * LD_NB] = {0}, value[LD_NB], mode[LD_NB * LD_NB];
-    plane_stiffness(shapes, mesh, model, plane, K);
-    store_plane(m, K, tube->om2_b[plane], tube->mixing->K[plane]);
-    int info = symmetric_eigen(m, K, NULL, m, value, mode);
-    if (info == EIGEN_NO_MEMORY)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", m);
-    if (info || !(value[0] > 0))
-        return ld_fail(error, LD_ERR_NUMERIC,
-                       "the tube's modes in one of its planes cannot be found: are its bending "
-                       "stiffnesses out of all proportion?");
-    for (int i = 0; i < m; i++)
-        for (int k = 0; k < m; k++)
-            for (int l = 0; l < m; l++)
-                D[k * m + l] += 2 * zeta * sqrt(value[i]) * mode[i * m + k] * mode[i * m + l];
-    store_plane(m, D, tube->dmp_b[plane], tube->mixing->D[plane]);
-    return LD_OK;
-}
-
-// Stiffness and damping of bending in both planes.
-static ld_status fill_planes(flexible_tube *tube, const line_shapes *shapes, const tube_mesh *mesh,
-                             const ld_tubes *model, ld_error *error)
-{
-    if (tube_planes_proportional(model)) {
-        for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
-            double share = section_share(&model->section[0], plane);
-            for (int k = 0; k < tube->nb; k++) {
-                tube->om2_b[plane][k] = share * shapes->om2[k];
-                tube->dmp_b[plane][k] = 2 * model->modes.damping * sqrt(tube->om2_b[plane][k]);
-            }
-        }
-        return LD_OK;
+    for (int k = 0; k < shapes->count; k++) {
+        om2[k] = share * shapes->om2[k];
+        damping[k] = 2 * zeta * sqrt(om2[k]);
     }
-    tube->mixing = aligned_alloc(64, sizeof *tube->mixing);
-    if (!tube->mixing)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
-    memset(tube->mixing, 0, sizeof *tube->mixing);
-    ld_status status = fill_mixed_plane(tube, PLANE_Y, shapes, mesh, model, error);
-    return status ? status : fill_mixed_plane(tube, PLANE_Z, shapes, mesh, model, error);
 }
 
-// AB = int a b^T dm: Gauss with three points, exact for the product of linear and cubic.
-static void fill_cross(flexible_tube *tube, const tube_mesh *mesh, const ld_tubes *model)
+// Shapes of a plane, and what comes of them.
+static void fill_plane(flexible_tube *tube, int plane, const tube_lines *of, const ld_tubes *model)
 {
-    static const double at[3] = {-0.7745966692414833770, 0, 0.7745966692414833770};
-    static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-    int points = 3 * tube->element_count + model->point_mass_count;
-    for (int i = 0; i < points; i++) {
-        int e = i / 3;
-        double x, dm;
-        if (e < tube->element_count) {
-            double half = 0.5 * (tube->element[e].x1 - tube->element[e].x0);
-            x = tube->element[e].x0 + half * (1 + at[i % 3]);
-            dm = model->section[mesh->section[e]].mass_per_length * half * weight[i % 3];
-        } else {
-            const ld_point_mass *point = &model->point_mass[i - 3 * tube->element_count];
-            x = point->at;
-            dm = point->mass;
-            e = flexible_tube_find(tube, x);
-        }
-        const tube_element *element = &tube->element[e];
-        double xi = x - element->x0;
-        for (int l = 0; l < tube->nb; l++) {
-            double b = element->b[0][l] +
-                       xi * (element->b[1][l] + xi * (element->b[2][l] + xi * element->b[3][l]));
+    bool own = of->shapes[OF_Z].count > 0;
+    int i = own && plane == PLANE_Z ? OF_Z : OF_Y;
+    const line_shapes *shapes = &of->shapes[i];
+    double share = own ? 1 : section_share(&model->section[0], plane);
+    double *ct = tube->ct[plane], *c = tube->c[plane];
+    fill_elements(tube, plane, &of->line[i], shapes);
+    fill_integrals(&of->line[i], shapes, ct, c);
+    fill_frequencies(shapes, share, model->modes.damping, tube->om2_b[plane], tube->dmp_b[plane]);
+    tube->ctct[plane] = dot(tube->nb, ct, ct);
+    tube->ctc[plane] = dot(tube->nb, ct, c);
+    tube->cc[plane] = dot(tube->nb, c, c);
+}
+
+static void bending_values(const flexible_tube *tube, int plane, const tube_element *element,
+                           double x, double *b)
+{
+    double xi = x - element->x0;
+    for (int l = 0; l < tube->nb; l++)
+        b[l] = element->b[plane][0][l] +
+               xi * (element->b[plane][1][l] +
+                     xi * (element->b[plane][2][l] + xi * element->b[plane][3][l]));
+}
+
+// What a mass at a place of an element has of AB = int a b^T dm.
+static void add_axial(flexible_tube *tube, const tube_element *element, double x, double dm)
+{
+    double xi = x - element->x0, b[LD_NB];
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+        bending_values(tube, plane, element, x, b);
+        for (int l = 0; l < tube->nb; l++)
             for (int k = 0; k < tube->na; k++)
-                tube->AB[k][l] += dm * (element->a[0][k] + xi * element->a[1][k]) * b;
+                tube->AB[plane][k][l] += dm * (element->a[0][k] + xi * element->a[1][k]) * b[l];
+    }
+}
+
+// What it has of G = int b_y b_z^T dm.
+static void add_overlap(flexible_tube *tube, const tube_element *element, double x, double dm)
+{
+    double y[LD_NB], z[LD_NB];
+    bending_values(tube, PLANE_Y, element, x, y);
+    bending_values(tube, PLANE_Z, element, x, z);
+    for (int k = 0; k < tube->nb; k++)
+        for (int l = 0; l < tube->nb; l++) {
+            tube->overlap->G[PLANE_Y][k][l] += dm * y[k] * z[l];
+            tube->overlap->G[PLANE_Z][l][k] = tube->overlap->G[PLANE_Y][k][l];
         }
+}
+
+// Gauss's rule with three points, exact for the product of linear and cubic, and with four, exact
+// for that of two cubics.
+typedef struct gauss_rule {
+    int points;
+    double at[4], weight[4];
+} gauss_rule;
+
+static const gauss_rule three = {
+    3, {-0.7745966692414833770, 0, 0.7745966692414833770}, {5.0 / 9, 8.0 / 9, 5.0 / 9}};
+static const gauss_rule four = {4,
+                                {-0.86113631159405257522, -0.33998104358485626480,
+                                 0.33998104358485626480, 0.86113631159405257522},
+                                {0.34785484513745385737, 0.65214515486254614263,
+                                 0.65214515486254614263, 0.34785484513745385737}};
+
+// Adds up over the masses of the tube.
+static void integrate(flexible_tube *tube, const tube_mesh *mesh, const ld_tubes *model,
+                      const gauss_rule *rule,
+                      void (*add)(flexible_tube *, const tube_element *, double, double))
+{
+    for (int e = 0; e < tube->element_count; e++) {
+        const tube_element *element = &tube->element[e];
+        double half = 0.5 * (element->x1 - element->x0);
+        double per_length = model->section[mesh->section[e]].mass_per_length;
+        for (int i = 0; i < rule->points; i++)
+            add(tube, element, element->x0 + half * (1 + rule->at[i]),
+                per_length * half * rule->weight[i]);
+    }
+    for (int i = 0; i < model->point_mass_count; i++) {
+        const ld_point_mass *point = &model->point_mass[i];
+        add(tube, &tube->element[flexible_tube_find(tube, point->at)], point->at, point->mass);
     }
 }
 
@@ -199,8 +222,9 @@ static ld_status check_model(const ld_tubes *model, ld_error *error)
     return LD_OK;
 }
 
-static ld_status allocate_elements(flexible_tube *tube, const tube_mesh *mesh, ld_error *error)
+static ld_status allocate(flexible_tube *tube, const tube_lines *of, ld_error *error)
 {
+    const tube_mesh *mesh = &of->mesh;
     size_t size = (size_t)mesh->elements * sizeof(tube_element);
     tube->element = aligned_alloc(64, size);
     if (!tube->element)
@@ -211,37 +235,40 @@ static ld_status allocate_elements(flexible_tube *tube, const tube_mesh *mesh, l
         tube->element[e].x0 = mesh->node[e];
         tube->element[e].x1 = mesh->node[e + 1];
     }
+    if (of->shapes[OF_Z].count == 0)
+        return LD_OK;
+    tube->overlap = aligned_alloc(64, sizeof *tube->overlap);
+    if (!tube->overlap)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    memset(tube->overlap, 0, sizeof *tube->overlap);
     return LD_OK;
 }
 
 // Everything that is known once the shapes are: formulation.md, section 5, arrays.
-static ld_status fill_tube(flexible_tube *tube, const tube_line line[3],
-                           const line_shapes shapes[3], const tube_mesh *mesh,
-                           const ld_tubes *model, ld_error *error)
+static void fill_tube(flexible_tube *tube, const tube_lines *of, const ld_tubes *model)
 {
-    for (int kind = 0; kind < 3; kind++)
-        fill_elements(tube, &line[kind], &shapes[kind]);
+    const tube_line *bending = &of->line[OF_Y];
     double zeta = model->modes.damping;
-    fill_family(&line[LINE_BENDING], &shapes[LINE_BENDING], zeta, tube->om2_b[PLANE_Y],
-                tube->dmp_b[PLANE_Y], tube->ct, tube->c);
-    fill_family(&line[LINE_TORSION], &shapes[LINE_TORSION], zeta, tube->om2_t, tube->dmp_t,
-                tube->cp, NULL);
-    fill_family(&line[LINE_STRETCH], &shapes[LINE_STRETCH], zeta, tube->om2_a, tube->dmp_a,
-                tube->at, tube->ax);
-    fill_cross(tube, mesh, model);
-    tube->ctct = dot(tube->nb, tube->ct, tube->ct);
-    tube->ctc = dot(tube->nb, tube->ct, tube->c);
-    tube->cc = dot(tube->nb, tube->c, tube->c);
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+        fill_plane(tube, plane, of, model);
+    for (int i = OF_TORSION; i <= OF_STRETCH; i++)
+        fill_elements(tube, PLANE_Y, &of->line[i], &of->shapes[i]);
+    fill_integrals(&of->line[OF_TORSION], &of->shapes[OF_TORSION], tube->cp, NULL);
+    fill_integrals(&of->line[OF_STRETCH], &of->shapes[OF_STRETCH], tube->at, tube->ax);
+    fill_frequencies(&of->shapes[OF_TORSION], 1, zeta, tube->om2_t, tube->dmp_t);
+    fill_frequencies(&of->shapes[OF_STRETCH], 1, zeta, tube->om2_a, tube->dmp_a);
+    integrate(tube, &of->mesh, model, &three, add_axial);
+    if (tube->overlap)
+        integrate(tube, &of->mesh, model, &four, add_overlap);
     tube->cpcp = dot(tube->nt, tube->cp, tube->cp);
-    tube->m = line[LINE_BENDING].rigid[0][0];
-    tube->s0 = line[LINE_BENDING].rigid[0][1];
-    tube->j0 = line[LINE_BENDING].rigid[1][1];
-    for (int e = 0; e < mesh->elements; e++)
-        tube->j +=
-            model->section[mesh->section[e]].polar_inertia * (mesh->node[e + 1] - mesh->node[e]);
+    tube->m = bending->rigid[0][0];
+    tube->s0 = bending->rigid[0][1];
+    tube->j0 = bending->rigid[1][1];
+    for (int e = 0; e < of->mesh.elements; e++)
+        tube->j += model->section[of->mesh.section[e]].polar_inertia *
+                   (of->mesh.node[e + 1] - of->mesh.node[e]);
     for (int k = 0; k < model->support_count; k++)
         tube->support_element[k] = flexible_tube_find(tube, model->support[k].at);
-    return fill_planes(tube, &shapes[LINE_BENDING], mesh, model, error);
 }
 
 static int padded(int count)
@@ -252,10 +279,7 @@ static int padded(int count)
 ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_error *error)
 {
     const ld_modes *modes = &model->modes;
-    tube_mesh mesh = {0};
-    tube_line line[3] = {0};
-    line_shapes shapes[3] = {
-        {.count = modes->bending}, {.count = modes->torsion}, {.count = modes->axial}};
+    tube_lines of = {0};
     *tube = (flexible_tube){.nb = modes->bending,
                             .nt = modes->torsion,
                             .na = modes->axial,
@@ -267,25 +291,19 @@ ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_err
                             .support_count = model->support_count};
     ld_status status = check_model(model, error);
     if (!status)
-        status = tube_mesh_build(&mesh, model, error);
-    for (int kind = 0; kind < 3 && !status; kind++)
-        status = build_line(&line[kind], &shapes[kind], (line_kind)kind, &mesh, model, error);
+        status = build_lines(&of, model, error);
     if (!status)
-        status = allocate_elements(tube, &mesh, error);
+        status = allocate(tube, &of, error);
     if (!status)
-        status = fill_tube(tube, line, shapes, &mesh, model, error);
-    for (int kind = 0; kind < 3; kind++) {
-        tube_line_free(&line[kind]);
-        line_shapes_free(&shapes[kind]);
-    }
-    tube_mesh_free(&mesh);
+        fill_tube(tube, &of, model);
+    free_lines(&of);
     return status;
 }
 
 void flexible_tube_free(flexible_tube *tube)
 {
     free(tube->element);
-    free(tube->mixing);
+    free(tube->overlap);
     *tube = (flexible_tube){0};
 }
 

@@ -6,9 +6,15 @@
 
 // ---- set-up ----
 
+// Bending shapes among the functions.
+static int bending_of(const flexible_tube *tube)
+{
+    return tube->overlap ? 2 * tube->nb : tube->nb;
+}
+
 static int functions_of(const flexible_tube *tube)
 {
-    return 2 + tube->nb + tube->na;
+    return 2 + bending_of(tube) + tube->na;
 }
 
 // The f_k at a place of an element.
@@ -18,11 +24,13 @@ static void find_functions(const flexible_tube *tube, const tube_element *elemen
     double xi = x - element->x0;
     f[0] = 1;
     f[1] = x;
-    for (int j = 0; j < tube->nb; j++)
-        f[2 + j] = element->b[0][j] +
-                   xi * (element->b[1][j] + xi * (element->b[2][j] + xi * element->b[3][j]));
+    for (int j = 0; j < bending_of(tube); j++) {
+        const double(*b)[LD_NB] = element->b[j / tube->nb];
+        int k = j % tube->nb;
+        f[2 + j] = b[0][k] + xi * (b[1][k] + xi * (b[2][k] + xi * b[3][k]));
+    }
     for (int j = 0; j < tube->na; j++)
-        f[2 + tube->nb + j] = element->a[0][j] + xi * element->a[1][j];
+        f[2 + bending_of(tube) + j] = element->a[0][j] + xi * element->a[1][j];
 }
 
 static void add_mass(guide_cut *self, const flexible_tube *tube, const tube_element *element,
@@ -95,26 +103,31 @@ void guide_cut_build(guide_cut *self, const flexible_tube *tube, const ld_tubes 
 
 // ---- at an instant ----
 
+// What a function's coordinates q are along R's axes: those of function k of the bending shapes, or
+// axial.
+static v3 coordinates_of(const flexible_tube *tube, int k, const double *q)
+{
+    int nb = tube->nb, bending = bending_of(tube), j = k - 2;
+    if (j >= bending)
+        return v3_make(q[2 * nb + tube->nt + j - bending], 0, 0);
+    if (!tube->overlap)
+        return v3_make(0, q[j], q[nb + j]);
+    return j < nb ? v3_make(0, q[j], 0) : v3_make(0, 0, q[j]);
+}
+
 // P_k and A_k of all functions, P_0 from the section's point P.
 static void find_coefficients(const flexible_tube *tube, const guide_motion *motion, v3 P, v3 *to,
                               v3 *acceleration)
 {
-    int nb = tube->nb, axial = 2 * nb + tube->nt;
-    const double *q = motion->q, *q_dot = motion->q_dot, *q_ddot = motion->q_ddot;
     v3 w = motion->w;
     to[0] = v3_neg(P);
     acceleration[0] = motion->a;
     for (int k = 1; k < functions_of(tube); k++) {
-        int y = k - 2, a = axial + k - 2 - nb;
         v3 p = v3_make(1, 0, 0), rate = v3_zero(), relative = v3_zero();
-        if (k >= 2 + nb) {
-            p = v3_make(q[a], 0, 0);
-            rate = v3_make(q_dot[a], 0, 0);
-            relative = v3_make(q_ddot[a], 0, 0);
-        } else if (k >= 2) {
-            p = v3_make(0, q[y], q[nb + y]);
-            rate = v3_make(0, q_dot[y], q_dot[nb + y]);
-            relative = v3_make(0, q_ddot[y], q_ddot[nb + y]);
+        if (k >= 2) {
+            p = coordinates_of(tube, k, motion->q);
+            rate = coordinates_of(tube, k, motion->q_dot);
+            relative = coordinates_of(tube, k, motion->q_ddot);
         }
         v3 turning = v3_cross(w, v3_axpy(v3_cross(w, p), 2, rate));
         to[k] = p;

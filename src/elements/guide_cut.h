@@ -1,6 +1,7 @@
 // What the tube carries at a station, by equilibrium of the part that lies beyond it, towards the
 // tip (model.md, section 3). That part's mass moves as p = sum of f_k P_k, with f = (1, x, b, a):
-// the axis' station, bending and axial shapes; so a part's inertia is a Gram matrix of the f_k.
+// the axis' station, bending shapes (of both planes where these are not the same) and axial ones;
+// so a part's inertia is a Gram matrix of the f_k.
 //
 //   p(xi) - P(x) = sum f_k P_k,   a(xi) - g = sum f_k A_k,   B_k = sum_l G_kl A_l,   G = int_x^L f
 //   f' dm f = sum of the forces on the part - B_0 m = sum of their moments about P(x) - sum P_k x
@@ -13,7 +14,7 @@
 
 #include "elements/instant.h"
 
-enum { GUIDE_FUNCTIONS = 2 + LD_NB + LD_NA };
+enum { GUIDE_FUNCTIONS = 2 + 2 * LD_NB + LD_NA };
 
 // A station with all that does not change.
 typedef struct guide_cut {

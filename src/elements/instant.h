@@ -12,15 +12,21 @@
 
 enum { LD_FIXED_ROWS = 2 * LD_MAX_SUPPORTS + 4 }; // b and b' at each support, ct, c; padded
 
-// Shapes of one finite element packed twice: by mode (four powers of xi side by side, for sums over
-// modes) and by power (modes side by side, for forces on the modes).
-typedef struct packed_element {
-    double x0, x1;
+// Bending shapes of one finite element packed twice: by mode (four powers of xi side by side, for
+// sums over modes) and by power (modes side by side, for forces on the modes).
+typedef struct packed_shapes {
     _Alignas(32) double by_mode[LD_NB][4];
     _Alignas(32) double by_power[4][LD_NB];
+    double ctb[4], cb[4]; // ct . b and c . b as polynomials
+} packed_shapes;
+
+// What the fast layout has by plane stands in arrays of two, of which [self->z] is that of z: the
+// first, where the planes share their shapes.
+typedef struct packed_element {
+    double x0, x1;
+    packed_shapes plane[2];
     double tau[LD_NT][2];
     double a[LD_NA][2];
-    double ctb[4], cb[4]; // ct . b and c . b as polynomials
 } packed_element;
 
 // The flexible tube with its tail: constants of the fast layout.
@@ -34,11 +40,12 @@ typedef struct tube_system {
     double jx;       // [kg m2] condensed inertia about x: j - cp . cp + tail
     v3 tail_inertia; // [kg m2] about the rear section's point
 
+    int z; // PLANE_Z where the planes have shapes of their own, else PLANE_Y
     // rows that never change: b, b' at the supports (2 k, 2 k + 1), then ct, c; by mode and by row
     int ct, c;     // their rows
     int row_lanes; // lanes of four rows
-    _Alignas(32) double rows_by_mode[LD_NB][LD_FIXED_ROWS];
-    _Alignas(32) double rows[LD_FIXED_ROWS][LD_NB];
+    _Alignas(32) double rows_by_mode[2][LD_NB][LD_FIXED_ROWS];
+    _Alignas(32) double rows[2][LD_FIXED_ROWS][LD_NB];
     LANE_ARRAY(om2_y, LD_NB); // bending: diagonals of stiffness and damping
     LANE_ARRAY(om2_z, LD_NB);
     LANE_ARRAY(dmp_y, LD_NB);
@@ -53,7 +60,30 @@ typedef struct modal_state {
     LANE_ARRAY(z_dot, LD_NB);
     const double *t, *t_dot; // torsion
     const double *a, *a_dot; // axial
+    bool apart; // the planes have shapes of their own; then, of tube_load: G z, G z_dot, G^T y, ...
+    LANE_ARRAY(z_on_y, LD_NB);
+    LANE_ARRAY(z_dot_on_y, LD_NB);
+    LANE_ARRAY(y_on_z, LD_NB);
+    LANE_ARRAY(y_dot_on_z, LD_NB);
 } modal_state;
+
+// A plane's coordinates as the modes of the other one meet them: int b_y u_z dm and so on.
+LD_INLINE const double *z_on_y(const modal_state *q)
+{
+    return q->apart ? q->z_on_y : q->z;
+}
+LD_INLINE const double *z_dot_on_y(const modal_state *q)
+{
+    return q->apart ? q->z_dot_on_y : q->z_dot;
+}
+LD_INLINE const double *y_on_z(const modal_state *q)
+{
+    return q->apart ? q->y_on_z : q->y;
+}
+LD_INLINE const double *y_dot_on_z(const modal_state *q)
+{
+    return q->apart ? q->y_dot_on_z : q->y_dot;
+}
 
 // The deflection of one element as polynomials in xi.
 typedef struct element_motion {
@@ -106,12 +136,19 @@ typedef struct section_rates {
 } section_rates;
 
 // Shapes at a section, for products between forces there.
-typedef struct section_shapes {
+typedef struct plane_shapes {
     LANE_ARRAY(b, LD_NB);
     LANE_ARRAY(b1, LD_NB);
-    double tau[LD_NT];
     double ct0, ct1, c0, c1; // ct . b, ct . b', c . b, c . b'
-    double bb, bb1, b1b1, tt, cp_tau;
+    double bb, bb1, b1b1;
+} plane_shapes;
+
+typedef struct section_shapes {
+    plane_shapes plane[2];
+    int z; // of them that of z
+    double tau[LD_NT];
+    double tt, cp_tau;
+    double uy, uy1, uz, uz1; // y . G b_z, y . G b_z', z . G^T b_y, ...: deflections and slopes
 } section_shapes;
 
 // Generalised force on the tube: the rigid part about R's origin, the modal part in lanes.
@@ -140,6 +177,7 @@ typedef struct tube_state {
     double cp_t_dot;             // cp . q_t_dot
     // factors of the condensed 6 x 6 matrix: see tube_factor()
     double per_m, per_my, per_jx, per_dy, per_dz, l_yx, l_yz, l_zx, l_zy, l_zwy;
+    double per_mz, l_xy, l_xz, l_ywx, l_zwx; // where the planes have shapes of their own, too
 } tube_state;
 
 typedef struct rocket_state {

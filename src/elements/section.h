@@ -5,13 +5,28 @@
 
 #include "elements/instant.h"
 
+// The deflection along z by shapes of its own.
+LD_OUTLINE void element_load_z(const tube_system *self, const modal_state *q,
+                               element_motion *motion)
+{
+    const packed_shapes *shapes = &motion->element->plane[PLANE_Z];
+    v4d z = v4d_all(0), z_dot = z;
+    for (int j = 0; j < self->flexible.nb; j++) {
+        v4d shape = *v4d_lanes_of(shapes->by_mode[j]);
+        z += shape * v4d_all(q->z[j]);
+        z_dot += shape * v4d_all(q->z_dot[j]);
+    }
+    *v4d_lanes(motion->z) = z;
+    *v4d_lanes(motion->z_dot) = z_dot;
+}
+
 LD_INLINE void element_load(const tube_system *self, const modal_state *q, int index,
                             element_motion *motion)
 {
     const packed_element *element = &self->packed[index];
     v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;
     for (int j = 0; j < self->flexible.nb; j++) {
-        v4d shape = *v4d_lanes_of(element->by_mode[j]);
+        v4d shape = *v4d_lanes_of(element->plane[PLANE_Y].by_mode[j]);
         y += shape * v4d_all(q->y[j]);
         z += shape * v4d_all(q->z[j]);
         y_dot += shape * v4d_all(q->y_dot[j]);
@@ -36,6 +51,8 @@ LD_INLINE void element_load(const tube_system *self, const modal_state *q, int i
     *v4d_lanes(motion->z) = z;
     *v4d_lanes(motion->y_dot) = y_dot;
     *v4d_lanes(motion->z_dot) = z_dot;
+    if (__builtin_expect(q->apart, 0))
+        element_load_z(self, q, motion);
     motion->t[0] = t0, motion->t[1] = t1;
     motion->t_dot[0] = d0, motion->t_dot[1] = d1;
     motion->a[0] = a0, motion->a[1] = a1;
@@ -134,6 +151,17 @@ LD_INLINE void section_foot(const tube_system *self, const modal_state *q, v3 C,
     section_load(self, motion, x, s);
 }
 
+// Adds to the forces on a plane's modes what weights of the powers of xi put on them.
+LD_INLINE void add_by_power(const int lanes, const packed_shapes *shapes, const double weight[4],
+                            double *h)
+{
+    const v4d *p0 = v4d_lanes_of(shapes->by_power[0]), *p1 = v4d_lanes_of(shapes->by_power[1]);
+    const v4d *p2 = v4d_lanes_of(shapes->by_power[2]), *p3 = v4d_lanes_of(shapes->by_power[3]);
+    for (int i = 0; i < lanes; i++)
+        v4d_lanes(h)[i] += v4d_all(weight[0]) * p0[i] + v4d_all(weight[1]) * p1[i] +
+                           v4d_all(weight[2]) * p2[i] + v4d_all(weight[3]) * p3[i];
+}
+
 // Adds force f on the tube's section s with moment m about R's origin, of which the modes feel the
 // moment about the section's root, mu = Jl^T m_root.
 LD_INLINE void apply_generalised(const int lanes, const tube_system *self, const axis_section *s,
@@ -148,15 +176,8 @@ LD_INLINE void apply_generalised(const int lanes, const tube_system *self, const
     // weights of the powers of xi: b and b' against force and moment
     double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};
     double z[4] = {f.z, f.z * xi - mu.y, f.z * x2 - mu.y * 2 * xi, f.z * x3 - mu.y * 3 * x2};
-    const v4d *p0 = v4d_lanes_of(element->by_power[0]), *p1 = v4d_lanes_of(element->by_power[1]);
-    const v4d *p2 = v4d_lanes_of(element->by_power[2]), *p3 = v4d_lanes_of(element->by_power[3]);
-    v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
-    for (int i = 0; i < lanes; i++) {
-        hy[i] += v4d_all(y[0]) * p0[i] + v4d_all(y[1]) * p1[i] + v4d_all(y[2]) * p2[i] +
-                 v4d_all(y[3]) * p3[i];
-        hz[i] += v4d_all(z[0]) * p0[i] + v4d_all(z[1]) * p1[i] + v4d_all(z[2]) * p2[i] +
-                 v4d_all(z[3]) * p3[i];
-    }
+    add_by_power(lanes, &element->plane[PLANE_Y], y, h->y);
+    add_by_power(lanes, &element->plane[self->z], z, h->z);
     for (int j = 0; j < self->flexible.nt; j++)
         h->t[j] += mu.x * (element->tau[j][0] + xi * element->tau[j][1]);
     for (int j = 0; j < self->flexible.na; j++)
@@ -179,15 +200,14 @@ LD_INLINE void apply_wrench_at_section(const int lanes, const tube_system *self,
     apply_generalised(lanes, self, s, f, v3_add(m, v3_cross(s->P, f)), mu, h);
 }
 
-// Shapes at a section for every mode, and their products.
-LD_INLINE void shapes_load(const int lanes, const tube_system *self, const axis_section *s,
-                           section_shapes *shapes)
+// A plane's shapes at a section for every mode, and their products.
+LD_INLINE void plane_shapes_load(const int lanes, const packed_shapes *from, double xi,
+                                 plane_shapes *shapes)
 {
     LANES_NOT_EMPTY(lanes);
-    const packed_element *element = &self->packed[s->index];
-    v4d x = v4d_all(s->xi), x2 = v4d_all(2 * s->xi), x3 = v4d_all(3 * s->xi);
-    const v4d *p0 = v4d_lanes_of(element->by_power[0]), *p1 = v4d_lanes_of(element->by_power[1]);
-    const v4d *p2 = v4d_lanes_of(element->by_power[2]), *p3 = v4d_lanes_of(element->by_power[3]);
+    v4d x = v4d_all(xi), x2 = v4d_all(2 * xi), x3 = v4d_all(3 * xi);
+    const v4d *p0 = v4d_lanes_of(from->by_power[0]), *p1 = v4d_lanes_of(from->by_power[1]);
+    const v4d *p2 = v4d_lanes_of(from->by_power[2]), *p3 = v4d_lanes_of(from->by_power[3]);
     v4d *b = v4d_lanes(shapes->b), *b1 = v4d_lanes(shapes->b1);
     for (int i = 0; i < lanes; i++) {
         b[i] = p0[i] + x * (p1[i] + x * (p2[i] + x * p3[i]));
@@ -196,10 +216,38 @@ LD_INLINE void shapes_load(const int lanes, const tube_system *self, const axis_
     shapes->bb = v4d_dot(lanes, shapes->b, shapes->b);
     shapes->bb1 = v4d_dot(lanes, shapes->b, shapes->b1);
     shapes->b1b1 = v4d_dot(lanes, shapes->b1, shapes->b1);
-    shapes->ct0 = poly0(element->ctb, s->xi);
-    shapes->ct1 = poly1(element->ctb, s->xi);
-    shapes->c0 = poly0(element->cb, s->xi);
-    shapes->c1 = poly1(element->cb, s->xi);
+    shapes->ct0 = poly0(from->ctb, xi);
+    shapes->ct1 = poly1(from->ctb, xi);
+    shapes->c0 = poly0(from->cb, xi);
+    shapes->c1 = poly1(from->cb, xi);
+}
+
+// Those of z, where they are its own, and how a plane's deflection meets the shapes of the other.
+LD_OUTLINE void shapes_load_apart(const int lanes, const packed_element *from, const modal_state *q,
+                                  double xi, section_shapes *shapes)
+{
+    const plane_shapes *of_y = &shapes->plane[PLANE_Y], *of_z = &shapes->plane[PLANE_Z];
+    plane_shapes_load(lanes, &from->plane[PLANE_Z], xi, &shapes->plane[PLANE_Z]);
+    shapes->uy = v4d_dot(lanes, q->y_on_z, of_z->b);
+    shapes->uy1 = v4d_dot(lanes, q->y_on_z, of_z->b1);
+    shapes->uz = v4d_dot(lanes, q->z_on_y, of_y->b);
+    shapes->uz1 = v4d_dot(lanes, q->z_on_y, of_y->b1);
+}
+
+// Shapes at a section for every mode, and their products.
+LD_INLINE void shapes_load(const int lanes, const tube_system *self, const modal_state *q,
+                           const element_motion *motion, const axis_section *s,
+                           section_shapes *shapes)
+{
+    const packed_element *element = &self->packed[s->index];
+    shapes->z = self->z;
+    plane_shapes_load(lanes, &element->plane[PLANE_Y], s->xi, &shapes->plane[PLANE_Y]);
+    shapes->uy = poly0(motion->y, s->xi);
+    shapes->uy1 = poly1(motion->y, s->xi);
+    shapes->uz = poly0(motion->z, s->xi);
+    shapes->uz1 = poly1(motion->z, s->xi);
+    if (__builtin_expect(q->apart, 0))
+        shapes_load_apart(lanes, element, q, s->xi, shapes);
     shapes->tt = shapes->cp_tau = 0;
     for (int j = 0; j < self->flexible.nt; j++) {
         shapes->tau[j] = element->tau[j][0] + s->xi * element->tau[j][1];

@@ -167,11 +167,12 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
             guide_forces_add(h->record, support->x, f, m_R);
             h->record->support[k] = (guide_wrench){f_T, m_T};
         }
-        const v4d *b = v4d_lanes_of(guide->rows[2 * k]), *b1 = v4d_lanes_of(guide->rows[2 * k + 1]);
+        const double(*y)[LD_NB] = &guide->rows[PLANE_Y][2 * k];
+        const double(*z)[LD_NB] = &guide->rows[guide->z][2 * k];
         v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
         for (int i = 0; i < lanes; i++) {
-            hy[i] += v4d_all(f.y) * b[i] + v4d_all(mu.z) * b1[i];
-            hz[i] += v4d_all(f.z) * b[i] - v4d_all(mu.y) * b1[i];
+            hy[i] += v4d_all(f.y) * v4d_lanes_of(y[0])[i] + v4d_all(mu.z) * v4d_lanes_of(y[1])[i];
+            hz[i] += v4d_all(f.z) * v4d_lanes_of(z[0])[i] - v4d_all(mu.y) * v4d_lanes_of(z[1])[i];
         }
         for (int j = 0; j < guide->flexible.nt; j++)
             h->t[j] += mu.x * support->tau[j];
@@ -217,12 +218,13 @@ LD_INLINE void support_build(const ld_support *from, int k, tube_system *guide, 
     to->slide = (recoil_slide){from->recoil, to->K.x, to->C.x};
     if (from->recoil.present)
         to->K.x = to->C.x = 0;
-    for (int j = 0; j < tube->nb; j++) {
-        double b0 = element->b[0][j], b1 = element->b[1][j], b2 = element->b[2][j],
-               b3 = element->b[3][j];
-        tube_set_row(guide, 2 * k, j, b0 + xi * (b1 + xi * (b2 + xi * b3)));
-        tube_set_row(guide, 2 * k + 1, j, b1 + xi * (2 * b2 + xi * 3 * b3));
-    }
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+        for (int j = 0; j < tube->nb; j++) {
+            double b0 = element->b[plane][0][j], b1 = element->b[plane][1][j];
+            double b2 = element->b[plane][2][j], b3 = element->b[plane][3][j];
+            tube_set_row(guide, plane, 2 * k, j, b0 + xi * (b1 + xi * (b2 + xi * b3)));
+            tube_set_row(guide, plane, 2 * k + 1, j, b1 + xi * (2 * b2 + xi * 3 * b3));
+        }
     for (int j = 0; j < tube->nt; j++)
         to->tau[j] = element->tau[0][j] + xi * element->tau[1][j];
     for (int j = 0; j < tube->na; j++)

@@ -3,6 +3,7 @@
 //
 // M2 eta_dot = h2, eta = (v, w, q_dot): with modal mass E the modes are eliminated,
 //   q_ddot = h_q - C^T (a, w_dot),   (M_rr - C C^T) (a, w_dot) = h_r - C h_q,   C = [Ct; Cr]
+// Planes that share their shapes are the usual case, and G = E; what others need besides is apart.
 #ifndef LD_ELEMENTS_TUBE_H
 #define LD_ELEMENTS_TUBE_H
 
@@ -10,10 +11,10 @@
 
 // ---- set-up ----
 
-LD_INLINE void tube_set_row(tube_system *self, int row, int j, double value)
+LD_INLINE void tube_set_row(tube_system *self, int plane, int row, int j, double value)
 {
-    self->rows[row][j] = value;
-    self->rows_by_mode[j][row] = value;
+    self->rows[plane][row][j] = value;
+    self->rows_by_mode[plane][j][row] = value;
 }
 
 // Packs the shapes of one element by mode and by power.
@@ -23,14 +24,16 @@ LD_INLINE void tube_pack_element(const flexible_tube *tube, const tube_element *
     memset(to, 0, sizeof *to);
     to->x0 = from->x0;
     to->x1 = from->x1;
-    for (int j = 0; j < tube->nb; j++)
-        for (int k = 0; k < 4; k++) {
-            double shape = from->b[k][j];
-            to->by_mode[j][k] = shape;
-            to->by_power[k][j] = shape;
-            to->ctb[k] += tube->ct[j] * shape;
-            to->cb[k] += tube->c[j] * shape;
-        }
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+        for (int j = 0; j < tube->nb; j++)
+            for (int k = 0; k < 4; k++) {
+                double shape = from->b[plane][k][j];
+                packed_shapes *shapes = &to->plane[plane];
+                shapes->by_mode[j][k] = shape;
+                shapes->by_power[k][j] = shape;
+                shapes->ctb[k] += tube->ct[plane][j] * shape;
+                shapes->cb[k] += tube->c[plane][j] * shape;
+            }
     for (int j = 0; j < tube->nt; j++)
         for (int k = 0; k < 2; k++)
             to->tau[j][k] = from->tau[k][j];
@@ -43,12 +46,15 @@ LD_INLINE void tube_pack_element(const flexible_tube *tube, const tube_element *
 LD_INLINE void tube_build_rows(int support_count, tube_system *self)
 {
     const flexible_tube *tube = &self->flexible;
+    self->z = tube->overlap ? PLANE_Z : PLANE_Y;
     self->ct = 2 * support_count;
     self->c = self->ct + 1;
     self->row_lanes = (self->c + 1 + 3) / 4;
     for (int j = 0; j < tube->nb; j++) {
-        tube_set_row(self, self->ct, j, tube->ct[j]);
-        tube_set_row(self, self->c, j, tube->c[j]);
+        for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+            tube_set_row(self, plane, self->ct, j, tube->ct[plane][j]);
+            tube_set_row(self, plane, self->c, j, tube->c[plane][j]);
+        }
         self->om2_y[j] = tube->om2_b[PLANE_Y][j];
         self->om2_z[j] = tube->om2_b[PLANE_Z][j];
         self->dmp_y[j] = tube->dmp_b[PLANE_Y][j];
@@ -75,6 +81,44 @@ LD_INLINE void modal_load(const int lanes, const tube_system *self, const launch
     q->t_dot = rate + 2 * nb;
     q->a = q->t + self->flexible.nt;
     q->a_dot = q->t_dot + self->flexible.nt;
+    q->apart = self->z == PLANE_Z;
+}
+
+// The sum of a matrix's rows [nb], in lanes, by q.
+LD_INLINE void sum_rows(const int lanes, int nb, const double row[LD_NB][LD_NB], const double *q,
+                        double *to)
+{
+    for (int k = 0; k < lanes; k++) {
+        v4d sum = v4d_all(0);
+        for (int j = 0; j < nb; j++)
+            sum += v4d_lanes_of(row[j])[k] * v4d_all(q[j]);
+        v4d_lanes(to)[k] = sum;
+    }
+}
+
+LD_OUTLINE void modal_overlap(const int lanes, const flexible_tube *tube, modal_state *q)
+{
+    const tube_overlap *overlap = tube->overlap;
+    sum_rows(lanes, tube->nb, overlap->G[PLANE_Z], q->z, q->z_on_y);
+    sum_rows(lanes, tube->nb, overlap->G[PLANE_Z], q->z_dot, q->z_dot_on_y);
+    sum_rows(lanes, tube->nb, overlap->G[PLANE_Y], q->y, q->y_on_z);
+    sum_rows(lanes, tube->nb, overlap->G[PLANE_Y], q->y_dot, q->y_dot_on_z);
+}
+
+// Products of the fixed rows of z, where these are its own.
+LD_OUTLINE void load_rows_of_z(const tube_system *self, tube_state *tube)
+{
+    const modal_state *q = &tube->modal;
+    for (int r = 0; r < self->row_lanes; r++) {
+        v4d z = v4d_all(0), z_dot = z;
+        for (int j = 0; j < self->flexible.nb; j++) {
+            v4d row = v4d_lanes_of(self->rows_by_mode[PLANE_Z][j])[r];
+            z += row * v4d_all(q->z[j]);
+            z_dot += row * v4d_all(q->z_dot[j]);
+        }
+        v4d_lanes(tube->row_z)[r] = z;
+        v4d_lanes(tube->row_z_dot)[r] = z_dot;
+    }
 }
 
 // State of the frame R and of the modes, and their products with the fixed rows.
@@ -90,11 +134,13 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
     tube->g = m3_apply_transposed(tube->A_IR, v3_make(0, -self->gravity, 0));
     modal_state *q = &tube->modal;
     modal_load(lanes, self, at, state, q);
+    if (__builtin_expect(q->apart, 0))
+        modal_overlap(lanes, &self->flexible, q);
     // the fixed rows (supports, ct, c) times the four vectors of modal coordinates and speeds
     for (int r = 0; r < self->row_lanes; r++) {
         v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;
         for (int j = 0; j < nb; j++) {
-            v4d row = v4d_lanes_of(self->rows_by_mode[j])[r];
+            v4d row = v4d_lanes_of(self->rows_by_mode[PLANE_Y][j])[r];
             y += row * v4d_all(q->y[j]);
             z += row * v4d_all(q->z[j]);
             y_dot += row * v4d_all(q->y_dot[j]);
@@ -105,6 +151,8 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
         v4d_lanes(tube->row_y_dot)[r] = y_dot;
         v4d_lanes(tube->row_z_dot)[r] = z_dot;
     }
+    if (__builtin_expect(q->apart, 0))
+        load_rows_of_z(self, tube);
     int ct = self->ct, c = self->c;
     tube->ct_y = tube->row_y[ct];
     tube->ct_z = tube->row_z[ct];
@@ -112,37 +160,7 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
     tube->c_z = tube->row_z[c];
     tube->qy_qy = v4d_dot(lanes, q->y, q->y);
     tube->qz_qz = v4d_dot(lanes, q->z, q->z);
-    tube->qy_qz = v4d_dot(lanes, q->y, q->z);
-}
-
-// A symmetric matrix, row by row in lanes, times q [nb]; returns their product with `by`.
-LD_INLINE v4d tube_mixed(const int lanes, int nb, const double matrix[LD_NB][LD_NB],
-                         const double *q, const double *by, double *h)
-{
-    v4d sum[LD_NB / 4], product = v4d_all(0);
-    for (int k = 0; k < lanes; k++)
-        sum[k] = v4d_all(0);
-    for (int j = 0; j < nb; j++)
-        for (int k = 0; k < lanes; k++)
-            sum[k] += v4d_lanes_of(matrix[j])[k] * v4d_all(q[j]);
-    for (int k = 0; k < lanes; k++) {
-        v4d_lanes(h)[k] -= sum[k];
-        product += sum[k] * v4d_lanes_of(by)[k];
-    }
-    return product;
-}
-
-// What stiffness and damping of bending have off their diagonals: its forces, and its shares in
-// power and energy.
-static inline void tube_mix(const int lanes, const flexible_tube *data, const modal_state *q,
-                            tube_force *h, v4d *damped, v4d *elastic)
-{
-    const tube_mixing *mixing = data->mixing;
-    int nb = data->nb;
-    *elastic += tube_mixed(lanes, nb, mixing->K[PLANE_Y], q->y, q->y, h->y);
-    *elastic += tube_mixed(lanes, nb, mixing->K[PLANE_Z], q->z, q->z, h->z);
-    *damped += tube_mixed(lanes, nb, mixing->D[PLANE_Y], q->y_dot, q->y_dot, h->y);
-    *damped += tube_mixed(lanes, nb, mixing->D[PLANE_Z], q->z_dot, q->z_dot, h->z);
+    tube->qy_qz = v4d_dot(lanes, q->y, z_on_y(q));
 }
 
 // Gyroscopic forces, gravity, stiffness and damping of tube and tail: h of formulation.md section 1
@@ -175,8 +193,8 @@ LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state 
     Jw = v3_add(Jw, tail);
     // W_ab = int p_a u_b dm: 2 (tr(W) w - W^T w)
     double W_xy = c_yd, W_xz = c_zd;
-    double W_yy = v4d_dot(lanes, q->y, q->y_dot), W_yz = v4d_dot(lanes, q->y, q->z_dot);
-    double W_zy = v4d_dot(lanes, q->z, q->y_dot), W_zz = v4d_dot(lanes, q->z, q->z_dot);
+    double W_yy = v4d_dot(lanes, q->y, q->y_dot), W_yz = v4d_dot(lanes, q->y, z_dot_on_y(q));
+    double W_zy = v4d_dot(lanes, q->z, y_dot_on_z(q)), W_zz = v4d_dot(lanes, q->z, q->z_dot);
     double trace = W_yy + W_zz;
     v3 coriolis =
         v3_make(2 * trace * w.x, 2 * (trace * w.y - (W_xy * w.x + W_yy * w.y + W_zy * w.z)),
@@ -184,29 +202,32 @@ LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state 
     double spin = data->j * w.x + cp_td;
     h->m = v3_sub(v3_cross(S, g), v3_add(v3_cross(w, Jw), coriolis));
     h->m = v3_sub(h->m, v3_cross(w, v3_make(spin, 0, 0)));
-    // modes: part y: (w^2 - w_y^2) q_y - w_x w_y c - w_y w_z q_z + 2 w_x q_z_dot, part z alike
+    // modes: part y: (w^2 - w_y^2) q_y - w_x w_y c - w_y w_z G q_z + 2 w_x G q_z_dot, part z alike
     double yy = w.x * w.x + w.z * w.z, zz = w.x * w.x + w.y * w.y, yz = -w.y * w.z;
     double cy = -w.x * w.y, cz = -w.x * w.z, two_wx = 2 * w.x;
     double dissipated = 0, stored = 0;
-    const v4d *row_ct = v4d_lanes_of(self->rows[ct]), *row_c = v4d_lanes_of(self->rows[c]);
+    const v4d *ct_y = v4d_lanes_of(self->rows[PLANE_Y][ct]);
+    const v4d *c_y = v4d_lanes_of(self->rows[PLANE_Y][c]);
+    const v4d *ct_z = v4d_lanes_of(self->rows[self->z][ct]);
+    const v4d *c_z = v4d_lanes_of(self->rows[self->z][c]);
     const v4d *om2_y = v4d_lanes_of(self->om2_y), *om2_z = v4d_lanes_of(self->om2_z);
     const v4d *dmp_y = v4d_lanes_of(self->dmp_y), *dmp_z = v4d_lanes_of(self->dmp_z);
     const v4d *qy = v4d_lanes_of(q->y), *qz = v4d_lanes_of(q->z);
     const v4d *qy_dot = v4d_lanes_of(q->y_dot), *qz_dot = v4d_lanes_of(q->z_dot);
+    const v4d *z_y = v4d_lanes_of(z_on_y(q)), *z_dot_y = v4d_lanes_of(z_dot_on_y(q));
+    const v4d *y_z = v4d_lanes_of(y_on_z(q)), *y_dot_z = v4d_lanes_of(y_dot_on_z(q));
     v4d *hy = v4d_lanes(h->y), *hz = v4d_lanes(h->z);
     v4d damped = v4d_all(0), elastic = v4d_all(0);
     for (int k = 0; k < lanes; k++) {
         v4d ky = om2_y[k] * qy[k], kz = om2_z[k] * qz[k];
         v4d dy = dmp_y[k] * qy_dot[k], dz = dmp_z[k] * qz_dot[k];
-        hy[k] = v4d_all(yy) * qy[k] + v4d_all(yz) * qz[k] + v4d_all(cy) * row_c[k] +
-                v4d_all(two_wx) * qz_dot[k] + v4d_all(g.y) * row_ct[k] - ky - dy;
-        hz[k] = v4d_all(zz) * qz[k] + v4d_all(yz) * qy[k] + v4d_all(cz) * row_c[k] -
-                v4d_all(two_wx) * qy_dot[k] + v4d_all(g.z) * row_ct[k] - kz - dz;
+        hy[k] = v4d_all(yy) * qy[k] + v4d_all(yz) * z_y[k] + v4d_all(cy) * c_y[k] +
+                v4d_all(two_wx) * z_dot_y[k] + v4d_all(g.y) * ct_y[k] - ky - dy;
+        hz[k] = v4d_all(zz) * qz[k] + v4d_all(yz) * y_z[k] + v4d_all(cz) * c_z[k] -
+                v4d_all(two_wx) * y_dot_z[k] + v4d_all(g.z) * ct_z[k] - kz - dz;
         damped += dy * qy_dot[k] + dz * qz_dot[k];
         elastic += ky * qy[k] + kz * qz[k];
     }
-    if (data->mixing)
-        tube_mix(lanes, data, q, h, &damped, &elastic);
     for (int j = 0; j < data->nt; j++) {
         double kt = data->om2_t[j] * q->t[j], dt = data->dmp_t[j] * q->t_dot[j];
         h->t[j] = -kt - dt;
@@ -217,12 +238,46 @@ LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state 
     out->elastic = 0.5 * (v4d_sum(elastic) + stored);
 }
 
-// The condensed 6 x 6 matrix (vx vy vz wx | wy wz): its first four rows are diagonal and the last
-// two couple to them, so the factors are the six numbers l and the 2 x 2 rest.
-LD_INLINE void tube_factor(const tube_system *self, tube_state *tube)
+// What shapes of their own change of the factors, G q_z = z_y and G^T q_y = y_z in place of q_z and
+// q_y: wx couples with vy, vz and with wy, wz.
+LD_OUTLINE void tube_factor_apart(const int lanes, const tube_system *self, tube_state *tube)
 {
     const flexible_tube *data = &self->flexible;
-    double my = self->m - data->ctct, off = data->ctc - self->Sx;
+    const modal_state *q = &tube->modal;
+    const double *z_y = q->z_on_y, *y_z = q->y_on_z;
+    const double *ct_y = self->rows[PLANE_Y][self->ct], *c_y = self->rows[PLANE_Y][self->c];
+    const double *ct_z = self->rows[PLANE_Z][self->ct], *c_z = self->rows[PLANE_Z][self->c];
+    double m_z = self->m - data->ctct[PLANE_Z], off_z = data->ctc[PLANE_Z] - self->Sx;
+    double x_y = v4d_dot(lanes, z_y, ct_y) - tube->ct_z,
+           x_z = tube->ct_y - v4d_dot(lanes, y_z, ct_z);
+    tube->per_mz = 1 / m_z;
+    tube->l_yz = off_z * tube->per_mz;
+    tube->l_xy = x_y * tube->per_my; // (wx, vy)/my
+    tube->l_xz = x_z * tube->per_mz; // (wx, vz)/mz
+    double sxx = self->jx + tube->qy_qy + tube->qz_qz - v4d_dot(lanes, z_y, z_y) -
+                 v4d_dot(lanes, y_z, y_z) - tube->l_xy * x_y - tube->l_xz * x_z;
+    double syx = v4d_dot(lanes, y_z, c_z) - tube->c_y - tube->l_yz * x_z;
+    double szx = v4d_dot(lanes, z_y, c_y) - tube->c_z - tube->l_zy * x_y;
+    tube->per_jx = 1 / sxx;
+    tube->l_ywx = syx * tube->per_jx;
+    tube->l_zwx = szx * tube->per_jx;
+    double syy = data->j0 - data->cc[PLANE_Z] + self->tail_inertia.y + tube->qz_qz -
+                 tube->l_yx * tube->ct_z - tube->l_yz * off_z - tube->l_ywx * syx;
+    double szz = data->j0 - data->cc[PLANE_Y] + self->tail_inertia.z + tube->qy_qy +
+                 tube->l_zx * tube->ct_y + tube->l_zy * (data->ctc[PLANE_Y] - self->Sx) -
+                 tube->l_zwx * szx;
+    double szy = -tube->qy_qz - tube->l_zx * tube->ct_z - tube->l_zwx * syx;
+    tube->per_dy = 1 / syy;
+    tube->l_zwy = szy * tube->per_dy;
+    tube->per_dz = 1 / (szz - tube->l_zwy * szy);
+}
+
+// The condensed 6 x 6 matrix (vx vy vz wx | wy wz): its first four rows are diagonal and the last
+// two couple to them, so the factors are the six numbers l and the 2 x 2 rest.
+LD_INLINE void tube_factor(const int lanes, const tube_system *self, tube_state *tube)
+{
+    const flexible_tube *data = &self->flexible;
+    double my = self->m - data->ctct[PLANE_Y], off = data->ctc[PLANE_Y] - self->Sx;
     tube->per_m = 1 / self->m;
     tube->per_my = 1 / my;
     tube->per_jx = 1 / self->jx;
@@ -230,7 +285,7 @@ LD_INLINE void tube_factor(const tube_system *self, tube_state *tube)
     tube->l_yz = off * tube->per_my;        // (wy, vz)/my
     tube->l_zx = -tube->ct_y * tube->per_m; // (wz, vx)/m
     tube->l_zy = -off * tube->per_my;       // (wz, vy)/my
-    double j = data->j0 - data->cc;
+    double j = data->j0 - data->cc[PLANE_Y];
     double syy =
         j + self->tail_inertia.y + tube->qz_qz - tube->l_yx * tube->ct_z - tube->l_yz * off;
     double szz =
@@ -239,6 +294,8 @@ LD_INLINE void tube_factor(const tube_system *self, tube_state *tube)
     tube->per_dy = 1 / syy;
     tube->l_zwy = szy * tube->per_dy;
     tube->per_dz = 1 / (szz - tube->l_zwy * szy);
+    if (__builtin_expect(tube->modal.apart, 0))
+        tube_factor_apart(lanes, self, tube);
 }
 
 // L^-1 of (force, moment); kept undivided by the diagonal.
@@ -249,14 +306,23 @@ LD_INLINE void tube_forward(const tube_state *tube, v3 f, v3 m, double out[6])
     out[2] = f.z;
     out[3] = m.x;
     out[4] = m.y - tube->l_yx * f.x - tube->l_yz * f.z;
-    out[5] = m.z - tube->l_zx * f.x - tube->l_zy * f.y - tube->l_zwy * out[4];
+    out[5] = m.z - tube->l_zx * f.x - tube->l_zy * f.y;
+    if (__builtin_expect(tube->modal.apart, 0)) {
+        out[3] -= tube->l_xy * f.y + tube->l_xz * f.z;
+        out[4] -= tube->l_ywx * out[3];
+        out[5] -= tube->l_zwx * out[3];
+    }
+    out[5] -= tube->l_zwy * out[4];
 }
 
 // x^T D^-1 y of two forward-substituted vectors.
 LD_INLINE double tube_product(const tube_state *tube, const double x[6], const double y[6])
 {
-    return x[0] * y[0] * tube->per_m + (x[1] * y[1] + x[2] * y[2]) * tube->per_my +
-           x[3] * y[3] * tube->per_jx + x[4] * y[4] * tube->per_dy + x[5] * y[5] * tube->per_dz;
+    double across = __builtin_expect(tube->modal.apart, 0)
+                        ? x[1] * y[1] * tube->per_my + x[2] * y[2] * tube->per_mz
+                        : (x[1] * y[1] + x[2] * y[2]) * tube->per_my;
+    return x[0] * y[0] * tube->per_m + across + x[3] * y[3] * tube->per_jx +
+           x[4] * y[4] * tube->per_dy + x[5] * y[5] * tube->per_dz;
 }
 
 // L^-T D^-1 of a forward-substituted vector: translational and rotational acceleration.
@@ -267,6 +333,11 @@ LD_INLINE void tube_backward(const tube_state *tube, const double x[6], v3 *a, v
     *a = v3_make(x[0] * tube->per_m - tube->l_yx * wy - tube->l_zx * wz,
                  x[1] * tube->per_my - tube->l_zy * wz, x[2] * tube->per_my - tube->l_yz * wy);
     *w_dot = v3_make(x[3] * tube->per_jx, wy, wz);
+    if (__builtin_expect(tube->modal.apart, 0)) {
+        w_dot->x -= tube->l_ywx * wy + tube->l_zwx * wz;
+        a->y -= tube->l_xy * w_dot->x;
+        a->z = x[2] * tube->per_mz - tube->l_yz * wy - tube->l_xz * w_dot->x;
+    }
 }
 
 // C h_q: what the modal forces put on the rigid equations.
@@ -278,9 +349,10 @@ LD_INLINE void tube_condense(const int lanes, const tube_system *self, const tub
     double twist = 0;
     for (int j = 0; j < self->flexible.nt; j++)
         twist += self->flexible.cp[j] * h->t[j];
-    *f = v3_make(0, v4d_dot(lanes, self->rows[ct], h->y), v4d_dot(lanes, self->rows[ct], h->z));
-    *m = v3_make(v4d_dot(lanes, q->y, h->z) - v4d_dot(lanes, q->z, h->y) + twist,
-                 -v4d_dot(lanes, self->rows[c], h->z), v4d_dot(lanes, self->rows[c], h->y));
+    const double(*of_y)[LD_NB] = self->rows[PLANE_Y], (*of_z)[LD_NB] = self->rows[self->z];
+    *f = v3_make(0, v4d_dot(lanes, of_y[ct], h->y), v4d_dot(lanes, of_z[ct], h->z));
+    *m = v3_make(v4d_dot(lanes, y_on_z(q), h->z) - v4d_dot(lanes, z_on_y(q), h->y) + twist,
+                 -v4d_dot(lanes, of_z[c], h->z), v4d_dot(lanes, of_y[c], h->y));
 }
 
 // q_ddot = h_q - B_q - C^T (a, w_dot), with B_q of the constraint force and moment at the section.
@@ -293,17 +365,22 @@ LD_INLINE void tube_modal_accelerations(const int lanes, const tube_system *self
     const modal_state *q = &tube->modal;
     v4d y[LD_NB / 4], z[LD_NB / 4];
     const v4d *hy = v4d_lanes_of(h->y), *hz = v4d_lanes_of(h->z);
-    const v4d *qy = v4d_lanes_of(q->y), *qz = v4d_lanes_of(q->z);
-    const v4d *row_ct = v4d_lanes_of(self->rows[ct]), *row_c = v4d_lanes_of(self->rows[c]);
+    const v4d *z_y = v4d_lanes_of(z_on_y(q)), *y_z = v4d_lanes_of(y_on_z(q));
+    const v4d *ct_y = v4d_lanes_of(self->rows[PLANE_Y][ct]);
+    const v4d *c_y = v4d_lanes_of(self->rows[PLANE_Y][c]);
+    const v4d *ct_z = v4d_lanes_of(self->rows[self->z][ct]);
+    const v4d *c_z = v4d_lanes_of(self->rows[self->z][c]);
     for (int i = 0; i < lanes; i++) {
-        y[i] = hy[i] - v4d_all(a.y) * row_ct[i] + v4d_all(w_dot.x) * qz[i] -
-               v4d_all(w_dot.z) * row_c[i];
-        z[i] = hz[i] - v4d_all(a.z) * row_ct[i] - v4d_all(w_dot.x) * qy[i] +
-               v4d_all(w_dot.y) * row_c[i];
+        y[i] =
+            hy[i] - v4d_all(a.y) * ct_y[i] + v4d_all(w_dot.x) * z_y[i] - v4d_all(w_dot.z) * c_y[i];
+        z[i] =
+            hz[i] - v4d_all(a.z) * ct_z[i] - v4d_all(w_dot.x) * y_z[i] + v4d_all(w_dot.y) * c_z[i];
         if (shapes) {
-            const v4d *b = v4d_lanes_of(shapes->b), *b1 = v4d_lanes_of(shapes->b1);
-            y[i] -= v4d_all(force.y) * b[i] + v4d_all(mu.z) * b1[i];
-            z[i] -= v4d_all(force.z) * b[i] - v4d_all(mu.y) * b1[i];
+            const plane_shapes *of_y = &shapes->plane[PLANE_Y], *of_z = &shapes->plane[shapes->z];
+            y[i] -= v4d_all(force.y) * v4d_lanes_of(of_y->b)[i] +
+                    v4d_all(mu.z) * v4d_lanes_of(of_y->b1)[i];
+            z[i] -= v4d_all(force.z) * v4d_lanes_of(of_z->b)[i] -
+                    v4d_all(mu.y) * v4d_lanes_of(of_z->b1)[i];
         }
     }
     memcpy(q_ddot, y, (size_t)nb * sizeof(double));
@@ -319,9 +396,10 @@ LD_INLINE void react_on_modes(const tube_system *self, const section_shapes *sha
                               v3 mu, double *q_ddot)
 {
     int nb = self->flexible.nb;
+    const plane_shapes *of_y = &shapes->plane[PLANE_Y], *of_z = &shapes->plane[shapes->z];
     for (int j = 0; j < nb; j++) {
-        q_ddot[j] -= force.y * shapes->b[j] + mu.z * shapes->b1[j];
-        q_ddot[nb + j] -= force.z * shapes->b[j] - mu.y * shapes->b1[j];
+        q_ddot[j] -= force.y * of_y->b[j] + mu.z * of_y->b1[j];
+        q_ddot[nb + j] -= force.z * of_z->b[j] - mu.y * of_z->b1[j];
     }
     for (int j = 0; j < self->flexible.nt; j++)
         q_ddot[2 * nb + j] -= shapes->tau[j] * mu.x;

@@ -30,38 +30,49 @@ static double dot(int n, const double *a, const double *b)
 typedef struct integrals {
     v3 S;                     // int p dm
     m3 p2;                    // int p p^T dm
-    double bend[3][LD_NB];    // int p_a b dm, a = x, y, z
+    double bend[2][3][LD_NB]; // int p_a b dm by plane, a = x, y, z
     double stretch[3][LD_NA]; // int p_a a dm
     m3 W;                     // int p_a u_b dm, u = Phi q_dot
 } integrals;
+
+// int b u dm of a plane's shapes with the deflection that q makes in the other plane.
+static void across(const flexible_tube *tube, int plane, const double *q, double *to)
+{
+    for (int i = 0; i < tube->nb; i++)
+        to[i] = tube->overlap ? dot(tube->nb, tube->overlap->G[plane][i], q) : q[i];
+}
 
 static void integrate(const flexible_tube *tube, const double *q, const double *q_dot,
                       integrals *value)
 {
     parts k = parts_of(tube);
     const double *q_y = q + k.y, *q_z = q + k.z, *q_a = q + k.a;
-    for (int j = 0; j < k.nb; j++) {
-        value->bend[0][j] = tube->c[j];
-        for (int i = 0; i < k.na; i++)
-            value->bend[0][j] += q_a[i] * tube->AB[i][j];
-        value->bend[1][j] = q_y[j];
-        value->bend[2][j] = q_z[j];
-    }
+    double(*of_y)[LD_NB] = value->bend[PLANE_Y], (*of_z)[LD_NB] = value->bend[PLANE_Z];
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+        for (int j = 0; j < k.nb; j++) {
+            value->bend[plane][0][j] = tube->c[plane][j];
+            for (int i = 0; i < k.na; i++)
+                value->bend[plane][0][j] += q_a[i] * tube->AB[plane][i][j];
+        }
+    memcpy(of_y[1], q_y, (size_t)k.nb * sizeof *q_y);
+    memcpy(of_z[2], q_z, (size_t)k.nb * sizeof *q_z);
+    across(tube, PLANE_Y, q_z, of_y[2]);
+    across(tube, PLANE_Z, q_y, of_z[1]);
     for (int i = 0; i < k.na; i++) {
         value->stretch[0][i] = tube->ax[i] + q_a[i];
-        value->stretch[1][i] = dot(k.nb, tube->AB[i], q_y);
-        value->stretch[2][i] = dot(k.nb, tube->AB[i], q_z);
+        value->stretch[1][i] = dot(k.nb, tube->AB[PLANE_Y][i], q_y);
+        value->stretch[2][i] = dot(k.nb, tube->AB[PLANE_Z][i], q_z);
     }
-    value->S = v3_make(tube->s0 + dot(k.na, tube->at, q_a), dot(k.nb, tube->ct, q_y),
-                       dot(k.nb, tube->ct, q_z));
+    value->S = v3_make(tube->s0 + dot(k.na, tube->at, q_a), dot(k.nb, tube->ct[PLANE_Y], q_y),
+                       dot(k.nb, tube->ct[PLANE_Z], q_z));
     double xx = tube->j0 + 2 * dot(k.na, tube->ax, q_a) + dot(k.na, q_a, q_a);
-    double xy = dot(k.nb, value->bend[0], q_y), xz = dot(k.nb, value->bend[0], q_z);
-    double yz = dot(k.nb, q_y, q_z);
+    double xy = dot(k.nb, of_y[0], q_y), xz = dot(k.nb, of_z[0], q_z);
+    double yz = dot(k.nb, q_y, of_y[2]);
     value->p2 = (m3){{{xx, xy, xz}, {xy, dot(k.nb, q_y, q_y), yz}, {xz, yz, dot(k.nb, q_z, q_z)}}};
     for (int i = 0; i < 3; i++) {
         value->W.a[i][0] = dot(k.na, value->stretch[i], q_dot + k.a);
-        value->W.a[i][1] = dot(k.nb, value->bend[i], q_dot + k.y);
-        value->W.a[i][2] = dot(k.nb, value->bend[i], q_dot + k.z);
+        value->W.a[i][1] = dot(k.nb, of_y[i], q_dot + k.y);
+        value->W.a[i][2] = dot(k.nb, of_z[i], q_dot + k.z);
     }
 }
 
@@ -92,12 +103,12 @@ static void assemble_mass(const flexible_tube *tube, const integrals *value, dou
     // coupling of the frame with the modes, lower triangle: rows of Ct^T and Cr^T
     for (int i = 0; i < k.nb; i++) {
         double *row_y = M + (6 + k.y + i) * n, *row_z = M + (6 + k.z + i) * n;
-        row_y[1] = tube->ct[i];
-        row_y[3] = -value->bend[2][i];
-        row_y[5] = value->bend[0][i];
-        row_z[2] = tube->ct[i];
-        row_z[3] = value->bend[1][i];
-        row_z[4] = -value->bend[0][i];
+        row_y[1] = tube->ct[PLANE_Y][i];
+        row_y[3] = -value->bend[PLANE_Y][2][i];
+        row_y[5] = value->bend[PLANE_Y][0][i];
+        row_z[2] = tube->ct[PLANE_Z][i];
+        row_z[3] = value->bend[PLANE_Z][1][i];
+        row_z[4] = -value->bend[PLANE_Z][0][i];
     }
     for (int i = 0; i < k.nt; i++)
         M[(6 + k.t + i) * n + 3] = tube->cp[i];
@@ -130,17 +141,30 @@ static void assemble_modal(double *h, int count, int axis, v3 w, v3 g, const dou
     }
 }
 
+// Those of the bending modes of a plane.
+static void assemble_plane(const flexible_tube *tube, const integrals *value, int plane, v3 w, v3 g,
+                           const double *q_dot, double *h)
+{
+    parts k = parts_of(tube);
+    int own = plane == PLANE_Y ? k.y : k.z, other = plane == PLANE_Y ? k.z : k.y;
+    double u_x[LD_NB] = {0}, u_other[LD_NB];
+    for (int i = 0; i < k.na; i++)
+        for (int j = 0; j < k.nb; j++)
+            u_x[j] += tube->AB[plane][i][j] * q_dot[k.a + i];
+    across(tube, plane, q_dot + other, u_other);
+    const double(*bend)[LD_NB] = value->bend[plane];
+    const double *moment[3] = {bend[0], bend[1], bend[2]};
+    const double *along[3] = {u_x, plane == PLANE_Y ? q_dot + k.y : u_other,
+                              plane == PLANE_Y ? u_other : q_dot + k.z};
+    assemble_modal(h + 6 + own, k.nb, 1 + plane, w, g, tube->ct[plane], moment, along);
+}
+
 // Stiffness and damping of one plane.
 static void add_bending(const flexible_tube *tube, int plane, const double *q, const double *q_dot,
                         double *h)
 {
-    const tube_mixing *mixing = tube->mixing;
-    for (int i = 0; i < tube->nb; i++) {
+    for (int i = 0; i < tube->nb; i++)
         h[i] -= tube->om2_b[plane][i] * q[i] + tube->dmp_b[plane][i] * q_dot[i];
-        if (mixing)
-            h[i] -=
-                dot(tube->nb, mixing->K[plane][i], q) + dot(tube->nb, mixing->D[plane][i], q_dot);
-    }
 }
 
 static void assemble_forces(const flexible_tube *tube, const integrals *value, v3 w,
@@ -150,8 +174,8 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value, v
     memset(h, 0, (size_t)(6 + k.count) * sizeof *h);
 
     // translation: -(w x (w x S) + 2 w x Ct q_dot) + m g
-    v3 Ct_q = v3_make(dot(k.na, tube->at, q_dot + k.a), dot(k.nb, tube->ct, q_dot + k.y),
-                      dot(k.nb, tube->ct, q_dot + k.z));
+    v3 Ct_q = v3_make(dot(k.na, tube->at, q_dot + k.a), dot(k.nb, tube->ct[PLANE_Y], q_dot + k.y),
+                      dot(k.nb, tube->ct[PLANE_Z], q_dot + k.z));
     v3 f = v3_scale(tube->m, g);
     f = v3_sub(f, v3_cross(w, v3_axpy(v3_cross(w, value->S), 2, Ct_q)));
     v3_store(h, f);
@@ -164,19 +188,15 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value, v
     v3_store(h + 3, m);
 
     // modes: inertial forces and gravity; what the shapes meet in each direction's velocity
-    double bend_u_x[LD_NB] = {0}, stretch_u_y[LD_NA] = {0}, stretch_u_z[LD_NA] = {0};
+    double stretch_u_y[LD_NA] = {0}, stretch_u_z[LD_NA] = {0};
     for (int i = 0; i < k.na; i++) {
-        for (int j = 0; j < k.nb; j++)
-            bend_u_x[j] += tube->AB[i][j] * q_dot[k.a + i];
-        stretch_u_y[i] = dot(k.nb, tube->AB[i], q_dot + k.y);
-        stretch_u_z[i] = dot(k.nb, tube->AB[i], q_dot + k.z);
+        stretch_u_y[i] = dot(k.nb, tube->AB[PLANE_Y][i], q_dot + k.y);
+        stretch_u_z[i] = dot(k.nb, tube->AB[PLANE_Z][i], q_dot + k.z);
     }
-    const double *bend[3] = {value->bend[0], value->bend[1], value->bend[2]};
     const double *stretch[3] = {value->stretch[0], value->stretch[1], value->stretch[2]};
-    const double *bend_u[3] = {bend_u_x, q_dot + k.y, q_dot + k.z};
     const double *stretch_u[3] = {q_dot + k.a, stretch_u_y, stretch_u_z};
-    assemble_modal(h + 6 + k.y, k.nb, 1, w, g, tube->ct, bend, bend_u);
-    assemble_modal(h + 6 + k.z, k.nb, 2, w, g, tube->ct, bend, bend_u);
+    assemble_plane(tube, value, PLANE_Y, w, g, q_dot, h);
+    assemble_plane(tube, value, PLANE_Z, w, g, q_dot, h);
     assemble_modal(h + 6 + k.a, k.na, 0, w, g, tube->at, stretch, stretch_u);
 
     // stiffness and damping
@@ -224,9 +244,6 @@ double tube_elastic_energy(const flexible_tube *tube, const double *q)
         sum += tube->om2_t[i] * q[k.t + i] * q[k.t + i];
     for (int i = 0; i < k.na; i++)
         sum += tube->om2_a[i] * q[k.a + i] * q[k.a + i];
-    for (int i = 0; tube->mixing && i < k.nb; i++)
-        sum += q[k.y + i] * dot(k.nb, tube->mixing->K[PLANE_Y][i], q + k.y) +
-               q[k.z + i] * dot(k.nb, tube->mixing->K[PLANE_Z][i], q + k.z);
     return 0.5 * sum;
 }
 
@@ -242,15 +259,12 @@ double tube_damping_power(const flexible_tube *tube, const double *q_dot)
         sum += tube->dmp_t[i] * q_dot[k.t + i] * q_dot[k.t + i];
     for (int i = 0; i < k.na; i++)
         sum += tube->dmp_a[i] * q_dot[k.a + i] * q_dot[k.a + i];
-    for (int i = 0; tube->mixing && i < k.nb; i++)
-        sum += q_dot[k.y + i] * dot(k.nb, tube->mixing->D[PLANE_Y][i], q_dot + k.y) +
-               q_dot[k.z + i] * dot(k.nb, tube->mixing->D[PLANE_Z][i], q_dot + k.z);
     return -sum;
 }
 
 v3 tube_first_moment(const flexible_tube *tube, const double *q)
 {
     parts k = parts_of(tube);
-    return v3_make(tube->s0 + dot(k.na, tube->at, q + k.a), dot(k.nb, tube->ct, q + k.y),
-                   dot(k.nb, tube->ct, q + k.z));
+    return v3_make(tube->s0 + dot(k.na, tube->at, q + k.a), dot(k.nb, tube->ct[PLANE_Y], q + k.y),
+                   dot(k.nb, tube->ct[PLANE_Z], q + k.z));
 }

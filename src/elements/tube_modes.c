@@ -66,22 +66,41 @@ static line_ties ties_of(line_kind kind, const double weight[2], const ld_tubes 
     return ties;
 }
 
-void plane_line_make(plane_line *self, const tube_line *line, const ld_tubes *model, int plane)
+void tied_line_make(tied_line *self, const tube_line *line, const ld_tubes *model)
 {
-    *self = (plane_line){.line = line, .ties = ties_of(line->kind, weight_of[plane], model)};
-    for (int i = 0; i < model->section_count; i++)
-        self->share[i] = plane == PLANES_ALIKE ? 1 : section_share(&model->section[i], plane);
+    int plane = line->kind == LINE_BENDING ? line->plane : PLANES_ALIKE;
+    *self = (tied_line){.line = line, .ties = ties_of(line->kind, weight_of[plane], model)};
 }
 
-bool tube_planes_proportional(const ld_tubes *model)
+// Whether two stiffnesses are as `share` to 2 - share.
+static bool as_share(double y, double z, double share)
 {
-    double first = section_share(&model->section[0], PLANE_Y);
-    for (int i = 1; i < model->section_count; i++) {
-        double share = section_share(&model->section[i], PLANE_Y);
-        if (fabs(share - first) > 1e-13 * fmin(first, 2 - first))
-            return false;
-    }
-    return true;
+    return fabs(y * (2 - share) - z * share) <= 1e-13 * (y * (2 - share) + z * share);
+}
+
+// Whether what a support ties the planes to is in that proportion, too.
+static bool ties_alike(const ld_support *support, double share)
+{
+    return support_clamps(support, LD_CLAMP_Y) == support_clamps(support, LD_CLAMP_Z) &&
+           support_clamps(support, LD_CLAMP_PITCH) == support_clamps(support, LD_CLAMP_YAW) &&
+           as_share(support_spring(support, LD_CLAMP_Y), support_spring(support, LD_CLAMP_Z),
+                    share) &&
+           as_share(support_spring(support, LD_CLAMP_PITCH), support_spring(support, LD_CLAMP_YAW),
+                    share);
+}
+
+bool tube_planes_alike(const ld_tubes *model)
+{
+    double share = section_share(&model->section[0], PLANE_Y);
+    bool alike = true;
+    for (int i = 1; i < model->section_count; i++)
+        alike = alike && as_share(section_stiffness_z(&model->section[i]),
+                                  section_stiffness_y(&model->section[i]), share);
+    if (model->modes.span != LD_SPAN_SUPPORTED)
+        return alike;
+    for (int k = 0; k < model->support_count; k++)
+        alike = alike && ties_alike(&model->support[k], share);
+    return alike && model->tail.inertia[1] == model->tail.inertia[2];
 }
 
 static void add_outer(int n, double *A, double k, const double *s)
@@ -91,15 +110,9 @@ static void add_outer(int n, double *A, double k, const double *s)
             A[i * n + j] += k * s[i] * s[j];
 }
 
-// What the stiffness of the element with amplitude k is of the line's.
-static double share_of(const plane_line *self, int k)
-{
-    return self->share[self->line->mesh->section[k / self->line->width]];
-}
-
 // Mass A and stiffness B of the free line with its ties, order N = width + n, in the coordinates
 // (rigid shapes, amplitudes of the elements' deformations). `s` [N] is room for one row.
-static void assemble_free(const plane_line *self, double *A, double *B, double *s)
+static void assemble_free(const tied_line *self, double *A, double *B, double *s)
 {
     const tube_line *line = self->line;
     const line_ties *ties = &self->ties;
@@ -116,7 +129,7 @@ static void assemble_free(const plane_line *self, double *A, double *B, double *
     }
     for (int k = 0; k < n; k++) {
         memcpy(&A[(w + k) * N + w], &line->mass[k * n], (size_t)n * sizeof *A);
-        B[(w + k) * (N + 1)] = share_of(self, k);
+        B[(w + k) * (N + 1)] = 1;
     }
     for (int spring = 0; spring < ties->springs; spring++) {
         double x = ties->at[spring];
@@ -203,8 +216,8 @@ static void put_back_held(int N, int held, const double *v, int count, double *v
 }
 
 // Solved for 1/(lambda + sigma), which keeps the digits of the low ones and lets rigid motions be.
-ld_status plane_line_solve(const plane_line *self, int wanted, double *vector, double *lambda,
-                           ld_error *error)
+ld_status tied_line_solve(const tied_line *self, int wanted, double *vector, double *lambda,
+                          ld_error *error)
 {
     const tube_line *line = self->line;
     const line_ties *ties = &self->ties;
@@ -269,7 +282,7 @@ static double take_out(int n, int count, const double *rows, double *x)
 // there are `until`. A mode whose part is rounding, or depends on those before, is passed over: of
 // a nearly rigid tube the first ones may be. Leaving out the rigid shapes makes as many modes
 // dependent as there are, at most.
-static ld_status add_free_modes(const plane_line *self, int m, int until, elastic_modes *modes,
+static ld_status add_free_modes(const tied_line *self, int m, int until, elastic_modes *modes,
                                 ld_error *error)
 {
     int w = self->line->width, n = self->line->n, N = w + n, wanted = m + w;
@@ -277,7 +290,7 @@ static ld_status add_free_modes(const plane_line *self, int m, int until, elasti
     if (!vector)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
     double *lambda = vector + wanted * N;
-    ld_status status = plane_line_solve(self, wanted, vector, lambda, error);
+    ld_status status = tied_line_solve(self, wanted, vector, lambda, error);
     for (int k = wanted - 1; k >= 0 && modes->count < until && !status; k--) {
         double *part = &modes->part[modes->count * n];
         memcpy(part, &vector[k * N + w], (size_t)n * sizeof *part);
@@ -293,22 +306,17 @@ static ld_status add_free_modes(const plane_line *self, int m, int until, elasti
 }
 
 // Adds the `m` lowest clamped modes, which no ties reach.
-static ld_status add_clamped_modes(const plane_line *self, int m, elastic_modes *modes,
+static ld_status add_clamped_modes(const tied_line *self, int m, elastic_modes *modes,
                                    ld_error *error)
 {
     int n = self->line->n;
     size_t nn = (size_t)n * (size_t)n;
-    double *mass = calloc(2 * nn + (size_t)n, sizeof *mass);
+    double *mass = calloc(nn + (size_t)n, sizeof *mass);
     if (!mass)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
-    double *stiffness = mass + nn, *value = stiffness + nn;
-    bool alike = true;
+    double *value = mass + nn;
     memcpy(mass, self->line->mass, nn * sizeof *mass);
-    for (int i = 0; i < n; i++) {
-        stiffness[i * (n + 1)] = share_of(self, i);
-        alike = alike && share_of(self, i) == 1;
-    }
-    int info = symmetric_eigen(n, mass, alike ? NULL : stiffness, m, value, modes->part);
+    int info = symmetric_eigen(n, mass, NULL, m, value, modes->part);
     for (int k = 0; k < m && !info; k++)
         modes->omega[k] = 1 / sqrt(value[k]);
     free(mass);
@@ -334,10 +342,10 @@ static int held_by_rigid_shapes(const line_ties *ties, int width)
 }
 
 // `m` modes of the span, or as many as are independent.
-static ld_status find_modes(const plane_line *self, ld_mode_span span, int m, elastic_modes *modes,
+static ld_status find_modes(const tied_line *self, ld_mode_span span, int m, elastic_modes *modes,
                             ld_error *error)
 {
-    plane_line untied = *self;
+    tied_line untied = *self;
     untied.ties = (line_ties){0};
     modes->count = 0;
     if (span == LD_SPAN_CLAMPED)
@@ -348,65 +356,6 @@ static ld_status find_modes(const plane_line *self, ld_mode_span span, int m, el
     int bearing = self->ties.held - held_by_rigid_shapes(&self->ties, self->line->width);
     ld_status status = add_free_modes(self, m, m - bearing, modes, error);
     return status || !bearing ? status : add_free_modes(&untied, m, m, modes, error);
-}
-
-static void exchange(int n, double *a, double *b)
-{
-    for (int i = 0; i < n; i++) {
-        double keep = a[i];
-        a[i] = b[i];
-        b[i] = keep;
-    }
-}
-
-// Of these modes `m`, orthonormal and in front of the others: one by one the one that, less what
-// those before have of it, bends most under a load, as 1/omega does.
-static void select_modes(int n, int m, elastic_modes *modes)
-{
-    double *omega = modes->omega;
-    int taken = 0;
-    for (; taken < m; taken++) {
-        double most = 0, *next = &modes->part[taken * n];
-        int best = taken;
-        for (int k = taken; k < modes->count; k++) {
-            const double *part = &modes->part[k * n];
-            double size = sqrt(dot(n, part, part));
-            if (size > 1e-9 && size > most * omega[k]) {
-                most = size / omega[k];
-                best = k;
-            }
-        }
-        exchange(n, next, &modes->part[best * n]);
-        exchange(1, &omega[taken], &omega[best]);
-        double size = take_out(n, taken, modes->part, next);
-        if (size < 1e-9)
-            break;
-        for (int i = 0; i < n; i++)
-            next[i] /= size;
-        for (int k = taken + 1; k < modes->count; k++)
-            take_out(n, 1, next, &modes->part[k * n]);
-    }
-    modes->count = taken;
-}
-
-// `m` of the modes of both planes; `modes` has room for all of them.
-static ld_status find_modes_of_both(const tube_line *line, const ld_tubes *model, int m,
-                                    elastic_modes *modes, ld_error *error)
-{
-    plane_line plane;
-    elastic_modes of_z;
-    plane_line_make(&plane, line, model, PLANE_Y);
-    ld_status status = find_modes(&plane, model->modes.span, m, modes, error);
-    of_z.part = &modes->part[modes->count * line->n];
-    of_z.omega = &modes->omega[modes->count];
-    plane_line_make(&plane, line, model, PLANE_Z);
-    if (!status)
-        status = find_modes(&plane, model->modes.span, m, &of_z, error);
-    if (status)
-        return status;
-    modes->count += of_z.count;
-    select_modes(line->n, m, modes);
-    return LD_OK;
 }
 
 // Turns elastic parts [m][n], whose stiffness is E, into those of diagonal mass, by ascending
@@ -441,20 +390,19 @@ static ld_status diagonalise(const tube_line *line, int m, const double *part, d
 }
 
 // Writes the tangent shapes of the parts: unit modal mass, positive at the tip.
-static void write_shapes(const tube_line *line, const double *omega, line_shapes *shapes)
+static void write_shapes(const tube_line *line, const double *own, const double *omega,
+                         line_shapes *shapes)
 {
     int n = line->n, w = line->width;
     for (int k = 0; k < shapes->count; k++) {
-        double *nodal = &shapes->nodal[k * n], *own = &shapes->part[k * n];
+        double *nodal = &shapes->nodal[k * n];
         for (int i = 0; i < n; i++)
             for (int d = 0; d < n; d++)
-                nodal[d] += omega[k] * own[i] * line->shape[i * n + d];
+                nodal[d] += omega[k] * own[k * n + i] * line->shape[i * n + d];
         shapes->om2[k] = omega[k] * omega[k];
         if (nodal[n - w] < 0)
-            for (int d = 0; d < n; d++) {
+            for (int d = 0; d < n; d++)
                 nodal[d] = -nodal[d];
-                own[d] = -own[d];
-            }
     }
 }
 
@@ -462,25 +410,22 @@ static ld_status choose(line_shapes *shapes, const tube_line *line, const ld_tub
                         elastic_modes *modes, ld_error *error)
 {
     int m = shapes->count;
-    bool apart = line->kind == LINE_BENDING && !tube_planes_proportional(model);
-    plane_line both;
-    plane_line_make(&both, line, model, PLANES_ALIKE);
-    ld_status status = apart ? find_modes_of_both(line, model, m, modes, error)
-                             : find_modes(&both, model->modes.span, m, modes, error);
+    tied_line tied;
+    tied_line_make(&tied, line, model);
+    ld_status status = find_modes(&tied, model->modes.span, m, modes, error);
     if (status)
         return status;
     if (modes->count < m)
         return ld_fail(error, LD_ERR_INPUT,
                        "only %d of %d modes are independent: take fewer modes or more elements",
                        modes->count, m);
-    status = diagonalise(line, m, modes->part, shapes->part, modes->omega, error);
-    if (apart && !status) {
-        // far from diagonal, the first time leaves rounding of the lowest in the highest
-        memcpy(modes->part, shapes->part, (size_t)(m * line->n) * sizeof(double));
-        status = diagonalise(line, m, modes->part, shapes->part, modes->omega, error);
-    }
+    double *own = calloc((size_t)m * (size_t)line->n, sizeof *own);
+    if (!own)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", m);
+    status = diagonalise(line, m, modes->part, own, modes->omega, error);
     if (!status)
-        write_shapes(line, modes->omega, shapes);
+        write_shapes(line, own, modes->omega, shapes);
+    free(own);
     return status;
 }
 
@@ -488,11 +433,10 @@ ld_status line_shapes_choose(line_shapes *shapes, const tube_line *line, const l
                              ld_error *error)
 {
     size_t n = (size_t)line->n, m = (size_t)shapes->count;
-    double omega[2 * MOST], *part = calloc(2 * m * n, sizeof *part);
+    double omega[MOST], *part = calloc(m * n, sizeof *part);
     elastic_modes modes = {.part = part, .omega = omega};
     shapes->nodal = calloc(m * n, sizeof(double));
-    shapes->part = calloc(m * n, sizeof(double));
-    ld_status status = part && shapes->nodal && shapes->part
+    ld_status status = part && shapes->nodal
                            ? choose(shapes, line, model, &modes, error)
                            : ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
     free(part);
@@ -502,6 +446,5 @@ ld_status line_shapes_choose(line_shapes *shapes, const tube_line *line, const l
 void line_shapes_free(line_shapes *shapes)
 {
     free(shapes->nodal);
-    free(shapes->part);
     *shapes = (line_shapes){0};
 }

@@ -17,43 +17,41 @@ typedef struct line_ties {
     bool held_slope[LD_MAX_CLAMPED];
 } line_ties;
 
-enum { PLANES_ALIKE = 2 }; // after PLANE_Y, PLANE_Z: the mean of both, and the line of a bar
-
-// A line as it is in a plane: its ties, and its sections' stiffnesses over those of the line.
-typedef struct plane_line {
+// A line with what is tied to it.
+typedef struct tied_line {
     const tube_line *line;
     line_ties ties;
-    double share[LD_MAX_SECTIONS];
-} plane_line;
+} tied_line;
 
-// What a plane's bending stiffness is of the mean of both, which that of a line is.
+// What a plane's bending stiffness is of the mean of both.
 static inline double section_share(const ld_section *section, int plane)
 {
     double along_y = section_stiffness_z(section), along_z = section_stiffness_y(section);
     return (plane == PLANE_Y ? along_y : along_z) / (0.5 * (along_y + along_z));
 }
 
-void plane_line_make(plane_line *self, const tube_line *line, const ld_tubes *model, int plane);
+void tied_line_make(tied_line *self, const tube_line *line, const ld_tubes *model);
 
 // The `wanted` lowest natural frequencies and modes of the free line with its ties, order N = n +
 // width: rows of `vector` [wanted][N] (rigid shapes, amplitudes of the elements) from the highest
 // to the lowest, omega^2 [1/s2] in `lambda` [N] in the same order.
-ld_status plane_line_solve(const plane_line *self, int wanted, double *vector, double *lambda,
-                           ld_error *error);
+ld_status tied_line_solve(const tied_line *self, int wanted, double *vector, double *lambda,
+                          ld_error *error);
 
-// Whether the planes' bending stiffnesses are in one proportion in all sections.
-bool tube_planes_proportional(const ld_tubes *model);
+// Whether both planes have the same shapes: their bending stiffnesses and, where the span has them,
+// the springs of their supports are in one proportion; held are the same directions, and the tail
+// has one inertia about y and z. Shapes and frequencies are then those of the line of their mean,
+// the latter times the root of a plane's share.
+bool tube_planes_alike(const ld_tubes *model);
 
 // The shapes chosen on a line and the frequencies of its own with them, clamped at x = 0.
 typedef struct line_shapes {
     int count;
     double om2[LD_MAX_BENDING_MODES]; // [1/s2]
     double *nodal;                    // [count][n] nodal vectors, owned
-    double *part; // [count][n] amplitudes of the elements, of unit elastic energy, owned
 } line_shapes;
 
-// Chooses shapes->count shapes of the span that the model asks for; those of bending, which both
-// planes share, from the modes of both where these are out of proportion.
+// Chooses shapes->count shapes of the span that the model asks for.
 ld_status line_shapes_choose(line_shapes *shapes, const tube_line *line, const ld_tubes *model,
                              ld_error *error);
 void line_shapes_free(line_shapes *shapes);

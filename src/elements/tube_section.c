@@ -3,6 +3,19 @@
 #include "elements/tube_dynamics.h"
 #include "math/rotation_vector.h"
 
+// Value and slope of bending shape i of a plane.
+static double bending_at(const tube_element *e, int plane, int i, double xi)
+{
+    const double(*b)[LD_NB] = e->b[plane];
+    return b[0][i] + xi * (b[1][i] + xi * (b[2][i] + xi * b[3][i]));
+}
+
+static double slope_at(const tube_element *e, int plane, int i, double xi)
+{
+    const double(*b)[LD_NB] = e->b[plane];
+    return b[1][i] + xi * (2 * b[2][i] + xi * 3 * b[3][i]);
+}
+
 // Columns of Phi (displacement) and Psi (rotation vector) of every mode at station x.
 static void shapes_at(const flexible_tube *tube, double x, v3 *Phi, v3 *Psi)
 {
@@ -10,12 +23,10 @@ static void shapes_at(const flexible_tube *tube, double x, v3 *Phi, v3 *Psi)
     const tube_element *e = &tube->element[flexible_tube_find(tube, x)];
     double xi = x - e->x0;
     for (int i = 0; i < nb; i++) {
-        double b = e->b[0][i] + xi * (e->b[1][i] + xi * (e->b[2][i] + xi * e->b[3][i]));
-        double slope = e->b[1][i] + xi * (2 * e->b[2][i] + xi * 3 * e->b[3][i]);
-        Phi[i] = v3_make(0, b, 0);
-        Psi[i] = v3_make(0, 0, slope);
-        Phi[z + i] = v3_make(0, 0, b);
-        Psi[z + i] = v3_make(0, -slope, 0);
+        Phi[i] = v3_make(0, bending_at(e, PLANE_Y, i, xi), 0);
+        Psi[i] = v3_make(0, 0, slope_at(e, PLANE_Y, i, xi));
+        Phi[z + i] = v3_make(0, 0, bending_at(e, PLANE_Z, i, xi));
+        Psi[z + i] = v3_make(0, -slope_at(e, PLANE_Z, i, xi), 0);
     }
     for (int i = 0; i < tube->nt; i++) {
         Phi[t + i] = v3_zero();

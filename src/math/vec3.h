@@ -11,6 +11,8 @@ typedef struct v3 {
 // Small functions are always inlined, so that a long computation is one piece of code; not in
 // builds with sanitizers, which would take minutes to compile it.
 #define LD_ALWAYS_INLINE static inline __attribute__((always_inline, unused))
+// Of what is rarely needed: inlined, it would slow down what surrounds it.
+#define LD_OUTLINE static __attribute__((noinline, unused))
 #if defined(LD_SANITIZED)
 #define LD_INLINE static inline __attribute__((unused))
 #else

@@ -38,18 +38,17 @@ static void add_row(geometry *all, const char *name, const char *unit, int count
 
 // ---- tube ----
 
-// Value or slope of the shapes at node `node`: coefficients of the element that begins there, or
-// at the end of the last one.
-static void bending_at(const flexible_tube *tube, int node, int derivative, double *to)
+// Value or slope of a plane's shapes at node `node`: coefficients of the element that begins there,
+// or at the end of the last one.
+static void bending_at(const flexible_tube *tube, int plane, int node, int derivative, double *to)
 {
     bool last = node == tube->element_count;
     const tube_element *element = &tube->element[last ? node - 1 : node];
     double xi = last ? element->x1 - element->x0 : 0;
-    for (int i = 0; i < tube->nb; i++) {
-        double b[4] = {element->b[0][i], element->b[1][i], element->b[2][i], element->b[3][i]};
-        to[i] = derivative ? b[1] + xi * (2 * b[2] + xi * 3 * b[3])
-                           : b[0] + xi * (b[1] + xi * (b[2] + xi * b[3]));
-    }
+    const double(*b)[LD_NB] = element->b[plane];
+    for (int i = 0; i < tube->nb; i++)
+        to[i] = derivative ? b[1][i] + xi * (2 * b[2][i] + xi * 3 * b[3][i])
+                           : b[0][i] + xi * (b[1][i] + xi * (b[2][i] + xi * b[3][i]));
 }
 
 static void add_shapes(geometry *all, const flexible_tube *tube)
@@ -57,10 +56,11 @@ static void add_shapes(geometry *all, const flexible_tube *tube)
     int nodes = tube->element_count + 1;
     size_t rows = (size_t)nodes, nb = (size_t)tube->nb;
     double *station = add(all, "tube.station", "m", rows, 1, "nodes of the finite elements");
-    double *b =
-        add(all, "tube.bending", "kg-0.5", rows, nb,
-            "bending modes at the stations: y and z of the axis in R over q; cubic between");
-    double *slope = add(all, "tube.bending_slope", "kg-0.5.m-1", rows, nb, "their slopes");
+    double *b[] = {add(all, "tube.bending", "kg-0.5", rows, nb,
+                       "bending modes at the stations: y of the axis in R over q; cubic between"),
+                   add(all, "tube.bending_z", "kg-0.5", rows, nb, "the same for z")};
+    double *slope[] = {add(all, "tube.bending_slope", "kg-0.5.m-1", rows, nb, "slopes for y"),
+                       add(all, "tube.bending_z_slope", "kg-0.5.m-1", rows, nb, "slopes for z")};
     double *torsion = add(all, "tube.torsion", "kg-0.5.m-1", rows, (size_t)tube->nt,
                           "torsion modes: rotation about x over q; linear between");
     double *axial = add(all, "tube.axial", "kg-0.5", rows, (size_t)tube->na,
@@ -70,8 +70,10 @@ static void add_shapes(geometry *all, const flexible_tube *tube)
         const tube_element *element = &tube->element[last ? k - 1 : k];
         double xi = last ? element->x1 - element->x0 : 0;
         station[k] = element->x0 + xi;
-        bending_at(tube, k, 0, b + k * tube->nb);
-        bending_at(tube, k, 1, slope + k * tube->nb);
+        for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+            bending_at(tube, plane, k, 0, b[plane] + k * tube->nb);
+            bending_at(tube, plane, k, 1, slope[plane] + k * tube->nb);
+        }
         for (int i = 0; i < tube->nt; i++)
             torsion[k * tube->nt + i] = element->tau[0][i] + xi * element->tau[1][i];
         for (int i = 0; i < tube->na; i++)

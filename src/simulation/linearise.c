@@ -660,17 +660,18 @@ static bool on_slides(const ld_model *model)
     return any;
 }
 
-// The equations of the tube without rocket, linearised where it is straight.
+// The equations of the tube without rocket, linearised where it is straight. The state's tube has
+// no weight from then on.
 static ld_status linearise_tube(launch_state *self, linear_system *system, ld_error *error)
 {
     // straight it rests without gravity alone, and no pose of the base counts
-    launching_system weightless = self->launcher.launching;
-    weightless.tube.gravity = 0;
+    launching_system *weightless = &self->launcher.launching;
+    weightless->tube.gravity = 0;
     simulation_straight(self, &ORIGIN, system->y);
     if (on_slides(self->model))
-        system->y[weightless.layout.r] += IN_BATTERY;
+        system->y[weightless->layout.r] += IN_BATTERY;
     count_unknowns(self, true, system);
-    return linearise(self, &weightless, system, error);
+    return linearise(self, weightless, system, error);
 }
 
 ld_status simulation_tube_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,

@@ -66,7 +66,7 @@ LD_INLINE launching_outcome evaluate(const int lanes, const bool rocket, const b
     tube_load(lanes, &self->tube, &self->layout, state, &now.tube);
     tube_forces(lanes, &self->tube, &now.tube, &now.on_tube, out);
     supports_add(lanes, &self->supports, &self->tube, &now);
-    tube_factor(&self->tube, &now.tube);
+    tube_factor(lanes, &self->tube, &now.tube);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, &now);
     if (rocket)
@@ -150,7 +150,7 @@ static void load_to_project(int lanes, const launching_system *self, const doubl
 {
     memset(&now->on_tube, 0, sizeof now->on_tube);
     tube_load(lanes, &self->tube, &self->layout, state, &now->tube);
-    tube_factor(&self->tube, &now->tube);
+    tube_factor(lanes, &self->tube, &now->tube);
 }
 
 // What that impulse makes of tube and rocket, with all modes that the tube has.

@@ -14,13 +14,13 @@ enum {
 
 // Tube and rocket before they are coupled.
 typedef struct uncoupled {
-    int n;                        // speeds of the tube
-    double M[SPEEDS * SPEEDS];    // tube alone
-    double h[SPEEDS];             // tube alone, with supports and contacts
-    tube_section_state rear, tip; // of the tube
+    int n;                     // speeds of the tube
+    double M[SPEEDS * SPEEDS]; // tube alone
+    double h[SPEEDS];          // tube alone, with supports and contacts
     launching_instant now;
     launching_constraints c;
     double B[MAX_CONSTRAINTS + 1][SPEEDS]; // generalised forces of the directions; last: tangent
+    const tube_section_state *rear, *tip;  // of the tube, for the overall form
 } uncoupled;
 
 static void flatten(const launching_system *self, const tube_force *force, double *h)
@@ -94,15 +94,13 @@ static void load_uncoupled(const launching_system *self, const launching_input *
     u->n = 6 + at->nq;
     tube_load(lanes, &self->tube, at, state, &now->tube);
     tube_dynamics_assemble(tube, now->tube.w, q, q_dot, now->tube.g, u->M, u->h);
-    tube_section(tube, 0, now->tube.w, q, q_dot, &u->rear);
-    tube_section(tube, tube->length, now->tube.w, q, q_dot, &u->tip);
     modal_energies(self, state, out);
     supports_add(lanes, &self->supports, &self->tube, now);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, now);
     if (phase->rocket)
         launching_load_rocket(lanes, self, state, now);
-    tube_factor(&self->tube, &now->tube);
+    tube_factor(lanes, &self->tube, &now->tube);
     launching_constrain(lanes, phase->rocket, true, self, now, &u->c);
     load_direction_forces(self, now->tube.w, state, &u->c.set, u->B);
     flatten(self, &now->on_tube, u->h);
@@ -328,10 +326,10 @@ static ld_status load_transfer(const launching_system *self, const uncoupled *u,
                               .M = u->M,
                               .h = u->h,
                               .B = count ? B[i] : NULL,
-                              .L_I = u->rear.L,
-                              .L_O = u->tip.L,
-                              .gamma_I = u->rear.gamma,
-                              .gamma_O = u->tip.gamma};
+                              .L_I = u->rear->L,
+                              .L_O = u->tip->L,
+                              .gamma_I = u->rear->gamma,
+                              .gamma_O = u->tip->gamma};
         ld_status status = flexible_body_transfer(&U, &tube, &transfer->condition, NULL);
         if (status)
             return status;
@@ -368,8 +366,8 @@ __attribute__((noinline)) static bool load_solution(const uncoupled *u, int coun
         for (int j = 0; j < n; j++) {
             to[j] = column < 6 ? 0 : u->h[j];
             for (int i = 0; i < 3; i++)
-                to[j] += u->rear.L[i * n + j] * transfer->tail.u[TRANSFER_F + i][from] +
-                         u->rear.L[(3 + i) * n + j] * transfer->tail.u[TRANSFER_M + i][from];
+                to[j] += u->rear->L[i * n + j] * transfer->tail.u[TRANSFER_F + i][from] +
+                         u->rear->L[(3 + i) * n + j] * transfer->tail.u[TRANSFER_M + i][from];
         }
         cholesky_solve(n, G, to);
     }
@@ -540,10 +538,18 @@ static bool solve_overall(const launching_system *self, const double *state, unc
     return true;
 }
 
-static launching_outcome evaluate_overall(const launching_system *self,
-                                          const launching_phase *phase, const double *state,
-                                          uncoupled *u, launching_output *out)
+// Out of line: what it needs on the stack is not there where the reduced form alone is solved.
+LD_OUTLINE launching_outcome evaluate_overall(const launching_system *self,
+                                              const launching_phase *phase, const double *state,
+                                              uncoupled *u, launching_output *out)
 {
+    const flexible_tube *tube = &self->tube.flexible;
+    const double *q = state + self->layout.q, *q_dot = state + self->layout.q_dot;
+    tube_section_state rear, tip;
+    tube_section(tube, 0, u->now.tube.w, q, q_dot, &rear);
+    tube_section(tube, tube->length, u->now.tube.w, q, q_dot, &tip);
+    u->rear = &rear;
+    u->tip = &tip;
     if (!u->c.set.sliding) {
         if (solve_overall(self, state, u, 0, out))
             return LAUNCHING_OK;

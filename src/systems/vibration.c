@@ -58,11 +58,8 @@ static void damping_matrix(const ld_mstmm *s, linear *l)
         const flexible_tube *tube = &s->beams[s->element_beam[e]].tube;
         at += s->u_length[e];
         for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
-            for (int k = 0; k < tube->nb; k++, at++) {
+            for (int k = 0; k < tube->nb; k++, at++)
                 l->C[at * l->n + at] = tube->dmp_b[plane][k];
-                for (int m = 0; tube->mixing && m < tube->nb; m++)
-                    l->C[(at - k + m) * l->n + at] += tube->mixing->D[plane][k][m];
-            }
         for (int k = 0; k < tube->nt; k++, at++)
             l->C[at * l->n + at] = tube->dmp_t[k];
         for (int k = 0; k < tube->na; k++, at++)

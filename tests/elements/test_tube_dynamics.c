@@ -22,17 +22,25 @@ static const double gauss_w[POINTS] = {0.1294849661688697, 0.2797053914892766, 0
                                        0.4179591836734694, 0.3818300505051189, 0.2797053914892766,
                                        0.1294849661688697};
 
-// The shapes as functions of x: bending has cubics with b = b' = 0 at 0 on two halves of the tube.
+// The shapes as functions of x: bending along y has cubics with b = b' = 0 at 0 on two halves of
+// the tube, along z the same or, where the planes differ, others.
 typedef struct shapes {
-    double b[NB], tau[NT], a[NA];
+    double b[2][NB], tau[NT], a[NA];
 } shapes;
 
-static double coefficient[3][NB][NB];
+enum { OF_Y, OF_Z, OF_TAU, OF_A, FAMILIES };
+
+static double coefficient[FAMILIES][NB][NB];
+static bool planes_differ;
 
 static shapes raw_shapes(double x)
 {
-    double late = x > 0.5 * length ? x - 0.5 * length : 0;
-    return (shapes){{x * x, x * x * x, late * late * late}, {x, late}, {x, late}};
+    double late = x > 0.5 * length ? x - 0.5 * length : 0, x2 = x * x, x3 = x2 * x;
+    shapes raw = {
+        {{x2, x3, late * late * late}, {x2, x3, late * late * late}}, {x, late}, {x, late}};
+    if (planes_differ)
+        raw.b[PLANE_Z][0] = x3 - x3 * x, raw.b[PLANE_Z][2] = late * late;
+    return raw;
 }
 
 static shapes shapes_at(double x)
@@ -40,11 +48,12 @@ static shapes shapes_at(double x)
     shapes raw = raw_shapes(x), s = {0};
     for (int i = 0; i < NB; i++)
         for (int j = 0; j < NB; j++)
-            s.b[i] += coefficient[0][i][j] * raw.b[j];
+            for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+                s.b[plane][i] += coefficient[plane][i][j] * raw.b[plane][j];
     for (int i = 0; i < NT; i++)
         for (int j = 0; j < NT; j++) {
-            s.tau[i] += coefficient[1][i][j] * raw.tau[j];
-            s.a[i] += coefficient[2][i][j] * raw.a[j];
+            s.tau[i] += coefficient[OF_TAU][i][j] * raw.tau[j];
+            s.a[i] += coefficient[OF_A][i][j] * raw.a[j];
         }
     return s;
 }
@@ -70,7 +79,9 @@ static void orthonormalise(int family, int count, double per_length)
             for (int k = 0; k < 2 * POINTS; k++) {
                 double x = station(k, &dx);
                 shapes s = shapes_at(x);
-                const double *values = family == 0 ? s.b : family == 1 ? s.tau : s.a;
+                const double *values = family <= OF_Z     ? s.b[family]
+                                       : family == OF_TAU ? s.tau
+                                                          : s.a;
                 inner += per_length * values[i] * values[other] * dx;
             }
             for (int j = 0; j < count; j++) {
@@ -85,10 +96,14 @@ static void orthonormalise(int family, int count, double per_length)
 
 static flexible_tube make_tube(void)
 {
+    static tube_overlap overlap;
     flexible_tube tube = {.nb = NB, .nt = NT, .na = NA, .length = length};
-    orthonormalise(0, NB, line_mass);
-    orthonormalise(1, NT, line_polar);
-    orthonormalise(2, NA, line_mass);
+    memset(&overlap, 0, sizeof overlap);
+    tube.overlap = planes_differ ? &overlap : NULL;
+    orthonormalise(OF_Y, NB, line_mass);
+    orthonormalise(OF_Z, NB, line_mass);
+    orthonormalise(OF_TAU, NT, line_polar);
+    orthonormalise(OF_A, NA, line_mass);
     for (int k = 0; k < 2 * POINTS; k++) {
         double dx, x = station(k, &dx), dm = line_mass * dx;
         shapes s = shapes_at(x);
@@ -97,8 +112,14 @@ static flexible_tube make_tube(void)
         tube.j0 += x * x * dm;
         tube.j += line_polar * dx;
         for (int i = 0; i < NB; i++) {
-            tube.ct[i] += s.b[i] * dm;
-            tube.c[i] += x * s.b[i] * dm;
+            for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+                tube.ct[plane][i] += s.b[plane][i] * dm;
+                tube.c[plane][i] += x * s.b[plane][i] * dm;
+            }
+            for (int j = 0; j < NB; j++) {
+                overlap.G[PLANE_Y][i][j] += s.b[PLANE_Y][i] * s.b[PLANE_Z][j] * dm;
+                overlap.G[PLANE_Z][i][j] += s.b[PLANE_Z][i] * s.b[PLANE_Y][j] * dm;
+            }
         }
         for (int i = 0; i < NT; i++)
             tube.cp[i] += line_polar * s.tau[i] * dx;
@@ -106,7 +127,8 @@ static flexible_tube make_tube(void)
             tube.at[i] += s.a[i] * dm;
             tube.ax[i] += x * s.a[i] * dm;
             for (int j = 0; j < NB; j++)
-                tube.AB[i][j] += s.a[i] * s.b[j] * dm;
+                for (int plane = PLANE_Y; plane <= PLANE_Z; plane++)
+                    tube.AB[plane][i][j] += s.a[i] * s.b[plane][j] * dm;
         }
     }
     for (int i = 0; i < NB; i++) {
@@ -130,8 +152,8 @@ static v3 axis_point(double x, const double *q)
     shapes s = shapes_at(x);
     v3 p = v3_make(x, 0, 0);
     for (int i = 0; i < NB; i++) {
-        p.y += s.b[i] * q[i];
-        p.z += s.b[i] * q[NB + i];
+        p.y += s.b[PLANE_Y][i] * q[i];
+        p.z += s.b[PLANE_Z][i] * q[NB + i];
     }
     for (int i = 0; i < NA; i++)
         p.x += s.a[i] * q[2 * NB + NT + i];
@@ -147,9 +169,8 @@ static v3 place(double t, double x, v3 v, v3 w, const double *q, const double *q
     return v3_add(v3_scale(t, v), m3_apply(rv_exp(v3_scale(t, w)), axis_point(x, now)));
 }
 
-static void test_equation_of_motion(void **state)
+static void check_equation_of_motion(void)
 {
-    (void)state;
     flexible_tube tube = make_tube();
     uint64_t seed = 11;
     double mass_error = 0, force_error = 0, force_size = 0, energy_error = 0;
@@ -172,8 +193,8 @@ static void test_equation_of_motion(void **state)
             for (int i = 0; i < 3; i++)
                 partial[3 + i] = v3_cross(m3_column(m3_identity(), i), p);
             for (int i = 0; i < NB; i++) {
-                partial[6 + i].y = s.b[i];
-                partial[6 + NB + i].z = s.b[i];
+                partial[6 + i].y = s.b[PLANE_Y][i];
+                partial[6 + NB + i].z = s.b[PLANE_Z][i];
             }
             for (int i = 0; i < NA; i++)
                 partial[6 + 2 * NB + NT + i].x = s.a[i];
@@ -231,8 +252,23 @@ static void test_equation_of_motion(void **state)
     CHECK_BELOW("kinetic energy, relative", energy_error, 2e-15);
 }
 
+static void test_equation_of_motion(void **state)
+{
+    (void)state;
+    planes_differ = false;
+    check_equation_of_motion();
+}
+
+static void test_planes_with_shapes_of_their_own(void **state)
+{
+    (void)state;
+    planes_differ = true;
+    check_equation_of_motion();
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_equation_of_motion)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_equation_of_motion),
+                                       cmocka_unit_test(test_planes_with_shapes_of_their_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

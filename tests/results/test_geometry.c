@@ -42,10 +42,13 @@ typedef struct section {
 
 static section section_at(const history_data *read, size_t row, double x)
 {
-    const history_array *station = array(read, "tube.station"), *b = array(read, "tube.bending"),
-                        *d = array(read, "tube.bending_slope"), *t = array(read, "tube.torsion");
+    const history_array *station = array(read, "tube.station"), *t = array(read, "tube.torsion");
+    const history_array *of_y = array(read, "tube.bending");
     const double *s = station->value;
-    size_t k = 0, nb = b->columns;
+    const double *bending[] = {of_y->value, array(read, "tube.bending_z")->value};
+    const double *slopes[] = {array(read, "tube.bending_slope")->value,
+                              array(read, "tube.bending_z_slope")->value};
+    size_t k = 0, nb = of_y->columns;
     while (k + 2 < station->rows && x > s[k + 1])
         k++;
     double h = s[k + 1] - s[k], xi = fmin(1, fmax(0, (x - s[k]) / h)), beyond = x - s[k] - xi * h;
@@ -59,10 +62,9 @@ static section section_at(const history_data *read, size_t row, double x)
         snprintf(name, sizeof name, "q%zu", i + 1);
         double q = at(read, name, row);
         size_t at0 = k * nb + i % nb, at1 = at0 + nb;
-        u[i / nb] += q * (H[0] * b->value[at0] + H[1] * d->value[at0] + H[2] * b->value[at1] +
-                          H[3] * d->value[at1]);
-        slope[i / nb] += q * (dH[0] * b->value[at0] + dH[1] * d->value[at0] +
-                              dH[2] * b->value[at1] + dH[3] * d->value[at1]);
+        const double *b = bending[i / nb], *d = slopes[i / nb];
+        u[i / nb] += q * (H[0] * b[at0] + H[1] * d[at0] + H[2] * b[at1] + H[3] * d[at1]);
+        slope[i / nb] += q * (dH[0] * b[at0] + dH[1] * d[at0] + dH[2] * b[at1] + dH[3] * d[at1]);
     }
     for (size_t i = 0; i < t->columns; i++) {
         char name[32];

@@ -1,6 +1,7 @@
 // Frequencies of the linearised equations: against the finite elements, and against the equations'
 // own motion in time.
 #include <stdlib.h>
+#include <string.h>
 
 #include "scenario/scenario.h"
 #include "support/check.h"
@@ -54,6 +55,57 @@ static void tube_has_the_frequencies_of_its_elements(void **state)
     assert_int_equal(pairs, tube->nb + 2);
     ld_simulation_free(simulation);
     reference_model_free(&model);
+}
+
+// Frequencies of the tube's equations in each plane against its finite elements there, with the
+// default modes: planes that differ by 3 and by 25 in stiffness, supports and tail, and in what is
+// clamped. The first ones as a launch has them.
+static void each_plane_has_the_frequencies_of_its_elements(void **state)
+{
+    (void)state;
+    static const double ratio[][3] = {
+        {3, 1, 1}, {25, 1, 1}, {1, 25, 25}, {1, 25, 0.04}, {5, 0.04, 25}};
+    static const char *const of_plane[] = {"tube, vertical plane", "tube, lateral plane"};
+    for (size_t i = 0; i <= sizeof ratio / sizeof *ratio; i++) {
+        ld_model model;
+        ld_mode modes[LD_MAX_MODES];
+        const double *r = ratio[i % (sizeof ratio / sizeof *ratio)];
+        bool clamped = i == sizeof ratio / sizeof *ratio;
+        ld_error error;
+        ld_simulation *simulation = NULL;
+        reference_model(&model);
+        ld_tubes *tubes = &model.tubes;
+        tubes->modes.bending = 7;
+        tubes->tail.inertia[1] *= r[0];
+        tubes->section[0].form = LD_SECTION_PLANES;
+        tubes->section[0].bending_stiffness_z = tubes->section[0].bending_stiffness * r[0];
+        tubes->section[0].bending_stiffness_y = tubes->section[0].bending_stiffness;
+        for (int k = 0; k < 2; k++) {
+            tubes->support[k].stiffness[1] *= r[1];
+            tubes->support[k].rotational_stiffness[2] *= r[2];
+        }
+        if (clamped)
+            tubes->support[0].clamped = 1u << LD_CLAMP_Y | 1u << LD_CLAMP_YAW;
+        if (ld_simulation_create(&model, &simulation, &error))
+            fail_msg("%s", error.text);
+        int count = ld_simulation_tube_modes(simulation, modes, LD_MAX_MODES);
+        double worst = 0, omega[LD_NB];
+        for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+            line_frequencies(tubes, LINE_BENDING, plane, tubes->modes.bending, omega);
+            for (int j = 0; j < tubes->modes.bending; j++) {
+                double best = INFINITY;
+                for (int k = 0; k < count; k++)
+                    if (!strncmp(modes[k].shape, of_plane[plane], strlen(of_plane[plane])))
+                        best = fmin(best, fabs(modes[k].frequency / (omega[j] / TWO_PI) - 1));
+                worst = fmax(worst, best);
+            }
+        }
+        printf("  stiffness %g:1, springs along %g:1, about %g:1%s\n", r[0], r[1], r[2],
+               clamped ? ", clamped" : "");
+        CHECK_BELOW("frequencies of each plane, relative", worst, 2e-12);
+        ld_simulation_free(simulation);
+        reference_model_free(&model);
+    }
 }
 
 // Eigenvalues come in the right number and are stable: two of the rocket's twelve states a degree
@@ -186,6 +238,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tube_has_the_frequencies_of_its_elements),
+        cmocka_unit_test(each_plane_has_the_frequencies_of_its_elements),
         cmocka_unit_test(the_held_rocket_is_stable),
         cmocka_unit_test(the_lowest_mode_is_seen_in_time),
         cmocka_unit_test(a_light_touch_is_a_touch),

@@ -87,16 +87,16 @@ static double bending_of(const ld_section *section, int plane)
 }
 
 // K += int EI b'' b''^T dx of a stretch: b'' is linear along it.
-static void add_bending(double K[LD_NB][LD_NB], const tube_element *element, int nb, double from,
+static void add_bending(double K[LD_NB][LD_NB], double b[4][LD_NB], double x0, int nb, double from,
                         double to, double EI)
 {
     for (int g = 0; g < GAUSS; g++) {
-        double xi = 0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g] - element->x0;
+        double xi = 0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g] - x0;
         double weight = 0.5 * (to - from) * gauss_weight[g] * EI;
         for (int i = 0; i < nb; i++)
             for (int j = 0; j < nb; j++)
-                K[i][j] += weight * (2 * element->b[2][i] + 6 * xi * element->b[3][i]) *
-                           (2 * element->b[2][j] + 6 * xi * element->b[3][j]);
+                K[i][j] +=
+                    weight * (2 * b[2][i] + 6 * xi * b[3][i]) * (2 * b[2][j] + 6 * xi * b[3][j]);
     }
 }
 
@@ -140,8 +140,8 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
                     weight * section->mass_per_length, weight * section->polar_inertia};
             }
             for (int plane = 0; plane < 2; plane++)
-                add_bending(dense->K[plane], &tube->element[i], tube->nb, from, to,
-                            bending_of(section, plane));
+                add_bending(dense->K[plane], tube->element[i].b[plane], tube->element[i].x0,
+                            tube->nb, from, to, bending_of(section, plane));
             from = to;
         }
     }
@@ -334,8 +334,10 @@ static jet family_at(const jet_scene *scene, char family, int derivative, jet x)
     const flexible_tube *tube = scene->dense->tube;
     const tube_element *element = element_at(tube, x.v);
     mode_family modes;
-    if (family == 'y' || family == 'z')
-        modes = (mode_family){&element->b[0][0], 4, LD_NB, tube->nb, family == 'y' ? 0 : tube->nb};
+    if (family == 'y')
+        modes = (mode_family){&element->b[0][0][0], 4, LD_NB, tube->nb, 0};
+    else if (family == 'z')
+        modes = (mode_family){&element->b[1][0][0], 4, LD_NB, tube->nb, tube->nb};
     else if (family == 't')
         modes = (mode_family){&element->tau[0][0], 2, LD_NT, tube->nt, 2 * tube->nb};
     else

@@ -18,17 +18,20 @@ static void add(fine_matrix to, int i, int j, double value)
     to[i][i - j] += value;
 }
 
-static void add_element(fine_bending *self, int node, const ld_section *section)
+static void add_element(fine_bending *self, int plane, int node, const ld_section *section)
 {
-    const double h = self->h, EI = section->bending_stiffness, m = section->mass_per_length * h;
+    const double h = self->h, m = section->mass_per_length * h;
+    const double EI = section->form != LD_SECTION_PLANES ? section->bending_stiffness
+                      : plane                            ? section->bending_stiffness_y
+                                                         : section->bending_stiffness_z;
     const double K[4][4] = {
         {12}, {6 * h, 4 * h * h}, {-12, -6 * h, 12}, {6 * h, 2 * h * h, -6 * h, 4 * h * h}};
     const double M[4][4] = {
         {156}, {22 * h, 4 * h * h}, {54, 13 * h, 156}, {-13 * h, -3 * h * h, -22 * h, 4 * h * h}};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j <= i; j++) {
-            add(self->K, 2 * node + i, 2 * node + j, EI / (h * h * h) * K[i][j]);
-            add(self->M, 2 * node + i, 2 * node + j, m / 420 * M[i][j]);
+            add(self->K[plane], 2 * node + i, 2 * node + j, EI / (h * h * h) * K[i][j]);
+            add(self->M[plane], 2 * node + i, 2 * node + j, m / 420 * M[i][j]);
         }
 }
 
@@ -96,6 +99,32 @@ static void subtract_product(fine_matrix A, int n, const double *x, double *y)
     }
 }
 
+// A plane with tail and supports: of y their springs along y and about z.
+static void create_plane(fine_bending *self, int plane, const ld_tubes *tubes)
+{
+    for (int i = 0; i + 1 < self->nodes; i++)
+        add_element(self, plane, i, &tubes->section[0]);
+    fine_matrix *K = &self->K[plane], *C = &self->C[plane], *M = &self->M[plane];
+    const ld_tail *tail = &tubes->tail;
+    double m = tail->mass, c = tail->center;
+    add(*M, 0, 0, m);
+    add(*M, 1, 0, m * c);
+    add(*M, 1, 1, tail->inertia[2 - plane] + m * c * c);
+    for (int i = 0; i < tubes->support_count; i++) {
+        const ld_support *support = &tubes->support[i];
+        int w = 2 * node_at(support->at, self->h);
+        add(*K, w, w, support->stiffness[1 + plane]);
+        add(*C, w, w, support->damping[1 + plane]);
+        add(*K, w + 1, w + 1, support->rotational_stiffness[2 - plane]);
+        add(*C, w + 1, w + 1, support->rotational_damping[2 - plane]);
+    }
+    for (int i = 0; i < 2 * self->nodes; i++)
+        for (int k = 0; k < FINE_BAND; k++)
+            self->factor[plane][i][k] =
+                (*M)[i][k] + self->step / 2 * (*C)[i][k] + self->step * self->step / 4 * (*K)[i][k];
+    decompose(self->factor[plane], 2 * self->nodes);
+}
+
 void fine_bending_create(fine_bending *self, const ld_model *model, double h, double step)
 {
     const ld_tubes *tubes = &model->tubes;
@@ -104,28 +133,9 @@ void fine_bending_create(fine_bending *self, const ld_model *model, double h, do
     self->step = step;
     self->nodes = node_at(tubes->length, h) + 1;
     assert_true(self->nodes <= FINE_MOST_NODES && tubes->section_count == 1);
-    for (int i = 0; i + 1 < self->nodes; i++)
-        add_element(self, i, &tubes->section[0]);
-    // tail and supports
-    const ld_tail *tail = &tubes->tail;
-    double m = tail->mass, c = tail->center;
-    add(self->M, 0, 0, m);
-    add(self->M, 1, 0, m * c);
-    add(self->M, 1, 1, tail->inertia[2] + m * c * c);
-    for (int i = 0; i < tubes->support_count; i++) {
-        const ld_support *support = &tubes->support[i];
-        int w = 2 * node_at(support->at, h);
-        add(self->K, w, w, support->stiffness[1]);
-        add(self->C, w, w, support->damping[1]);
-        add(self->K, w + 1, w + 1, support->rotational_stiffness[2]);
-        add(self->C, w + 1, w + 1, support->rotational_damping[2]);
-    }
     weigh(self, model);
-    for (int i = 0; i < 2 * self->nodes; i++)
-        for (int k = 0; k < FINE_BAND; k++)
-            self->factor[i][k] =
-                self->M[i][k] + step / 2 * self->C[i][k] + step * step / 4 * self->K[i][k];
-    decompose(self->factor, 2 * self->nodes);
+    create_plane(self, 0, tubes);
+    create_plane(self, 1, tubes);
 }
 
 static void gather(fine_bending *self, const fine_loads *loads, int plane, fine_vector f)
@@ -141,9 +151,9 @@ static void gather(fine_bending *self, const fine_loads *loads, int plane, fine_
 void fine_bending_rest(fine_bending *self, const fine_loads *loads)
 {
     static fine_matrix K;
-    memcpy(K, self->K, sizeof K);
-    decompose(K, 2 * self->nodes);
     for (int plane = 0; plane < 2; plane++) {
+        memcpy(K, self->K[plane], sizeof K);
+        decompose(K, 2 * self->nodes);
         gather(self, loads, plane, self->u[plane]);
         solve(K, 2 * self->nodes, self->u[plane]);
         memset(self->u_dot[plane], 0, sizeof self->u_dot[plane]);
@@ -163,9 +173,9 @@ void fine_bending_step(fine_bending *self, const fine_loads *loads)
             v[i] += h / 2 * a[i];
         }
         gather(self, loads, plane, f);
-        subtract_product(self->C, n, v, f);
-        subtract_product(self->K, n, u, f);
-        solve(self->factor, n, f);
+        subtract_product(self->C[plane], n, v, f);
+        subtract_product(self->K[plane], n, u, f);
+        solve(self->factor[plane], n, f);
         for (int i = 0; i < n; i++) {
             a[i] = f[i];
             u[i] += h * h / 4 * a[i];

@@ -32,10 +32,10 @@ typedef double fine_vector[2 * FINE_MOST_NODES]; // of each node w [m], then w' 
 
 typedef struct fine_bending {
     int nodes;
-    double h, step;                   // [m] of elements, [s] of time
-    fine_matrix K, C, M, factor;      // L D L^T of M + step/2 C + step^2/4 K
-    fine_vector weight[2];            // of gravity, along y and z
-    fine_vector u[2], u_dot[2], a[2]; // by plane: y, z
+    double h, step;                          // [m] of elements, [s] of time
+    fine_matrix K[2], C[2], M[2], factor[2]; // by plane; L D L^T of M + step/2 C + step^2/4 K
+    fine_vector weight[2];                   // of gravity, along y and z
+    fine_vector u[2], u_dot[2], a[2];        // by plane: y, z
 } fine_bending;
 
 // Prepares the tube of `model` (one section, no point masses, supports at nodes) with elements of

@@ -15,14 +15,14 @@ static inline void line_frequencies(const ld_tubes *model, line_kind kind, int p
     ld_error error;
     tube_mesh mesh;
     tube_line line;
-    plane_line of_plane;
+    tied_line of_plane;
     assert_int_equal(tube_mesh_build(&mesh, model, &error), LD_OK);
-    assert_int_equal(tube_line_build(&line, kind, &mesh, model, &error), LD_OK);
-    plane_line_make(&of_plane, &line, model, plane);
+    assert_int_equal(tube_line_build(&line, kind, plane, &mesh, model, &error), LD_OK);
+    tied_line_make(&of_plane, &line, model);
     int N = line.n + line.width;
     double *vector = malloc((size_t)((count + 1) * N) * sizeof *vector);
     double *lambda = vector + count * N;
-    assert_int_equal(plane_line_solve(&of_plane, count, vector, lambda, &error), LD_OK);
+    assert_int_equal(tied_line_solve(&of_plane, count, vector, lambda, &error), LD_OK);
     for (int k = 0; k < count; k++)
         omega[k] = sqrt(lambda[count - 1 - k]);
     free(vector);

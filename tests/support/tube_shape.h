@@ -20,13 +20,14 @@ static inline ld_tubes reference_tubes(void)
     return model.tubes;
 }
 
-// Bending shape k or its first, second or third x-derivative at station x.
-static inline double tube_bending(const flexible_tube *tube, int k, double x, int derivative)
+// Bending shape k of a plane or its first, second or third x-derivative at station x.
+static inline double tube_bending(const flexible_tube *tube, int plane, int k, double x,
+                                  int derivative)
 {
     const tube_element *e = &tube->element[flexible_tube_find(tube, x)];
     double xi = x - e->x0, c[4];
     for (int i = 0; i < 4; i++)
-        c[i] = e->b[i][k];
+        c[i] = e->b[plane][i][k];
     switch (derivative) {
     case 0:
         return c[0] + xi * (c[1] + xi * (c[2] + xi * c[3]));

@@ -185,18 +185,6 @@ static launching_outcome general(const launching_system *system, const launching
     return launching_evaluate_general(system, LD_FORMULATION_REDUCED, input, phase, state, out);
 }
 
-static void planes_equal_dense(void **state)
-{
-    (void)state;
-    ld_model model;
-    reference_model(&model);
-    model.tubes.modes.bending = 5;
-    split_planes(&model.tubes);
-    check_agreement(&model, launching_evaluate, 200, "reduced, planes out of proportion");
-    check_agreement(&model, general, 100, "general, planes out of proportion");
-    reference_model_free(&model);
-}
-
 static double worst_condition;
 
 static launching_outcome overall(const launching_system *system, const launching_input *input,
@@ -225,6 +213,43 @@ static void overall_equals_dense(void **state)
         check_agreement(&model, overall, 500, name);
         printf("    condition of the tube's transfer matrix up to %.2g\n", worst_condition);
     }
+    reference_model_free(&model);
+}
+
+// Each plane with shapes of its own, for its own supports, tail and stiffness.
+static void planes_equal_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 5;
+    for (int k = 0; k < 2; k++) {
+        model.tubes.support[k].stiffness[1] = 5e6;
+        model.tubes.support[k].stiffness[2] = 5e5;
+        model.tubes.support[k].rotational_stiffness[1] = 5e3;
+        model.tubes.support[k].rotational_stiffness[2] = 5e5;
+    }
+    check_agreement(&model, launching_evaluate, 200, "reduced, unlike supports");
+    model.tubes.tail.inertia[1] = 0.7;
+    split_planes(&model.tubes);
+    check_agreement(&model, launching_evaluate, 200, "reduced, planes out of proportion");
+    check_agreement(&model, general, 100, "general, planes out of proportion");
+    check_agreement(&model, overall, 100, "overall, planes out of proportion");
+    model.tubes.modes.bending = 3;
+    check_agreement(&model, launching_evaluate, 100, "reduced, with 3 modes");
+    model.tubes.modes.bending = 5;
+    model.tubes.modes.axial = 2;
+    check_agreement(&model, launching_evaluate, 100, "reduced, with axial modes");
+    check_agreement(&model, overall, 100, "overall, with axial modes");
+    model.tubes.modes.axial = 0;
+    model.tubes.support[0].clamped = 0x2a; // y, roll, pitch
+    model.tubes.support[1].clamped = 0x04; // z
+    check_agreement(&model, launching_evaluate, 200,
+                    "reduced, clamped in planes out of proportion");
+    model.rocket.adaptor_count = 2;
+    model.rocket.contact.law = LD_CONTACT_IDEAL;
+    check_agreement(&model, launching_evaluate, 100, "reduced, clamped, ideal adaptors");
+    check_agreement(&model, general, 100, "general, clamped, ideal adaptors");
     reference_model_free(&model);
 }
 

@@ -33,11 +33,12 @@ static void make_tube(flexible_tube *tube, double length, int nb, int nt, int na
         tube->element[i].x0 = i * h;
         tube->element[i].x1 = (i + 1) * h;
     }
-    for (int m = 0; m < nb; m++) {
+    for (int k = 0; k < 2 * nb; k++) {
+        int plane = k / nb, m = k % nb;
         double value = 0, slope = 0, c2 = 0.1 * random_number(), c3 = 0.05 * random_number();
         for (int i = 0; i < ELEMENTS; i++) {
             double x = i * h, value1 = 0.1 * random_number(), slope1 = 0.1 * random_number();
-            double(*b)[LD_NB] = tube->element[i].b;
+            double(*b)[LD_NB] = tube->element[i].b[plane];
             b[0][m] = smooth ? c2 * x * x + c3 * x * x * x : value;
             b[1][m] = smooth ? 2 * c2 * x + 3 * c3 * x * x : slope;
             double rise = (value1 - value) / h;

@@ -44,8 +44,8 @@ static double dense_acceleration(const launch_state *launch, const double *y)
         double x = 0.3 * k, y_ddot = out.a[1] + x * out.w_dot[2],
                z_ddot = out.a[2] - x * out.w_dot[1];
         for (int j = 0; j < tube->nb; j++) {
-            y_ddot += tube_bending(tube, j, x, 0) * out.q_ddot[j];
-            z_ddot += tube_bending(tube, j, x, 0) * out.q_ddot[tube->nb + j];
+            y_ddot += tube_bending(tube, PLANE_Y, j, x, 0) * out.q_ddot[j];
+            z_ddot += tube_bending(tube, PLANE_Z, j, x, 0) * out.q_ddot[tube->nb + j];
         }
         largest = fmax(largest, hypot(y_ddot, z_ddot));
     }

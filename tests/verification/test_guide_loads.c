@@ -219,7 +219,7 @@ static double curvature(const launching_system *system, const double *state, dou
     double sum = 0;
     for (int j = 0; j < tube->nb; j++)
         sum += state[system->layout.q + j] *
-               (2 * element->b[2][j] + 6 * (x - element->x0) * element->b[3][j]);
+               (2 * element->b[PLANE_Y][2][j] + 6 * (x - element->x0) * element->b[PLANE_Y][3][j]);
     return sum;
 }
 

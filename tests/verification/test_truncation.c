@@ -268,6 +268,62 @@ static void tip_converges_in_bending(void **state)
     }
 }
 
+// A tube whose planes differ: `stiffness`, `along` and `about` are what plane y has over plane z.
+typedef struct unlike_planes {
+    const char *name;
+    double stiffness, along, about;
+    double bound[2][3]; // rms of place, slope and rate of place [%], with 7 and 12 modes
+} unlike_planes;
+
+static void split_planes(const unlike_planes *of, ld_tubes *tubes)
+{
+    ld_section *section = &tubes->section[0];
+    section->form = LD_SECTION_PLANES;
+    section->bending_stiffness_z = sqrt(of->stiffness) * section->bending_stiffness;
+    section->bending_stiffness_y = section->bending_stiffness / sqrt(of->stiffness);
+    section->bending_stiffness = NAN;
+    for (int k = 0; k < tubes->support_count; k++) {
+        ld_support *support = &tubes->support[k];
+        support->stiffness[1] *= sqrt(of->along);
+        support->stiffness[2] /= sqrt(of->along);
+        support->rotational_stiffness[2] *= sqrt(of->about);
+        support->rotational_stiffness[1] /= sqrt(of->about);
+    }
+}
+
+static void tip_converges_in_planes_that_differ(void **state)
+{
+    (void)state;
+    static const unlike_planes of[] = {
+        {"stiffness 3:1", 3, 1, 1, {{0.12, 0.7, 1}, {0.085, 0.22, 0.29}}},
+        {"stiffness 25:1", 25, 1, 1, {{0.31, 0.97, 1.1}, {0.22, 0.37, 0.39}}},
+        {"springs 3:1", 1, 3, 3, {{0.15, 0.73, 0.96}, {0.11, 0.23, 0.3}}},
+        {"springs along 25:1, about 1:25", 1, 25, 0.04, {{0.22, 0.7, 0.9}, {0.19, 0.25, 0.36}}},
+        {"stiffness 3:1, springs 1:25, 25:1",
+         3,
+         0.04,
+         25,
+         {{0.18, 0.74, 1.14}, {0.146, 0.25, 0.37}}},
+    };
+    static const int modes[] = {7, 12};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+        for (int m = 0; m < 2; m++) {
+            launch self;
+            tip_errors e;
+            reference_model(&self.model);
+            split_planes(&of[i], &self.model.tubes);
+            launch_make(&self, modes[m], 2);
+            compare_tip(&self, &e);
+            printf("  %s, %d modes\n", of[i].name, modes[m]);
+            CHECK_BELOW("tip's place, rms [%]", e.rms[PLACE], of[i].bound[m][PLACE]);
+            CHECK_BELOW("tip's slope, rms [%]", e.rms[SLOPE], of[i].bound[m][SLOPE]);
+            CHECK_BELOW("rate of tip's place, rms [%]", e.rms[PLACE_RATE],
+                        of[i].bound[m][PLACE_RATE]);
+            launch_free(&self);
+            reference_model_free(&self.model);
+        }
+}
+
 // ---- the knob ----
 
 // The reference launch without what shakes the tube: adaptors on the axis, no friction, no weight,
@@ -407,6 +463,7 @@ int main(void)
         cmocka_unit_test(fine_tube_sags),
         cmocka_unit_test(fine_tube_twists),
         cmocka_unit_test(tip_converges_in_bending),
+        cmocka_unit_test(tip_converges_in_planes_that_differ),
         cmocka_unit_test(spin_at_exit_does_not_converge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
