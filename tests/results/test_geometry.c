@@ -159,6 +159,17 @@ static void test_fixed(void **state)
     history_free(&read);
 }
 
+// Planes with shapes of their own.
+static void test_planes(void **state)
+{
+    (void)state;
+    const char *sets[] = {"tubes.tail.inertia=0.05 0.06 0.1 kg.m2"};
+    history_data read;
+    run_example("fixed.yaml", sets, 1, &read);
+    check_run(&read);
+    history_free(&read);
+}
+
 static void test_ship(void **state)
 {
     (void)state;
@@ -320,7 +331,7 @@ static void test_without(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_fixed),          TEST(test_ship),    TEST(test_guide),  TEST(test_outline),
-        TEST(test_rocket_outline), TEST(test_vehicle), TEST(test_without)};
+        TEST(test_fixed),   TEST(test_planes),         TEST(test_ship),    TEST(test_guide),
+        TEST(test_outline), TEST(test_rocket_outline), TEST(test_vehicle), TEST(test_without)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
