@@ -196,10 +196,11 @@ static void put_columns(const road_rows *self, size_t column, const road_line *l
                         const ld_phasor *state, const double height[2])
 {
     double a = sqrt(line->square), k = TWO_PI * line->n;
-    double c = cos(k * self->start), s = sin(k * self->start);
+    double cosine, sine;
+    sincos(k * self->start, &sine, &cosine);
     for (int i = 0; i < self->unknowns; i++) {
-        double real = a * (c * state[i].real - s * state[i].imaginary);
-        double imaginary = a * (c * state[i].imaginary + s * state[i].real);
+        double real = a * (cosine * state[i].real - sine * state[i].imaginary);
+        double imaginary = a * (cosine * state[i].imaginary + sine * state[i].real);
         row(self, STATE, i)[column] = real;
         row(self, STATE, i)[column + 1] = -imaginary;
         row(self, RATE, i)[column] = -omega * imaginary;

@@ -1,6 +1,6 @@
 // Solutions by the form of Hessenberg against LAPACK's of the whole.
+#include "math/lapack.h"
 #include <complex.h>
-#include <lapacke.h>
 #include <stdlib.h>
 
 #include "math/hessenberg.h"

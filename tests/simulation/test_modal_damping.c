@@ -1,7 +1,7 @@
 // Damping of the tube's modes, of random round tubes on supports whose stiffness is the same in
 // both planes: their bending modes come in pairs of equal frequency, in which any two shapes are
 // modes.
-#include <lapacke.h>
+#include "math/lapack.h"
 #include <stdlib.h>
 
 #include "simulation/simulation.h"

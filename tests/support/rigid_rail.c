@@ -1,6 +1,6 @@
 #include "support/rigid_rail.h"
 
-#include <lapacke.h>
+#include "math/lapack.h"
 #include <math.h>
 
 #include "math/quaternion.h"

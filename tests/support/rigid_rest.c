@@ -1,6 +1,6 @@
 #include "support/rigid_rest.h"
 
-#include <lapacke.h>
+#include "math/lapack.h"
 #include <math.h>
 #include <string.h>
 

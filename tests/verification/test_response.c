@@ -4,7 +4,7 @@
 // LD_RESPONSE_BARE_SEEDS, _LOW_, _RUBBING_: on whole roads, on low ones, on whole ones with
 // friction of the adaptors; LD_RESPONSE_SINES: on so many sets of sines.
 // ctest: slow
-#include <lapacke.h>
+#include "math/lapack.h"
 #include <stdlib.h>
 
 #include "launchdyn/loop.h"

@@ -1,8 +1,8 @@
 // A vehicle on a road of small sines: heave and pitch of the chassis, and the platform's pitch,
 // against the transfer function of the linearised equations, (i omega - J)^-1 B.
 // ctest: slow
+#include "math/lapack.h"
 #include <complex.h>
-#include <lapacke.h>
 #include <stdlib.h>
 
 #include "simulation/launch_state.h"
