@@ -25,7 +25,7 @@ ld_status part_file_failed(const part_file *self, int number, ld_error *error)
 // Makes the file under the temporary name of this number; errno says why not.
 static bool make(part_file *self, int number)
 {
-    char ending[16] = ".part";
+    char ending[24] = ".part";
     if (number > 1)
         snprintf(ending, sizeof ending, ".%d.part", number);
     snprintf(self->path, sizeof self->path, "%s%s", self->name, ending);

@@ -1,6 +1,5 @@
 // Packs an FMU: description, binary, resources, notices.
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +12,7 @@
 #include "fmu/package.h"
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
+#include "math/functions.h"
 #include "model/source.h"
 
 enum { NAME_SIZE = 512, IDENTIFIER_SIZE = 80 };

@@ -1,8 +1,8 @@
-#include <math.h>
 #include <string.h>
 
 #include "base/printed.h"
 #include "launchdyn/output.h"
+#include "math/functions.h"
 #include "simulation/measures.h"
 #include "simulation/summary.h"
 #include "simulation/summary_quantities.h"

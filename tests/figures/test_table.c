@@ -142,16 +142,18 @@ static char *script_of(const plot_figure *figure, const history_data *history)
     return text;
 }
 
-// What stands between gnuplot's quotes, up to the name of one of a kind.
+// What stands between gnuplot's quotes, with them, up to the name of one of a kind.
 static const char *quoted(const char *text)
 {
-    static char all[128];
+    static char all[160];
+    bool twice = strchr(text, '\'') != NULL; // then in double ones
     size_t length = 0;
-    for (; *text && *text != '%'; text++) {
-        all[length++] = *text;
-        if (*text == '\'')
-            all[length++] = '\'';
-    }
+    all[length++] = twice ? '"' : '\'';
+    for (; *text && *text != '%'; text++)
+        length +=
+            (size_t)snprintf(all + length, 5, *text == '\'' ? "\\%03o" : "%c", (unsigned)*text);
+    if (!*text)
+        all[length++] = twice ? '"' : '\'';
     all[length] = '\0';
     return all;
 }
@@ -175,8 +177,8 @@ static void check_script(const plot_figure *figure, const char *script)
     for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++) {
         const plot_panel *panel = &figure->panel[i];
         if (i == 0)
-            find_next(&script, name, "set label '%s'", quoted(figure->about.description));
-        find_next(&script, name, "set label '%s", quoted(panel->title));
+            find_next(&script, name, "set label %s", quoted(figure->about.description));
+        find_next(&script, name, "set label %s", quoted(panel->title));
         plot_axis_text(&panel->y, axis, sizeof axis);
         find_next(&script, name, "set label '%s' at", axis);
         if (panel->x_column)
