@@ -10,11 +10,14 @@
 #define ADAPTOR(array) .at = QUANTITY_EACH_OF(ld_rocket_summary, array)
 #define KEPT .studied = true
 
-#define LINE(label, unit, factor, digits) .line = {label, unit, factor, digits, false, false}
-#define LINE_OFF(label, unit, factor, digits, error_of)                                            \
-    .line = {label, unit, factor, digits,                                                          \
+#define LINE_OF(name, of, from_si, places)                                                         \
+    .label = name, .unit = of, .factor = from_si, .digits = places
+#define LINE(name, of, from_si, places) .line = {LINE_OF(name, of, from_si, places)}
+#define LINE_OFF(name, of, from_si, places, error_of)                                              \
+    .line = {LINE_OF(name, of, from_si, places),                                                   \
              .error = QUANTITY_AT(ld_rocket_summary, exit_error.error_of)}
-#define NONZERO(label, unit, factor, digits) .line = {label, unit, factor, digits, false, true}
+#define NONZERO(name, of, from_si, places)                                                         \
+    .line = {LINE_OF(name, of, from_si, places), .nonzero = true}
 #define BESIDE(from_si) .line = {.factor = from_si, .beside = true}
 #define MILLI 1e3
 #define DEGREES 57.29577951308232
