@@ -392,7 +392,7 @@ const plausible_rule plausible_of_tube[] = {
      .low = 0.99, .high = 20, .find = outer_fibre,
      .why = "the corner lies farther out than a section's material on the whole"},
     {"tubes.pressure", "the greatest pressure", .unit = "Pa", NO_LOW, .high = 1e9,
-     .find = greatest_pressure, .why = "no barrel bears 10000 bar"},
+     .find = greatest_pressure, .why = "expected at most 10000 bar"},
     {"tubes.pressure", "its greatest force", .unit = "N", .other = "the weight towards the rear",
      .low = 1, NO_HIGH, .find = pressure_by_weight, .why = "the rocket never leaves"},
     {"tubes.pressure.volume", .unit = "m3", .other = "the volume of the bore before the rocket",

@@ -116,7 +116,7 @@ static void comes_to_what_the_library_comes_to(void **state)
         {"examples/fixed", {CLAMPS}, 3, 1, false, true}, // whose high modes CVODE follows to 0.03
                                                          // at 1e-8
         // which spins so fast that a launch of the library itself is exact to 0.2 at 1e-8
-        {"examples/test-barrel", {"run.end=40 ms"}, 2, 1, false, true},
+        {"examples/spin-rig", {"run.end=40 ms"}, 2, 1, false, true},
         {"examples/sequence", {TWO, "run.lead_in=0 s"}, 3, 2, true, false},
     };
     for (int i = 0; i < OF_ALL((int)(sizeof cases / sizeof *cases), 3); i++) {

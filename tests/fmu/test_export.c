@@ -658,7 +658,7 @@ static void is_described(void **state)
     (void)state;
     for (int version = 2; version <= 3; version++) {
         check_description("examples/reference.yaml", version);
-        check_description("examples/test-barrel.yaml", version);
+        check_description("examples/spin-rig.yaml", version);
         check_description("examples/reference.yaml --part vehicle", version);
         check_description("examples/reference.yaml --part launcher", version);
     }

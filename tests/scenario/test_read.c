@@ -19,7 +19,7 @@ static const char *const examples[] = {
     "fixed.yaml",      "prescribed.yaml",     "smooth.yaml",       "straight.yaml",
     "unbalanced.yaml", "engine.yaml",         "reference.yaml",    "ship.yaml",
     "aircraft.yaml",   "flight.yaml",         "salvo.yaml",        "marching/stationary.yaml",
-    "interval.yaml",   "salvo-marching.yaml", "line-thrower.yaml", "test-barrel.yaml",
+    "interval.yaml",   "salvo-marching.yaml", "line-thrower.yaml", "spin-rig.yaml",
     "rail/truck.yaml", "rail/deck.yaml",      "rail/tower.yaml",   "ship-sea.yaml"};
 enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 

@@ -156,7 +156,7 @@ static void test_pressure(void **state)
         "mm)\n"
         "# drive: 12 l of gas at 1 MPa against 100 kPa; no lock\n");
     check_words(
-        "examples/test-barrel.yaml", NULL, 0,
+        "examples/spin-rig.yaml", NULL, 0,
         "# base: fixed; launcher 10 deg up\n"
         "# guide: a bore, 2 m long\n"
         "#   from 0 m: bore radius 20 mm, wall 18 mm, EI 317.5 kN.m2, GJ 244.2 kN.m2, 25.75 kg/m\n"

@@ -210,10 +210,10 @@ static void change_key(uint64_t *seed, const language *all, ld_model *model)
 
 static ld_model *draw_scenario(uint64_t *seed, const language *all)
 {
-    static const char *const files[] = {"fixed",      "prescribed",   "reference",  "aircraft",
-                                        "ship",       "flight",       "sequence",   "smooth",
-                                        "firm",       "rail/pad",     "rail/deck",  "rail/tower",
-                                        "rail/truck", "line-thrower", "test-barrel"};
+    static const char *const files[] = {"fixed",      "prescribed",   "reference", "aircraft",
+                                        "ship",       "flight",       "sequence",  "smooth",
+                                        "firm",       "rail/pad",     "rail/deck", "rail/tower",
+                                        "rail/truck", "line-thrower", "spin-rig"};
     char name[256];
     ld_messages messages;
     ld_model *model;

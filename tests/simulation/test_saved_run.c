@@ -77,7 +77,7 @@ static const struct saved_case {
       "tubes.loads=[{at: 0.2 m}, {at: 1 m}]", "run={lead_in: 20 ms, output_step: {tube: 0.5 ms}}"},
      0},
     {"pressure",
-     "test-barrel.yaml",
+     "spin-rig.yaml",
      {"run={end: 60 ms, lead_in: 5 ms, output_step: {tube: 0.5 ms}}"},
      0},
     {"sequence",
