@@ -46,20 +46,6 @@ static fmi2Status refuse_call(const component *self, const char *function, const
                 : fmi2Error;
 }
 
-// What a call needs: an instance, and what it points to; most of all that it has not been
-// terminated.
-#define NEEDS(pointers)                                                                            \
-    do {                                                                                           \
-        if (!self || !(pointers))                                                                  \
-            return refuse_call(self, __func__, "a pointer is null");                               \
-    } while (0)
-#define NEEDS_ALIVE(pointers)                                                                      \
-    do {                                                                                           \
-        NEEDS(pointers);                                                                           \
-        if (self->terminated)                                                                      \
-            return refuse_call(self, __func__, "the instance has been terminated");                \
-    } while (0)
-
 static fmi2Status not_offered(void *c, const char *function)
 {
     ld_error error;

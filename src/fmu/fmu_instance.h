@@ -68,4 +68,18 @@ ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error);
 ld_status fmu_state_read(const void *bytes, size_t size, fmu_state **state, ld_error *error);
 ld_status fmu_state_write(const fmu_state *state, void *bytes, size_t size, ld_error *error);
 
+// What a call of fmi2.c or fmi3.c needs: an instance `self`, and what it points to; most also that
+// it has not been terminated. refuse_call() of that file refuses it.
+#define NEEDS(pointers)                                                                            \
+    do {                                                                                           \
+        if (!self || !(pointers))                                                                  \
+            return refuse_call(self, __func__, "a pointer is null");                               \
+    } while (0)
+#define NEEDS_ALIVE(pointers)                                                                      \
+    do {                                                                                           \
+        NEEDS(pointers);                                                                           \
+        if (self->terminated)                                                                      \
+            return refuse_call(self, __func__, "the instance has been terminated");                \
+    } while (0)
+
 #endif
