@@ -176,7 +176,7 @@ async function checkOne(browser, study) {
 // Where nothing tells factors apart, clouds stand beside the answer, and fill the first screen with it at every width.
 async function checkWithout(browser) {
   console.log("a study without sensitivities");
-  const scenario = join(folder, "seeds.yaml"), out = join(folder, "seeds");
+  const scenario = join(folder, "seeds_in_a_file_whose_name_has_no_place_where_a_line_might_break.yaml"), out = join(folder, "seeds");
   writeFileSync(scenario, `include: ${example("marching/15-kmh.yaml")}\nscatter: {samples: 12, factors: {base.road.seed: {each: sample}}}\n`);
   launchdyn("study", scenario, "--out", out, "--quiet");
   const page = await open(browser, reportOf("seeds.html", { out }), { width: 1400 });
