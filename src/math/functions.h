@@ -1,8 +1,8 @@
 // The elementary functions of <math.h> with the same bits on every processor: plain sums, products,
 // quotients and roots of doubles, where the C library chooses its own variants (fused operations)
 // at run time. Who calls one of them includes this; check.symbols finds calls of the library's.
-// What is exact (sqrt, floor, remainder, ldexp, ...) stays the library's. Errors:
-// docs/verification.md.
+// What is exact (sqrt, floor, remainder, ldexp, ...) stays the library's. Errors: the
+// test math.functions.
 #ifndef LD_MATH_FUNCTIONS_H
 #define LD_MATH_FUNCTIONS_H
 

@@ -1,5 +1,5 @@
-// Elementary functions over reals, each lane with the bits of one alone; errors in
-// docs/verification.md.
+// Elementary functions over reals, each lane with the bits of one alone; errors: the test
+// math.real_functions.
 #ifndef LD_MATH_REAL_FUNCTIONS_H
 #define LD_MATH_REAL_FUNCTIONS_H
 
