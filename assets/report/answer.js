@@ -90,7 +90,7 @@ function flightRows(rockets) {
     row("Apogee", saidOf(each("apogee"), "m"), above ? `above ground; ${above.join("\u00a0")} above sea level` : ""), row("Range", saidOf(each("range"), "m")),
     row("Time of flight", saidOf(each("time_of_flight"), "s")),
     row("Largest Mach number", saidOf(each("max_mach"), "")),
-    row("Speed at impact", saidOf(each("impact_speed"), "m/s")),
+    row("Speed at landing", saidOf(each("impact_speed"), "m/s")),
   ];
 }
 

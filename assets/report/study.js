@@ -3,6 +3,7 @@ import { element, themeSwitch } from "./page.js";
 import { countSeries } from "./chart.js";
 import { originBlock } from "./origin.js";
 import { beside, convergence, distribution, scatter, sensitivity, spread } from "./study_plots.js";
+import { isSteep } from "./results.js";
 import { describe, foremost, partCount, partName } from "./study_results.js";
 import { answer, counts, ellipses, failures, measured, plans, seriesName, statistics } from "./study_tables.js";
 
@@ -10,7 +11,9 @@ const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent);
 const MOST_NAMED = 8; // series in the legend; the table of the summary names them all
 countSeries(data.series.length);
-const results = data.results.map(describe);
+// Series whose rockets leave near the vertical, on average.
+const steep = data.series.filter((_, s) => isSteep(data.results.find(({ name }) => name === "pitch")?.series[s]?.mean[0]));
+const results = data.results.map((result) => describe(result, steep.length > 0));
 const nav = element("nav");
 
 function section(id, title, ...children) {
@@ -77,6 +80,7 @@ function states() {
     return element("p", { className: "warning" }, which + what);
   };
   return [
+    some("rockets leave near the vertical: yaw and rates of the ground frame are not meaningful, those of the launcher's axes at ignition are.", steep),
     some("no sample is there yet.", data.series.filter((series) => series.done === 0)),
     some("not all samples have been run; the numbers are of those that are there.",
       data.series.filter((series) => series.done > 0 && series.done < series.samples)),
@@ -91,7 +95,7 @@ host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeS
   data.series.length > 1 && data.series.length <= MOST_NAMED
     ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
 const notes = data.notes.map((note) => element("p", { className: "warning" }, note));
-const shots = data.measured?.results.map(describe) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
+const shots = data.measured?.results.map((result) => describe(result)) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
 const told = first.length ? answer(data, first) : null, [shares, otherShares] = sensitivities();
 const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, pair)).filter(Boolean);
 const lead = (title, plots, others) => // beside each other

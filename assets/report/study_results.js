@@ -1,5 +1,5 @@
 // The results of a study as a person reads them: label, unit, factor from SI, and where they belong.
-import { DEG, MM, MRAD, ROCKET } from "./results.js";
+import { DEG, marked, MM, MRAD, ROCKET } from "./results.js";
 
 const MORE = [
   ["exit.x", "place at the exit, x", "m", 1],
@@ -13,7 +13,7 @@ const MORE = [
   ["tip.pitch_rate", "tip of the tube, pitch rate", "mrad/s", 1e3],
   ["tip.yaw_rate", "tip of the tube, yaw rate", "mrad/s", 1e3],
   ["downrange", "downrange", "m", 1],
-  ["t_impact", "impact, from ignition", "s", 1],
+  ["t_impact", "landing, from ignition", "s", 1],
   ["t_max_acceleration", "largest acceleration, from ignition", "s", 1],
   ["t_max_dynamic_pressure", "largest dynamic pressure, from ignition", "s", 1],
   ["measure.*", "%s", null, 1],
@@ -21,10 +21,10 @@ const MORE = [
 
 const PARTS = [
   ["Measures of the scenario", /^measure\./],
-  ["Attitude and rates at the exit", /^(pitch|yaw)/],
+  ["Attitude and rates at the exit, launcher's axes", /^(since_ignition|tip_off)\./],
   ["Speeds at the exit", /speed$|^spin/],
   ["Flight", /^(apogee|t_apogee|t_max|stability|downrange|drift|range|t_impact|time_of_flight|impact|max_mach|max_dynamic|max_acceleration|max_angle)/],
-  ["Against the launcher at the exit", /^(tip_off|aim)\./],
+  ["Attitude and rates at the exit, ground frame", /^(pitch|yaw)/],
   ["Tip of the tube", /^tip\./],
   ["Place and velocity at the exit", /^exit\./],
   ["Instants", /^t_/],
@@ -36,13 +36,13 @@ const PARTS = [
 const isOf = (key, name) => key === name || key === `flight.${name}` ||
   (key.endsWith("*") && name.startsWith(key.slice(0, -1)));
 
-// A result of the study's data with all that.
-export function describe({ name, unit, ...rest }) {
+// A result of the study's data with all that; `steep`: rockets leave near the vertical.
+export function describe({ name, unit, ...rest }, steep = false) {
   const row = [...ROCKET, ...MORE].find(([key]) => isOf(key, name));
   const [key, pattern, shown, factor] = row ?? [name, name, unit, 1];
   const label = pattern.replace("%s", () => name.slice(key.length - 1).replaceAll("_", " "));
   const own = shown ?? unit;
-  const text = label[0].toUpperCase() + label.slice(1);
+  const text = marked(name, label[0].toUpperCase() + label.slice(1), steep);
   const part = /^(impact|t_impact)/.test(name) ? 3 : PARTS.findIndex(([, pattern]) => pattern.test(name));
   return { ...rest, name, si: unit, label: text, unit: own, factor, part, axis: own ? `${label} [${own}]` : label };
 }
@@ -51,8 +51,8 @@ export const partName = (index) => (index < 0 ? "Other results" : PARTS[index][0
 export const partCount = PARTS.length;
 
 // What one asks a study first, in this order: of it the first that there are.
-const FIRST = [/^measure\./, /^muzzle_speed$/, /^tip_off\.(pitch|yaw)_rate_relative$/, /^downrange$/, /^drift$/, /^apogee$/, /^spin_rate$/,
-  /^tip_off\.(pitch|yaw)_rate$/, /^tip_off\.(pitch|yaw)$/, /^impact_speed$/, /^time_of_flight$/, /^max_contact_force/, /^max_mach$/];
+const FIRST = [/^measure\./, /^muzzle_speed$/, /^since_ignition\.(pitch|yaw)_rate$/, /^tip_off\.(pitch|yaw)_rate_relative$/, /^downrange$/, /^drift$/, /^apogee$/, /^spin_rate$/,
+  /^since_ignition\.(pitch|yaw)$/, /^tip_off\.(pitch|yaw)_rate$/, /^tip_off\.(pitch|yaw)$/, /^impact_speed$/, /^time_of_flight$/, /^max_contact_force/, /^max_mach$/];
 
 export function foremost(list, most) {
   const rank = ({ name }) => FIRST.findIndex((pattern) => pattern.test(name));

@@ -1,7 +1,7 @@
 // What summary.json says, as tables.
 import { element } from "./page.js";
 import { readable } from "./data.js";
-import { MM, MRAD, ROCKET } from "./results.js";
+import { isSteep, marked, MM, MRAD, ROCKET } from "./results.js";
 
 const EQUILIBRIUM = [
   ["lock_force", "force of the lock", "N", 1],
@@ -56,6 +56,9 @@ function rowsOf(objects, list) {
   return rows;
 }
 
+// The rows of rockets, marked where one of them leaves near the vertical.
+const rowsMarked = (rockets) => ROCKET.map(([key, label, ...more]) => [key, marked(key, label, rockets.some(({ pitch }) => isSteep(pitch))), ...more]);
+
 function tableOf(heading, rows, heads) {
   if (rows.length === 0) return null;
   const body = rows.map(([label, unit, cells]) =>
@@ -88,7 +91,7 @@ function modes(list, named) {
 
 // `named`: puts words for its guide into a text.
 export function showSummary(summary, named) {
-  const rockets = summary.rockets ?? [], rocket = ROCKET.map(([path, label, ...more]) => [path, named(label), ...more]);
+  const rockets = summary.rockets ?? [], rocket = rowsMarked(rockets).map(([path, label, ...more]) => [path, named(label), ...more]);
   return element("div", { id: "tables" },
     tableOf(rockets.length > 1 ? "Rockets" : "Rocket", rowsOf(rockets, [...rocket, ...measures([summary])]),
       rockets.length > 1 ? rockets.map((_, i) => String(i + 1)) : null),
@@ -111,7 +114,7 @@ export function showSummaries(runs) {
     return [[...new Set(each.filter(Boolean).map(({ shape }) => String(shape)))].join(" / "), "Hz", each.map((mode) => readable(mode?.frequency))];
   });
   return element("div", { id: "tables" },
-    tableOf(rockets.length > runs.length ? "Rockets" : "Rocket", rowsOf(rockets, [...ROCKET, ...measures(all)]), heads),
+    tableOf(rockets.length > runs.length ? "Rockets" : "Rocket", rowsOf(rockets, [...rowsMarked(rockets), ...measures(all)]), heads),
     tableOf("Energy balance at the end", part("energy", ENERGY), labels),
     tableOf("Equilibrium at the start", part("equilibrium", EQUILIBRIUM), labels),
     tableOf("Natural frequencies of the tube on its supports", frequencies, labels),

@@ -51,6 +51,25 @@ static bool may_mean(const char *wanted, const char *name, size_t longer, int di
     return distance <= most_edits(longer) && distance < (int)longer && (distance < 2 || alike);
 }
 
+// Quantities that had another name before: how both begin.
+static const struct {
+    const char *before, *now;
+} renamed[] = {{"aim.", "since_ignition."}};
+
+// Whether the name is what the wanted one, or what stands behind its dots, is called now.
+static bool is_renamed(const char *wanted, const char *name)
+{
+    for (size_t i = 0; i < sizeof renamed / sizeof *renamed; i++) {
+        const char *at = strstr(wanted, renamed[i].before);
+        size_t head = at ? (size_t)(at - wanted) : 0;
+        if (at && (head == 0 || at[-1] == '.') && strncmp(wanted, name, head) == 0 &&
+            strncmp(name + head, renamed[i].now, strlen(renamed[i].now)) == 0 &&
+            strcmp(at + strlen(renamed[i].before), name + head + strlen(renamed[i].now)) == 0)
+            return true;
+    }
+    return false;
+}
+
 name_suggestion suggestion_begin(const char *wanted)
 {
     return (name_suggestion){.wanted = wanted};
@@ -60,6 +79,11 @@ void suggestion_offer(name_suggestion *suggestion, const char *name)
 {
     size_t own = strlen(name), given = strlen(suggestion->wanted),
            longer = own > given ? own : given;
+    if (is_renamed(suggestion->wanted, name)) {
+        suggestion->distance = 0;
+        suggestion->name = name;
+        return;
+    }
     if (longer > LONGEST)
         return;
     int distance = edit_distance(suggestion->wanted, name);

@@ -129,10 +129,10 @@ static ld_status choose(ld_response_view *view, const char *const *names, size_t
 static const char *const at_exit[] = {
     "t_rear",
     "muzzle_speed",
-    "pitch",
-    "yaw",
-    "pitch_rate",
-    "yaw_rate",
+    "since_ignition.pitch",
+    "since_ignition.yaw",
+    "since_ignition.pitch_rate",
+    "since_ignition.yaw_rate",
     "tip_off.pitch",
     "tip_off.yaw",
     "tip_off.pitch_rate",
@@ -141,8 +141,10 @@ static const char *const at_exit[] = {
     "tip_off.yaw_rate_relative",
     "tip_off.vy",
     "tip_off.vz",
-    "aim.pitch",
-    "aim.yaw",
+    "pitch",
+    "yaw",
+    "pitch_rate",
+    "yaw_rate",
 };
 
 static ld_status choose_exit(ld_response_view *view, const ld_response_wish *wish, ld_error *error)

@@ -8,10 +8,23 @@
 
 // The most wanted first: of many series and factors there is no room for all.
 static const char *const results[] = {
-    "pitch",         "yaw",          "pitch_rate",         "yaw_rate",         "downrange",
-    "drift",         "muzzle_speed", "spin_rate",          "apogee",           "t_rear",
-    "tip_off.pitch", "tip_off.yaw",  "tip_off.pitch_rate", "tip_off.yaw_rate", "tip.pitch",
-    "tip.yaw"};
+    "since_ignition.pitch",
+    "since_ignition.yaw",
+    "since_ignition.pitch_rate",
+    "since_ignition.yaw_rate",
+    "downrange",
+    "drift",
+    "muzzle_speed",
+    "spin_rate",
+    "apogee",
+    "t_rear",
+    "pitch",
+    "yaw",
+    "pitch_rate",
+    "yaw_rate",
+    "tip.pitch",
+    "tip.yaw",
+};
 enum { RESULTS = sizeof results / sizeof *results, MOST_ESTIMATES = 4000 };
 
 // Fills in the column of a result, then those of all factors but seeds. Returns how many, 0 where

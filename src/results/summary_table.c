@@ -18,8 +18,8 @@ static const char *print_error(const quantity_line *line, const void *from, char
 }
 
 // "  label           value unit", with two values side by side where the next quantity is said to
-// stand there; nothing where there is no value.
-static void print_line(const quantity_walk *at, const void *from, FILE *stream)
+// stand there, and a remark; nothing where there is no value.
+static void print_line(const quantity_walk *at, const void *from, const char *remark, FILE *stream)
 {
     const quantity_line *line = &at->row->line;
     char label[QUANTITY_TEXT], second[32] = "", error[32];
@@ -34,21 +34,22 @@ static void print_line(const quantity_walk *at, const void *from, FILE *stream)
         value = isfinite(beside) ? value : NAN;
     }
     if (isfinite(value) && !(line->nonzero && value == 0))
-        fprintf(stream, "  %-22s %12.*f%s%s %s\n", label, line->digits,
+        fprintf(stream, "  %-22s %12.*f%s%s %s%s\n", label, line->digits,
                 printed_fixed(value * line->factor, line->digits), second,
-                print_error(line, from, error), line->unit ? line->unit : quantity_unit(at));
+                print_error(line, from, error), line->unit ? line->unit : quantity_unit(at),
+                remark);
 }
 
 // The lines of one block.
 static void print_block(const quantity_table *table, const quantity_things *things,
-                        const void *from, int block, FILE *stream)
+                        const void *from, int block, const char *remark, FILE *stream)
 {
     for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at)) {
         quantity_walk shown = at;
         if (at.group->backwards)
             shown.item = things->count[at.group->each] - 1 - at.item;
         if (at.group->block == block && at.row->line.label)
-            print_line(&shown, from, stream);
+            print_line(&shown, from, remark, stream);
     }
 }
 
@@ -77,8 +78,11 @@ static void print_rocket(const quantity_things *things, const ld_rocket_summary 
                          FILE *stream)
 {
     fprintf(stream, "\nRocket of tube %d, instants from its ignition\n", rocket->tube);
-    for (int block = SHOWN_CHANGE; block <= SHOWN_MEASURES; block++)
-        print_block(&rocket_quantities, things, rocket, block, stream);
+    for (int block = SHOWN_CHANGE; block <= SHOWN_MEASURES; block++) {
+        bool steep = block == SHOWN_GROUND && near_vertical(rocket->pitch);
+        print_block(&rocket_quantities, things, rocket, block, steep ? " (near the vertical)" : "",
+                    stream);
+    }
 }
 
 static void print_flight(const quantity_things *things, const ld_rocket_summary *rocket,
@@ -88,7 +92,7 @@ static void print_flight(const quantity_things *things, const ld_rocket_summary 
     if (!rocket->flown)
         return;
     fputs("\nFlight\n", stream);
-    print_block(&rocket_quantities, things, rocket, SHOWN_FLIGHT, stream);
+    print_block(&rocket_quantities, things, rocket, SHOWN_FLIGHT, "", stream);
     if (!isfinite(rocket->flight.t_impact))
         fprintf(stream, "  %-22s %12.3f %12.3f %12.3f m\n", "mass centre at the end",
                 printed_fixed(r[0], 3), printed_fixed(r[1], 3), printed_fixed(r[2], 3));
@@ -117,7 +121,7 @@ void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *st
     if (launch) {
         print_modes(summary, stream);
         fputs("\nEquilibrium at the start\n", stream);
-        print_block(&run_quantities, &things, summary, SHOWN_EQUILIBRIUM, stream);
+        print_block(&run_quantities, &things, summary, SHOWN_EQUILIBRIUM, "", stream);
     }
     for (int i = 0; i < summary->rocket_count; i++) {
         if (launch)

@@ -46,9 +46,11 @@ rocket_motion rocket_motion_of(const launching_pose *pose, v3 c, const double *y
     v3 to_C = m3_apply(pose->A_RB, c);
     return (rocket_motion){
         .axis = m3_apply(A_IR, m3_column(pose->A_RB, 0)),
+        .side = m3_apply(A_IR, m3_column(pose->A_RB, 1)),
         .w = m3_apply(A_IR, pose->w_B),
         .r_C = v3_add(v3_from(y + at->r), m3_apply(A_IR, v3_add(pose->p1, to_C))),
         .v_C = m3_apply(A_IR, v3_add(pose->v_O1, v3_cross(pose->w_B, to_C))),
+        .gamma = y[at->x + X_GAMMA],
     };
 }
 
@@ -80,21 +82,35 @@ ld_tip_off tip_off_of(const base_frame *base, const rocket_motion *rocket)
     };
 }
 
-ld_aim aim_of(const launch_state *self, double t, const rocket_motion *rocket)
+// Roll of Ry(yaw) Rz(pitch) Rx(roll) in axes A_IT, of whose turns the relative roll tells the
+// number.
+static double roll_in(const m3 *A_IT, direction_angles angles, const rocket_motion *rocket)
+{
+    double sy = sin(angles.yaw), cy = cos(angles.yaw), sp = sin(angles.pitch),
+           cp = cos(angles.pitch);
+    v3 side = m3_apply_transposed(*A_IT, rocket->side);
+    double roll =
+        atan2(v3_dot(side, v3_make(sy, 0, cy)), v3_dot(side, v3_make(-sp * cy, cp, sp * sy)));
+    return rocket->gamma + remainder(roll - rocket->gamma, 2 * acos(-1));
+}
+
+ld_since_ignition since_ignition_of(const launch_state *self, double t, const rocket_motion *rocket)
 {
     if (t < self->t_ignition)
-        return no_aim;
-    v3 v = m3_apply_transposed(self->aim, rocket->v_C);
-    direction_angles angles = angles_in(&self->aim, rocket->axis, rocket->w);
-    return (ld_aim){
+        return before_ignition;
+    v3 v = m3_apply_transposed(self->A_ignition, rocket->v_C);
+    direction_angles angles = angles_in(&self->A_ignition, rocket->axis, rocket->w);
+    return (ld_since_ignition){
         .pitch = angles.pitch,
         .yaw = angles.yaw,
+        .roll = roll_in(&self->A_ignition, angles, rocket),
         .pitch_rate = angles.pitch_rate,
         .yaw_rate = angles.yaw_rate,
+        .roll_rate = v3_dot(rocket->axis, rocket->w) - angles.yaw_rate * sin(angles.pitch),
         .vy = v.y,
         .vz = v.z,
     };
 }
 
 const ld_tip_off no_tip_off = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-const ld_aim no_aim = {NAN, NAN, NAN, NAN, NAN, NAN};
+const ld_since_ignition before_ignition = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};

@@ -31,7 +31,7 @@ typedef struct launch_instant {
     direction_angles angles;
     double spin;
     ld_tip_off tip_off;
-    ld_aim aim;
+    ld_since_ignition since_ignition;
     instant_contact contact[LD_MAX_ADAPTORS];
     struct {
         double force_y, force_z, moment;
@@ -124,8 +124,17 @@ static const quantity rocket[] = {
     {"rocket.yaw_rate", "rad/s", "rate of rocket.yaw", AT(angles.yaw_rate)},
     {"rocket.spin", "rad/s", "rate of the rocket against I about its axis", AT(spin)},
 };
-// In T, the axes of the undeformed tube on its base; "aim": as they stood at the ignition.
+// tip_off: in T, the axes of the undeformed tube on its base; since_ignition: in T as it stood at
+// the ignition.
 static const quantity against_launcher[] = {
+    {"since_ignition.pitch", "rad", "launcher's axes at ignition: pitch of the rocket's axis", AT(since_ignition.pitch)},
+    {"since_ignition.yaw", "rad", "launcher's axes at ignition: yaw of the rocket's axis, positive to the left", AT(since_ignition.yaw)},
+    {"since_ignition.roll", "rad", "launcher's axes at ignition: roll of Ry(yaw) Rz(pitch) Rx(roll), whole turns counted", AT(since_ignition.roll)},
+    {"since_ignition.pitch_rate", "rad/s", "rate of since_ignition.pitch", AT(since_ignition.pitch_rate)},
+    {"since_ignition.yaw_rate", "rad/s", "rate of since_ignition.yaw", AT(since_ignition.yaw_rate)},
+    {"since_ignition.roll_rate", "rad/s", "rate of since_ignition.roll", AT(since_ignition.roll_rate)},
+    {"since_ignition.vy", "m/s", "launcher's axes at ignition: inertial velocity of the mass centre along y", AT(since_ignition.vy)},
+    {"since_ignition.vz", "m/s", "launcher's axes at ignition: inertial velocity of the mass centre along z", AT(since_ignition.vz)},
     {"tip_off.pitch", "rad", "rocket's axis in T: pitch", AT(tip_off.pitch)},
     {"tip_off.yaw", "rad", "rocket's axis in T: yaw, positive to the left", AT(tip_off.yaw)},
     {"tip_off.pitch_rate", "rad/s", "rate of tip_off.pitch, T held still", AT(tip_off.pitch_rate)},
@@ -136,12 +145,6 @@ static const quantity against_launcher[] = {
     {"tip_off.vz", "m/s", "inertial velocity of the mass centre along T's z", AT(tip_off.vz)},
     {"tip_off.vy_relative", "m/s", "velocity of the mass centre against T, its y", AT(tip_off.vy_relative)},
     {"tip_off.vz_relative", "m/s", "velocity of the mass centre against T, its z", AT(tip_off.vz_relative)},
-    {"aim.pitch", "rad", "rocket's axis in T of the ignition: pitch", AT(aim.pitch)},
-    {"aim.yaw", "rad", "rocket's axis in T of the ignition: yaw", AT(aim.yaw)},
-    {"aim.pitch_rate", "rad/s", "rate of aim.pitch", AT(aim.pitch_rate)},
-    {"aim.yaw_rate", "rad/s", "rate of aim.yaw", AT(aim.yaw_rate)},
-    {"aim.vy", "m/s", "inertial velocity of the mass centre along y of that T", AT(aim.vy)},
-    {"aim.vz", "m/s", "inertial velocity of the mass centre along z of that T", AT(aim.vz)},
 };
 static const quantity motor_now[] = {
     {"rocket.mass", "kg", "instantaneous mass", AT(input.launching.mass.m)},
@@ -326,7 +329,7 @@ static void find_rocket(const launch_state *self, const double *y, launch_instan
     now->spin = v3_dot(axis, pose.w_B);
     rocket_motion motion = rocket_motion_of(&pose, input->mass.c, y, at);
     now->tip_off = tip_off_of(&input->base, &motion);
-    now->aim = aim_of(self, now->t, &motion);
+    now->since_ignition = since_ignition_of(self, now->t, &motion);
     find_contacts(self, now);
 }
 

@@ -43,7 +43,7 @@ static void archive_launch(archive *bytes, launch_state *self)
     archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_bool(bytes, &self->on_breech);
     for (int i = 0; i < 3; i++)
-        archive_doubles(bytes, self->aim.a[i], 3);
+        archive_doubles(bytes, self->A_ignition.a[i], 3);
     archive_bool(bytes, &self->jammed);
     archive_count(bytes, &self->fallbacks);
     archive_double(bytes, &self->worst_condition);

@@ -30,7 +30,7 @@ typedef struct launch_state {
     const base_frame *told; // T at the start, of a base that is told; NULL: nobody tells
     base_rest rest;         // of the equilibrium
     bool on_breech;         // the equilibrium is one without a lock, the breech carries the rocket
-    m3 aim;                 // A_IT, the undeformed tube on its base, as it stood at that ignition
+    m3 A_ignition;          // A_IT, the undeformed tube on its base, as it stood at that ignition
     int piece;              // of the thrust curve
     int pressure_piece;     // of the pressure behind the rocket; 0: not lit
     bool held_down;         // the lock lets go under no force
@@ -161,20 +161,23 @@ void simulation_energy(const launch_state *self, const launcher_input *input,
                        const launcher_output *out, const double *y, double energy_start,
                        ld_energy *energy);
 
-// The rocket's x axis, its rate, place and velocity of its mass centre, all in I.
+// The rocket's axes x and y, its rate, place and velocity of its mass centre, all in I; its
+// relative roll, which counts whole turns.
 typedef struct rocket_motion {
-    v3 axis, w, r_C, v_C;
+    v3 axis, side, w, r_C, v_C;
+    double gamma;
 } rocket_motion;
 // Of the rocket with this pose in state y, its mass centre at c in B.
 rocket_motion rocket_motion_of(const launching_pose *pose, v3 c, const double *y,
                                const launching_layout *at);
 
-// The rocket against the launcher, as it stands and moves; at time t against where it stood at the
-// ignition, before which there is no aim. Those of no rocket: not a number.
+// The rocket against the launcher, as it stands and moves; at time t in the launcher's axes at the
+// ignition, before which there are none. Those of no rocket: not a number.
 ld_tip_off tip_off_of(const base_frame *base, const rocket_motion *rocket);
-ld_aim aim_of(const launch_state *self, double t, const rocket_motion *rocket);
+ld_since_ignition since_ignition_of(const launch_state *self, double t,
+                                    const rocket_motion *rocket);
 extern const ld_tip_off no_tip_off;
-extern const ld_aim no_aim;
+extern const ld_since_ignition before_ignition;
 
 // The tip's section against the undeformed tube, in the base's tube axes.
 typedef struct tip_state {

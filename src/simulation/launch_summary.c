@@ -56,12 +56,12 @@ void launch_record_exit(ld_run *run, double t, const double *landed)
     rocket->tip.yaw_rate = tip.angles.yaw_rate;
     rocket_motion motion = rocket_motion_of(&pose, input.launching.mass.c, y, at);
     rocket->tip_off = tip_off_of(&input.launching.base, &motion);
-    rocket->aim = aim_of(self, t, &motion);
+    rocket->since_ignition = since_ignition_of(self, t, &motion);
     if (run->exit_error)
         exit_error_record(run->exit_error, run, t, y);
 }
 
-// Where the rocket is when it is lit, over the ground, and how its tube is aimed.
+// Position of the rocket at its ignition, and the launcher's axes there.
 void launch_record_ignition(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
@@ -75,7 +75,7 @@ void launch_record_ignition(ld_run *run, double t, const double *y)
     run->point[self->current][1] = r.z;
     launcher_input input;
     launcher_place(&self->launcher, t, y, &input);
-    self->aim = input.launching.base.A;
+    self->A_ignition = input.launching.base.A;
 }
 
 // Largest contact and slot forces so far.
@@ -231,6 +231,20 @@ static void note_measures(ld_run *run)
             }
 }
 
+// Of the first rocket that leaves near the vertical.
+static void note_vertical(ld_summary *summary)
+{
+    for (int i = 0; i < summary->rocket_count; i++)
+        if (near_vertical(summary->rocket[i].pitch)) {
+            simulation_note(summary,
+                            "the rocket of tube %d leaves near the vertical (pitch %.5g deg): yaw "
+                            "and rates of the ground frame are not meaningful; use since_ignition",
+                            summary->rocket[i].tube,
+                            summary->rocket[i].pitch * 180 / 3.14159265358979323846);
+            return;
+        }
+}
+
 void launch_summarise(ld_run *run)
 {
     launch_state *self = &run->launch;
@@ -257,6 +271,7 @@ void launch_summarise(ld_run *run)
         if (summary->rocket[i].t_release < 0)
             simulation_note(summary, "the lock of tube %d let go %.4g s before its ignition",
                             summary->rocket[i].tube, -summary->rocket[i].t_release);
+    note_vertical(summary);
     note_measures(run);
     exit_error_note(run);
     if (self->system->growing.real > 0)

@@ -74,8 +74,12 @@ bool study_result_is_measure(const char *name)
 
 const study_pair study_pairs[STUDY_PAIRS] = {
     {"Landing points", {"downrange", "drift"}, "m"},
-    {"Attitude at the exit", {"pitch", "yaw"}, "rad"},
-    {"Rates at the exit", {"pitch_rate", "yaw_rate"}, "rad/s"},
-    {"Attitude at the exit, against the launcher", {"tip_off.pitch", "tip_off.yaw"}, "rad"},
-    {"Rates at the exit, launcher's axes", {"tip_off.pitch_rate", "tip_off.yaw_rate"}, "rad/s"},
+    {"Attitude at the exit, launcher's axes at ignition",
+     {"since_ignition.pitch", "since_ignition.yaw"},
+     "rad"},
+    {"Rates at the exit, launcher's axes at ignition",
+     {"since_ignition.pitch_rate", "since_ignition.yaw_rate"},
+     "rad/s"},
+    {"Attitude at the exit, ground frame", {"pitch", "yaw"}, "rad"},
+    {"Rates at the exit, ground frame", {"pitch_rate", "yaw_rate"}, "rad/s"},
 };

@@ -3,6 +3,7 @@
 #ifndef LD_SIMULATION_SUMMARY_H
 #define LD_SIMULATION_SUMMARY_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -68,12 +69,13 @@ typedef struct ld_tip_off {
     double vy_relative, vz_relative;               ///< [m/s] v_C - v_T - w_T x (r_C - r_T)
 } ld_tip_off;
 
-/// The same against T as it stood at this rocket's ignition, held still since then.
-typedef struct ld_aim {
-    double pitch, yaw;           ///< [rad]
-    double pitch_rate, yaw_rate; ///< [rad/s]
-    double vy, vz;               ///< [m/s] of C in I, along that T's y and z
-} ld_aim;
+/// The same in the launcher's axes at ignition: T as it stood at this rocket's ignition, held still
+/// since then. Yaw, pitch, roll: A_TB = Ry(yaw) Rz(pitch) Rx(roll).
+typedef struct ld_since_ignition {
+    double pitch, yaw, roll;                ///< [rad] roll counts whole turns
+    double pitch_rate, yaw_rate, roll_rate; ///< [rad/s]
+    double vy, vz;                          ///< [m/s] of C in I, along that T's y and z
+} ld_since_ignition;
 
 /// How a hinge of a vehicle was held from a rocket's ignition to its exit.
 typedef struct ld_hinge_summary {
@@ -130,10 +132,10 @@ typedef struct ld_rocket_summary {
         double vy, vz;               ///< [m/s]
         double pitch_rate, yaw_rate; ///< [rad/s]
     } tip; ///< tube's tip at t_rear against the undeformed tube on the base, in its axes
-    ld_tip_off tip_off; ///< rocket at t_rear against the undeformed tube on the base
-    ld_aim aim;         ///< the same against where that stood at the ignition
+    ld_tip_off tip_off;               ///< rocket at t_rear against the undeformed tube on the base
+    ld_since_ignition since_ignition; ///< rocket at t_rear in the launcher's axes at ignition
     struct {
-        double rates;    ///< [rad/s] of each of tip_off's and aim's
+        double rates;    ///< [rad/s] of each of tip_off's and since_ignition's
         double yaw_rate; ///< [rad/s] of the rate of yaw in I, which grows towards the vertical
         double relative; ///< [-] of the rates of tip_off together, or of 1 mrad/s
     } exit_error;        ///< what the steps' errors may make of rates at t_rear; NaN: not estimated
@@ -155,6 +157,13 @@ typedef struct ld_rocket_summary {
 
 // exit_error.relative above which the rates at an exit are worth a note.
 static const double EXIT_ERROR_NOTED = 0.01;
+
+// Whether a direction of that pitch [rad] in the ground frame lies within 10 deg of the vertical.
+// Yaw and roll of the ground frame are singular there, and small turns make large yaw rates.
+static inline bool near_vertical(double pitch)
+{
+    return fabs(pitch) > 80 * 3.14159265358979323846 / 180;
+}
 
 enum { LD_MAX_WORKS = 24 };
 

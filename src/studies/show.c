@@ -1,5 +1,5 @@
 // What a study's folder holds, printed: counts, statistics, sensitivities, point by point and side
-// by side; lines of 120 characters.
+// by side; lines of 120 characters, more where names are long.
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -40,7 +40,7 @@ static ld_status print_counts(const shown *self, const study_point *point, ld_er
 static ld_status print_exit_errors(shown *self, const study_point *point, ld_error *error)
 {
     size_t known, above;
-    ld_status status = shown_exit_errors(self, point, &known, &above, error);
+    ld_status status = shown_share_of(self, point, &shown_uncertain, &known, &above, error);
     if (above > 0 && !status)
         fprintf(self->stream,
                 "rates at the exit off by more than %g %% through errors of the steps: %.3g %% of "
@@ -49,16 +49,30 @@ static ld_status print_exit_errors(shown *self, const study_point *point, ld_err
     return status;
 }
 
+// How many left where yaw in the ground frame is singular.
+static ld_status print_vertical(shown *self, const study_point *point, ld_error *error)
+{
+    size_t known, above;
+    ld_status status = shown_share_of(self, point, &shown_vertical, &known, &above, error);
+    if (above > 0 && !status)
+        fprintf(self->stream,
+                "%.3g %% of %zu rockets leave near the vertical, where yaw, yaw_rate and "
+                "pitch_rate are not meaningful: see since_ignition\n",
+                100 * (double)above / (double)known, known);
+    return status;
+}
+
 static void print_statistics(const shown *self, const group_statistics *of)
 {
     FILE *stream = self->stream;
-    fprintf(stream, "\n%-26s %-25s %-33s %8s %11s %11s\n", "", "mean", "standard deviation",
+    const int width = show_name_width(self->column, self->count);
+    fprintf(stream, "\n%-*s %-25s %-33s %8s %11s %11s\n", width, "", "mean", "standard deviation",
             "skewness", "least", "greatest");
     for (int i = 0; i < self->count; i++) {
         const group_statistics *s = &of[i];
         if (s->count == 0)
             continue;
-        show_name(stream, self->column[i]->name, self->column[i]->unit);
+        show_name(stream, width, self->column[i]->name, self->column[i]->unit);
         show_half(stream, 25, &s->mean, 6);
         show_estimate(stream, 33, &s->deviation, NAN);
         show_number(stream, 8, s->skewness, 3);
@@ -66,11 +80,11 @@ static void print_statistics(const shown *self, const group_statistics *of)
         show_number(stream, 11, s->greatest, show_digits(s->greatest, s->deviation.value, 6));
         fputc('\n', stream);
     }
-    fprintf(stream, "\n%-26s %-30s %-30s %s\n", "", "5 %", "median", "95 %");
+    fprintf(stream, "\n%-*s %-30s %-30s %s\n", width, "", "5 %", "median", "95 %");
     for (int i = 0; i < self->count; i++) {
         if (of[i].count == 0)
             continue;
-        show_name(stream, self->column[i]->name, self->column[i]->unit);
+        show_name(stream, width, self->column[i]->name, self->column[i]->unit);
         for (int k = 0; k < STATISTICS_QUANTILES; k++)
             show_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &of[i].quantile[k],
                           of[i].deviation.value);
@@ -99,7 +113,8 @@ static void print_values(const shown *self, const group_statistics *of)
             continue;
         char value[32];
         show_text(value, of[i].mean.value, 6);
-        show_name(self->stream, self->column[i]->name, self->column[i]->unit);
+        show_name(self->stream, show_name_width(self->column, self->count), self->column[i]->name,
+                  self->column[i]->unit);
         fprintf(self->stream, " %s\n", value);
     }
 }
@@ -255,6 +270,8 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     fprintf(self->stream, "%zu rockets, %zu independent groups; 95 %% intervals over groups\n",
             most->count, most->groups);
     status = print_exit_errors(self, point, error);
+    if (!status)
+        status = print_vertical(self, point, error);
     if (status)
         return status;
     if (self->view->sensitivity)
@@ -280,19 +297,20 @@ static bool column_scatters(const shown *self, int column, int from, int to)
 static void print_beside(const shown *self, int from, int to)
 {
     const study_data *data = self->data;
+    const int width = show_name_width(self->column, self->count);
     for (int k = 0; k < data->swept_count; k++) {
-        fprintf(self->stream, "\n%-26s", VISIBLE(data->swept[k]));
+        fprintf(self->stream, "\n%-*s", width, VISIBLE(data->swept[k]));
         for (int i = from; i < to; i++)
             fprintf(self->stream, " %-*.*s", CELL, CELL, VISIBLE(data->point[i].text[k]));
     }
     for (int c = 0; c < self->count; c++) {
         fputc('\n', self->stream);
-        show_name(self->stream, self->column[c]->name, self->column[c]->unit);
+        show_name(self->stream, width, self->column[c]->name, self->column[c]->unit);
         for (int i = from; i < to; i++)
             show_half(self->stream, CELL, &shown_statistics(self, &data->point[i])[c].mean, 6);
         if (!column_scatters(self, c, from, to))
             continue;
-        fprintf(self->stream, "\n%-26s", "    deviation");
+        fprintf(self->stream, "\n%-*s", width, "    deviation");
         for (int i = from; i < to; i++)
             show_half(self->stream, CELL, &shown_statistics(self, &data->point[i])[c].deviation, 4);
     }

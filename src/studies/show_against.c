@@ -76,7 +76,7 @@ ld_status show_against_each(show_against *self, const study_point *point, show_a
 
 // ---- as text
 
-enum { NAME = 26, DIFFERENCE = 36, RATIO = 26 };
+enum { NAME = SHOW_NAME, DIFFERENCE = 36, RATIO = 26 };
 
 static void print_header(FILE *stream)
 {
@@ -105,7 +105,7 @@ static void print_item(void *self, const study_column *const *column, int column
     }
     into->begun = true;
     if (columns == 1) {
-        show_name(stream, column[0]->name, column[0]->unit);
+        show_name(stream, NAME, column[0]->name, column[0]->unit);
         show_estimate(stream, DIFFERENCE, &of->difference, NAN);
     } else {
         snprintf(name, sizeof name, "%.180s and %.180s: areas", column[0]->name, column[1]->name);

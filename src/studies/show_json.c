@@ -45,12 +45,12 @@ static ld_status write_counts(json_writer *json, const shown *self, const study_
     return status;
 }
 
-static ld_status write_exit_errors(json_writer *json, shown *self, const study_point *point,
-                                   ld_error *error)
+static ld_status write_share(json_writer *json, const char *name, const shown_share *share,
+                             shown *self, const study_point *point, ld_error *error)
 {
     size_t known, above;
-    ld_status status = shown_exit_errors(self, point, &known, &above, error);
-    json_open(json, "exit_errors", '{');
+    ld_status status = shown_share_of(self, point, share, &known, &above, error);
+    json_open(json, name, '{');
     json_integer(json, "known", (long long)known);
     json_integer(json, "above", (long long)above);
     json_close(json, '}');
@@ -277,7 +277,9 @@ static ld_status write_point(json_writer *json, shown *self, const study_point *
     json_close(json, '}');
     ld_status status = write_counts(json, self, point, error);
     if (!status)
-        status = write_exit_errors(json, self, point, error);
+        status = write_share(json, "exit_errors", &shown_uncertain, self, point, error);
+    if (!status)
+        status = write_share(json, "near_vertical", &shown_vertical, self, point, error);
     if (!status)
         status = write_view(json, self, point, error);
     json_close(json, '}');

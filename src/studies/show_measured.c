@@ -50,7 +50,7 @@ static void print_result(FILE *stream, const measured_result *result, const meas
                              scaled(of->by.mean, to)};
     const estimate deviation[] = {scaled(of->measured.deviation, to),
                                   scaled(of->simulated.deviation, to)};
-    show_name(stream, result->name, result->unit);
+    show_name(stream, SHOW_NAME, result->name, result->unit);
     fprintf(stream, " %5zu", result->count);
     show_half(stream, COLUMN, &mean[0], 5);
     show_half(stream, COLUMN, &mean[1], 5);

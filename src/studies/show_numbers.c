@@ -13,11 +13,21 @@ int show_digits(double value, double spread, int least)
     return (int)fmin(fmax(digits, least), 12);
 }
 
-void show_name(FILE *stream, const char *result, const char *unit)
+void show_name(FILE *stream, int width, const char *result, const char *unit)
 {
     char name[192];
     snprintf(name, sizeof name, "%s%s%s%s", result, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
-    fprintf(stream, "%-26s", VISIBLE(name));
+    fprintf(stream, "%-*s", width, VISIBLE(name));
+}
+
+int show_name_width(const study_column *const *column, int count)
+{
+    size_t width = SHOW_NAME;
+    for (int i = 0; i < count; i++) {
+        size_t unit = strlen(column[i]->unit), own = strlen(column[i]->name) + unit + 3 * !!unit;
+        width = own > width && own < 64 ? own : width;
+    }
+    return (int)width;
 }
 
 void show_text(char text[32], double value, int digits)

@@ -5,13 +5,16 @@
 #include <stdio.h>
 
 #include "studies/statistics.h"
+#include "studies/study_data.h"
 
 // Significant digits that show a value of this size to two digits of `spread`, at least `least`;
 // 12 at most.
 int show_digits(double value, double spread, int least);
 
-// "t_front [s]", 26 characters wide.
-void show_name(FILE *stream, const char *result, const char *unit);
+// "t_front [s]", at least as wide as said; how wide the widest of several is, 26 or more.
+enum { SHOW_NAME = 26 };
+void show_name(FILE *stream, int width, const char *result, const char *unit);
+int show_name_width(const study_column *const *column, int count);
 
 // What was not found is printed as "-", a negative zero as 0.
 void show_text(char text[32], double value, int digits);

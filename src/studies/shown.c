@@ -8,14 +8,17 @@
 #include "simulation/summary.h"
 #include "studies/sensitivity.h"
 
-static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,pitch,yaw,pitch_rate,"
-                            "yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
-                            "tip_off.yaw_rate,apogee,downrange,drift,time_of_flight,impact_speed,"
+static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,since_ignition.pitch,"
+                            "since_ignition.yaw,since_ignition.pitch_rate,"
+                            "since_ignition.yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
+                            "tip_off.yaw_rate,pitch,yaw,pitch_rate,yaw_rate,apogee,downrange,drift,"
+                            "time_of_flight,impact_speed,"
                             "azimuth.error_rms,azimuth.torque_rms,azimuth.torque_peak,"
                             "azimuth.saturated,azimuth.power_mean,elevation.error_rms,"
                             "elevation.torque_rms,elevation.torque_peak,elevation.saturated,"
                             "elevation.power_mean";
-static const char sensitive[] = "t_rear,muzzle_speed,pitch,yaw,pitch_rate,yaw_rate,downrange,drift";
+static const char sensitive[] = "t_rear,muzzle_speed,since_ignition.pitch,since_ignition.yaw,"
+                                "since_ignition.pitch_rate,since_ignition.yaw_rate,downrange,drift";
 
 static ld_status no_memory(ld_error *error)
 {
@@ -159,18 +162,26 @@ static bool is_shown(const shown *self, const study_column *column)
     return false;
 }
 
-ld_status shown_exit_errors(shown *self, const study_point *point, size_t *known, size_t *above,
-                            ld_error *error)
+static bool is_uncertain(double exit_error)
+{
+    return exit_error > EXIT_ERROR_NOTED;
+}
+
+const shown_share shown_uncertain = {"exit_error.relative", is_uncertain};
+const shown_share shown_vertical = {"pitch", near_vertical};
+
+ld_status shown_share_of(shown *self, const study_point *point, const shown_share *share,
+                         size_t *known, size_t *above, ld_error *error)
 {
     const char *nearest;
-    const study_column *column = study_data_find(self->data, "exit_error.relative", &nearest);
+    const study_column *column = study_data_find(self->data, share->result, &nearest);
     *known = *above = 0;
     if (!column)
         return LD_OK;
     ld_status status = study_data_read(self->data, point, &column, 1, &self->values, error);
     for (size_t i = 0; i < self->values.count && !status; i++) {
         (*known)++;
-        *above += self->values.value[0][i] > EXIT_ERROR_NOTED;
+        *above += share->counts(self->values.value[0][i]);
     }
     return status;
 }

@@ -34,10 +34,16 @@ group_statistics *shown_statistics(const shown *self, const study_point *point);
 ld_status shown_sensitivities(shown *self, const study_point *point, int result, estimate *share,
                               ld_error *error);
 
-// Of how many rockets the error of the rates at the exit is known, and of how many of these it is
-// above EXIT_ERROR_NOTED.
-ld_status shown_exit_errors(shown *self, const study_point *point, size_t *known, size_t *above,
-                            ld_error *error);
+// Rockets that leave with rates off by more than EXIT_ERROR_NOTED; that leave near the vertical.
+typedef struct shown_share {
+    const char *result;
+    bool (*counts)(double value);
+} shown_share;
+extern const shown_share shown_uncertain, shown_vertical;
+
+// Of how many rockets the result is known, and how many of these count.
+ld_status shown_share_of(shown *self, const study_point *point, const shown_share *share,
+                         size_t *known, size_t *above, ld_error *error);
 
 // The ellipse of two results that go together, with the intervals of its semi-axes, and whether the
 // cloud may be normal.

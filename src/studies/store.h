@@ -22,7 +22,7 @@
 // rollback journal serves files on a network too.
 typedef enum store_journal { STORE_AHEAD, STORE_ROLLBACK } store_journal;
 
-#define STORE_FORMAT "8"
+#define STORE_FORMAT "9"
 
 // How many samples are kept, the greatest of their numbers, the sum of their digests; the digest of
 // what is said once.

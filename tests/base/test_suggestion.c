@@ -36,6 +36,22 @@ static void test_others_suggest_none(void **state)
     check_name("unknown key, did you mean \"mas", 32, NULL); // cut
 }
 
+// A quantity that was renamed is told by its name of now, behind a prefix too, however far that is.
+static void test_renamed_names(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"tip.yaw_rate", "since_ignition.yaw_rate",
+                                        "since_ignition.yaw", "rocket.1.since_ignition.vy",
+                                        "rocket.2.since_ignition.vy"};
+    const size_t count = sizeof names / sizeof *names;
+    assert_string_equal(ld_nearest_name("aim.yaw", names, count), "since_ignition.yaw");
+    assert_string_equal(ld_nearest_name("aim.yaw_rate", names, count), "since_ignition.yaw_rate");
+    assert_string_equal(ld_nearest_name("rocket.2.aim.vy", names, count),
+                        "rocket.2.since_ignition.vy");
+    assert_null(ld_nearest_name("claim.yaw", names, count));
+    assert_null(ld_nearest_name("aim.spin", names, count));
+}
+
 // What was found may look like a suggestion itself: the one that counts is the last.
 static void test_what_was_found_is_not_what_is_meant(void **state)
 {
@@ -48,6 +64,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_names_are_taken_out),
         cmocka_unit_test(test_others_suggest_none),
+        cmocka_unit_test(test_renamed_names),
         cmocka_unit_test(test_what_was_found_is_not_what_is_meant),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

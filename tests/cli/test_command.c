@@ -434,11 +434,12 @@ static void test_response(void **state)
                         "frequency [Hz],tip.inertial_y.amplitude [m per m],"
                         "tip.inertial_y.phase [rad]\n"
                         "speed [m/s],chassis.vy [m/s]\n5\n0,0\n");
-    assert_int_equal(
-        run("launchdyn response examples/reference.yaml -w aim.pitch,thrust,chassis.vy,aim.vz "
-            "-p a/d/h.svg"),
-        0);
-    expect_in(shell.out, "\n\nWithout a value before the launch: aim.pitch, aim.vz\n");
+    assert_int_equal(run("launchdyn response examples/reference.yaml -w "
+                         "since_ignition.pitch,thrust,chassis.vy,since_ignition.vz "
+                         "-p a/d/h.svg"),
+                     0);
+    expect_in(shell.out,
+              "\n\nWithout a value before the launch: since_ignition.pitch, since_ignition.vz\n");
     assert_int_equal(run("launchdyn response examples/reference.yaml --list"), 0);
     expect_in(shell.out, "Inputs\n  road ");
     expect_in(shell.out, "  elevation.command                rad        elevation: commanded");
@@ -547,6 +548,9 @@ static void test_response_of_what_is_not_there(void **state)
          "launchdyn: a frequency response is one at one speed: speeds go with the road alone\n"},
         {"examples/reference.yaml -w tip.pich",
          "launchdyn: unknown quantity \"tip.pich\", did you mean \"tip.pitch\"?\n"},
+        {"examples/reference.yaml -w aim.yaw_rate",
+         "launchdyn: unknown quantity \"aim.yaw_rate\", did you mean "
+         "\"since_ignition.yaw_rate\"?\n"},
         {"examples/reference.yaml -i elevation.comand",
          "launchdyn: unknown input \"elevation.comand\", did you mean \"elevation.command\"?\n"},
         {"examples/reference.yaml -i road --from 5 --to 2",
@@ -582,7 +586,7 @@ static void test_response_of_what_is_not_there(void **state)
         {"examples/reference.yaml -w all -p a.svg",
          "launchdyn: a page has room for 8 charts of 6 quantities of one unit each: name fewer "
          "quantities\n"},
-        {"examples/reference.yaml -w aim.pitch,thrust -p a.svg",
+        {"examples/reference.yaml -w since_ignition.pitch,thrust -p a.svg",
          "launchdyn: none of these quantities answers before the launch, nothing is drawn\n"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

@@ -287,6 +287,30 @@ static void test_study(void **state)
     assert_string_equal(shell.out, "[1,8,1,{},[\"muzzle_speed\",\"pitch_rate\"],\"m/s\"]\n");
 }
 
+// Of rockets that leave near the vertical the study says so, and those that do not count none; a
+// result is told by its name of now.
+static void test_study_near_the_vertical(void **state)
+{
+    (void)state;
+    static const char said[] = "\n100 % of 2 rockets leave near the vertical";
+    assert_int_equal(run("for e in 79 81; do launchdyn study examples/fixed.yaml -q -o u$e --set "
+                         "run.end=tip --set base.elevation=$e' deg' --set 'scatter={samples: 2, "
+                         "factors: {rocket.mass: {normal: 1 kg}}}'; done; "
+                         "launchdyn study show u81"),
+                     0);
+    assert_non_null(strstr(shell.out, said));
+    assert_true(strstr(shell.out, "\nsince_ignition.yaw ") < strstr(shell.out, "\nyaw "));
+    assert_int_equal(run("launchdyn study show u79"), 0);
+    assert_null(strstr(shell.out, "near the vertical"));
+    assert_int_equal(run("for e in 79 81; do launchdyn study show u$e --json | jq -c "
+                         "'.points[0].near_vertical'; done"),
+                     0);
+    assert_string_equal(shell.out, "{\"known\":2,\"above\":0}\n{\"known\":2,\"above\":2}\n");
+    assert_int_equal(run("launchdyn study show u81 -w aim.yaw"), 2);
+    assert_non_null(
+        strstr(shell.err, "no result \"aim.yaw\"; did you mean \"since_ignition.yaw\"?"));
+}
+
 static void test_study_sensitivity_and_ellipses(void **state)
 {
     (void)state;
@@ -420,6 +444,7 @@ int main(void)
         cmocka_unit_test(test_every_command_is_quiet_or_verbose),
         cmocka_unit_test(test_modes),
         cmocka_unit_test(test_study),
+        cmocka_unit_test(test_study_near_the_vertical),
         cmocka_unit_test(test_study_sensitivity_and_ellipses),
         cmocka_unit_test(test_study_normality),
         cmocka_unit_test(test_study_measured),

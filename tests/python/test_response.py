@@ -78,12 +78,12 @@ class TestViews(Case):
 
 
     def test_what_has_no_value_is_nan(self):
-        view = ld.Scenario.read(FIXED).response_view("aim.pitch_rate", "tip.y", input="base.y",
-                                                        start=1, end=3)
+        view = ld.Scenario.read(FIXED).response_view("since_ignition.pitch_rate", "tip.y",
+                                                     input="base.y", start=1, end=3)
         view.write(self.folder)
         self.assertNotIn("-nan", (self.folder / "response-frequency.csv").read_text())
         table = view.tables["response-frequency"]
-        self.assertTrue(np.isnan(table["aim.pitch_rate.amplitude"]).all())
+        self.assertTrue(np.isnan(table["since_ignition.pitch_rate.amplitude"]).all())
         self.assertFalse(np.isnan(table["tip.y.amplitude"]).any())
         np.testing.assert_allclose(table["frequency"][[0, -1]], (1, 3))
 

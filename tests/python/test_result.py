@@ -84,6 +84,9 @@ class TestResult(Case):
         for get, name, near in ((self.result.__getitem__, "tip.yy", "tip.y"),
                                 (self.result.summary.__getitem__, "rocket.1.muzle_speed",
                                  "rocket.1.muzzle_speed"),
+                                (self.result.__getitem__, "aim.yaw", "since_ignition.yaw"),
+                                (self.result.summary.__getitem__, "rocket.1.aim.vy",
+                                 "rocket.1.since_ignition.vy"),
                                 (self.result.__getitem__, "nothing of the kind", None)):
             with self.assertRaises(ld.UnknownName) as caught:
                 get(name)

@@ -43,16 +43,16 @@ async function checkAllFigures(page) {
   check("the figures of plot, in its order", names.length >= 24 && there.join() === names.join(), there.join(" "));
 }
 
-// The table of the rocket has every figure of the exit against the launcher, in mrad, mrad/s, m/s.
+// The table of the rocket has every figure of the exit in the launcher's axes, in mrad, mrad/s, m/s, roll in deg and rad/s.
 async function checkFigures(page, run) {
   const shown = await page.$$eval("#tables td", (cells) => cells.map((cell) => Number(cell.textContent)));
-  const [{ tip_off: off, aim }] = JSON.parse(readFileSync(join(run.out, "summary.json"))).rockets;
-  const figures = [off, aim].flatMap((of) => Object.entries(of));
+  const [{ tip_off: off, since_ignition: since }] = JSON.parse(readFileSync(join(run.out, "summary.json"))).rockets;
+  const figures = [since, off].flatMap((of) => Object.entries(of));
   const missing = figures.filter(([name, value]) => {
-    const wanted = name.startsWith("v") ? value : 1e3 * value;
+    const wanted = name.startsWith("v") || name === "roll_rate" ? value : name === "roll" ? (180 / Math.PI) * value : 1e3 * value;
     return !shown.some((number) => Math.abs(number - wanted) <= 1e-5 * Math.abs(wanted));
   });
-  check("all figures against the launcher are in the table", figures.length === 16 && missing.length === 0, missing);
+  check("all figures against the launcher are in the table", figures.length === 18 && missing.length === 0, missing);
 }
 
 // What one reads in ten seconds: replay, drawing and answer in the first window, the rest in 5000 pixels.

@@ -256,7 +256,7 @@ static void test_summary_is_json(void **state)
         {".source|tostring", "null"}, // filled by hand
         {".rockets[0]|keys_unsorted|join(\",\")",
          "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,muzzle_speed,inertial_speed,"
-         "spin_rate,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,tip_off,aim,"
+         "spin_rate,since_ignition,tip_off,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,"
          "exit_error,max_contact_force,max_slot_force,energy_dropped"},
         {".rockets[0].exit|tostring",
          "{\"position\":[1.5,2.25,-0.5],\"velocity\":[35.5,12.75,0.125],"
@@ -272,9 +272,9 @@ static void test_summary_is_json(void **state)
          "{\"pitch\":-0.007,\"yaw\":0.0002,\"pitch_rate\":-0.26,\"yaw_rate\":0.007,"
          "\"pitch_rate_relative\":-0.3,\"yaw_rate_relative\":0.015,\"vy\":-1.5,\"vz\":5.125,"
          "\"vy_relative\":-0.375,\"vz_relative\":-0.02}"},
-        {".rockets[0].aim|tostring",
-         "{\"pitch\":-0.0008,\"yaw\":-0.001,\"pitch_rate\":-0.27,\"yaw_rate\":0.008,"
-         "\"vy\":-1.25,\"vz\":5.25}"},
+        {".rockets[0].since_ignition|tostring",
+         "{\"pitch\":-0.0008,\"yaw\":-0.001,\"roll\":2.25,\"pitch_rate\":-0.27,"
+         "\"yaw_rate\":0.008,\"roll_rate\":31.5,\"vy\":-1.25,\"vz\":5.25}"},
         {".rockets[0].exit_error|tostring",
          "{\"rates\":2e-05,\"yaw_rate\":0.0012,\"relative\":0.002}"},
         {".rockets[0].max_contact_force|tostring", "{\"rear\":1500,\"middle\":500,\"front\":900}"},
@@ -362,17 +362,46 @@ static void test_terminal_table(void **state)
     assert_non_null(strstr(text, "  rear adaptor leaves        160.4000 ms\n"));
     assert_non_null(strstr(text, "  muzzle speed                37.7000 m/s\n"));
     static const char *const against_launcher =
+        "  since ignition, angles      -0.8000      -1.0000 mrad\n"
+        "  since ignition, roll       128.9155 deg\n"
+        "  since ignition, rates      -270.000        8.000 ± 0.02 mrad/s\n"
+        "  since ignition, vy, vz     -1.25000      5.25000 m/s\n"
         "  tip-off pitch, yaw          -7.0000       0.2000 mrad\n"
         "  tip-off rates              -260.000        7.000 ± 0.02 mrad/s\n"
         "  relative rates             -300.000       15.000 ± 0.02 mrad/s\n"
         "  tip-off vy, vz             -1.50000      5.12500 m/s\n"
         "  relative vy, vz            -0.37500     -0.02000 m/s\n"
-        "  aim pitch, yaw              -0.8000      -1.0000 mrad\n"
-        "  aim rates                  -270.000        8.000 ± 0.02 mrad/s\n"
-        "  aim vy, vz                 -1.25000      5.25000 m/s\n";
+        "  ground pitch, yaw          19.79569     -0.00573 deg\n"
+        "  ground pitch, yaw rate      254.000       12.000 ± 1.2 mrad/s\n";
     assert_non_null(strstr(text, against_launcher));
     assert_null(strstr(text, "nan"));
     free(text);
+}
+
+static void test_table_marks_the_vertical(void **state)
+{
+    place *here = *state;
+    ld_summary summary;
+    made_summary(&summary, 1);
+    static const struct {
+        double pitch; // [deg]
+        bool marked;
+    } of[] = {{79.99, false}, {80.01, true}, {-80.01, true}, {-79.99, false}, {89.99, true}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        char *text = NULL;
+        size_t length = 0;
+        FILE *stream = open_memstream(&text, &length);
+        summary.rocket[0].pitch = of[i].pitch * 3.14159265358979323846 / 180;
+        ld_summary_print(&here->model, &summary, stream);
+        fclose(stream);
+        int marks = 0;
+        for (const char *at = text; (at = strstr(at, " (near the vertical)\n")); at++)
+            marks++;
+        assert_int_equal(marks, of[i].marked ? 2 : 0);
+        assert_int_equal(strstr(text, "-0.00573 deg (near") != NULL, of[i].marked);
+        assert_int_equal(strstr(text, "± 1.2 mrad/s (near") != NULL, of[i].marked);
+        free(text);
+    }
 }
 
 // An earlier run's files, its report too, stand until the next one is complete, then none of them
@@ -689,6 +718,7 @@ int main(void)
         TEST(test_summary_is_json),
         TEST(test_numbers_keep_17_digits),
         TEST(test_terminal_table),
+        TEST(test_table_marks_the_vertical),
         TEST(test_replaces_an_earlier_run),
         TEST(test_two_at_once),
         TEST(test_folder_removed),

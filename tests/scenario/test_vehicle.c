@@ -181,9 +181,9 @@ static void test_files(void **state)
     (void)state;
     write_file(LD_BINARY_DIR "/both.csv", "# measured\nx [m], h [mm]\n-40, 1\n0, 2.5\n50, 3\n");
     write_file(LD_BINARY_DIR "/each.csv", "x [km],left [mm],right [cm]\n-0.04,1,2\n0.05,3,4\n");
-    write_file(LD_BINARY_DIR "/aim.csv", "t [ms], angle [deg]\n-500, 10\n1500, 30\n");
+    write_file(LD_BINARY_DIR "/command.csv", "t [ms], angle [deg]\n-500, 10\n1500, 30\n");
     ld_model m = READ("base.road=", "base.road={table: " LD_BINARY_DIR "/both.csv}",
-                      "platform.elevation.stabiliser.command=" LD_BINARY_DIR "/aim.csv");
+                      "platform.elevation.stabiliser.command=" LD_BINARY_DIR "/command.csv");
     const ld_table *profile = &m.base.vehicle.road.profile;
     const ld_table *command = &m.platform.elevation.stabiliser.command;
     assert_true(profile->rows == 3 && profile->columns == 2 && profile->data[3] == 0.0025);

@@ -25,7 +25,7 @@ typedef struct observer {
     double power[LAUNCHER_MOST_WORKS],
         work[LAUNCHER_MOST_WORKS]; // of the row before, since the start
     double t, height[2], energy;   // at the start: sum of m y; energies
-    m3 aim;                        // the undeformed tube at the ignition
+    m3 A_ignition;                 // the undeformed tube at the ignition
     int rows;
 } observer;
 
@@ -237,9 +237,11 @@ static void expect_rates_of_angles(column_book *book, const m3 *A, v3 w)
                (A->a[2][2] * A->a[2][2] + A->a[2][1] * A->a[2][1]));
 }
 
-// The rocket's direction in axes A, its rates, and y and z of its mass centre's velocity: all as
-// `from` has them, which may move.
-static void look(const instant *at, const m3 *A, const moving *from, double value[6])
+enum { LOOKED = 8 };
+
+// The rocket's direction in axes A, its rates, y and z of its mass centre's velocity, its roll and
+// that's rate: all as `from` has them, which may move.
+static void look(const instant *at, const m3 *A, const moving *from, double value[LOOKED])
 {
     moving rocket = rocket_frame(at);
     v3 center = v3_add(rocket.r, m3_apply(rocket.A, v3_from(at->input.conditions.center)));
@@ -249,26 +251,35 @@ static void look(const instant *at, const m3 *A, const moving *from, double valu
     direction(&seen, value);
     value[4] = m3_apply_transposed(*A, v).y;
     value[5] = m3_apply_transposed(*A, v).z;
+    double c = seen.A.a[1][1], s = -seen.A.a[1][2]; // cos(pitch) times cos and sin of the roll
+    m3 spun = {{{0, -seen.w.z, seen.w.y}, {seen.w.z, 0, -seen.w.x}, {-seen.w.y, seen.w.x, 0}}};
+    m3 A_dot = m3_mul(spun, seen.A);
+    double gamma = at->y[at->self->launcher.launching.layout.x + X_GAMMA], roll = atan2(s, c);
+    value[6] = roll + two_pi * round((gamma - roll) / two_pi);
+    value[7] = (-A_dot.a[1][2] * c - A_dot.a[1][1] * s) / (c * c + s * s);
 }
 
 static void say_against_launcher(instant *at)
 {
-    static const char *const names[] = {"pitch", "yaw", "pitch_rate", "yaw_rate", "vy", "vz"};
+    static const char *const names[LOOKED] = {"pitch", "yaw", "pitch_rate", "yaw_rate",
+                                              "vy",    "vz",  "roll",       "roll_rate"};
     observer *run = at->run;
     moving tube = carrier(at), still = {.v = {0}};
     if (at->t == at->self->t_ignition)
-        run->aim = tube.A;
-    double inertial[6], relative[6], aimed[6];
+        run->A_ignition = tube.A;
+    double inertial[LOOKED], relative[LOOKED], since[LOOKED];
     look(at, &tube.A, &still, inertial);
     look(at, &tube.A, &tube, relative);
-    look(at, &run->aim, &still, aimed);
-    for (int i = 0; i < 6; i++) {
+    look(at, &run->A_ignition, &still, since);
+    for (int i = 0; i < LOOKED; i++) {
         char name[32];
         snprintf(name, sizeof name, "%s_relative", names[i]);
-        expect_of(&run->book, "tip_off", names[i], inertial[i]);
-        if (i > 1)
+        if (i < 6)
+            expect_of(&run->book, "tip_off", names[i], inertial[i]);
+        if (i > 1 && i < 6)
             expect_of(&run->book, "tip_off", name, relative[i]);
-        expect_of(&run->book, "aim", names[i], at->t < at->self->t_ignition ? NAN : aimed[i]);
+        expect_of(&run->book, "since_ignition", names[i],
+                  at->t < at->self->t_ignition ? NAN : since[i]);
     }
 }
 
@@ -913,7 +924,7 @@ static const column_bound bounds[] = {
     {"tip.inertial_*_rate", 1e-9, false},
     {"rocket.*_dot", 1e-13, false},
     {"tip_off.*", 3e-13, false},
-    {"aim.*", 3e-13, false},
+    {"since_ignition.*", 3e-13, false},
     {"work.slot", 3e-5, true},
     {"work.lock", 1e-11, true},
     {"lock.force", 5e-8, true},

@@ -13,7 +13,7 @@
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
 
-enum { FIGURES = 16, OFF = 10 };
+enum { OFF = 10, ROLL = OFF + 6, FIGURES = ROLL + 2 };
 
 static const char *const name[FIGURES] = {
     "tip_off.pitch",
@@ -26,12 +26,14 @@ static const char *const name[FIGURES] = {
     "tip_off.vz",
     "tip_off.vy_relative",
     "tip_off.vz_relative",
-    "aim.pitch",
-    "aim.yaw",
-    "aim.pitch_rate",
-    "aim.yaw_rate",
-    "aim.vy",
-    "aim.vz",
+    "since_ignition.pitch",
+    "since_ignition.yaw",
+    "since_ignition.pitch_rate",
+    "since_ignition.yaw_rate",
+    "since_ignition.vy",
+    "since_ignition.vz",
+    "since_ignition.roll",
+    "since_ignition.roll_rate",
 };
 
 static double result_named(const ld_rocket_summary *rocket, const char *result)
@@ -121,10 +123,13 @@ static v3 center_of(const ld_rocket *rocket, double mass)
     return v3_add(aside, v3_axpy(full, burnt, v3_sub(empty, full)));
 }
 
-// Pitch (0) or yaw (1) of the rocket's axis at b in the tube's axes of a.
+// Pitch (0) or yaw (1) of the rocket's axis, or its roll (2), at b in the tube's axes of a.
 static double angle_in(const m3 *T, const place *b, int which)
 {
-    v3 d = m3_apply_transposed(*T, m3_column(b->B, 0));
+    m3 A = m3_mul(m3_transpose(*T), b->B);
+    v3 d = m3_column(A, 0);
+    if (which == 2)
+        return atan2(-A.a[1][2], A.a[1][1]);
     return which ? atan2(-d.z, d.x) : atan2(d.y, hypot(d.x, d.z));
 }
 
@@ -134,7 +139,8 @@ static double component(v3 a, int which)
 }
 
 // Mean rates between two rows; the body's point c held in the body.
-static void differences(const place *a, const place *b, const m3 *aim, v3 c, double mean[FIGURES])
+static void differences(const place *a, const place *b, const m3 *ignition, v3 c,
+                        double mean[FIGURES])
 {
     double dt = b->t - a->t;
     v3 r_a = v3_add(a->r_O1, m3_apply(a->B, c)), r_b = v3_add(b->r_O1, m3_apply(b->B, c));
@@ -150,9 +156,12 @@ static void differences(const place *a, const place *b, const m3 *aim, v3 c, dou
                        component(m3_apply_transposed(b->T, way), k)) /
                       (2 * dt);
         mean[8 + k] = component(v3_sub(in_b, in_a), k) / dt;
-        mean[OFF + 2 + k] = (angle_in(aim, b, k) - angle_in(aim, a, k)) / dt;
-        mean[OFF + 4 + k] = component(m3_apply_transposed(*aim, way), k) / dt;
+        mean[OFF + 2 + k] = (angle_in(ignition, b, k) - angle_in(ignition, a, k)) / dt;
+        mean[OFF + 4 + k] = component(m3_apply_transposed(*ignition, way), k) / dt;
     }
+    double turned = angle_in(ignition, b, 2) - angle_in(ignition, a, 2);
+    mean[ROLL] = NAN;
+    mean[ROLL + 1] = remainder(turned, 2 * acos(-1)) / dt;
 }
 
 // Largest differences over the rows of one rocket, from its ignition to its exit.
@@ -172,6 +181,7 @@ static void compare(const recorded_run *run, const ld_model *model, int rocket,
     rebuild(run, &model->base, summary, first, last, path);
     memset(worst, 0, FIGURES * sizeof *worst);
     size_t column[FIGURES];
+    int turns = 0;
     for (int k = 0; k < FIGURES; k++)
         column[k] = recorded_column(run, name[k]);
     for (size_t i = 1; i <= last - first; i++) {
@@ -184,6 +194,11 @@ static void compare(const recorded_run *run, const ld_model *model, int rocket,
             mean[k] = (angle_in(&a->T, a, k) + angle_in(&b->T, b, k)) / 2;
             mean[OFF + k] = (angle_in(&path->T, a, k) + angle_in(&path->T, b, k)) / 2;
         }
+        double from = angle_in(&path->T, a, 2), turned = angle_in(&path->T, b, 2) - from;
+        from += 2 * acos(-1) * turns; // of the whole path, from row to row
+        mean[ROLL] = from + remainder(turned, 2 * acos(-1)) / 2;
+        turns += remainder(turned, 2 * acos(-1)) - turned > 3 ? 1 : 0;
+        turns -= remainder(turned, 2 * acos(-1)) - turned < -3 ? 1 : 0;
         for (int k = 0; k < FIGURES; k++) {
             double shown = (recorded_value(run, first + i - 1, column[k]) +
                             recorded_value(run, first + i, column[k])) /
@@ -224,8 +239,8 @@ static void test_columns_on_a_ship(void **state)
     static const char *const sets[] = {
         "run={lead_in: 0.02 s, tolerance: 1e-11, output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
         "rocket.eccentricity=3 -2 mm", "rocket.empty.center=0.4 0 0 m"};
-    const double a = 3e-16, y = 3e-6, z = 1.5e-6;
-    const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z};
+    const double a = 3e-16, y = 3e-6, z = 1.5e-6, roll = 1.5e-8; // from the spin, by quadrature
+    const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z, roll, y};
     check_run("ship.yaml", sets, 3, 0, bound);
 }
 
@@ -236,8 +251,8 @@ static void test_columns_of_the_second_rocket(void **state)
     static const char *const sets[] = {"run={lead_in: 0.1 s, end: tip, tolerance: 1e-10, "
                                        "output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
                                        "firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.6 s}]"};
-    const double a = 3e-16, y = 4e-6, z = 1.5e-6;
-    const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z};
+    const double a = 3e-16, y = 4e-6, z = 1.5e-6, roll = 1.5e-8;
+    const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z, roll, y};
     check_run("sequence.yaml", sets, 2, 1, bound);
 }
 
@@ -314,7 +329,8 @@ static double figure_of(const ld_summary *summary, int k)
 static void test_same_launch_wherever_it_points(void **state)
 {
     (void)state;
-    static const double pose[][2] = {{0, 0}, {0, 75}, {-60, 20}, {130, 89.9}, {30, 90}};
+    static const double pose[][2] = {{0, 0},      {0, 75},      {-60, 20},
+                                     {130, 89.9}, {-20, 89.99}, {30, 90}};
     const double degree = acos(-1) / 180;
     ld_model model;
     double worst[FIGURES] = {0};
@@ -335,7 +351,10 @@ static void test_same_launch_wherever_it_points(void **state)
     }
     for (int k = 0; k < FIGURES; k++)
         CHECK_BELOW(name[k], worst[k],
-                    strstr(name[k], "rate") || strstr(name[k], ".v") ? 3e-8 : 1.5e-9);
+                    k == ROLL                                          ? 4e-8
+                    : k == ROLL + 1                                    ? 6e-7
+                    : strstr(name[k], "rate") || strstr(name[k], ".v") ? 3e-8
+                                                                       : 1.5e-9);
     model_clear(&model);
 }
 
@@ -373,6 +392,62 @@ static void test_steep_on_a_ship(void **state)
     model_clear(&model);
 }
 
+// The figures at the exit from its quaternion and the rates about the rocket's own axes, by the
+// kinematic equations of Ry(yaw) Rz(pitch) Rx(roll): of a launcher at 45 degrees whose planes
+// differ, and of one near the vertical, where the ground frame's yaw rate is of another size.
+static void test_exit_by_body_rates(void **state)
+{
+    (void)state;
+    static const char *const sets[][2] = {
+        {"base.elevation=45 deg", "tubes.supports.1.stiffness=2e7 2e7 2e6 N/m"},
+        {"base.elevation=89.99 deg", "base.azimuth=25 deg"}};
+    for (size_t i = 0; i < 2; i++) {
+        ld_model model;
+        read_example("fixed.yaml", sets[i], 2, &model);
+        ld_summary summary = summary_of_run(&model);
+        const ld_rocket_summary *rocket = &summary.rocket[0];
+        m3 T = m3_mul(m3_rotation_y(model.base.azimuth), m3_rotation_z(model.base.elevation));
+        const double *q = rocket->exit.quaternion, *w = rocket->exit.rate;
+        m3 A = m3_mul(m3_transpose(T), q_matrix((quat){q[0], q[1], q[2], q[3]}));
+        double pitch = asin(A.a[1][0]), roll = atan2(-A.a[1][2], A.a[1][1]), c = cos(roll),
+               s = sin(roll), yaw_rate = (w[1] * c - w[2] * s) / cos(pitch);
+        const double expected[FIGURES - OFF] = {[0] = pitch,
+                                                [1] = atan2(-A.a[2][0], A.a[0][0]),
+                                                [2] = w[1] * s + w[2] * c,
+                                                [3] = yaw_rate,
+                                                [6] = roll,
+                                                [7] = w[0] - yaw_rate * sin(pitch)};
+        printf("    %s: rates since ignition %.3f, %.3f mrad/s, ground %.3f, %.3f mrad/s\n",
+               sets[i][0], 1e3 * rocket->since_ignition.pitch_rate,
+               1e3 * rocket->since_ignition.yaw_rate, 1e3 * rocket->pitch_rate,
+               1e3 * rocket->yaw_rate);
+        for (int k = 0; k < FIGURES - OFF; k++)
+            if (k != 4 && k != 5)
+                CHECK_BELOW(name[OFF + k],
+                            remainder(result_named(rocket, name[OFF + k]) - expected[k],
+                                      k == 6 ? 2 * acos(-1) : 1e9),
+                            2e-14);
+        model_clear(&model);
+    }
+}
+
+// A launch near the vertical says so once; one at 45 degrees does not.
+static void test_note_near_the_vertical(void **state)
+{
+    (void)state;
+    static const char *const elevation[] = {"base.elevation=45 deg", "base.elevation=89.99 deg"};
+    for (int i = 0; i < 2; i++) {
+        ld_model model;
+        int notes = 0;
+        read_example("fixed.yaml", &elevation[i], 1, &model);
+        ld_summary summary = summary_of_run(&model);
+        for (int k = 0; k < summary.note_count; k++)
+            notes += strstr(summary.note[k], "near the vertical") != NULL;
+        assert_int_equal(notes, i);
+        model_clear(&model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -382,6 +457,8 @@ int main(void)
         cmocka_unit_test(test_fixed_base),
         cmocka_unit_test(test_same_launch_wherever_it_points),
         cmocka_unit_test(test_steep_on_a_ship),
+        cmocka_unit_test(test_exit_by_body_rates),
+        cmocka_unit_test(test_note_near_the_vertical),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

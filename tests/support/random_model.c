@@ -407,7 +407,7 @@ typedef struct watcher {
 // ignition nothing is against its axes; a rocket that has left has no numbers.
 static absence absence_of(const char *column)
 {
-    static const char *const at_times[] = {"contact.", "shoe.", "aim."};
+    static const char *const at_times[] = {"contact.", "shoe.", "since_ignition."};
     static const char *const rocket[] = {"rocket.", "tip_off.", "thrust",     "slot.",
                                          "lock.",   "breech.",  "crossflow.", "pressure."};
     for (size_t i = 0; i < sizeof at_times / sizeof *at_times; i++)

@@ -101,7 +101,7 @@ static inline void draw_vehicle(uint64_t *seed, int kind, ld_model *model)
 }
 
 // Commands that miss the platform's yaw and pitch by up to 0.03 rad (locks: rest angles alike).
-static inline void aim(uint64_t *seed, ld_model *model, m3 A, vehicle_case *c)
+static inline void orient(uint64_t *seed, ld_model *model, m3 A, vehicle_case *c)
 {
     ld_turret *turret[HINGES] = {&model->platform.azimuth, &model->platform.elevation};
     v3 d = m3_column(A, 0);
@@ -155,7 +155,7 @@ static inline void draw_vehicle_state(uint64_t *seed, ld_model *model, vehicle_c
         o[ORIENTATING_RATE + i] = rate * (draw(seed) > 0 ? 1 : 2e-3);
     }
     m3 turn = m3_mul(m3_rotation_y(o[ORIENTATING_ANGLE]), m3_rotation_z(o[ORIENTATING_ANGLE + 1]));
-    aim(seed, model, m3_mul(A, turn), c);
+    orient(seed, model, m3_mul(A, turn), c);
     drive(seed, &model->platform, o);
     // wheels about their mounts and about touching the road
     for (int i = 0; i < vehicle->wheel_count; i++) {
