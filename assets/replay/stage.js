@@ -30,7 +30,7 @@ function fitted(points, towards, half) {
   };
   const x = across(right, half.side, half.side), y = across(up, half.down, half.up);
   const D = Math.max(x.needed, y.needed), depth = 0.5 * (Math.min(...c) + Math.max(...c));
-  return { aim: add(add(scaled(x.at(D), right), scaled(y.at(D), up)), scaled(depth, d)), distance: D - depth, d };
+  return { focus: add(add(scaled(x.at(D), right), scaled(y.at(D), up)), scaled(depth, d)), distance: D - depth, d };
 }
 
 export class Stage {
@@ -182,7 +182,7 @@ export class Stage {
     return flying.length > 0 ? flying.at(-1) : state.number;
   }
   // What a view looks at, from the anchor; the view follows it.
-  aim() {
+  focus() {
     const { motion, state, anchor } = this, inTube = (x) =>
       subtract(add(state.tube.r, apply(state.tube.A, [x, 0, 0])), anchor);
     const i = this.watched(), flying = this.flying[i];
@@ -243,24 +243,24 @@ export class Stage {
     const beside = (room) => half * Math.max(0.5, 1 - (2 * room) / (clientHeight || 400));
     return { side: MARGIN * half * this.camera.aspect, up: beside(HEAD), down: beside(clientWidth < NARROW ? GAUGE : FOOT) };
   }
-  // Eye and aim of a view that begins, from what it follows.
-  begin(aim) {
-    const points = this.shownPoints(), { aim: seen, distance, d } = points ? fitted(points, this.stand(), this.field()) : {};
-    this.offset = points ? subtract(seen, aim) : [0, 0, 0];
-    this.camera.position.set(...(points ? add(seen, scaled(distance, d)) : add(aim, this.stand())));
-    const far = Math.max(400, 6 * this.camera.position.distanceTo(new Vector3(...aim)));
+  // Eye and focus of a view that begins, from what it follows.
+  begin(focus) {
+    const points = this.shownPoints(), { focus: seen, distance, d } = points ? fitted(points, this.stand(), this.field()) : {};
+    this.offset = points ? subtract(seen, focus) : [0, 0, 0];
+    this.camera.position.set(...(points ? add(seen, scaled(distance, d)) : add(focus, this.stand())));
+    const far = Math.max(400, 6 * this.camera.position.distanceTo(new Vector3(...focus)));
     this.camera.near = this.view === "path" ? far * 1e-4 : 0.05;
     this.camera.far = far;
     this.camera.updateProjectionMatrix();
   }
-  // Moves eye and aim together with what the view follows.
+  // Moves eye and focus together with what the view follows.
   follow() {
-    const aim = this.aim(), { position } = this.camera, flew = Boolean(this.flying[this.watched()]);
-    if (!this.target || (this.view === "rocket" && flew !== this.flew)) this.begin(aim);
-    else position.add(new Vector3(...subtract(aim, this.target)));
+    const focus = this.focus(), { position } = this.camera, flew = Boolean(this.flying[this.watched()]);
+    if (!this.target || (this.view === "rocket" && flew !== this.flew)) this.begin(focus);
+    else position.add(new Vector3(...subtract(focus, this.target)));
     this.flew = flew;
-    this.target = aim;
-    this.controls.target.set(...add(aim, this.offset));
+    this.target = focus;
+    this.controls.target.set(...add(focus, this.offset));
     this.following = true; // the eye that we move ourselves asks for no other picture
     this.controls.update();
     this.following = false;

@@ -3,7 +3,7 @@ import { element, themeSwitch } from "./page.js";
 import { countSeries } from "./chart.js";
 import { originBlock } from "./origin.js";
 import { beside, convergence, distribution, scatter, sensitivity, spread } from "./study_plots.js";
-import { isSteep } from "./results.js";
+import { isSteep, marked } from "./results.js";
 import { describe, foremost, partCount, partName } from "./study_results.js";
 import { answer, counts, ellipses, failures, measured, plans, seriesName, statistics } from "./study_tables.js";
 
@@ -97,7 +97,7 @@ host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeS
 const notes = data.notes.map((note) => element("p", { className: "warning" }, note));
 const shots = data.measured?.results.map((result) => describe(result)) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
 const told = first.length ? answer(data, first) : null, [shares, otherShares] = sensitivities();
-const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, pair)).filter(Boolean);
+const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, { ...pair, title: marked(pair.y, pair.title, steep.length > 0) })).filter(Boolean);
 const lead = (title, plots, others) => // beside each other
   section("summary", title, ...notes, ...states(), element("div", { className: "lead" }, told, plots), others);
 const besides = one && !shares ? clouds.length > 0 ? "scatter" : "results" : "";

@@ -868,6 +868,19 @@ async function checkHostile(browser) {
   await leave(broken);
 }
 
+// A launch near the vertical: what is singular is marked in the table, below what is not, and the answer notes it.
+async function checkVertical(browser) {
+  console.log("a launch near the vertical");
+  const run = runOf("fixed.yaml", "--set", "base.elevation=89.99 deg"), page = await open(browser, run.file, { replay: false });
+  const rows = await page.$$eval("#tables th[scope=row]", (heads) => heads.map((node) => node.textContent));
+  const mark = " (near the vertical: not meaningful)", marked = rows.filter((row) => row.endsWith(mark)).map((row) => row.slice(0, -mark.length));
+  check("yaw and rates of the ground frame are marked", marked.join() === "yaw, ground frame,pitch rate, ground frame,yaw rate, ground frame", marked);
+  check("below those of the launcher's axes", rows.indexOf("yaw rate, launcher's axes at ignition") >= 0 &&
+    rows.indexOf("yaw rate, launcher's axes at ignition") < rows.indexOf("pitch, ground frame"));
+  check("the answer notes it", (await page.textContent(".answer .warning")).includes("near the vertical"));
+  await leave(page);
+}
+
 await inBrowser(async (browser) => {
   await checkLaunch(browser);
   await checkShip(browser);
@@ -877,5 +890,6 @@ await inBrowser(async (browser) => {
   await checkTrailer(browser);
   await checkPath(browser);
   await checkTicks(browser);
+  await checkVertical(browser);
   await checkHostile(browser);
 });

@@ -279,6 +279,36 @@ async function checkMeasured(browser, [slow, fast]) {
   await leave(page);
 }
 
+// Launches near the vertical: a warning, marks at what is singular there, none at what is not.
+async function checkVertical(browser) {
+  console.log("launches near the vertical");
+  const marks = [];
+  for (const elevation of [70, 89.99]) {
+    const scenario = join(folder, `at${elevation}.yaml`), out = join(folder, `at${elevation}`);
+    writeFileSync(scenario, `include: ${example("fixed.yaml")}
+base: {elevation: ${elevation} deg}
+scatter: {samples: 12, factors: {rocket.mass: {normal: 1 kg}}}
+`);
+    launchdyn("study", scenario, "--out", out, "--quiet");
+    const page = await open(browser, reportOf(`at${elevation}.html`, { out }));
+    await unfold(page);
+    const titles = await page.$$eval(".panel", (panels) => panels.map((node) => node.dataset.title)), marked = titles.filter((title) => title.includes("near the vertical"));
+    const rows = await page.$$eval("#report th", (heads) => heads.map((node) => node.textContent).filter((text) => text.includes("near the vertical")));
+    const warned = await page.$$eval(".warning", (list) => list.some((node) => node.textContent.includes("near the vertical")));
+    marks.push([warned, marked.length > 0, rows.length > 0]);
+    if (elevation > 80) {
+      check("what is singular is marked, and that alone", marked.every((title) => /ground frame/.test(title)) &&
+        ["Yaw", "Pitch rate", "Yaw rate"].every((name) => marked.some((title) => title.startsWith(`${name}, ground frame (near the vertical`))) &&
+        titles.some((title) => title.startsWith("Pitch, ground frame: ")), marked.join("; "));
+      const of = (start) => titles.findIndex((title) => title.startsWith(start));
+      check("the launcher's axes come first", of("Rates at the exit, launcher's axes at ignition") >= 0 &&
+        of("Rates at the exit, launcher's axes at ignition") < of("Rates at the exit, ground frame"), titles.slice(0, 12).join("; "));
+    }
+    await leave(page);
+  }
+  check("at 89.99 degrees and not at 70", marks[0].every((mark) => !mark) && marks[1][0] && marks[1][1], JSON.stringify(marks));
+}
+
 async function checkHostile(browser) {
   console.log("titles, folders and reasons that would be code; samples that fail");
   const code = "</script><img src=x onerror=window.owned=1>", title = `</title>${code}<script>window.owned=1</script>`;
@@ -303,5 +333,6 @@ await inBrowser(async (browser) => {
   await checkSideBySide(browser, studies);
   await checkColumns(browser, studies);
   await checkMeasured(browser, [studies[0], studies[2]]);
+  await checkVertical(browser);
   await checkHostile(browser);
 });

@@ -693,7 +693,7 @@ static bool residual_of(balance *at, const double *u, double *residual)
     return true;
 }
 
-// Level and aimed, tyres and suspensions pressed in by centimetres.
+// Level, platforms turned, tyres and suspensions pressed in by centimetres.
 static void guess_of(const balance *at, double *u)
 {
     const ld_model *model = at->vehicle->model;
