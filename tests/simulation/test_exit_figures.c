@@ -256,6 +256,18 @@ static void test_columns_of_the_second_rocket(void **state)
     check_run("sequence.yaml", sets, 2, 1, bound);
 }
 
+// A slot of twice the angle turns the rocket by more than half a turn: its roll goes on counting.
+static void test_columns_beyond_half_a_turn(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {
+        "run={lead_in: 0.02 s, tolerance: 1e-11, output_step: {lead_in: 5 ms, tube: 0.02 ms}}",
+        "tubes.slot.angle=8 deg"};
+    const double a = 3e-16, y = 1.5e-6, z = 1.2e-6, roll = 2.5e-8;
+    const double bound[FIGURES] = {a, a, y, z, y, z, y, z, y, z, a, a, y, z, y, z, roll, y};
+    check_run("fixed.yaml", sets, 2, 0, bound);
+}
+
 // ---- in closed form ----
 
 // A rocket that turns with the base as one rigid body has the base's own rates, and none against
@@ -453,6 +465,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_columns_on_a_ship),
         cmocka_unit_test(test_columns_of_the_second_rocket),
+        cmocka_unit_test(test_columns_beyond_half_a_turn),
         cmocka_unit_test(test_rocket_rigid_with_the_base),
         cmocka_unit_test(test_fixed_base),
         cmocka_unit_test(test_same_launch_wherever_it_points),
