@@ -32,7 +32,7 @@ struct exponential_steps {
     integrator_settings equations;
     linear_part of_kind[EXPONENTIAL_STEPS_KINDS];
     linear_part *part; // of the equations of now
-    size_t n;
+    size_t n, steering; // states; those of them whose error has a bound
     double *memory;
     double *atol, *rtol; // [n]
     double *y, *slope, *y_end, *slope_end, *error, *drift;
@@ -115,6 +115,7 @@ ld_status exponential_steps_create(const exponential_steps_settings *settings,
     for (size_t i = 0; i < self->n; i++) {
         self->atol[i] = equations->atol[i];
         self->rtol[i] = equations->absolute && equations->absolute[i] ? 0 : equations->rtol;
+        self->steering += isfinite(equations->atol[i]) != 0;
     }
     *out = self;
     return LD_OK;
@@ -247,7 +248,7 @@ static double size_of_error(const exponential_steps *self)
         double share = self->error[i] / (self->rtol[i] * fabs(self->y[i]) + self->atol[i]);
         sum += share * share;
     }
-    double norm = sqrt(sum / (double)self->n);
+    double norm = sqrt(sum / (double)self->steering);
     return isfinite(norm) ? norm / SHARE : INFINITY;
 }
 

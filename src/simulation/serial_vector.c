@@ -96,13 +96,18 @@ static double vector_max_norm(N_Vector x)
     return m;
 }
 
+// The mean is over what steers the step: quadratures have weight 0.
 static double vector_wrms_norm(N_Vector x, N_Vector w)
 {
     const double *px = data(x), *pw = data(w);
     double sum = 0;
+    sunindextype count = 0;
     FOR_EACH(i, x)
-    sum += (px[i] * pw[i]) * (px[i] * pw[i]);
-    return sqrt(sum / (double)NV_LENGTH_S(x));
+    {
+        sum += (px[i] * pw[i]) * (px[i] * pw[i]);
+        count += pw[i] > 0;
+    }
+    return sqrt(sum / (double)count);
 }
 
 enum { MOST_VECTORS = 16 };

@@ -27,13 +27,13 @@ function valueAt(column, name, time) {
 
 // The cursor shows each run's own value, in the runs' order.
 async function checkCursor(page, runs) {
-  const over = page.locator("#launch-tip .u-over").first();
-  await over.evaluate((node) => node.scrollIntoView({ block: "center" }));
+  const over = page.locator("#launch-tip .u-over").first(), values = "#launch-tip .panel:first-child .u-value";
   const box = await over.boundingBox();
   for (const share of [0.2, 0.5, 0.8]) {
-    await page.mouse.move(box.x + share * box.width, box.y + box.height / 2);
+    await over.hover({ position: { x: share * box.width, y: box.height / 2 } });
+    await page.waitForFunction((cells) => document.querySelector(cells).textContent !== "–", values);
     await drawn(page);
-    const [time, ...shown] = await page.$$eval("#launch-tip .panel:first-child .u-value", (cells) => cells.map((cell) => Number(cell.textContent)));
+    const [time, ...shown] = await page.$$eval(values, (cells) => cells.map((cell) => Number(cell.textContent)));
     const wanted = runs.flatMap(({ column }) => ["tip.y", "tip.z"].map((name) => 1e3 * valueAt(column, name, time)));
     check(`cursor at ${time} s shows each run's values`, shown.length === wanted.length &&
       shown.every((value, i) => near(value, wanted[i], 1e-3)), `${shown.join(" ")} for ${wanted.map((v) => v.toPrecision(6)).join(" ")}`);

@@ -49,6 +49,35 @@ static void error_follows_tolerance(void **state)
     }
 }
 
+// With a state beside it that only counts how far the first has gone, and has no bound.
+static int with_quadrature(double t, const double *y, double *y_dot, void *self)
+{
+    oscillator(t, y, y_dot, self);
+    y_dot[2] = fabs(y[1]);
+    return 0;
+}
+
+static void quadratures_do_not_steer(void **state)
+{
+    (void)state;
+    double atol[3] = {1e-7, 1e-7, INFINITY};
+    integrator_settings settings = {.n = 3, .rtol = 1e-7, .atol = atol, .rhs = with_quadrature};
+    integrator *beside = NULL, *alone = make(1e-7, NULL);
+    assert_int_equal(integrator_create(&settings, &beside, NULL), LD_OK);
+    assert_int_equal(integrator_start(beside, 0, (double[]){0, 1, 0}, NULL), LD_OK);
+    int steps = 0, differ = 0;
+    for (; integrator_step(alone, 10.0, NULL) == INTEGRATOR_STEPPED; steps++) {
+        assert_int_equal(integrator_step(beside, 10.0, NULL), INTEGRATOR_STEPPED);
+        differ += integrator_time(alone) != integrator_time(beside) ||
+                  memcmp((const char *)integrator_state(alone),
+                         (const char *)integrator_state(beside), 2 * sizeof(double)) != 0;
+    }
+    CHECK_WITHIN("steps that differ beside a quadrature", differ, 0, 0);
+    assert_true(steps > 10);
+    integrator_free(alone);
+    integrator_free(beside);
+}
+
 // Of the order, over a period of y'' = -y by steps of one size; loose tolerances refuse none.
 static double error_of_steps(double step)
 {
@@ -412,6 +441,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(error_follows_tolerance),
+        cmocka_unit_test(quadratures_do_not_steer),
         cmocka_unit_test(oscillations_are_stable),
         cmocka_unit_test(event_is_a_step_end),
         cmocka_unit_test(interpolation_lies_on_the_solution),

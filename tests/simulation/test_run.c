@@ -59,6 +59,39 @@ static void free_model(ld_model *model)
     reference_model_free(model);
 }
 
+// ---- what has no effect
+
+// A pressure of nothing adds its work, an element and columns; lead-in by exponentials, launch by
+// explicit steps, on a fixed base and on a vehicle whose subsystems step apart.
+static int bits_that_differ(ld_model *model)
+{
+    ld_rocket_summary bare = summary_of_run(model).rocket[0];
+    model->tubes.pressure = (ld_pressure){.present = true,
+                                          .form = LD_PRESSURE_OF_GAS,
+                                          .pressure = 1e5,
+                                          .volume = 1,
+                                          .exponent = 1,
+                                          .scale = 0};
+    ld_rocket_summary beside = summary_of_run(model).rocket[0];
+    beside.max_pressure = bare.max_pressure;
+    return memcmp((const char *)&beside, (const char *)&bare, sizeof bare) != 0;
+}
+
+static void what_has_no_effect_changes_no_bit(void **state)
+{
+    (void)state;
+    ld_model model;
+    ld_rocket rocket[2];
+    fixed_model(&model);
+    CHECK_WITHIN("fixed: bits that differ", bits_that_differ(&model), 0, 0);
+    free_model(&model);
+    for (int apart = 0; apart < 2; apart++) {
+        vehicle_model(&model, rocket, apart * 1e-3);
+        CHECK_WITHIN("vehicle: bits that differ", bits_that_differ(&model), 0, 0);
+        free_model(&model);
+    }
+}
+
 // ---- a run in pieces beside one in one go
 
 typedef struct recorder {
@@ -565,6 +598,7 @@ static void other_bytes_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_has_no_effect_changes_no_bit),
         cmocka_unit_test(pieces_make_the_whole),
         cmocka_unit_test(events_are_those_of_the_summary),
         cmocka_unit_test(stops_are_events),
