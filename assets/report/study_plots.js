@@ -159,11 +159,20 @@ function outlineOf({ mean, semi_axis: [[a], [b]], angle }, deviations) {
   });
 }
 
-// Contours of a cloud's density as one path each: pieces in hundredths of a cell of its grid.
-function contoursOf({ origin, step: [ax, ay, bx, by], levels }, f) {
+// Closed lines, in hundredths of a cell of a density's grid.
+function linesOf({ origin, step: [ax, ay, bx, by] }, lines, f) {
   const at = (i, j) => [f * (origin[0] + (i * ax + j * bx) / 100), f * (origin[1] + (i * ay + j * by) / 100)];
-  return levels.map(([share, pieces]) => ({ name: percent(share), pieces: Array.from({ length: pieces.length / 4 }, (_, k) =>
-    [at(pieces[4 * k], pieces[4 * k + 1]), at(pieces[4 * k + 2], pieces[4 * k + 3])]) }));
+  return lines.map((line) => Array.from({ length: line.length / 2 }, (_, k) => at(line[2 * k], line[2 * k + 1])));
+}
+
+// Footprints that are stated: of a series that has some they stand for its form.
+export const statedOf = (own) => (own.footprint?.regions ?? []).filter(({ stated }) => stated === 1);
+const hasFootprint = (own) => statedOf(own).length > 0;
+
+// What is drawn about a cloud: footprints of landing points, else contours of the density.
+function contoursOf(own, f) {
+  if (hasFootprint(own)) return statedOf(own).map(({ share, lines }) => ({ name: percent(share), kind: "footprint", lines: linesOf(own.footprint, lines, f) }));
+  return (own.contours?.levels ?? []).map(([share, lines]) => ({ name: percent(share), kind: "contour", lines: linesOf(own.contours, lines, f) }));
 }
 
 // What stands for the form of a cloud: ellipses where it may be normal, else contours; nothing where those are left out.
@@ -171,17 +180,28 @@ export const isNormal = ({ normality }) => Boolean(normality) && (!normality.tes
 
 // What the clouds are, as a line below their plot.
 function formOf(list) {
-  const normal = list.filter(({ own }) => own.ellipse && isNormal(own)), drawn = list.filter(({ own }) => own.contours);
-  const refused = list.filter(({ own }) => own.normality && !isNormal(own)), untested = normal.filter(({ own }) => !own.normality.tested);
+  const safe = list.filter(({ own }) => hasFootprint(own)), rest = list.filter(({ own }) => !hasFootprint(own));
+  const normal = rest.filter(({ own }) => own.ellipse && isNormal(own)), drawn = rest.filter(({ own }) => own.contours);
+  const refused = rest.filter(({ own }) => own.normality && !isNormal(own)), untested = normal.filter(({ own }) => !own.normality.tested);
   const level = percent(list.find(({ own }) => own.normality)?.own.normality.level ?? 0.05).replace(" ", "\u00a0");
   const who = (some) => (list.length === 1 || some.length === list.length ? "" : ` of ${some.length > 3 ? `${some.length} series` : some.map(({ series }) => series.label).join(", ")}`);
+  const shares = [...new Set(safe.flatMap(({ own }) => statedOf(own).map(({ share }) => percent(share).replace(" ", "\u00a0"))))];
   const chance = list.length === 1 && list[0].own.normality?.tested ? `, p ${list[0].own.normality.chance.map((p) => readable(p, 2)).join(" and ")}` : "";
   return [
+    safe.length ? `footprints${who(safe)}: ${shares.join(", ")} of landings lie within` : "",
     normal.length ? `ellipses${who(normal)}: one standard deviation and 95\u00a0%` : "",
     untested.length ? "too few points for a test of normality" : normal.length ? `normal by Mardia's test at ${level}${chance}` : "",
     drawn.length ? `contours${who(drawn)}: 50\u00a0% and 95\u00a0% of the points lie within` : "",
     refused.length ? `not normal${drawn.length ? "" : who(refused)} by Mardia's test at ${level}${normal.length ? "" : chance}` : "",
   ].filter(Boolean).join("; ");
+}
+
+// The share that lies within, beside the outline: the first at its top, the next ones on the way down its right side.
+function outlineName(place, { name, lines }, k) {
+  const angle = (Math.PI / 180) * (90 - 55 * k), away = ([x, y]) => x * Math.cos(angle) - y * Math.sin(angle);
+  const [x, y] = lines.flat().map(([u, v]) => [place.x(u), place.y(v)]).reduce((a, b) => (away(b) > away(a) ? b : a));
+  const near = x > place.right - 40;
+  return svg("text", { x: near ? x - 4 : x + 4, y: y - 3, "text-anchor": near ? "end" : "start", class: "note outline-name" }, name);
 }
 
 export function scatter(data, pair) {
@@ -190,11 +210,11 @@ export function scatter(data, pair) {
   const [across, up] = [pair.x, pair.y].map((name) => describe({ name, unit: pair.unit })), f = across.factor;
   const points = list.flatMap(({ own, series, s }) => own.points.map(([sample, rocket, x, y]) =>
     ({ sample, rocket, at: [x * f, y * f], si: [x, y], series, s }))).sort((a, b) => a.at[0] - b.at[0]);
-  const ellipses = list.filter(({ own }) => own.ellipse && isNormal(own)).flatMap(({ own, s }) =>
+  const ellipses = list.filter(({ own }) => own.ellipse && isNormal(own) && !hasFootprint(own)).flatMap(({ own, s }) =>
     [[1, "one deviation"], [pair.radius, "95 %"]].map(([r, name]) =>
       ({ s, name, points: outlineOf(own.ellipse, r).map(([x, y]) => [x * f, y * f]) })));
-  const contours = list.filter(({ own }) => own.contours).flatMap(({ own, s }) => contoursOf(own.contours, f).map((one) => ({ ...one, s })));
-  const all = [...points.map((p) => p.at), ...ellipses.flatMap((e) => e.points), ...contours.flatMap(({ pieces }) => pieces.flat())];
+  const contours = list.flatMap(({ own, s }) => contoursOf(own, f).map((one) => ({ ...one, s })));
+  const all = [...points.map((p) => p.at), ...ellipses.flatMap((e) => e.points), ...contours.flatMap(({ lines }) => lines.flat())];
   const salvo = data.series.some((series) => series.rockets > series.done - series.failed);
   const total = (of) => list.reduce((sum, { own }) => sum + of(own), 0);
   const [drawn, there] = [total((own) => own.points.length), total((own) => own.count)];
@@ -208,7 +228,8 @@ export function scatter(data, pair) {
       ...list.map(({ s }) => svg("path", { class: "points", style: colourOf(s), d: points.filter((p) => p.s === s)
         .map(({ at: [x, y] }) => `M${place.x(x).toFixed(1)} ${place.y(y).toFixed(1)}h0`).join("") })),
       ...ellipses.map((e) => outline(e, "normal", pathThrough(e.points.map(([x, y]) => [place.x(x), place.y(y)])) + "Z")),
-      ...contours.map((c) => outline(c, "contour", c.pieces.map((piece) => pathThrough(piece.map(([x, y]) => [place.x(x), place.y(y)]))).join("")))],
+      ...contours.map((c) => outline(c, c.kind, c.lines.map((line) => pathThrough(line.map(([x, y]) => [place.x(x), place.y(y)])) + "Z").join(""))),
+      ...contours.filter(({ kind }) => kind === "footprint" && list.length === 1).map((c, k) => outlineName(place, c, k))],
     count: points.length,
     at: (i) => points[i].at,
     reading: (i) => {

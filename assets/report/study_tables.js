@@ -183,6 +183,21 @@ export function ellipses(data) {
   return card("Ellipses", element("table", {}, element("tr", {}, ...heads.map((name) => head(name))), ...rows));
 }
 
+// Within which landings lie, on what that rests; where there are too few landings, how many it takes.
+export function footprints(data) {
+  const several = data.series.length > 1;
+  const large = data.pairs.some(({ series }) => series.some((own) => own?.footprint?.regions.some(({ estimates }) => estimates[1][0] > 1e5)));
+  const rows = data.pairs.flatMap(({ series }) => series.flatMap((own, s) => (own?.footprint?.regions ?? []).map((region) => {
+    const { share, needed, independent, stated, estimates: [content, area, distance] } = region, many = Math.round(independent);
+    const front = [several ? element("td", {}, seriesName(data.series[s], s)) : null, head(`${readable(100 * share, 4)}\u00a0%`, "row"), cell(`${many}`), cell(`${needed}`)];
+    if (stated !== 1) return element("tr", {}, ...front, element("td", { colSpan: 3, className: "text" }, many < needed ? "too few landings" : "landings too far apart: more are needed"));
+    return element("tr", {}, ...front, estimate(content, 100), estimate(area, large ? 1e-6 : 1), estimate(distance, 1));
+  })));
+  if (rows.length === 0) return null;
+  return card("Footprints: where landings lie, with 95\u00a0% intervals", element("table", { className: "statistics footprints" },
+    element("tr", {}, ...(several ? [head("")] : []), ...["share", "independent landings", "needed", "lie within [%]", `area [${large ? "km²" : "m²"}]`, "farthest from the launch point [m]"].map((name) => head(name))), ...rows));
+}
+
 export function failures(data) {
   const several = data.series.length > 1;
   const rows = data.series.flatMap((series, i) => series.failures.map(([sample, status, reason]) =>

@@ -104,6 +104,13 @@ ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *str
 /// CSV file, a dataset for each column into the HDF5 file; NULL: not wanted.
 ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5, ld_error *error);
 
+/// Writes the footprints of all points of the sweep, for range safety: the regions in which 95, 99
+/// and 99.9 % of landings lie (docs/study.md), into a file whose ending says what it becomes: .csv
+/// (corners in metres from the launch point), .kml or .geojson (on the Earth).
+/// @return LD_OK; LD_ERR_INPUT (no study there, another ending, too few landings for any, no place
+///         on the Earth for .kml and .geojson), LD_ERR_FILE, LD_ERR_MEMORY
+ld_status ld_study_export_footprint(const char *folder, const char *file, ld_error *error);
+
 /// One sample by itself.
 typedef struct ld_sample ld_sample;
 

@@ -93,6 +93,26 @@ ld_status ld_study_data_statistics(ld_study_data *data, int point, const char *n
 ld_status ld_study_data_sensitivity(ld_study_data *data, int point, const char *result,
                                     const char *factor, ld_estimate *share, ld_error *error);
 
+/// A footprint, for range safety: the region in which a share of landings lies (docs/study.md).
+typedef struct ld_study_footprint {
+    double share;         ///< of further landings that lie within, on average
+    double needed;        ///< independent landings that it wants
+    double independent;   ///< how many tell this share as well as those that are there
+    bool stated;          ///< there are as many as are needed; else what follows is NaN
+    ld_estimate content;  ///< share of further landings that lie within
+    ld_estimate area;     ///< [m2] interval: of the contour within which the share lies exactly
+    ld_estimate distance; ///< [m] from the launch point to the farthest point; interval likewise
+} ld_study_footprint;
+
+enum { LD_STUDY_FOOTPRINTS = 3 };
+
+/// The footprints of a point: of 95, 99 and 99.9 %.
+/// @param footprint [LD_STUDY_FOOTPRINTS] the data's own, until the next call that reads
+/// @return as ld_study_data_values(); LD_ERR_INPUT too where fewer than three rockets have landed,
+///         or all on one line
+ld_status ld_study_data_footprints(ld_study_data *data, int point,
+                                   const ld_study_footprint **footprint, ld_error *error);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -39,13 +39,15 @@ static const command commands[] = {
      .about = "launchdyn study FILE --out DIR runs what DIR does not hold yet: the same command "
               "goes on after an interruption. launchdyn study show DIR prints statistics, also "
               "meanwhile; launchdyn study export DIR --csv FILE --hdf5 FILE writes all rockets, as "
-              "one or both.\n\n"
+              "one or both; --footprint FILE.kml writes the footprints of the landings, for range "
+              "safety.\n\n"
               "Jobs on several machines that share DIR take --shard 1/N to N/N, in any order; "
               "launchdyn study merge DIR then joins what they have kept.",
      .examples = "launchdyn study scenario.yaml --out out -j 4|Run or go on, four at a time\n"
                  "launchdyn study show out --what muzzle_speed,pitch_rate|Statistics of two "
                  "results\n"
-                 "launchdyn study export out --csv all.csv|All rockets as a table",
+                 "launchdyn study export out --csv all.csv|All rockets as a table\n"
+                 "launchdyn study export out --footprint safety.kml|Where landings lie, on a map",
      .run = command_study,
      .apart = true},
     {.name = "check",

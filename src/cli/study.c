@@ -126,10 +126,27 @@ static const char *wrong_to_show(const study_wishes *wishes)
                "goes with it";
     if (view->against && view->sensitivity)
         return "--against and --sensitivity do not go together";
+    if (wishes->footprint)
+        return "--footprint is an option of study export DIR";
     if (wishes->hdf5 || (wishes->csv && !view->against))
         return "--csv and --hdf5 are options of study export DIR, --csv besides of study show "
                "--against";
     return NULL;
+}
+
+static bool is_same(const char *file, const char *other)
+{
+    return file && other && strcmp(file, other) == 0;
+}
+
+static ld_status export_files(const char *folder, const study_wishes *wishes, ld_error *error)
+{
+    ld_status status = LD_OK;
+    if (wishes->csv || wishes->hdf5)
+        status = ld_study_export(folder, wishes->csv, wishes->hdf5, error);
+    return status || !wishes->footprint
+               ? status
+               : ld_study_export_footprint(folder, wishes->footprint, error);
 }
 
 static int study_folder(const char *verb, const char *folder, const study_wishes *wishes)
@@ -146,13 +163,12 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
                       &error, "read", folder);
     if (strcmp(verb, "merge") == 0)
         return finish(ld_study_merge(folder, command_text(), &error), &error, "merged", folder);
-    bool same = wishes->csv && wishes->hdf5 && strcmp(wishes->csv, wishes->hdf5) == 0;
-    if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5) && !same)
-        return finish(ld_study_export(folder, wishes->csv, wishes->hdf5, &error), &error,
-                      "exported", folder);
+    bool same = is_same(wishes->csv, wishes->hdf5) || is_same(wishes->csv, wishes->footprint);
+    if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5 || wishes->footprint) && !same)
+        return finish(export_files(folder, wishes, &error), &error, "exported", folder);
     if (strcmp(verb, "export") == 0)
-        command_complain(same ? "study export wants a file each for --csv and --hdf5"
-                              : "study export wants --csv FILE or --hdf5 FILE");
+        command_complain(same ? "study export wants a file each for --csv, --hdf5 and --footprint"
+                              : "study export wants --csv FILE, --hdf5 FILE or --footprint FILE");
     else
         command_complain("study knows show DIR, export DIR and merge DIR, not %s", verb);
     return EXIT_INPUT;
@@ -180,8 +196,8 @@ static const char *wrong_to_run(const char *file, const char *again, const study
         file = "";
     if (strcmp(file, "show") == 0 || strcmp(file, "export") == 0 || strcmp(file, "merge") == 0)
         return "study show, study export and study merge want DIR";
-    if (wishes->csv || wishes->hdf5)
-        return "--csv and --hdf5 are options of study export DIR";
+    if (wishes->csv || wishes->hdf5 || wishes->footprint)
+        return "--csv, --hdf5 and --footprint are options of study export DIR";
     const ld_study_view *view = &wishes->view;
     if (view->what || view->sensitivity || view->json || view->measured || view->against)
         return "--what, --sensitivity, --json, --measured and --against are options of study show "
@@ -219,6 +235,10 @@ int command_study(const command *self, int argc, char **argv)
         {"csv", '\0', OPTION_TEXT, &wishes.csv,
          "Of export: the table as CSV; of show --against: what it shows", "FILE"},
         {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "Of export: the table as HDF5", "FILE"},
+        {"footprint", '\0', OPTION_TEXT, &wishes.footprint,
+         "Of export: footprints, for range safety: where 95, 99 and 99.9 % of landings lie, as "
+         ".csv, .kml or .geojson",
+         "FILE"},
         COMMAND_USUAL};
     command_line line;
     int code = 0;

@@ -15,7 +15,7 @@ typedef struct study_wishes {
     int only; // sample, or ALL_SAMPLES
     int shard, shards;
     ld_study_view view;
-    char *csv, *hdf5; // tables to be written
+    char *csv, *hdf5, *footprint; // files to be written
 } study_wishes;
 
 // The options that they share; overrides and folder are those of `wishes`.

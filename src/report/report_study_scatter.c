@@ -1,12 +1,12 @@
-// Two results of a study against each other: points, the ellipse, and of a cloud that is not normal
-// the contours of its density.
+// Two results of a study against each other: points, the ellipse, of a cloud that is not normal the
+// contours of its density; of landing points their footprints.
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "report/report_study.h"
 #include "results/json_text.h"
-#include "studies/density.h"
+#include "studies/footprint.h"
 #include "studies/normality.h"
 
 // Bytes for what grows with the number of series; the rest of a report fits beside them.
@@ -16,6 +16,13 @@ typedef struct contour_writer {
     FILE *json;
     bool any;
 } contour_writer;
+
+// What is drawn of a series.
+typedef struct scatter_choice {
+    size_t most;    // points, about
+    bool contours;  // of density, too
+    bool footprint; // these are landing points
+} scatter_choice;
 
 static void write_points(FILE *json, const study_values *values, size_t most)
 {
@@ -52,40 +59,91 @@ static ld_status write_ellipse(FILE *json, const study_values *values)
     return LD_OK;
 }
 
-// One piece of a contour in hundredths of a cell.
-static void write_piece(void *self, const double from[2], const double to[2])
+// A closed line in hundredths of a cell.
+static void write_line(void *self, double (*corner)[2], size_t count)
 {
     contour_writer *writer = self;
-    fprintf(writer->json, "%s%.0f,%.0f,%.0f,%.0f", writer->any ? "," : "", 100 * from[0],
-            100 * from[1], 100 * to[0], 100 * to[1]);
+    fputs(writer->any ? ",[" : "[", writer->json);
+    for (size_t i = 0; i < count; i++)
+        fprintf(writer->json, "%s%.0f,%.0f", i ? "," : "", 100 * corner[i][0], 100 * corner[i][1]);
+    fputc(']', writer->json);
     writer->any = true;
 }
 
-// The grid's origin and steps, and a list of pieces for each level.
+static ld_status write_lines(FILE *json, const density_map *map, double level)
+{
+    contour_writer writer = {.json = json};
+    fputc('[', json);
+    ld_status status = density_contour(map, level, write_line, &writer);
+    fputc(']', json);
+    return status;
+}
+
+// The grid's origin and steps.
+static void write_grid(FILE *json, const density_map *map)
+{
+    fprintf(json, "\"origin\":[%.17g,%.17g],\"step\":[%.17g,%.17g,%.17g,%.17g]", map->origin[0],
+            map->origin[1], map->step[0][0], map->step[0][1], map->step[1][0], map->step[1][1]);
+}
+
+// The grid, and the closed lines of each level.
 static ld_status write_contours(FILE *json, const study_values *values, double effective)
 {
     density_map *map = malloc(sizeof *map);
     ld_status status =
         map ? density_of(values->value[0], values->value[1], values->count, effective, map)
             : LD_ERR_MEMORY;
-    if (status) {
-        free(map);
-        return status;
+    if (!status) {
+        fputs(",\"contours\":{", json);
+        write_grid(json, map);
+        fputs(",\"levels\":[", json);
     }
-    fprintf(
-        json,
-        ",\"contours\":{\"origin\":[%.17g,%.17g],\"step\":[%.17g,%.17g,%.17g,%.17g],\"levels\":[",
-        map->origin[0], map->origin[1], map->step[0][0], map->step[0][1], map->step[1][0],
-        map->step[1][1]);
-    for (int k = 0; k < DENSITY_LEVELS; k++) {
-        contour_writer writer = {.json = json};
-        fprintf(json, "%s[%g,[", k ? "," : "", density_share[k]);
-        density_contour(map, map->level[k], write_piece, &writer);
-        fputs("]]", json);
+    for (int k = 0; k < DENSITY_LEVELS && !status; k++) {
+        fprintf(json, "%s[%g,", k ? "," : "", density_share[k]);
+        status = write_lines(json, map, map->level[k]);
+        fputc(']', json);
     }
-    fputs("]}", json);
+    fputs(status ? "" : "]}", json);
     free(map);
-    return LD_OK;
+    return status;
+}
+
+// A region's numbers; its lines where it is drawn.
+static ld_status write_region(FILE *json, const footprint *of, int index, bool drawn)
+{
+    const footprint_region *region = &of->region[index];
+    fprintf(json, "{\"share\":%g,\"needed\":%.17g,\"independent\":", region->share, region->needed);
+    json_write_number(json, region->independent);
+    fprintf(json, ",\"stated\":%d,\"estimates\":[", region->stated);
+    study_write_estimate(json, 0, region->content, json_write_number);
+    study_write_estimate(json, 1, region->area, json_write_number);
+    study_write_estimate(json, 2, region->distance, json_write_number);
+    fputs("],\"lines\":", json);
+    ld_status status = LD_OK;
+    if (region->stated && drawn)
+        status = write_lines(json, &of->map, of->level[index].value);
+    else
+        fputs("[]", json);
+    fputc('}', json);
+    return status;
+}
+
+static ld_status write_footprint(FILE *json, const study_values *values, bool drawn)
+{
+    footprint *of = malloc(sizeof *of);
+    ld_status status = of ? footprint_of_values(values, of) : LD_ERR_MEMORY;
+    if (!status && !of->on_line) {
+        fputs(",\"footprint\":{", json);
+        write_grid(json, &of->map);
+        fputs(",\"regions\":[", json);
+        for (int k = 0; k < FOOTPRINT_SHARES && !status; k++) {
+            fputs(k ? "," : "", json);
+            status = write_region(json, of, k, drawn);
+        }
+        fputs("]}", json);
+    }
+    free(of);
+    return status;
 }
 
 // Whether the cloud is normal; where it is not, the contours of its density.
@@ -109,14 +167,20 @@ static bool all_finite(const study_values *values)
     return true;
 }
 
-static ld_status write_scatter(FILE *json, const study_values *values, size_t most, bool contours)
+static ld_status write_cloud(FILE *json, const study_values *values, const scatter_choice *choice)
+{
+    ld_status status = write_ellipse(json, values);
+    if (!status)
+        status = write_form(json, values, choice->contours);
+    return status || !choice->footprint ? status : write_footprint(json, values, choice->contours);
+}
+
+static ld_status write_scatter(FILE *json, const study_values *values, const scatter_choice *choice)
 {
     fprintf(json, "{\"count\":%zu", values->count);
-    bool cloud = values->count >= 3 && all_finite(values);
-    ld_status status = cloud ? write_ellipse(json, values) : LD_OK;
-    if (cloud && !status)
-        status = write_form(json, values, contours);
-    write_points(json, values, most);
+    ld_status status =
+        values->count >= 3 && all_finite(values) ? write_cloud(json, values, choice) : LD_OK;
+    write_points(json, values, choice->most);
     fputc('}', json);
     return status;
 }
@@ -126,9 +190,11 @@ ld_status study_write_pairs(FILE *json, study_source *source)
     ld_status status = LD_OK;
     double bytes = source->share * BYTES_OF_POINTS;
     size_t fit = (size_t)(bytes / (STUDY_PAIRS * BYTES_OF_A_POINT * source->series_count));
-    size_t most = fit < MOST_POINTS ? fit : MOST_POINTS;
+    scatter_choice choice = {.most = fit < MOST_POINTS ? fit : MOST_POINTS,
+                             .contours = source->series_count <= REPORT_OVERLAID};
     for (size_t p = 0; p < STUDY_PAIRS && !status; p++) {
         const study_pair *pair = &study_pairs[p];
+        choice.footprint = p == STUDY_LANDING;
         fprintf(json, "%s\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"",
                 p ? "," : "", pair->title, pair->name[0], pair->name[1], pair->unit);
         fprintf(json, ",\"radius\":%.17g,\"series\":[", ellipse_radius);
@@ -137,8 +203,7 @@ ld_status study_write_pairs(FILE *json, study_source *source)
             study_read_values(source, series, pair->name, 2);
             fputs(i ? ",\n" : "\n", json);
             if (series->values.count)
-                status = write_scatter(json, &series->values, most,
-                                       source->series_count <= REPORT_OVERLAID);
+                status = write_scatter(json, &series->values, &choice);
             else
                 fputs("null", json);
         }

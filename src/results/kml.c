@@ -48,8 +48,7 @@ static bool is_in_xml(int32_t code)
     return code == '\t' || code == '\n' || (code >= 0x20 && (code < 0xfffe || code > 0xffff));
 }
 
-// What XML cannot hold becomes U+FFFD.
-static void write_text(FILE *stream, const char *text)
+void kml_write_text(FILE *stream, const char *text)
 {
     while (*text) {
         size_t length;
@@ -105,7 +104,7 @@ ld_status kml_create(const char *path, const ld_model *model, kml_file **file, l
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
           "<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n<name>",
           created->stream);
-    write_text(created->stream, model->title ? model->title : "");
+    kml_write_text(created->stream, model->title ? model->title : "");
     fputs("</name>\n", created->stream);
     *file = created;
     return state_of(created, error);

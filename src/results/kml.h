@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
@@ -13,6 +14,9 @@ typedef struct kml_file kml_file;
 
 // Whether the model says where on the Earth its flights are.
 bool kml_has_place(const ld_model *model);
+
+// Writes a text as XML has it; what XML cannot hold becomes U+FFFD.
+void kml_write_text(FILE *stream, const char *text);
 
 // Creates the file at `path` with the model's title; the model is kept by reference. A flat Earth
 // is laid as a tangent plane on the WGS 84 ellipsoid at its site, heights upright on it.

@@ -27,7 +27,7 @@ typedef struct study_pair {
     const char *unit; // SI
 } study_pair;
 
-enum { STUDY_PAIRS = 5 };
+enum { STUDY_PAIRS = 5, STUDY_LANDING = 0 }; // that of the landing points
 extern const study_pair study_pairs[STUDY_PAIRS];
 
 #endif

@@ -1,5 +1,6 @@
 #include "studies/density.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,9 +9,9 @@
 
 const double density_share[DENSITY_LEVELS] = {0.5, 0.95};
 
-enum { LAST = DENSITY_GRID - 1 };
+enum { LAST = DENSITY_GRID - 1, MARGIN = 3 };
 
-// Where the points lie in nodes: along the main axes from the least of them less three kernels.
+// Where the points lie in nodes: along the main axes from the least of them less MARGIN kernels.
 typedef struct placed {
     double *at[2]; // [count]
     size_t count;
@@ -40,8 +41,8 @@ static void lay_grid(density_map *map, const covariance_ellipse *e, placed *poin
             low[k] = fmin(low[k], at[i]);
             high = fmax(high, at[i]);
         }
-        low[k] -= 3 * kernel;
-        step[k] = (high + 3 * kernel - low[k]) / LAST;
+        low[k] -= MARGIN * kernel;
+        step[k] = (high + MARGIN * kernel - low[k]) / LAST;
         for (size_t i = 0; i < points->count; i++)
             at[i] = (at[i] - low[k]) / step[k];
         points->kernel[k] = kernel / step[k];
@@ -101,6 +102,15 @@ static double value_at(const density_map *map, double a, double b)
            u * ((1 - v) * map->value[i + 1][j] + v * map->value[i + 1][j + 1]);
 }
 
+double density_at(const density_map *map, double x, double y)
+{
+    const double *a = map->step[0], *b = map->step[1];
+    double dx = x - map->origin[0], dy = y - map->origin[1], cell = a[0] * b[1] - a[1] * b[0];
+    double i = (dx * b[1] - dy * b[0]) / cell, j = (dy * a[0] - dx * a[1]) / cell;
+    bool there = i >= 0 && i <= LAST && j >= 0 && j <= LAST;
+    return there ? value_at(map, i, j) : 0;
+}
+
 ld_status density_of(const double *x, const double *y, size_t count, double effective,
                      density_map *map)
 {
@@ -117,6 +127,8 @@ ld_status density_of(const double *x, const double *y, size_t count, double effe
         smooth(map->value[k], 1, points.kernel[1]);
         smooth(&map->value[0][k], DENSITY_GRID, points.kernel[0]);
     }
+    for (int k = 0; k < DENSITY_GRID; k++)
+        map->value[0][k] = map->value[LAST][k] = map->value[k][0] = map->value[k][LAST] = 0;
     for (size_t n = 0; n < count; n++)
         room[n] = value_at(map, points.at[0][n], points.at[1][n]);
     sort_values(room, count);
@@ -126,23 +138,68 @@ ld_status density_of(const double *x, const double *y, size_t count, double effe
     return LD_OK;
 }
 
-void density_contour(const density_map *map, double level, density_sink *take, void *self)
+// ---- contours
+
+// Of a cell, corner k and side k from there to the next corner, gone round from the first axis of
+// the map to the second. A piece of the contour leads from a side that leaves what is denser to the
+// next one that comes back to it, and goes on in the cell beyond.
+static const int corner_at[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+static const int beyond_side[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+
+typedef struct contour_walk {
+    const density_map *map;
+    double level;
+    unsigned char gone[DENSITY_GRID][DENSITY_GRID];        // bit k: a line has left by side k
+    double corner[2 * DENSITY_GRID * DENSITY_GRID + 1][2]; // of a line, in nodes
+} contour_walk;
+
+static double excess(const contour_walk *walk, int i, int j, int k)
 {
-    static const int corner[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    return walk->map->value[i + corner_at[k][0]][j + corner_at[k][1]] - walk->level;
+}
+
+static bool leaves(const contour_walk *walk, int i, int j, int k)
+{
+    return excess(walk, i, j, k) > 0 && !(excess(walk, i, j, k + 1) > 0);
+}
+
+static bool returns(const contour_walk *walk, int i, int j, int k)
+{
+    return !(excess(walk, i, j, k) > 0) && excess(walk, i, j, k + 1) > 0;
+}
+
+// Goes along the line that leaves cell i, j by side k; the number of its corners.
+static size_t follow(contour_walk *walk, int i, int j, int k)
+{
+    size_t count = 0;
+    for (; !(walk->gone[i][j] & 1 << k); count++) {
+        double from = excess(walk, i, j, k), to = excess(walk, i, j, k + 1);
+        const int *a = corner_at[k], *b = corner_at[k + 1];
+        walk->gone[i][j] |= (unsigned char)(1 << k);
+        walk->corner[count][0] = i + a[0] + from / (from - to) * (b[0] - a[0]);
+        walk->corner[count][1] = j + a[1] + from / (from - to) * (b[1] - a[1]);
+        do
+            k = (k + 1) % 4;
+        while (!returns(walk, i, j, k));
+        i += beyond_side[k][0];
+        j += beyond_side[k][1];
+        k = (k + 2) % 4;
+    }
+    return count;
+}
+
+ld_status density_contour(const density_map *map, double level, density_sink *take, void *self)
+{
+    contour_walk *walk = calloc(1, sizeof *walk);
+    if (!walk)
+        return LD_ERR_MEMORY;
+    walk->map = map;
+    walk->level = level;
     for (int i = 0; i < LAST; i++)
-        for (int j = 0; j < LAST; j++) {
-            double cut[4][2];
-            int cuts = 0;
-            for (int k = 0; k < 4; k++) {
-                const int *a = corner[k], *b = corner[k + 1];
-                double from = map->value[i + a[0]][j + a[1]] - level;
-                double to = map->value[i + b[0]][j + b[1]] - level, share = from / (from - to);
-                if ((from < 0) == (to < 0))
-                    continue;
-                cut[cuts][0] = i + a[0] + share * (b[0] - a[0]);
-                cut[cuts++][1] = j + a[1] + share * (b[1] - a[1]);
-            }
-            for (int k = 0; k + 1 < cuts; k += 2)
-                take(self, cut[k], cut[k + 1]);
-        }
+        for (int j = 0; j < LAST; j++)
+            for (int k = 0; k < 4; k++)
+                if (leaves(walk, i, j, k) && !(walk->gone[i][j] & 1 << k))
+                    take(self, walk->corner, follow(walk, i, j, k));
+    free(walk);
+    return LD_OK;
 }

@@ -178,6 +178,46 @@ static ld_status print_ellipses(shown *self, const study_point *point, ld_error 
     return LD_OK;
 }
 
+// ---- footprints
+
+static void print_footprint(FILE *stream, const footprint *of)
+{
+    fprintf(stream,
+            "\nfootprints, for range safety: where landings lie; %zu rockets, 95 %% intervals\n"
+            "%-8s %-30s %-36s %s\n",
+            of->count, "", "lie within [%]", "area [m2]", "farthest from the launch point [m]");
+    for (int k = 0; k < FOOTPRINT_SHARES; k++) {
+        const footprint_region *region = &of->region[k];
+        char name[32];
+        snprintf(name, sizeof name, "%.4g %%", 100 * region->share);
+        fprintf(stream, "%-8s", name);
+        if (!region->stated) {
+            char why[128];
+            footprint_why_not(region, why);
+            fprintf(stream, " %s\n", why);
+            continue;
+        }
+        const estimate content = {100 * region->content.value, 100 * region->content.low,
+                                  100 * region->content.high};
+        show_estimate(stream, 30, &content, content.high - content.low);
+        show_estimate(stream, 36, &region->area, NAN);
+        show_estimate(stream, 0, &region->distance, NAN);
+        fputc('\n', stream);
+    }
+}
+
+static ld_status print_footprints(shown *self, const study_point *point, ld_error *error)
+{
+    footprint *of = malloc(sizeof *of);
+    if (!of)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the footprints");
+    ld_status status = shown_footprint_of(self, point, of, error);
+    if (!status && of->count > 0)
+        print_footprint(self->stream, of);
+    free(of);
+    return status;
+}
+
 // ---- sensitivities
 
 // "64+-7", in percent
@@ -277,7 +317,8 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     if (self->view->sensitivity)
         return print_sensitivities(self, point, error);
     print_statistics(self, of);
-    return print_ellipses(self, point, error);
+    status = print_ellipses(self, point, error);
+    return status ? status : print_footprints(self, point, error);
 }
 
 enum { CELL = 22, CELLS = 4 };

@@ -174,6 +174,32 @@ static ld_status write_ellipses(json_writer *json, shown *self, const study_poin
     return status;
 }
 
+// Empty where rockets do not land, or on one line.
+static ld_status write_footprints(json_writer *json, shown *self, const study_point *point,
+                                  ld_error *error)
+{
+    footprint *of = malloc(sizeof *of);
+    if (!of)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the footprints");
+    ld_status status = shown_footprint_of(self, point, of, error);
+    json_open(json, "footprints", '[');
+    for (int k = 0; k < FOOTPRINT_SHARES && !status && of->count > 0; k++) {
+        const footprint_region *region = &of->region[k];
+        json_open(json, NULL, '{');
+        json_number(json, "share", region->share);
+        json_truth(json, "stated", region->stated);
+        json_number(json, "needed", region->needed);
+        json_number(json, "independent", region->independent);
+        write_estimate(json, "content", &region->content);
+        write_estimate(json, "area", &region->area);
+        write_estimate(json, "distance", &region->distance);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    free(of);
+    return status;
+}
+
 // ---- against a point
 
 static void write_difference(void *self, const study_column *const *column, int columns,
@@ -262,6 +288,8 @@ static ld_status write_view(json_writer *json, shown *self, const study_point *p
     ld_status status = write_results(json, self, point, error);
     if (!status && !self->view->sensitivity)
         status = write_ellipses(json, self, point, error);
+    if (!status && !self->view->sensitivity)
+        status = write_footprints(json, self, point, error);
     return status;
 }
 

@@ -186,18 +186,26 @@ ld_status shown_share_of(shown *self, const study_point *point, const shown_shar
     return status;
 }
 
+// Reads two results that go together, where both are shown; else there are no values.
+static ld_status read_pair(shown *self, const study_point *point, size_t index,
+                           const study_column *column[2], ld_error *error)
+{
+    self->values.count = 0;
+    for (int k = 0; k < 2; k++) {
+        const char *nearest;
+        column[k] = study_data_find(self->data, study_pairs[index].name[k], &nearest);
+        if (!is_shown(self, column[k]))
+            return LD_OK;
+    }
+    return study_data_read(self->data, point, column, 2, &self->values, error);
+}
+
 ld_status shown_ellipse_of(shown *self, const study_point *point, size_t index,
                            shown_ellipse *ellipse, ld_error *error)
 {
     study_values *values = &self->values;
     ellipse->count = 0;
-    for (int k = 0; k < 2; k++) {
-        const char *nearest;
-        ellipse->column[k] = study_data_find(self->data, study_pairs[index].name[k], &nearest);
-        if (!is_shown(self, ellipse->column[k]))
-            return LD_OK;
-    }
-    ld_status status = study_data_read(self->data, point, ellipse->column, 2, values, error);
+    ld_status status = read_pair(self, point, index, ellipse->column, error);
     if (status || values->count < 3)
         return status;
     covariance_ellipse_of(values->value[0], values->value[1], values->count, &ellipse->of);
@@ -209,4 +217,15 @@ ld_status shown_ellipse_of(shown *self, const study_point *point, size_t index,
                                         values->count, &ellipse->of, ellipse->axis)
                ? no_memory(error)
                : LD_OK;
+}
+
+ld_status shown_footprint_of(shown *self, const study_point *point, footprint *of, ld_error *error)
+{
+    const study_column *column[2];
+    ld_status status = read_pair(self, point, STUDY_LANDING, column, error);
+    if (!status && footprint_of_values(&self->values, of))
+        return no_memory(error);
+    if (!status && of->on_line)
+        of->count = 0;
+    return status;
 }

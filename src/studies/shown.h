@@ -3,6 +3,7 @@
 #define LD_STUDIES_SHOWN_H
 
 #include "launchdyn/study.h"
+#include "studies/footprint.h"
 #include "studies/normality.h"
 #include "studies/show_against.h"
 #include "studies/show_measured.h"
@@ -58,5 +59,9 @@ typedef struct shown_ellipse {
 // Ellipse `index` below STUDY_PAIRS, where both results are shown.
 ld_status shown_ellipse_of(shown *self, const study_point *point, size_t index,
                            shown_ellipse *ellipse, ld_error *error);
+
+// The footprints of the landing points, where both results are shown; their count is 0 where there
+// are none.
+ld_status shown_footprint_of(shown *self, const study_point *point, footprint *of, ld_error *error);
 
 #endif

@@ -367,6 +367,53 @@ ld_status statistics_of(const double *value, const int64_t *group, size_t count,
     return status;
 }
 
+// ---- tails
+
+ld_status tail_quantile_of(const double *value, const int64_t *group, size_t count, double q,
+                           estimate *quantile, double *independent)
+{
+    grouped self = {.value = value, .group = group, .count = count};
+    double mean, squares, n = (double)count, tail = (1 - confidence) / 2;
+    double *sorted = malloc(count * sizeof *sorted);
+    ld_status status = sorted ? gather(&self, &mean, &squares) : LD_ERR_MEMORY;
+    if (!status) {
+        memcpy(sorted, value, count * sizeof *sorted);
+        sort_values(sorted, count);
+        *quantile = (estimate){value_at(sorted, count, fmax(0, q * (n + 1) - 1)), NAN, NAN};
+        *independent = fmin(*independent, effective_number(&self, quantile->value));
+        double from = fractional_order(*independent, q, 1 - tail) * (n + 1) - 1;
+        double to = fractional_order(*independent, q, tail) * (n + 1) - 1;
+        if (from >= 0)
+            quantile->low = value_at(sorted, count, from);
+        if (to <= n - 1)
+            quantile->high = value_at(sorted, count, to);
+    }
+    free(sorted);
+    free(self.of);
+    return status;
+}
+
+// The x below which a beta distribution has this probability.
+static double beta_quantile(double a, double b, double probability)
+{
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; i++) {
+        double x = 0.5 * (low + high);
+        if (beta_cumulative(a, b, x) < probability)
+            low = x;
+        else
+            high = x;
+    }
+    return 0.5 * (low + high);
+}
+
+estimate share_below_quantile(double independent, double q)
+{
+    double a = q * (independent + 1), b = (1 - q) * (independent + 1);
+    double tail = (1 - confidence) / 2;
+    return (estimate){q, beta_quantile(a, b, tail), beta_quantile(a, b, 1 - tail)};
+}
+
 const double ellipse_radius = 2.4477468306808161;
 
 void covariance_ellipse_of(const double *x, const double *y, size_t count,

@@ -43,6 +43,18 @@ void sort_values(double *value, size_t count);
 // Quantile of sorted values, linear between them.
 double sorted_quantile(const double *sorted, size_t count, double level);
 
+// The quantile q of values in the order of their groups, two or more, with its interval: order
+// statistics as real numbers of `independent` values, which tell the share of those up to the
+// quantile as well as these groups do, at most the number given. No interval where its ends lie
+// beyond the least and the greatest value.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status tail_quantile_of(const double *value, const int64_t *group, size_t count, double q,
+                           estimate *quantile, double *independent);
+
+// The share of further values below that quantile, as these many independent ones tell it, with its
+// interval: a beta distribution with the mean q.
+estimate share_below_quantile(double independent, double q);
+
 // Ellipse of two columns of values: semi-axes of one standard deviation along the main axes, and
 // the angle [rad] of the long one from the first towards the second.
 typedef struct covariance_ellipse {

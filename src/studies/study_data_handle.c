@@ -2,6 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "simulation/study_results.h"
+#include "studies/footprint.h"
 #include "studies/sensitivity.h"
 #include "studies/study_data.h"
 
@@ -10,6 +12,7 @@ struct ld_study_data {
     study_values read;
     ld_study_values told;
     group_statistics statistics;
+    footprint footprint;
 };
 
 ld_status ld_study_data_open(const char *folder, ld_study_data **out, ld_error *error)
@@ -118,4 +121,23 @@ ld_status ld_study_data_sensitivity(ld_study_data *self, int point, const char *
             sensitivity_of(read->value[0], read->value[1], read->sample, read->group, read->count,
                            study_data_find(&self->data, factor, &nearest)->per_rocket);
     return status;
+}
+
+ld_status ld_study_data_footprints(ld_study_data *self, int point,
+                                   const ld_study_footprint **footprints, ld_error *error)
+{
+    const study_values *read = &self->read;
+    ld_status status = read_columns(self, point, study_pairs[STUDY_LANDING].name, 2, error);
+    *footprints = NULL;
+    if (status)
+        return status;
+    status = footprint_of_values(read, &self->footprint);
+    if (status)
+        return ld_fail(error, status, "no memory for the study's footprints");
+    if (self->footprint.on_line)
+        return ld_fail(error, LD_ERR_INPUT, "point %d has no footprints: %s", point,
+                       self->footprint.count < 3 ? "fewer than three rockets have landed"
+                                                 : "all rockets land on one line");
+    *footprints = self->footprint.region;
+    return LD_OK;
 }

@@ -136,9 +136,8 @@ typedef struct pieces {
     covariance_ellipse e;
 } pieces;
 
-static void take(void *self, const double from[2], const double to[2])
+static void take_piece(pieces *all, const double from[2], const double to[2])
 {
-    pieces *all = self;
     const density_map *m = all->map;
     double dx = m->origin[0] + from[0] * m->step[0][0] + from[1] * m->step[1][0] - all->e.mean[0];
     double dy = m->origin[1] + from[0] * m->step[0][1] + from[1] * m->step[1][1] - all->e.mean[1];
@@ -149,6 +148,12 @@ static void take(void *self, const double from[2], const double to[2])
     all->most = fmax(all->most, r);
     double *piece = all->piece[all->count++];
     piece[0] = from[0], piece[1] = from[1], piece[2] = to[0], piece[3] = to[1];
+}
+
+static void take(void *self, double (*corner)[2], size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        take_piece(self, corner[i], corner[(i + 1) % count]);
 }
 
 // Points inside: a ray along the first axis meets an odd number of pieces.
@@ -179,7 +184,7 @@ static void contour(pieces *all, const density_map *map, int level, size_t count
     all->least = INFINITY;
     all->most = 0;
     covariance_ellipse_of(x, y, count, &all->e);
-    density_contour(map, map->level[level], take, all);
+    assert_int_equal(density_contour(map, map->level[level], take, all), LD_OK);
 }
 
 static density_map map;
