@@ -2,7 +2,7 @@
 import { element, themeSwitch } from "./page.js";
 import { countSeries } from "./chart.js";
 import { originBlock } from "./origin.js";
-import { beside, convergence, distribution, scatter, sensitivity, spread } from "./study_plots.js";
+import { beside, convergence, distribution, scatter, sensitivity, spread, statedOf } from "./study_plots.js";
 import { isSteep, marked } from "./results.js";
 import { describe, foremost, partCount, partName } from "./study_results.js";
 import { answer, counts, ellipses, failures, footprints, measured, plans, seriesName, statistics } from "./study_tables.js";
@@ -114,12 +114,13 @@ section("measured", "Measured beside simulated", shots.length ? measured(data, s
     "their median as simulated ones. p: how often chance alone makes so much where nothing differs; * below 5\u00a0%, as one in twenty is then.") : null,
   grid(shots.map((result) => beside(data, result))));
 section("scatter", "Scatter", besides === "scatter" ? null : grid(clouds));
-section("footprints", "Footprints (range safety)", data.series.length === 1 ? footprints(data) : null);
+const openly = data.series.length === 1 && data.pairs.some(({ series: [own] }) => own && statedOf(own).length > 0); // else folded
+section("footprints", "Footprints (range safety)", openly ? footprints(data) : null);
 section("distributions", "Results", grid(distributions), sameEverywhere(),
   rest(...parts.flatMap(partOf)));
 section("numbers", "Numbers", rest(data.series.length > 0 ? folded("What was run", counts(data)) : null,
   folded("Statistics", ...(results.length ? statistics(data, results) : [])), folded("Ellipses", ellipses(data)),
-  data.series.length > 1 ? folded("Footprints (range safety)", footprints(data)) : null,
+  openly ? null : folded("Footprints (range safety)", footprints(data)),
   folded("Failed samples", failures(data)), folded("Plan and factors", ...plans(data))));
 section("origin", "Origin", ...data.studies.filter((study) => study.origin).flatMap((study) => [
   data.studies.length > 1 ? element("h3", {}, study.label) : null, originBlock(study.origin, "study --again")]));
