@@ -104,14 +104,13 @@ typedef struct ld_study_footprint {
     ld_estimate distance; ///< [m] from the launch point to the farthest point; interval likewise
 } ld_study_footprint;
 
-enum { LD_STUDY_FOOTPRINTS = 3 };
-
-/// The footprints of a point: of 95, 99 and 99.9 %.
-/// @param footprint [LD_STUDY_FOOTPRINTS] the data's own, until the next call that reads
-/// @return as ld_study_data_values(); LD_ERR_INPUT too where fewer than three rockets have landed,
-///         or all on one line
-ld_status ld_study_data_footprints(ld_study_data *data, int point,
-                                   const ld_study_footprint **footprint, ld_error *error);
+/// The footprint of a point's landings.
+/// @param share 0.95, 0.99 or 0.999
+/// @param footprint the data's own, until the next call that reads
+/// @return as ld_study_data_values(); LD_ERR_INPUT too for another share, and where fewer than
+///         three rockets have landed, or all on one line
+ld_status ld_study_data_footprint(ld_study_data *data, int point, double share,
+                                  const ld_study_footprint **footprint, ld_error *error);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -22,8 +22,8 @@ from .result import Column, History, Quantity, Result, Summary
 from .scenario import Scenario
 from .simulation import (BaseFrame, Event, EventKind, Mode, Pole, Run, Simulation, VehicleRun,
                          Wrench)
-from .study import (Counts, Estimate, Point, Statistics, Study, StudyColumn, StudyData,
-                    merge_shards, write_report)
+from .study import (Counts, Estimate, Footprint, Point, Statistics, Study, StudyColumn,
+                    StudyData, merge_shards, write_report)
 from .views import View, draw, figures
 
 
@@ -33,11 +33,12 @@ def library_version() -> str:
 
 
 __all__ = [
-    "BaseFrame", "Column", "Counts", "Estimate", "Event", "EventKind", "FileError", "History",
-    "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError", "Loop", "LoopPoints",
-    "Margins", "Message", "MissingError", "Mode", "NumericError", "OutOfMemory", "Point",
-    "Pole", "Quantity", "Response", "Result", "Run", "Scatter", "Scenario", "Simulation",
-    "Statistics", "Status", "Strength", "Study", "StudyColumn", "StudyData", "Summary",
-    "UnknownName", "VehicleRun", "View", "Wrench", "__version__", "draw", "figures", "keys",
-    "library_version", "merge_shards", "write_report",
+    "BaseFrame", "Column", "Counts", "Estimate", "Event", "EventKind", "FileError",
+    "Footprint", "History", "InputError", "Interrupted", "Key", "LaunchError",
+    "LaunchdynError", "Loop", "LoopPoints", "Margins", "Message", "MissingError", "Mode",
+    "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Response", "Result", "Run",
+    "Scatter", "Scenario", "Simulation", "Statistics", "Status", "Strength", "Study",
+    "StudyColumn", "StudyData", "Summary", "UnknownName", "VehicleRun", "View", "Wrench",
+    "__version__", "draw", "figures", "keys", "library_version", "merge_shards",
+    "write_report",
 ]

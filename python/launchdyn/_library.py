@@ -126,6 +126,12 @@ class ld_study_statistics(Structure):
                 ("greatest", c_double), ("quantile", ld_estimate * 3)]
 
 
+class ld_study_footprint(Structure):
+    _fields_ = [("share", c_double), ("needed", c_double), ("independent", c_double),
+                ("stated", c_bool), ("content", ld_estimate), ("area", ld_estimate),
+                ("distance", ld_estimate)]
+
+
 class ld_report(Structure):
     _fields_ = [("bytes", c_size_t), ("pixels", c_double), ("note_count", c_int),
                 ("note", (c_char * 256) * 8)]
@@ -315,6 +321,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_study_show": (c_int, [_text, POINTER(ld_study_view), c_void_p, _error]),
     "ld_study_merge": (c_int, [_text, c_void_p, _error]),
     "ld_study_export": (c_int, [_text, _text, _text, _error]),
+    "ld_study_export_footprint": (c_int, [_text, _text, _error]),
     "ld_study_sample": (c_int, [_handle, c_int64, _handles, _error]),
     "ld_sample_model": (_handle, [_handle]),
     "ld_sample_free": (None, [_handle]),
@@ -327,6 +334,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
                                      POINTER(POINTER(ld_study_values)), _error]),
     "ld_study_data_statistics": (c_int, [_handle, c_int, _text,
                                          POINTER(POINTER(ld_study_statistics)), _error]),
+    "ld_study_data_footprint": (c_int, [_handle, c_int, c_double,
+                                        POINTER(POINTER(ld_study_footprint)), _error]),
     "ld_study_data_sensitivity": (c_int, [_handle, c_int, _text, _text, POINTER(ld_estimate),
                                           _error]),
 }

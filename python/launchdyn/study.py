@@ -16,8 +16,8 @@ import numpy.typing as npt
 
 from ._interrupt import Interrupt
 from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_study_counts,
-                       ld_study_options, ld_study_statistics, ld_study_values, ld_study_view,
-                       library)
+                       ld_study_footprint, ld_study_options, ld_study_statistics, ld_study_values,
+                       ld_study_view, library)
 from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of, texts
 from ._progress import Progress, followed
 from ._values import Sets, set_texts
@@ -63,6 +63,19 @@ class Statistics:
     least: float
     greatest: float
     quantiles: tuple[Estimate, Estimate, Estimate]  #: 5 %, 50 %, 95 %
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """For range safety: the region in which a share of landings lies (docs/study.md)."""
+
+    share: float  #: of further landings that lie within, on average
+    needed: float  #: independent landings that it wants
+    independent: float  #: how many tell the share as well as those that are there
+    stated: bool  #: there are as many as are needed; else what follows is NaN
+    content: Estimate  #: share of further landings that lie within
+    area: Estimate  #: [m2]
+    distance: Estimate  #: [m] from the launch point to the farthest point
 
 
 @dataclass(frozen=True)
@@ -338,6 +351,16 @@ class StudyData(Held):
                 ctypes.byref(error)), error)
         return _estimate(share)
 
+    def footprint(self, share: float, point: int = 1) -> Footprint:
+        """The footprint of a point's landings, of a share of 0.95, 0.99 or 0.999."""
+        error, found = ld_error(), ctypes.POINTER(ld_study_footprint)()
+        with self._lock:
+            check(library.ld_study_data_footprint(self._pointer, point, share, ctypes.byref(found),
+                                                  ctypes.byref(error)), error)
+            f = found[0]
+            return Footprint(f.share, f.needed, f.independent, f.stated, _estimate(f.content),
+                             _estimate(f.area), _estimate(f.distance))
+
     def to_pandas(self, *names: str) -> pandas.DataFrame:
         """Columns (all, without names) of all points as a data frame, in SI: swept keys as texts,
         sample, rocket, then the columns, NaN where a rocket lacks a value; units in
@@ -398,16 +421,23 @@ class StudyData(Held):
         check_name(status[0], error) if named else check(status[0], error)
         return text
 
-    def export(self, csv: Optional[PathLike] = None, hdf5: Optional[PathLike] = None) -> None:
+    def export(self, csv: Optional[PathLike] = None, hdf5: Optional[PathLike] = None,
+               footprint: Optional[PathLike] = None) -> None:
         """Writes all rockets with their factors and results, in full precision, as a CSV file, as
-        an HDF5 file, or as both."""
-        if not csv and not hdf5:
-            raise ValueError("name a file to write: csv, hdf5")
+        an HDF5 file, or as both; the footprints of their landings as a `footprint` file that ends
+        in .csv, .kml or .geojson."""
+        if not csv and not hdf5 and not footprint:
+            raise ValueError("name a file to write: csv, hdf5, footprint")
         error = ld_error()
-        check(library.ld_study_export(coded_path(self.folder),
-                                      coded_path(csv) if csv else None,
-                                      coded_path(hdf5) if hdf5 else None,
-                                      ctypes.byref(error)), error)
+        if csv or hdf5:
+            check(library.ld_study_export(coded_path(self.folder),
+                                          coded_path(csv) if csv else None,
+                                          coded_path(hdf5) if hdf5 else None,
+                                          ctypes.byref(error)), error)
+        if footprint:
+            check(library.ld_study_export_footprint(coded_path(self.folder),
+                                                    coded_path(footprint),
+                                                    ctypes.byref(error)), error)
 
     def plot(self, *names: str, over: Optional[str] = None, ax: Any = None, **style: Any) -> Any:
         """Draws, by matplotlib, how results scatter: histograms, a colour for each point of the

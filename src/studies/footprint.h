@@ -10,7 +10,7 @@
 #include "studies/statistics.h"
 #include "studies/study_data.h"
 
-enum { FOOTPRINT_SHARES = LD_STUDY_FOOTPRINTS };
+enum { FOOTPRINT_SHARES = 3 }; // 95, 99, 99.9 %
 
 typedef ld_study_footprint footprint_region;
 

@@ -123,21 +123,27 @@ ld_status ld_study_data_sensitivity(ld_study_data *self, int point, const char *
     return status;
 }
 
-ld_status ld_study_data_footprints(ld_study_data *self, int point,
-                                   const ld_study_footprint **footprints, ld_error *error)
+ld_status ld_study_data_footprint(ld_study_data *self, int point, double share,
+                                  const ld_study_footprint **found, ld_error *error)
 {
-    const study_values *read = &self->read;
+    const footprint *of = &self->footprint;
     ld_status status = read_columns(self, point, study_pairs[STUDY_LANDING].name, 2, error);
-    *footprints = NULL;
+    *found = NULL;
     if (status)
         return status;
-    status = footprint_of_values(read, &self->footprint);
+    status = footprint_of_values(&self->read, &self->footprint);
     if (status)
         return ld_fail(error, status, "no memory for the study's footprints");
-    if (self->footprint.on_line)
+    if (of->on_line)
         return ld_fail(error, LD_ERR_INPUT, "point %d has no footprints: %s", point,
-                       self->footprint.count < 3 ? "fewer than three rockets have landed"
-                                                 : "all rockets land on one line");
-    *footprints = self->footprint.region;
-    return LD_OK;
+                       of->count < 3 ? "fewer than three rockets have landed"
+                                     : "all rockets land on one line");
+    for (int k = 0; k < FOOTPRINT_SHARES; k++)
+        if (of->region[k].share == share)
+            *found = &of->region[k];
+    return *found ? LD_OK
+                  : ld_fail(error, LD_ERR_INPUT,
+                            "there is no footprint of a share of %g: they are of 0.95, 0.99 and "
+                            "0.999",
+                            share);
 }

@@ -333,6 +333,52 @@ static void test_study_sensitivity_and_ellipses(void **state)
                      "are options of study show DIR");
 }
 
+// The same numbers as text and as JSON; a study without landings has none.
+static void test_study_footprints(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn study examples/range-safety.yaml --set scatter.samples=200 -q "
+                         "--out safe && launchdyn study show safe --json | jq -r "
+                         "'.points[0].footprints | length, .[0].share, .[0].stated, .[0].needed, "
+                         ".[0].independent, .[0].content.low, .[0].area.value, .[0].distance.high, "
+                         ".[1].stated, .[1].needed, .[1].area.value'"),
+                     0);
+    double low, area, farthest, found[3];
+    assert_int_equal(
+        sscanf(shell.out, "3 0.95 true 180 200 %lf %lf %lf false 900 null", &low, &area, &farthest),
+        3);
+    assert_int_equal(run("launchdyn study show safe | grep -A 4 '^footprints, for range safety: "
+                         "where landings lie; 200 rockets'"),
+                     0);
+    assert_non_null(strstr(shell.out, "\n99 %     too few landings: 900 independent ones are "
+                                      "needed, 200 are there\n"));
+    const char *line = strstr(shell.out, "\n95 %     95 [");
+    assert_non_null(line);
+    assert_int_equal(sscanf(line, "\n95 %%     95 [%lf, %*f] %lf [%*f, %*f] %*f [%*f, %lf]",
+                            &found[0], &found[1], &found[2]),
+                     3);
+    CHECK_NEAR("content, low [%]", found[0], 100 * low, 0.005);
+    CHECK_NEAR("area", found[1] / area, 1, 1e-3);
+    CHECK_NEAR("farthest point, high", found[2] / farthest, 1, 1e-3);
+    assert_int_equal(run("launchdyn study show safe --json --what pitch_rate,apogee | jq -c "
+                         "'.points[0].footprints'"),
+                     0);
+    assert_string_equal(shell.out, "[]\n");
+    expect_complaint("launchdyn study show safe --footprint a.kml", 2,
+                     "--footprint is an option of study export DIR");
+    expect_complaint("launchdyn study examples/range-safety.yaml --footprint a.kml --out y", 2,
+                     "--footprint are options of study export DIR");
+    expect_complaint("launchdyn study export safe --footprint a.csv --csv a.csv", 2,
+                     "a file each for");
+    expect_complaint("launchdyn study export safe --footprint a.json", 2,
+                     "a file of footprints ends in .csv, .kml or .geojson");
+    assert_int_equal(run("launchdyn study export safe --footprint b.geojson --csv b.csv; jq -c "
+                         "'.type, [.features[].geometry.type]' b.geojson; wc -l <b.csv"),
+                     0);
+    assert_string_equal(shell.out,
+                        "\"FeatureCollection\"\n[\"Point\",\"MultiPolygon\",null,null]\n201\n");
+}
+
 // Mardia's b1 and b2 of two columns by their definition, over all pairs.
 static void mardia(const double x[SAMPLES], double mx, const double y[SAMPLES], double my,
                    double b[2])
@@ -446,6 +492,7 @@ int main(void)
         cmocka_unit_test(test_study),
         cmocka_unit_test(test_study_near_the_vertical),
         cmocka_unit_test(test_study_sensitivity_and_ellipses),
+        cmocka_unit_test(test_study_footprints),
         cmocka_unit_test(test_study_normality),
         cmocka_unit_test(test_study_measured),
         cmocka_unit_test(test_study_against),

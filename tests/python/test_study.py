@@ -10,7 +10,7 @@ from unittest import mock
 import launchdyn as ld
 import numpy as np
 from launchdyn import study
-from support import FIXED, Case, command, flights, needs, scattered
+from support import EXAMPLES, FIXED, Case, command, flights, needs, scattered
 
 
 class TestStudy(Case):
@@ -234,6 +234,29 @@ class TestStudy(Case):
         data.close()
         with self.assertRaisesRegex(ValueError, "closed"):
             data["muzzle_speed"]
+
+    def test_footprints(self):
+        data = ld.Study.read(EXAMPLES / "range-safety.yaml", {"scatter.samples": 200}).run(
+            self.folder / "safe", threads=2)
+        found = data.footprint(0.95)
+        self.assertTrue(found.stated)
+        self.assertEqual((found.share, found.needed, found.independent), (0.95, 180, 200))
+        self.assertLess(found.content.low, 0.95)
+        self.assertLess(found.area.low, found.area.value)
+        self.assertLess(found.distance.value, found.distance.high)
+        data.export(footprint=self.folder / "safe.csv")
+        with (self.folder / "safe.csv").open() as file:
+            _, *rows = csv.reader(file)
+        corners = [(float(row[9]), float(row[10])) for row in rows if row[1] == "0.95"]
+        self.assertAlmostEqual(max(np.hypot(*corner) for corner in corners),
+                               found.distance.value, places=6)
+        none = data.footprint(0.999)
+        self.assertEqual((none.stated, none.needed), (False, 9000))
+        self.assertTrue(np.isnan(none.area.value))
+        with self.assertRaisesRegex(ld.InputError, "0.95, 0.99 and 0.999"):
+            data.footprint(0.5)
+        with self.assertRaisesRegex(ld.InputError, "ends in .csv"):
+            data.export(footprint=self.folder / "safe.shp")
 
     def test_reports(self):
         data = ld.Study.of(scattered(2)).run(self.folder / "study")

@@ -118,17 +118,23 @@ static void test_csv(void **state)
     for (size_t i = 0; i < SAMPLES; i++)
         within += is_within(corners, count, values->value[0][i], values->value[1][i]);
     CHECK_WITHIN("landings within that of 95 % [%]", 100.0 * within / SAMPLES, 94, 98);
-    assert_int_equal(ld_study_data_footprints(data, 1, &region, &error), LD_OK);
-    CHECK_NEAR("area", area / region[0].area.value, 1, 1e-12);
-    CHECK_NEAR("farthest point", farthest / region[0].distance.value, 1, 1e-12);
+    assert_int_equal(ld_study_data_footprint(data, 1, 0.95, &region, &error), LD_OK);
+    CHECK_NEAR("area", area / region->area.value, 1, 1e-12);
+    CHECK_NEAR("farthest point", farthest / region->distance.value, 1, 1e-12);
     CHECK_WITHIN("area over that of a normal cloud's ellipse",
-                 region[0].area.value / (pi * 5.9915 * 197 * 179), 0.85, 1.3);
-    assert_true(region[0].stated && !region[1].stated && !region[2].stated);
-    assert_true(isnan(region[1].area.value) && isnan(region[2].content.low));
-    assert_true(region[0].independent == 300 && region[0].needed == 180);
-    assert_true(region[1].needed == 900 && region[2].needed == 9000);
+                 region->area.value / (pi * 5.9915 * 197 * 179), 0.85, 1.3);
+    CHECK_NEAR("content, low, by its beta distribution",
+               beta_cumulative(0.95 * 201, 0.05 * 201, region->content.low), 0.025, 1e-9);
+    CHECK_NEAR("content, high", beta_cumulative(0.95 * 201, 0.05 * 201, region->content.high),
+               0.975, 1e-9);
+    assert_true(region->stated && region->independent == 300 && region->needed == 180);
+    assert_int_equal(ld_study_data_footprint(data, 1, 0.999, &region, &error), LD_OK);
+    assert_true(!region->stated && isnan(region->area.value) && isnan(region->content.low));
+    assert_true(region->independent == 300 && region->needed == 9000);
     assert_non_null(strstr(text, "\n1,0.99,,,900,300,,,,,\n1,0.999,,,9000,300,,,,,\n"));
-    assert_int_equal(ld_study_data_footprints(data, 2, &region, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_study_data_footprint(data, 1, 0.5, &region, &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "they are of 0.95, 0.99 and 0.999"));
+    assert_int_equal(ld_study_data_footprint(data, 2, 0.95, &region, &error), LD_ERR_INPUT);
     assert_null(region);
     ld_study_data_close(data);
     free(text);
