@@ -99,7 +99,7 @@ static ld_status sort_lines(footprint_shape *all, footprint_shape *shape)
 {
     size_t count = all->count;
     *shape = (footprint_shape){.line = malloc((count + 1) * sizeof *shape->line)};
-    const footprint_line **about = calloc(count + 1, sizeof *about);
+    const footprint_line **about = calloc(count + 1, sizeof(void *));
     if (!shape->line || !about) {
         free(about);
         footprint_shape_free(shape);

@@ -203,6 +203,30 @@ async function checkWithout(browser) {
   await leave(page);
 }
 
+// Landing points within their footprint, as it is drawn, and what its table says.
+async function checkFootprints(browser) {
+  console.log("footprints");
+  const { out } = studyOf("safety", 400, { factors: UNIFORM });
+  const page = await open(browser, reportOf("safety.html", { out }), { width: 1400 });
+  const drawn = await page.$$eval(`${panel("Landing points")} .ellipse`, (list) => list.map((node) => `${node.classList[1]} ${node.dataset.name}`));
+  check("that for which there are enough landings, nothing else", drawn.join() === "footprint 95 %", drawn);
+  const names = await page.$$eval(`${panel("Landing points")} .outline-name`, (list) => list.map((node) => node.textContent));
+  check("with its name", names.join() === "95 %", names);
+  const share = await page.$eval(panel("Landing points"), (node) => {
+    const outline = node.querySelector(".footprint"), dots = node.querySelector(".points").getAttribute("d").match(/[\d.]+ [\d.]+/g);
+    const inside = dots.filter((dot) => outline.isPointInFill(new DOMPoint(...dot.split(" ").map(Number))));
+    return inside.length / dots.length;
+  });
+  check("it holds as many landings as it says", near(share, 0.95, 0.025), share);
+  const rows = await page.$$eval(".footprints tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  check("the table has each share", rows.slice(1).map(([name]) => name).join() === "95\u00a0%,99\u00a0%,99.9\u00a0%", rows.slice(1));
+  check("and how many landings it wants", rows.slice(1).map(([, there, needed]) => `${there} of ${needed}`).join() === "400 of 180,400 of 900,400 of 9000");
+  check("too few are told", rows.slice(2).every((row) => row.at(-1) === "too few landings"), rows.slice(2));
+  const note = await page.textContent(`${panel("Landing points")} .shown`);
+  check("below the plot, too", note.includes("footprints: 95\u00a0% of landings lie within"), note);
+  await leave(page);
+}
+
 async function checkSideBySide(browser, studies) {
   console.log("three studies beside each other, dark, 400 pixels wide");
   const file = reportOf("three.html", ...studies), page = await open(browser, file, { width: 400, dark: true });
@@ -330,6 +354,7 @@ await inBrowser(async (browser) => {
     studyOf("fast", 150, { speed: "44 12.6 0 m/s" })];
   await checkOne(browser, studies[0]);
   await checkWithout(browser);
+  await checkFootprints(browser);
   await checkSideBySide(browser, studies);
   await checkColumns(browser, studies);
   await checkMeasured(browser, [studies[0], studies[2]]);

@@ -312,6 +312,47 @@ static void test_contours_count_independent_rockets(void **state)
     free(page);
 }
 
+// Area of closed lines "[[i,j,i,j,...],[...]]".
+static double enclosed(const char *text)
+{
+    double sum = 0, last[2] = {0}, corner[2], first[2] = {0};
+    bool begins = true;
+    for (const char *at = text + 1; *at != ']' || at[1] != ']';) {
+        char *after_number;
+        begins |= *at == '[';
+        at += strspn(at, "[],");
+        corner[0] = strtod(at, &after_number);
+        corner[1] = strtod(after_number + 1, &after_number);
+        at = after_number;
+        memcpy(begins ? first : last, begins ? corner : last, sizeof last);
+        if (!begins)
+            sum += 0.5 * ((last[0] - first[0]) * (corner[1] - first[1]) -
+                          (corner[0] - first[0]) * (last[1] - first[1]));
+        memcpy(last, corner, sizeof last);
+        begins = strncmp(at, "],[", 3) == 0;
+    }
+    return sum;
+}
+
+// The lines of a footprint enclose the area that stands beside them.
+static void test_footprint(void **state)
+{
+    (void)state;
+    double step[4], estimates[4];
+    make_study("study", "Safe", 200, "");
+    char *page = report_one("study", NULL);
+    const char *of = after(after(page, "\"x\":\"downrange\""), "\"footprint\":{");
+    read_numbers(after(of, "\"step\":"), step, 4);
+    of = after(of, "{\"share\":0.95,\"needed\":180,\"independent\":");
+    read_numbers(after(of, "\"estimates\":"), estimates, 4);
+    CHECK_NEAR("share", estimates[0], 0.95, 1e-12);
+    CHECK_NEAR("area of the footprint that is drawn",
+               enclosed(after(of, "\"lines\":")) * 1e-4 * (step[0] * step[3] - step[1] * step[2]) /
+                   estimates[3],
+               1, 1e-3);
+    free(page);
+}
+
 static double first_number(const char *place, const char *key)
 {
     double number;
@@ -645,6 +686,7 @@ int main(void)
         TEST(test_running_estimates),
         TEST(test_numbers_are_those_of_show),
         TEST(test_contours_count_independent_rockets),
+        TEST(test_footprint),
         TEST(test_measured),
         TEST(test_sensitivities),
         TEST(test_bins),
