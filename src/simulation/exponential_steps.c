@@ -31,7 +31,7 @@ struct exponential_steps {
     exponential_steps_settings settings;
     integrator_settings equations;
     linear_part of_kind[EXPONENTIAL_STEPS_KINDS];
-    linear_part *part; // of the equations of now
+    linear_part *part;  // of the equations of now
     size_t n, steering; // states; those of them whose error has a bound
     double *memory;
     double *atol, *rtol; // [n]
