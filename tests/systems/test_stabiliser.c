@@ -318,6 +318,40 @@ static void sampled(void **context)
     }
 }
 
+// A commanded ramp whose two corners lie on samples, which take the rate behind each.
+static void sampled_on_corners(void **context)
+{
+    (void)context;
+    const double T = 5e-3, kp = 8e5, kd = 2e4, slope = 0.2; // [s], .., [rad/s]
+    enum { BEGIN = 4, END = 12, SAMPLES = 24 };
+    fixture f;
+    set_up(&f);
+    f.given->kp = kp, f.given->ki = 0, f.given->kd = kd, f.given->sample = T;
+    free(f.given->command.data);
+    f.given->command = reference_table(2, 2,
+                                       (double[]){BEGIN * T, 0, //
+                                                  END * T, slope * (END - BEGIN) * T});
+    let_go(&f);
+    double angle = 0, rate = 0, held = 0, worst = 0, torque = 0;
+    for (int n = 1; n <= SAMPLES; n++) {
+        follow(&f, (n - 1) * T, n * T);
+        orientating_sample(&f.system, n * T, f.state);
+        angle += rate * T + 0.5 * held / J * T * T;
+        rate += held / J * T;
+        int along = n < BEGIN ? 0 : n < END ? n - BEGIN : END - BEGIN;
+        double commanded_rate = n >= BEGIN && n < END ? slope : 0;
+        held = kp * (slope * along * T - angle) + kd * (commanded_rate - rate);
+        const hinge_report hinge = hinge_of(&f, n * T);
+        worst = fmax(worst, fabs(hinge.measured - angle));
+        worst = fmax(worst, fabs(hinge.measured_rate - rate) * T);
+        if (n == BEGIN)
+            torque = held;
+    }
+    CHECK_BELOW("angle, rate x period [rad]", worst, 1e-12);
+    CHECK_NEAR("torque at the first corner over kd x rate", torque / (kd * slope), 1, 1e-12);
+    tear_down(&f);
+}
+
 // What a sensor adds: its rms, white, of both channels, neither of them the other's.
 static void noise(void **context)
 {
@@ -454,9 +488,15 @@ static void parting(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(feedforward), cmocka_unit_test(loops),   cmocka_unit_test(slew),
-        cmocka_unit_test(sampled),     cmocka_unit_test(noise),   cmocka_unit_test(two_masses),
-        cmocka_unit_test(free_travel), cmocka_unit_test(parting),
+        cmocka_unit_test(feedforward),
+        cmocka_unit_test(loops),
+        cmocka_unit_test(slew),
+        cmocka_unit_test(sampled),
+        cmocka_unit_test(sampled_on_corners),
+        cmocka_unit_test(noise),
+        cmocka_unit_test(two_masses),
+        cmocka_unit_test(free_travel),
+        cmocka_unit_test(parting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

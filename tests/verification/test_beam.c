@@ -147,6 +147,48 @@ static void closed_forms_of_bars(void **state)
         }
 }
 
+// Twist of a bar held at x = 0 by a torque at x, as n modes have it.
+static double twist_under_torque(const flexible_tube *tube, int n, double torque_at, double x)
+{
+    double twist = 0;
+    for (int i = 0; i < n; i++)
+        twist += tube_torsion(tube, i, torque_at, 0) * tube_torsion(tube, i, x, 0) / tube->om2_t[i];
+    return twist;
+}
+
+// What n modes lack of a static twist where its torque is: exactly x, of which the series over
+// k = (2 j - 1) pi/2 leaves out 2 sin^2(k x)/k^2 for each j > n: over all x on average
+// 1/k^2, whose sum is 1/(pi^2 n) to first order. At the tip the terms alternate.
+static void static_twist_of_modes(void **state)
+{
+    (void)state;
+    enum { PLACES = 400 };
+    flexible_tube tube;
+    ld_tubes model = unit_tube(200, LD_NT, LD_SPAN_CLAMPED);
+    double mean[4], slot = 0.2 / 3;
+    build(&tube, &model);
+    for (int level = 0; level < 4; level++) {
+        int n = 1 << level;
+        mean[level] = 0;
+        for (int i = 0; i < PLACES; i++) {
+            double x = (i + 0.5) / PLACES;
+            mean[level] += (x - twist_under_torque(&tube, n, x, x)) / PLACES;
+        }
+        printf("  %d modes: mean error at the torque %.4f, over 1/(pi^2 n) %.4f; torque at 1/15: "
+               "there %.3f, at the tip %.3f of the exact twist\n",
+               n, mean[level], mean[level] * pi * pi * n,
+               twist_under_torque(&tube, n, slot, slot) / slot,
+               twist_under_torque(&tube, n, slot, 1) / slot);
+    }
+    CHECK_NEAR("4 modes: mean error over 1/(pi^2 n)", mean[2] * pi * pi * 4, 0.9949, 5e-4);
+    CHECK_WITHIN("order from 4 to 8 modes", log2(mean[2] / mean[3]), 0.99, 1.0);
+    CHECK_WITHIN("torque at 1/15, 4 modes: twist there, of the exact one",
+                 twist_under_torque(&tube, 4, slot, slot) / slot, 0.49, 0.5);
+    CHECK_WITHIN("twist at the tip, of the exact one", twist_under_torque(&tube, 4, slot, 1) / slot,
+                 0.92, 0.94);
+    flexible_tube_free(&tube);
+}
+
 // int b dx = 2 sigma/lambda, int x b dx = 2/lambda^2, b(L) = 2 of clamped-free modes with b(L) > 0,
 // which gives the integrals the sign (-1)^(j+1).
 static void integrals_of_clamped_modes(void **state)
@@ -873,6 +915,7 @@ int main(void)
         cmocka_unit_test(closed_forms_of_bending),
         cmocka_unit_test(closed_forms_of_each_plane),
         cmocka_unit_test(closed_forms_of_bars),
+        cmocka_unit_test(static_twist_of_modes),
         cmocka_unit_test(integrals_of_clamped_modes),
         cmocka_unit_test(stepped_tube_on_supports),
         cmocka_unit_test(supported_span_is_exact),
