@@ -1,15 +1,15 @@
-// The order in which tubes fire so that impacts lie closest together, found on a reduced model of a
-// salvo: by superposition. A rocket lands where it would land as the first one, plus what each
-// earlier shot adds, by the tubes of both and the time between them. A study of salvos of two
-// rockets without scatter gives both (scripts/order-study makes it): every ordered pair of tubes,
-// at one to n - 1 times the interval, in any order of points.
+// The order of tubes that leaves the launcher calmest, on a reduced model of a salvo:
+// superposition. A rocket leaves with the rates with which it would leave as the first one, plus
+// what each earlier launch adds, by the tubes of both and the time between them. A study of salvos
+// of two rockets gives both (scripts/order-study makes it): every ordered pair of tubes, at one to
+// n - 1 times the interval, in any order of points, one sample or more at each.
 //
-//     order_search FOLDER INTERVAL [ORDER...]          e.g. order_search pairs 0.3 "1 2 3 4 5 6 7
-//     8"
+//     order_search FOLDER INTERVAL [ORDER...]          e.g. order_search pairs 0.3 "2 1 3"
 //
-// Prints the spread (root mean square distance from the mean impact) of the orders given, of the
-// best and the worst by exchanges of two tubes from several starts, and, up to nine tubes, of all
-// orders, which shows whether the search has found them.
+// Prints the scatter of the tip-off rates of the orders given, of the calmest and the roughest
+// found by exchanges of two tubes from several starts, and, up to nine tubes, of all orders, which
+// shows whether the search has found them. Scatter: root mean square, over rockets and samples, of
+// how far pitch and yaw rate at the exit are from their means in the salvo of that sample.
 #include <launchdyn/study_data.h>
 
 #include <math.h>
@@ -17,22 +17,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 16, MOST_ENUMERATED = 9, STARTS = 20 };
+enum { MOST = 16, MOST_SAMPLES = 64, MOST_ENUMERATED = 9, STARTS = 20 };
 
-typedef struct impact {
-    double downrange, drift; // [m]
-} impact;
+typedef struct rates {
+    double pitch, yaw; // at the exit [rad/s]
+} rates;
 
 typedef struct order_model {
-    int tubes;
-    impact first[MOST];             // of a rocket that is fired first
-    impact after[MOST][MOST][MOST]; // [i][j][m] what tube i, fired m intervals before, adds to j's
+    int tubes, samples;
+    rates first[MOST][MOST_SAMPLES]; // of a rocket that leaves first
+    // [i][j][m] what tube i, m intervals before, adds to j's
+    rates after[MOST][MOST][MOST][MOST_SAMPLES];
     bool known[MOST][MOST][MOST];
 } order_model;
 
 typedef struct order {
     int tube[MOST]; // from 0
-    double spread;  // [m]
+    double scatter; // [rad/s]
 } order;
 
 // ---- the reduced model
@@ -56,32 +57,33 @@ static bool find_axes(const ld_study_data *data, int *pair, int *interval)
     return *pair >= 0 && *interval >= 0;
 }
 
-// Takes over the mean impacts of the two rockets of a point, "[1, 2]" at "0.3 s"; false: it is not
-// such a pair.
-static bool take_point(order_model *self, const ld_study_point *point, const ld_study_values *of,
-                       int pair, int interval, double unit)
+// Takes over the rates of the two rockets of a point, "[1, 2]" at "0.3 s", in each sample; NULL, or
+// what is wrong with it.
+static const char *take_point(order_model *self, const ld_study_point *point,
+                              const ld_study_values *of, int pair, int interval, double unit)
 {
-    int i, j;
-    if (sscanf(point->text[pair], "[%d , %d ]", &i, &j) != 2 || of->count < 2)
-        return false;
-    double lag = strtod(point->text[interval], NULL) / unit, share = 2 / (double)of->count;
-    int m = (int)lround(lag);
-    if (i < 1 || j < 1 || i > MOST || j > MOST || m < 1 || m >= MOST || fabs(lag - m) > 1e-6)
-        return false;
-    impact mean[2] = {{0, 0}, {0, 0}};
+    int i, j, samples = (int)(of->count / 2);
+    double lag = strtod(point->text[interval], NULL) / unit;
+    int m = lag < MOST ? (int)lround(lag) : MOST;
+    if (sscanf(point->text[pair], "[%d , %d ]", &i, &j) != 2 || i < 1 || j < 1 || i > MOST ||
+        j > MOST || m < 1 || m >= MOST || fabs(lag - m) > 1e-6)
+        return "a point is no pair of tubes at a multiple of the interval";
+    if (samples < 1 || samples > MOST_SAMPLES || of->count % 2 ||
+        (self->samples && samples != self->samples))
+        return "its points have not the same 1 to 64 samples of two rockets";
     for (size_t row = 0; row < of->count; row++) {
-        impact *to = &mean[of->rocket[row] == 2];
-        to->downrange += share * of->value[0][row];
-        to->drift += share * of->value[1][row];
+        if (of->rocket[row] != 1 + (int)(row % 2))
+            return "a rocket of a pair is missing";
+        rates *to = of->rocket[row] == 1 ? self->first[i - 1] : self->after[i - 1][j - 1][m];
+        to[row / 2] = (rates){of->value[0][row], of->value[1][row]};
     }
-    self->first[i - 1] = mean[0];
-    self->after[i - 1][j - 1][m] = mean[1];
     self->known[i - 1][j - 1][m] = true;
     self->tubes = i > self->tubes ? i : self->tubes;
-    return true;
+    self->samples = samples;
+    return NULL;
 }
 
-// What a shot adds is what the second rocket lands apart from itself as the first one.
+// What a launch adds is how the second rocket's rates differ from its own as the first one.
 static const char *complete(order_model *self)
 {
     for (int i = 0; i < self->tubes; i++)
@@ -89,8 +91,10 @@ static const char *complete(order_model *self)
             for (int m = 1; m < self->tubes && i != j; m++) {
                 if (!self->known[i][j][m])
                     return "it does not hold every pair of tubes at every multiple of the interval";
-                self->after[i][j][m].downrange -= self->first[j].downrange;
-                self->after[i][j][m].drift -= self->first[j].drift;
+                for (int s = 0; s < self->samples; s++) {
+                    self->after[i][j][m][s].pitch -= self->first[j][s].pitch;
+                    self->after[i][j][m][s].yaw -= self->first[j][s].yaw;
+                }
             }
     return NULL;
 }
@@ -98,7 +102,7 @@ static const char *complete(order_model *self)
 static const char *read_model(const char *folder, double unit, order_model *self)
 {
     static ld_error error;
-    static const char *const names[] = {"downrange", "drift"};
+    static const char *const names[] = {"pitch_rate", "yaw_rate"};
     ld_study_data *data;
     int pair, interval;
     const ld_study_point *point;
@@ -111,31 +115,38 @@ static const char *read_model(const char *folder, double unit, order_model *self
         const ld_study_values *of;
         if (ld_study_data_values(data, number, names, 2, &of, &error))
             why = error.text;
-        else if (!take_point(self, point, of, pair, interval, unit))
-            why = "a point is no pair of tubes at a multiple of the interval";
+        else
+            why = take_point(self, point, of, pair, interval, unit);
     }
     ld_study_data_close(data);
     return why ? why : complete(self);
 }
 
-// Root mean square distance of the impacts from their mean.
-static double spread_of(const order_model *self, const int *tube)
+// Sum of squares of how far the rates of one sample's rockets are from their means.
+static double square_within(const order_model *self, const int *tube, int sample)
 {
-    double x[MOST], y[MOST], mean[2] = {0}, squares = 0, n = self->tubes;
+    rates sum = {0, 0};
+    double squares = 0;
     for (int k = 0; k < self->tubes; k++) {
         int j = tube[k];
-        x[k] = self->first[j].downrange;
-        y[k] = self->first[j].drift;
+        rates x = self->first[j][sample];
         for (int m = 1; m <= k; m++) {
-            x[k] += self->after[tube[k - m]][j][m].downrange;
-            y[k] += self->after[tube[k - m]][j][m].drift;
+            x.pitch += self->after[tube[k - m]][j][m][sample].pitch;
+            x.yaw += self->after[tube[k - m]][j][m][sample].yaw;
         }
-        mean[0] += x[k] / n;
-        mean[1] += y[k] / n;
+        sum.pitch += x.pitch;
+        sum.yaw += x.yaw;
+        squares += x.pitch * x.pitch + x.yaw * x.yaw;
     }
-    for (int k = 0; k < self->tubes; k++)
-        squares += (x[k] - mean[0]) * (x[k] - mean[0]) + (y[k] - mean[1]) * (y[k] - mean[1]);
-    return sqrt(squares / n);
+    return squares - (sum.pitch * sum.pitch + sum.yaw * sum.yaw) / self->tubes;
+}
+
+static double scatter_of(const order_model *self, const int *tube)
+{
+    double squares = 0;
+    for (int sample = 0; sample < self->samples; sample++)
+        squares += square_within(self, tube, sample);
+    return sqrt(fmax(squares, 0) / (self->tubes * self->samples));
 }
 
 // ---- the search
@@ -147,29 +158,29 @@ static void swap(int *one, int *other)
     *other = kept;
 }
 
-// Exchanges the two tubes that gain most, as long as any two gain; sign 1: the least spread, -1:
-// the greatest. Returns how many spreads it has looked at.
+// Exchanges the two tubes that gain most, as long as any two gain; sign 1: the least scatter, -1:
+// the greatest. Returns how many orders it has looked at.
 static long descend(const order_model *self, int sign, order *from)
 {
     long looked = 0;
     for (bool better = true; better;) {
         int best[2] = {0, 0};
-        double least = from->spread;
+        double least = from->scatter;
         for (int i = 0; i < self->tubes; i++)
             for (int j = i + 1; j < self->tubes; j++) {
                 swap(&from->tube[i], &from->tube[j]);
-                double spread = spread_of(self, from->tube);
+                double scatter = scatter_of(self, from->tube);
                 swap(&from->tube[i], &from->tube[j]);
                 looked++;
-                if (sign * spread < sign * least) {
-                    least = spread;
+                if (sign * scatter < sign * least) {
+                    least = scatter;
                     best[0] = i;
                     best[1] = j;
                 }
             }
         better = best[0] != best[1];
         swap(&from->tube[best[0]], &from->tube[best[1]]);
-        from->spread = least;
+        from->scatter = least;
     }
     return looked;
 }
@@ -185,56 +196,57 @@ static order start_order(const order_model *self, unsigned number)
         random = random * 6364136223846793005ULL + 1442695040888963407ULL;
         swap(&start.tube[k], &start.tube[(random >> 33) % (unsigned)(k + 1)]);
     }
-    start.spread = spread_of(self, start.tube);
+    start.scatter = scatter_of(self, start.tube);
     return start;
 }
 
 static void print_order(const char *what, const order_model *self, const order *of)
 {
-    printf("%-12s %7.3f m  [", what, of->spread);
+    printf("%-12s %8.4f mrad/s  [", what, 1e3 * of->scatter);
     for (int k = 0; k < self->tubes; k++)
         printf("%s%d", k ? ", " : "", of->tube[k] + 1);
     puts("]");
 }
 
-// The best of several starts; how often it was found.
+// The calmest (sign 1) or roughest order that several starts lead to, and how often.
 static order search(const order_model *self, int sign)
 {
-    order best = {.spread = sign * INFINITY};
+    const double tie = 1e-12; // [rad/s]
+    order best = {.scatter = sign * INFINITY};
     int found = 0;
     long looked = 0;
     for (unsigned start = 0; start < STARTS; start++) {
         order end = start_order(self, start);
         looked += descend(self, sign, &end);
-        if (sign * end.spread < sign * best.spread - 1e-9) {
+        if (sign * end.scatter < sign * best.scatter - tie) {
             best = end;
             found = 0;
         }
-        found += fabs(end.spread - best.spread) < 1e-9;
+        found += fabs(end.scatter - best.scatter) < tie;
     }
-    print_order(sign > 0 ? "best" : "worst", self, &best);
+    print_order(sign > 0 ? "calmest" : "roughest", self, &best);
     printf("             from %d of %d starts, %ld orders looked at\n", found, STARTS, looked);
     return best;
 }
 
 // ---- all orders
 
-static int by_spread(const void *left, const void *right)
+static int by_scatter(const void *left, const void *right)
 {
     double a = *(const double *)left, b = *(const double *)right;
     return (a > b) - (a < b);
 }
 
-// Spreads of all orders of the tubes from place `k` on.
-static size_t enumerate(const order_model *self, int *tube, int k, double *spread, size_t count)
+// Scatters of all orders of the tubes from place `k` on.
+static size_t enumerate(const order_model *self, int *tube, int k, double *scatter, size_t count)
 {
     if (k == self->tubes) {
-        spread[count] = spread_of(self, tube);
+        scatter[count] = scatter_of(self, tube);
         return count + 1;
     }
     for (int i = k; i < self->tubes; i++) {
         swap(&tube[k], &tube[i]);
-        count = enumerate(self, tube, k + 1, spread, count);
+        count = enumerate(self, tube, k + 1, scatter, count);
         swap(&tube[k], &tube[i]);
     }
     return count;
@@ -247,16 +259,16 @@ static void look_at_all(const order_model *self)
     size_t count = 1;
     for (int k = 2; k <= self->tubes; k++)
         count *= (size_t)k;
-    double *spread = malloc(count * sizeof *spread);
-    if (!spread)
+    double *scatter = malloc(count * sizeof *scatter);
+    if (!scatter)
         return;
-    enumerate(self, all.tube, 0, spread, 0);
-    qsort(spread, count, sizeof *spread, by_spread);
+    enumerate(self, all.tube, 0, scatter, 0);
+    qsort(scatter, count, sizeof *scatter, by_scatter);
     printf("all %zu orders: least, quartiles, greatest", count);
     for (int i = 0; i < 5; i++)
-        printf("%s %.3f", i ? "," : "", spread[(size_t)(share[i] * (double)(count - 1))]);
-    puts(" m");
-    free(spread);
+        printf("%s %.4f", i ? "," : "", 1e3 * scatter[(size_t)(share[i] * (double)(count - 1))]);
+    puts(" mrad/s");
+    free(scatter);
 }
 
 // An order as the tubes' numbers with spaces or commas between; false: not each tube once.
@@ -272,7 +284,7 @@ static bool read_order(const order_model *self, const char *text, order *of)
         seen[tube - 1] = true;
         of->tube[k] = (int)tube - 1;
     }
-    of->spread = spread_of(self, of->tube);
+    of->scatter = scatter_of(self, of->tube);
     return true;
 }
 
