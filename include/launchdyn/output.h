@@ -51,6 +51,11 @@ ld_status ld_summary_write(const char *path, const ld_model *model, const ld_sum
 /// Prints a summary as a short table for a terminal.
 void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *stream);
 
+/// Prints what ld_summary_write() writes, one JSON object.
+/// @return LD_OK, LD_ERR_MEMORY (then nothing is printed)
+ld_status ld_summary_print_json(const ld_model *model, const ld_summary *summary, FILE *stream,
+                                ld_error *error);
+
 /// Prints as JSON (docs/command.md) what was found in a scenario: its errors and notes and, where
 /// there is a model, what was understood, in SI.
 /// @param model  NULL: the scenario has errors

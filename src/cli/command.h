@@ -105,8 +105,8 @@ int command_fail(ld_status status, const ld_error *error);
 void command_tell_difference(const char *folder, const ld_origin *origin);
 
 // Writes the report of the results in `folder` (file NULL: into it), says what is missing in them
-// and what was written. Returns the exit code.
-int command_write_report(const char *folder, const char *file);
+// and, unless `silent`, prints what was written. Returns the exit code.
+int command_write_report(const char *folder, const char *file, bool silent);
 
 // A command on one scenario: reads the options and the file with its overrides, which `options` put
 // into *sets, and does `work` on the model. Returns the exit code.

@@ -7,7 +7,7 @@
 #include "launchdyn/report.h"
 
 static int finish(ld_status status, const ld_error *error, const ld_report *report,
-                  const char *file)
+                  const char *file, bool silent)
 {
     bool written = report->bytes > 0;
     if (written)
@@ -17,7 +17,7 @@ static int finish(ld_status status, const ld_error *error, const ld_report *repo
     if (status)
         return command_fail(status, error);
     char visible[1024];
-    if (!command_is_quiet())
+    if (!silent && !command_is_quiet())
         printf("%s: %.0f kB\n", ld_visible_text(file, visible, sizeof visible),
                (double)report->bytes * 1e-3);
     return 0;
@@ -32,13 +32,13 @@ static const char *place_of(const char *folder, const char *file, char usual[PAT
     return file ? file : usual;
 }
 
-int command_write_report(const char *folder, const char *file)
+int command_write_report(const char *folder, const char *file, bool silent)
 {
     static ld_report report;
     ld_error error;
     char usual[PATH_SIZE];
     ld_status status = ld_report_write(folder, file, &report, &error);
-    return finish(status, &error, &report, place_of(folder, file, usual));
+    return finish(status, &error, &report, place_of(folder, file, usual), silent);
 }
 
 // `shots`: of studies, the file with measured ones, or NULL.
@@ -56,7 +56,7 @@ static int write_several(const char *const *folder, size_t count, bool studies, 
     ld_status status = studies
                            ? ld_report_write_measured(folder, count, shots, file, &report, &error)
                            : ld_report_write_runs(folder, count, file, &report, &error);
-    return finish(status, &error, &report, file);
+    return finish(status, &error, &report, file, false);
 }
 
 static bool holds_study(const char *folder)
@@ -86,7 +86,7 @@ int command_report(const command *self, int argc, char **argv)
         } else if (line.count > 1 || studies) {
             code = write_several(line.word, line.count, studies, shots, file);
         } else {
-            code = command_write_report(line.word[0], file);
+            code = command_write_report(line.word[0], file, false);
         }
         options_end(&line);
     }

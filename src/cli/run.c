@@ -18,6 +18,17 @@ static bool leaves_results(ld_status status)
            status == LD_ERR_INTERRUPTED;
 }
 
+// Prints what the run has found.
+static ld_status print_summary(const ld_model *model, const ld_summary *summary, bool json,
+                               ld_error *error)
+{
+    if (json)
+        return ld_summary_print_json(model, summary, stdout, error);
+    if (!command_is_quiet())
+        ld_summary_print(model, summary, stdout);
+    return LD_OK;
+}
+
 // Runs and writes; the status of the run is returned, or of the writing where that fails.
 static ld_status simulate(ld_simulation *simulation, const ld_model *model,
                           const run_wishes *wishes, ld_summary *summary, ld_error *error)
@@ -46,8 +57,8 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
     ld_status written = output ? ld_output_finish(output, summary, &problem) : LD_OK;
     if (output && !written)
         command_step("wrote %s", wishes->folder);
-    if (!written && !command_is_quiet())
-        ld_summary_print(model, summary, stdout);
+    if (!written)
+        written = print_summary(model, summary, wishes->json != 0, &problem);
     if (!written)
         return status;
     if (status)
@@ -81,7 +92,7 @@ int run_model(const ld_model *model, void *data)
     ld_summary_free(summary);
     int code = 0;
     if (wishes->report && begun && leaves_results(status))
-        code = command_write_report(wishes->folder, NULL);
+        code = command_write_report(wishes->folder, NULL, wishes->json != 0);
     if (!status)
         return code;
     fflush(stdout);
@@ -167,6 +178,8 @@ int command_run(const command *self, int argc, char **argv)
         {"csv", '\0', OPTION_FLAG, &wishes.csv,
          "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
         {"report", '\0', OPTION_FLAG, &wishes.report, "Write report.html there too", NULL},
+        {"json", '\0', OPTION_FLAG, &wishes.json,
+         "Print the summary as JSON, as summary.json has it", NULL},
         COMMAND_STRICT(&wishes.strict),
         COMMAND_USUAL};
     command_line line;

@@ -223,18 +223,31 @@ static ld_status make_text(const ld_model *model, const ld_summary *summary,
                : ld_fail(error, LD_ERR_MEMORY, "no memory for the summary");
 }
 
-ld_status summary_write(const char *path, const ld_model *model, const ld_summary *summary,
-                        const manifest_file file[MANIFEST_FILES], ld_error *error)
+static ld_status print_sealed(const ld_model *model, const ld_summary *summary,
+                              const manifest_file *file, FILE *stream, ld_error *error)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *stream = fopen(path, "w");
-    if (!stream)
-        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
     ld_status status = make_text(model, summary, file, &text, &length, error);
     if (!status)
         manifest_seal(stream, text, length);
     free(text);
+    return status;
+}
+
+ld_status ld_summary_print_json(const ld_model *model, const ld_summary *summary, FILE *stream,
+                                ld_error *error)
+{
+    return print_sealed(model, summary, (manifest_file[MANIFEST_FILES]){{0}}, stream, error);
+}
+
+ld_status summary_write(const char *path, const ld_model *model, const ld_summary *summary,
+                        const manifest_file file[MANIFEST_FILES], ld_error *error)
+{
+    FILE *stream = fopen(path, "w");
+    if (!stream)
+        return ld_fail(error, LD_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    ld_status status = print_sealed(model, summary, file, stream, error);
     bool wrong = fflush(stream) != 0 || ferror(stream);
     int number = errno;
     if (fclose(stream) != 0 && !wrong) {

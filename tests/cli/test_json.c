@@ -1,5 +1,5 @@
-// What check, modes and study show print as JSON, against the numbers by other ways: the model by
-// the paths of its keys, the tables of the text, the statistics of the exported table.
+// What run, check, modes and study show print as JSON, against the numbers by other ways: the model
+// by the paths of its keys, the tables of the text, the statistics of the exported table.
 #include "support/check.h"
 #include "support/shell.h"
 
@@ -129,6 +129,29 @@ static void test_check_tells_errors(void **state)
     assert_int_equal(run("launchdyn check --json --strict " LOW " >a.json"), 2);
     assert_int_equal(run("jq -c '[.ok, .notes, .errors[0].path]' a.json"), 0);
     assert_string_equal(shell.out, "[false,[],\"rocket.adaptors.rear.clearance\"]\n");
+}
+
+// run prints what summary.json keeps, but for CPU times and files, and nothing else; also of a
+// launch that ends early.
+static void test_run(void **state)
+{
+    (void)state;
+#define SAME "jq -S 'del(.statistics, .files, .digest)' "
+    assert_int_equal(run("launchdyn run --json examples/fixed.yaml --set run.end=tip -o j --report "
+                         ">a.json; " SAME "a.json >printed; " SAME "j/summary.json >kept; "
+                         "cmp printed kept && test -s j/report.html && launchdyn run -q --json "
+                         "examples/fixed.yaml --set run.end=tip | " SAME "| cmp - kept"),
+                     0);
+    assert_string_equal(shell.out, "");
+    assert_int_equal(run("jq -c '[.complete, (.rockets | length), .files]' a.json"), 0);
+    assert_string_equal(shell.out, "[true,1,[]]\n");
+    assert_int_equal(
+        run("launchdyn run --json examples/fixed.yaml --set rocket.lock.release_force='1 MN' "
+            ">a.json"),
+        1);
+    assert_int_equal(run("jq -c '[.complete, .stopped != null]' a.json"), 0);
+    assert_string_equal(shell.out, "[false,true]\n");
+    expect_complaint("launchdyn run --jsno x", 2, "unknown option --jsno (did you mean --json?)\n");
 }
 
 // More on standard error, or less; what is printed and the exit code are the same.
@@ -486,6 +509,7 @@ int main(void)
         cmocka_unit_test(test_check_has_the_numbers_of_the_model),
         cmocka_unit_test(test_check_has_texts),
         cmocka_unit_test(test_check_tells_errors),
+        cmocka_unit_test(test_run),
         cmocka_unit_test(test_quiet_and_verbose),
         cmocka_unit_test(test_every_command_is_quiet_or_verbose),
         cmocka_unit_test(test_modes),
