@@ -164,6 +164,9 @@ ld_source *ld_model_source(const ld_model *model);
 bool ld_model_has_launcher(const ld_model *model);
 bool ld_model_has_vehicle(const ld_model *model);
 
+/// What guides the rocket: "tube", "rail" or "tower".
+const char *ld_model_guide(const ld_model *model);
+
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again.
 void ld_model_print(const ld_model *model, FILE *stream);
 

@@ -14,9 +14,9 @@ static double to_four_decimals(double value)
     return value > -0.5e-4 && value < 0 ? 0 : value;
 }
 
-static void print_modes(const char *title, const ld_mode *modes, int count)
+static void print_modes(const ld_mode *modes, int count)
 {
-    printf("%s\n       frequency [Hz]  damping ratio [%%]  shape\n", title);
+    puts("       frequency [Hz]  damping ratio [%]  shape");
     for (int i = 0; i < count; i++)
         printf("%4d %16.4f %18.4f  %s\n", i + 1, modes[i].frequency,
                to_four_decimals(modes[i].damping * 100), modes[i].shape);
@@ -32,13 +32,16 @@ static void print_poles(const ld_pole *poles, int count)
 
 static void print_system(const ld_model *model, const ld_found_modes *modes)
 {
-    putchar('\n');
-    print_modes(ld_model_has_vehicle(model)
-                    ? "Vehicle with platforms, tube and locked rocket about their equilibrium "
-                      "on a flat road, no Coulomb friction: moduli of the damped eigenvalues"
-                    : "Tube, tail and locked rocket about their equilibrium, no Coulomb "
-                      "friction, undamped",
-                modes->system, modes->system_count);
+    const char *guide = ld_model_guide(model);
+    if (ld_model_has_vehicle(model))
+        printf("\nVehicle with platforms, %s and locked rocket about their equilibrium on a flat "
+               "road, no Coulomb friction: moduli of the damped eigenvalues\n",
+               guide);
+    else
+        printf("\nUndamped frequencies of %s, tail and locked rocket about their equilibrium, no "
+               "Coulomb friction\n",
+               guide);
+    print_modes(modes->system, modes->system_count);
     putchar('\n');
     print_poles(modes->pole, modes->pole_count);
 }
@@ -56,9 +59,11 @@ static ld_status list_modes(const ld_model *model, bool json, ld_error *error)
         return status;
     bool text = !json && !command_is_quiet();
     found.tube_count = ld_simulation_tube_modes(simulation, tube, MOST);
-    if (text)
-        print_modes("Tube and tail on their supports, base held, undamped frequencies", tube,
-                    found.tube_count);
+    if (text) {
+        printf("Undamped frequencies of %s and tail on their supports, base held\n",
+               ld_model_guide(model));
+        print_modes(tube, found.tube_count);
+    }
     command_step("found the modes of the tube");
     status = ld_simulation_system_modes(simulation, whole, MOST, &found.system_count, poles,
                                         2 * MOST, &found.pole_count, error);

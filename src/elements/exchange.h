@@ -79,18 +79,23 @@ typedef struct shoe_report {
 } shoe_report;
 
 // Powers [W] by kind of force, and the works [J] that they add up to.
-#define LAUNCHING_WORKS(X)                                                                         \
+#define DRIVING_WORKS(X)                                                                           \
     X(POWER_THRUST, "thrust", "work of the thrust")                                                \
     X(POWER_GRAVITY_ROCKET, "gravity_rocket", "work of gravity on the rocket")                     \
     X(POWER_CONTACT_NORMAL, "contact_normal", "work of the normal forces of adaptors and breech")  \
-    X(POWER_CONTACT_FRICTION, "contact_friction", "work of the contact friction")                  \
+    X(POWER_CONTACT_FRICTION, "contact_friction", "work of the contact friction")
+// Where there is a slot.
+#define SLOT_WORKS(X)                                                                              \
     X(POWER_SLOT, "slot", "work of the slot force (zero but for step errors)")                     \
-    X(POWER_SLOT_FRICTION, "slot_friction", "work of the slot friction")                           \
+    X(POWER_SLOT_FRICTION, "slot_friction", "work of the slot friction")
+#define HOLDING_WORKS(X)                                                                           \
     X(POWER_LOCK, "lock", "work of the lock (zero but for step errors)")                           \
     X(POWER_SUPPORT_DAMPING, "support_damping", "work of the support dampers")                     \
     X(POWER_MODAL_DAMPING, "modal_damping", "work of the modal damping")                           \
     X(POWER_BASE, "base", "work of the moving base through the supports")                          \
     X(POWER_MASS_CHANGE, "mass_change", "kinetic energy carried off by burnt propellant")
+#define LAUNCHING_WORKS(X) DRIVING_WORKS(X) SLOT_WORKS(X) HOLDING_WORKS(X)
+
 // That of the air, where it acts before the release: in a bore on what has emerged, on an open
 // guide on the whole rocket. Never both: they have one place.
 #define CROSSFLOW_WORKS(X)                                                                         \

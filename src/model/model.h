@@ -1143,6 +1143,20 @@ static inline bool model_has_surfaces(const ld_model *model)
     return model_has_launcher(model) && model->tubes.guide.present;
 }
 
+/// What guides the rocket, in a word.
+static inline const char *model_guide_word(const ld_model *model)
+{
+    const ld_guide *guide = &model->tubes.guide;
+    bool tower = guide->form == LD_GUIDE_TOWER;
+    return !model_has_surfaces(model) ? "tube" : tower ? "tower" : "rail";
+}
+
+/// Whether the rocket's knob follows a slot.
+static inline bool model_has_slot(const ld_model *model)
+{
+    return model_has_launcher(model) && model->tubes.slot.kind == LD_SLOT_HELIX;
+}
+
 /// Whether the air acts on what has come out of the tube.
 static inline bool model_has_crossflow(const ld_model *model)
 {

@@ -9,12 +9,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What there is one of each: a run; a vehicle, where the base is one; air on the emerged part of
-// the rocket or on all of it in an open guide, jets on the platform, a pressure behind the rocket,
-// what all recoil slides do, where they are asked for; a round or WGS 84 Earth; then several.
+// What there is one of each: a run; a vehicle, where the base is one; a slot; air on the emerged
+// part of the rocket or on all of it in an open guide, jets on the platform, a pressure behind the
+// rocket, what all recoil slides do, where they are asked for; a round or WGS 84 Earth; then
+// several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
+    EACH_SLOT,
     EACH_CROSSFLOW,
     EACH_OPEN_AIR,
     EACH_JET,

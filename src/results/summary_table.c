@@ -17,6 +17,30 @@ static const char *print_error(const quantity_line *line, const void *from, char
     return text;
 }
 
+// The label with `word` in the place of `tube`, where that stands in it.
+static void replace(char label[QUANTITY_TEXT], const char *tube, const char *word)
+{
+    char rest[QUANTITY_TEXT];
+    char *at = strstr(label, tube);
+    if (!at)
+        return;
+    snprintf(rest, sizeof rest, "%s", at + strlen(tube));
+    snprintf(at, (size_t)(label + QUANTITY_TEXT - at), "%s%s", word, rest);
+}
+
+// Labels are those of a tube with adaptors; a guide of surfaces is a rail, or a tower, with shoes.
+static void make_label(const quantity_walk *at, char text[QUANTITY_TEXT])
+{
+    const ld_model *model = at->things->model;
+    char label[QUANTITY_TEXT];
+    snprintf(label, sizeof label, "%s", at->row->line.label);
+    if (model_has_surfaces(model)) {
+        replace(label, "tube", model_guide_word(model));
+        replace(label, "adaptor", "shoe");
+    }
+    quantity_text(label, at->group->each, at->item, at->things, text, QUANTITY_TEXT);
+}
+
 // "  label           value unit", with two values side by side where the next quantity is said to
 // stand there, and a remark; nothing where there is no value.
 static void print_line(const quantity_walk *at, const void *from, const char *remark, FILE *stream)
@@ -26,7 +50,7 @@ static void print_line(const quantity_walk *at, const void *from, const char *re
     double value = quantity_value(at, from);
     quantity_walk next = *at;
     quantity_next(&next);
-    quantity_text(line->label, at->group->each, at->item, at->things, label, sizeof label);
+    make_label(at, label);
     if (next.row && next.row->line.beside) {
         double beside = quantity_value(&next, from) * next.row->line.factor;
         snprintf(second, sizeof second, " %12.*f", line->digits,
@@ -54,11 +78,12 @@ static void print_block(const quantity_table *table, const quantity_things *thin
 }
 
 // Frequencies of one kind of shape a line; the kinds in the order in which they first occur.
-static void print_modes(const ld_summary *summary, FILE *stream)
+static void print_modes(const ld_model *model, const ld_summary *summary, FILE *stream)
 {
     if (summary->mode_count == 0)
         return;
-    fputs("\nTube on its supports, natural frequencies [Hz]\n", stream);
+    fprintf(stream, "\nNatural frequencies of the %s on its supports [Hz]\n",
+            model_guide_word(model));
     for (int i = 0; i < summary->mode_count; i++) {
         const char *shape = summary->mode[i].shape;
         bool shown = false;
@@ -77,7 +102,8 @@ static void print_modes(const ld_summary *summary, FILE *stream)
 static void print_rocket(const quantity_things *things, const ld_rocket_summary *rocket,
                          FILE *stream)
 {
-    fprintf(stream, "\nRocket of tube %d, instants from its ignition\n", rocket->tube);
+    fprintf(stream, "\nRocket of %s %d, instants from its ignition\n",
+            model_guide_word(things->model), rocket->tube);
     for (int block = SHOWN_CHANGE; block <= SHOWN_MEASURES; block++) {
         bool steep = block == SHOWN_GROUND && near_vertical(rocket->pitch);
         print_block(&rocket_quantities, things, rocket, block, steep ? " (near the vertical)" : "",
@@ -119,7 +145,7 @@ void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *st
     const char *unnamed = launch ? "Launch" : "Flight alone";
     fprintf(stream, "%s\n", model->title && *model->title ? VISIBLE(model->title) : unnamed);
     if (launch) {
-        print_modes(summary, stream);
+        print_modes(model, summary, stream);
         fputs("\nEquilibrium at the start\n", stream);
         print_block(&run_quantities, &things, summary, SHOWN_EQUILIBRIUM, "", stream);
     }

@@ -150,11 +150,12 @@ static void tell_slide(FILE *stream, const ld_guide *guide)
     }
 }
 
-static void tell_guide(FILE *stream, const ld_tubes *tubes)
+static void tell_guide(FILE *stream, const ld_model *model)
 {
+    const ld_tubes *tubes = &model->tubes;
     const ld_guide *guide = &tubes->guide;
     bool tower = guide->present && guide->form == LD_GUIDE_TOWER;
-    const char *noun = tower ? "tower" : guide->present ? "rail" : "bore";
+    const char *noun = guide->present ? model_guide_word(model) : "bore";
     int count = tubes->layout.rows * tubes->layout.columns;
     if (count > 1)
         fprintf(stream, "# guides: %d %ss", count, noun);
@@ -316,7 +317,7 @@ static void tell_air(FILE *stream, const ld_model *model)
 {
     if (model_has_open_air(model))
         fprintf(stream, "# air: on the whole rocket on its %s, from the start on\n",
-                model->tubes.guide.form == LD_GUIDE_TOWER ? "tower" : "rail");
+                model_guide_word(model));
     else if (model_has_crossflow(model))
         fprintf(stream,
                 "# air: on what has come out of the bore, up to %s before the rear adaptor\n",
@@ -329,7 +330,7 @@ void ld_model_describe(const ld_model *model, FILE *stream)
         return;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     tell_base(stream, model);
-    tell_guide(stream, &model->tubes);
+    tell_guide(stream, model);
     tell_slot(stream, &model->tubes.slot);
     tell_supports(stream, &model->tubes);
     tell_rocket(stream, model);

@@ -64,6 +64,11 @@ bool ld_model_has_launcher(const ld_model *model)
     return model_has_launcher(model);
 }
 
+const char *ld_model_guide(const ld_model *model)
+{
+    return model_guide_word(model);
+}
+
 bool ld_model_has_vehicle(const ld_model *model)
 {
     return model_has_vehicle(model);

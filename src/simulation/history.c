@@ -163,9 +163,11 @@ static const quantity shoes[] = {
     {"shoe.%s.force_z", "N", "shoe %s: force of the guide on the rocket, along z of the section", EACH(shoe, force_z)},
     {"shoe.%s.moment", "N.m", "shoe %s: moment of the guide on the rocket about the guide line", EACH(shoe, moment)},
 };
-static const quantity guidance[] = {
+static const quantity knob[] = {
     {"slot.force", "N", "slot force N on the knob", AT(out.launching.N)},
     {"slot.friction", "N", "slot friction on the knob, along the slot", AT(out.launching.slot_friction)},
+};
+static const quantity guidance[] = {
     {"lock.force", "N", "force carried by the lock", AT(out.launching.lock_force)},
     {"breech.force", "N", "force of the breech on the rocket", AT(out.launching.breech_force)},
 };
@@ -221,7 +223,9 @@ static const quantity energies[] = {
 #define LAUNCHING(place, name, is) {"work." name, "J", is, AT(energy.work[place])},
 #define ORIENTATING(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
-static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
+static const quantity driving_works[] = {DRIVING_WORKS(LAUNCHING)};
+static const quantity slot_works[] = {SLOT_WORKS(LAUNCHING)};
+static const quantity holding_works[] = {HOLDING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
@@ -243,7 +247,8 @@ static const quantity_group groups[] = {
     {.title = "mass and thrust", ROCKET, QUANTITY_ROWS(motor_now)},
     {.title = "each adaptor", .each = EACH_ADAPTOR, ROCKET, QUANTITY_ROWS(contacts)},
     {.title = "each shoe on a guide of surfaces", .each = EACH_SHOE, ROCKET, QUANTITY_ROWS(shoes)},
-    {.title = "slot, lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
+    {.title = "slot", .each = EACH_SLOT, ROCKET, QUANTITY_ROWS(knob)},
+    {.title = "lock, breech", ROCKET, QUANTITY_ROWS(guidance)},
     {.title = "air on the emerged part of the rocket", .each = EACH_CROSSFLOW, ROCKET, QUANTITY_ROWS(crossflow)},
     {.title = "air on the rocket on an open guide", .each = EACH_OPEN_AIR, ROCKET, QUANTITY_ROWS(open_air)},
     {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
@@ -253,7 +258,9 @@ static const quantity_group groups[] = {
 };
 static const quantity_group balances[] = {
     {.title = "energy", QUANTITY_ROWS(energies)},
-    {.title = "works since the start", QUANTITY_ROWS(works)},
+    {.title = "works since the start", QUANTITY_ROWS(driving_works)},
+    {.title = "works of a slot", .each = EACH_SLOT, QUANTITY_ROWS(slot_works)},
+    {.title = "works of what holds the tube, and of lost mass", QUANTITY_ROWS(holding_works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, QUANTITY_ROWS(crossflow_works)},
     {.title = "work of the air on the rocket on an open guide", .each = EACH_OPEN_AIR, QUANTITY_ROWS(open_air_works)},
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, QUANTITY_ROWS(pressure_works)},

@@ -322,15 +322,23 @@ enum {
     GROUPS, // and those of the base
 };
 static const char *const group_names[GROUPS] = {
-    [VERTICAL] = "tube, vertical plane",    [LATERAL] = "tube, lateral plane",
-    [ALONG] = "tube, along its axis",       [TWIST] = "tube, twist",
-    [ROCKET_Y] = "rocket, pitch and heave", [ROCKET_Z] = "rocket, yaw and sway",
+    [VERTICAL] = "vertical plane",
+    [LATERAL] = "lateral plane", // of the guide
+    [ALONG] = "along its axis",
+    [TWIST] = "twist",
+    [ROCKET_Y] = "rocket, pitch and heave",
+    [ROCKET_Z] = "rocket, yaw and sway",
     [ROCKET_ROLL] = "rocket, roll",
 };
 
-static const char *group_name(const base_system *base, int group)
+// Adds the name of a group to `shape`: "tube, vertical plane", or "rail, ...".
+static void add_name(const launch_state *self, int group, char shape[LD_SHAPE_TEXT])
 {
-    return group < GROUPS ? group_names[group] : base->kind->dynamics->groups[group - GROUPS];
+    const base_system *base = &self->launcher.base;
+    size_t used = strlen(shape);
+    snprintf(shape + used, LD_SHAPE_TEXT - used, "%s%s%s",
+             group <= TWIST ? model_guide_word(self->model) : "", group <= TWIST ? ", " : "",
+             group < GROUPS ? group_names[group] : base->kind->dynamics->groups[group - GROUPS]);
 }
 
 // Kinetic energy of tube and rocket in an eigenvector's speed number i, by group.
@@ -383,10 +391,12 @@ static double name_shape(const launch_state *self, const linear_system *system,
         if (g != best && energy[g] >= energy[best] / 3 &&
             (second < 0 || energy[g] > energy[second]))
             second = g;
-    if (second < 0)
-        snprintf(shape, LD_SHAPE_TEXT, "%s", group_name(base, best));
-    else
-        snprintf(shape, LD_SHAPE_TEXT, "%s; %s", group_name(base, best), group_name(base, second));
+    shape[0] = '\0';
+    add_name(self, best, shape);
+    if (second >= 0) {
+        strcat(shape, "; ");
+        add_name(self, second, shape);
+    }
     return all;
 }
 

@@ -14,6 +14,7 @@ quantity_things quantity_things_of(const ld_model *model)
     return (quantity_things){
         .count = {[EACH_RUN] = 1,
                   [EACH_VEHICLE] = vehicle,
+                  [EACH_SLOT] = model_has_slot(model),
                   [EACH_CROSSFLOW] = model_has_crossflow(model),
                   [EACH_OPEN_AIR] = model_has_open_air(model),
                   [EACH_JET] = model_has_jet(model),

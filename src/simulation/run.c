@@ -217,7 +217,7 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
 
 // ---- as bytes
 
-static const saved_state saved_run = {0x6e7572206e796c6e, 4, "run"}; // "nlyn run"
+static const saved_state saved_run = {0x6e7572206e796c6e, 5, "run"}; // "nlyn run"
 
 ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, ld_error *error)
 {

@@ -231,7 +231,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "tip against the undeformed tube at t_rear", .launch = true, .block = SHOWN_TIP, QUANTITY_ROWS(tip)},
     {.title = "what the steps' errors leave of the rates at t_rear; null where that is not estimated", .launch = true, QUANTITY_ROWS(exit_error)},
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
-    {.title = "greatest slot force", .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
+    {.title = "greatest slot force", .each = EACH_SLOT, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
     {.title = "greatest pressure", .each = EACH_PRESSURE, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(pressure_peak)},
     {.title = "greatest recoil", .each = EACH_SLIDE, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(recoils)},
     {.title = "largest of what the tube carried at a station", .each = EACH_STATION, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(station_peaks)},
@@ -250,6 +250,8 @@ static const quantity_group rocket_groups[] = {
 static const quantity resting_forces[] = {
     {"equilibrium.lock_force", "N", "carried by the lock, along +x", RUN(equilibrium.lock_force), LINE("lock force", "N", 1, 2)},
     {"equilibrium.breech_force", "N", "of the breech on the rocket, along +x", RUN(equilibrium.breech_force), NONZERO("breech force", "N", 1, 2)},
+};
+static const quantity resting_knob[] = {
     {"equilibrium.slot_force", "N", "slot force N on the knob", RUN(equilibrium.slot_force), LINE("slot force", "N", 1, 2)},
 };
 static const quantity resting_contacts[] = {
@@ -286,7 +288,9 @@ static const quantity energies[] = {
 #define LAUNCHING(place, name, is) {"energy.work." name, "J", is, RUN(energy.work[place])},
 #define ORIENTATING(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
 #define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
-static const quantity works[] = {LAUNCHING_WORKS(LAUNCHING)};
+static const quantity driving_works[] = {DRIVING_WORKS(LAUNCHING)};
+static const quantity slot_works[] = {SLOT_WORKS(LAUNCHING)};
+static const quantity holding_works[] = {HOLDING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
@@ -307,13 +311,16 @@ static const quantity cost[] = {
 #define WHEELS .where = QUANTITY_AT(ld_summary, equilibrium.wheel_count)
 static const quantity_group run_groups[] = {
     {.title = "equilibrium at the start", .launch = true, .block = SHOWN_EQUILIBRIUM, QUANTITY_ROWS(resting_forces)},
+    {.title = "in a slot", .each = EACH_SLOT, .launch = true, .block = SHOWN_EQUILIBRIUM, QUANTITY_ROWS(resting_knob)},
     {.title = "of each adaptor", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_EQUILIBRIUM, QUANTITY_ROWS(resting_contacts)},
     {.title = "of the tube", .launch = true, .block = SHOWN_EQUILIBRIUM, QUANTITY_ROWS(resting_tube)},
     {.title = "of each wheel of a vehicle", .each = EACH_WHEEL, .launch = true, WHEELS, QUANTITY_ROWS(resting_wheels)},
     {.title = "of its chassis", .each = EACH_VEHICLE, .launch = true, WHEELS, QUANTITY_ROWS(resting_chassis)},
     {.title = "of its hinges", .each = EACH_HINGE, .launch = true, WHEELS, QUANTITY_ROWS(resting_hinges)},
     {.title = "energy at the end", .launch = true, QUANTITY_ROWS(energies)},
-    {.title = "works since the start", .launch = true, QUANTITY_ROWS(works)},
+    {.title = "works since the start", .launch = true, QUANTITY_ROWS(driving_works)},
+    {.title = "works of a slot", .each = EACH_SLOT, .launch = true, QUANTITY_ROWS(slot_works)},
+    {.title = "works of what holds the tube, and of lost mass", .launch = true, QUANTITY_ROWS(holding_works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, .launch = true, QUANTITY_ROWS(crossflow_works)},
     {.title = "work of the air on the rocket on an open guide", .each = EACH_OPEN_AIR, .launch = true, QUANTITY_ROWS(open_air_works)},
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, .launch = true, QUANTITY_ROWS(pressure_works)},

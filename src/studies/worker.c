@@ -52,19 +52,18 @@ static ld_status run_sample(study_worker *self, permission *asked, ld_error *err
     return status ? status : ld_simulation_run(self->simulation, &options, self->summary, error);
 }
 
-// Of an adaptor or a measure by its name, which another point of the sweep may have elsewhere or
-// not at all.
+// Of what another point of the sweep may not have, such as a slot, or elsewhere, such as an adaptor
+// or a measure by its name.
 static double result_of(const quantity_walk *at, const ld_model *model,
                         const ld_rocket_summary *rocket)
 {
     quantity_walk here = *at;
     quantity_each each = at->group->each;
-    if (at->things->name[each]) {
-        const char *name = quantity_name_of(at->things, each, at->item);
-        const quantity_things things = quantity_things_of(model);
-        here.item = quantity_item_named(&things, each, name);
-    }
-    return here.item < 0 ? NAN : quantity_value(&here, rocket);
+    const quantity_things things = quantity_things_of(model);
+    if (at->things->name[each])
+        here.item =
+            quantity_item_named(&things, each, quantity_name_of(at->things, each, at->item));
+    return here.item < 0 || here.item >= things.count[each] ? NAN : quantity_value(&here, rocket);
 }
 
 // The numbers of the record: what was drawn and what came of it.

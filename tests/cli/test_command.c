@@ -383,7 +383,7 @@ static void test_modes_table(void **state)
 {
     (void)state;
     assert_int_equal(run("launchdyn modes examples/fixed.yaml"), 0);
-    expect_in(shell.out, "Tube and tail on their supports, base held, undamped frequencies\n");
+    expect_in(shell.out, "Undamped frequencies of tube and tail on their supports, base held\n");
     expect_in(shell.out, "rocket");
     expect_in(shell.out, "Its eigenvalues with damping\n");
     double frequency = 0;
@@ -393,6 +393,46 @@ static void test_modes_table(void **state)
     CHECK_WITHIN("first frequency on the supports [Hz]", frequency, 67.20, 67.22);
     CHECK_WITHIN("its damping [%], more than that of the modes alone", strtod(row + 22, NULL), 1,
                  50);
+}
+
+// The table speaks of the scenario's own guide, shapes too.
+static void test_words_of_the_guide(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn run examples/rail/pad.yaml --set run.end=tip | tee pad; "
+                         "launchdyn modes examples/rail/pad.yaml >>pad"),
+                     0);
+    expect_in(shell.out, "\nNatural frequencies of the rail on its supports [Hz]\n");
+    expect_in(shell.out, "\n  rail, vertical plane   ");
+    expect_in(shell.out, "\nRocket of rail 1, instants");
+    expect_in(shell.out, "\n  front shoe leaves   ");
+    assert_int_equal(run("grep -icE 'tube|adaptor|slot' pad"), 1);
+    assert_int_equal(run("launchdyn run examples/rail/tower.yaml --set run.end=tip | "
+                         "grep -E 'tower on its|tower, twist|of tower 1' | wc -l"),
+                     0);
+    assert_string_equal(shell.out, "3\n");
+    // adaptors keep the names that the scenario gives them
+    assert_int_equal(run("launchdyn run examples/rail/pad.yaml --set run.end=tip --set "
+                         "'rocket.adaptors=[{name: tube, at: 0 m}, {name: "
+                         "front, at: 1.6 m}]' | grep -c 'tube shoe leaves'"),
+                     0);
+}
+
+// Without a slot nothing has forces of one: table, summary, columns, figures.
+static void test_no_slot(void **state)
+{
+    (void)state;
+#define SMOOTH "launchdyn run examples/fixed.yaml --set tubes.slot=none --set run.end=tip "
+    assert_int_equal(run(SMOOTH "-o smooth --csv >table; launchdyn plot smooth --what slot "
+                                "-o slot.svg; ! grep -i slot table && ! head -1 smooth/history.csv "
+                                "| tr , '\\n' | grep slot"),
+                     0);
+    assert_int_equal(run("jq -c 'del(.scenario, .source) | paths | map(tostring) | join(\".\")' "
+                         "smooth/summary.json | grep -c slot"),
+                     1);
+    assert_int_equal(run("jq '.energy.work | keys_unsorted | join(\",\")' smooth/summary.json"), 0);
+    assert_string_equal(shell.out, "\"thrust,gravity_rocket,contact_normal,contact_friction,lock,"
+                                   "support_damping,modal_damping,base,mass_change\"\n");
 }
 
 // The number that stands in the line of a quantity after its unit.
@@ -717,6 +757,8 @@ int main(void)
         TEST(test_interrupted),
         TEST(test_killed_at_work),
         TEST(test_modes_table),
+        TEST(test_words_of_the_guide),
+        TEST(test_no_slot),
         TEST(test_response),
         TEST(test_random_input),
         TEST(test_exit_scatter),

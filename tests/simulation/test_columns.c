@@ -318,7 +318,8 @@ static void say_rocket(instant *at)
     expect(book, "rocket.spin", at->place.w_B[0]);
     expect(book, "rocket.mass", at->input.conditions.mass);
     expect(book, "thrust", at->input.conditions.thrust);
-    expect(book, "slot.force", out->slot_force);
+    if (at->run->model->tubes.slot.kind == LD_SLOT_HELIX)
+        expect(book, "slot.force", out->slot_force);
     expect(book, "lock.force", out->lock_force);
     expect(book, "breech.force", out->breech_force);
     say_against_launcher(at);
@@ -641,6 +642,8 @@ static const char *const work_name[LAUNCHER_MOST_WORKS] = {
 // Whether a run has work i.
 static bool has_work(const ld_model *model, int i)
 {
+    if (i == POWER_SLOT || i == POWER_SLOT_FRICTION)
+        return model->tubes.slot.kind == LD_SLOT_HELIX;
     if (i == POWER_AIR)
         return model_has_crossflow(model);
     if (i == POWER_PRESSURE)

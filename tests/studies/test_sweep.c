@@ -66,6 +66,29 @@ static void test_points(void **state)
     ld_study_free(alone);
 }
 
+// What a point has not got, such as the slot that others have, has no value there.
+static void test_point_without_a_slot(void **state)
+{
+    (void)state;
+    ld_study *study = study_of("include: fixed.yaml\nrun: {end: tip}\n"
+                               "sweep: {tubes.slot: [none, {radius: 80 mm, angle: 4 deg}]}\n");
+    study_run(study, "slots", 1);
+    study_data data;
+    ld_error error;
+    const char *nearest;
+    assert_int_equal(study_data_open(in("slots"), &data, &error), LD_OK);
+    const study_column *columns[] = {study_data_find(&data, "max_slot_force", &nearest)};
+    study_values found = {0};
+    assert_int_equal(study_data_read(&data, &data.point[0], columns, 1, &found, &error), LD_OK);
+    assert_int_equal(found.count, 0);
+    assert_int_equal(study_data_read(&data, &data.point[1], columns, 1, &found, &error), LD_OK);
+    assert_int_equal(found.count, 1);
+    CHECK_WITHIN("largest slot force with a slot [N]", found.value[0][0], 1400, 1600);
+    study_values_free(&found);
+    study_data_close(&data);
+    ld_study_free(study);
+}
+
 // More samples go on with the numbers that follow; a sweep alone has one sample a point; a part of
 // it is a shard; a point that cannot be is refused before anything runs.
 static void test_other_sweeps(void **state)
@@ -190,9 +213,8 @@ static void test_until(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_other_sweeps),
-        cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_points),       cmocka_unit_test(test_point_without_a_slot),
+        cmocka_unit_test(test_other_sweeps), cmocka_unit_test(test_looks),
         cmocka_unit_test(test_until),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);

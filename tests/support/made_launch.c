@@ -174,6 +174,7 @@ void made_model(ld_model *model)
     static char title[] = "Made-up launch, \"in quotes\" and in 'quotes', ±1 %";
     memset(model, 0, sizeof *model);
     model->title = title;
+    model->tubes.slot.kind = LD_SLOT_HELIX;
     model->rocket.adaptor_count = 3;
     strcpy(model->rocket.adaptor[0].name, "rear");
     strcpy(model->rocket.adaptor[1].name, "middle");
