@@ -565,6 +565,17 @@ LD_OUTLINE launching_outcome evaluate_overall(const launching_system *self,
     return solve_reduced(self, phase, u, out);
 }
 
+// Whether the reduced form finds that the knob jams. Out of line: its outputs are not on the stack
+// together with the matrices.
+LD_OUTLINE bool jams_reduced(const launching_system *self, const launching_input *input,
+                             const launching_phase *phase, const double *state)
+{
+    launching_output reduced;
+    launching_input apart = *input;
+    apart.record = NULL;
+    return launching_evaluate(self, &apart, phase, state, &reduced) == LAUNCHING_JAMMED;
+}
+
 launching_outcome launching_evaluate_general(const launching_system *self,
                                              ld_formulation formulation,
                                              const launching_input *input,
@@ -578,11 +589,7 @@ launching_outcome launching_evaluate_general(const launching_system *self,
     out->condition = 0;
     if (formulation == LD_FORMULATION_OVERALL && phase->rocket) {
         // where both signs of N are consistent the knob jams too, which one solve does not show
-        launching_output reduced;
-        launching_input apart = *input;
-        apart.record = NULL;
-        if (u.c.set.sliding &&
-            launching_evaluate(self, &apart, phase, state, &reduced) == LAUNCHING_JAMMED)
+        if (u.c.set.sliding && jams_reduced(self, input, phase, state))
             return LAUNCHING_JAMMED;
         outcome = evaluate_overall(self, phase, state, &u, out);
     } else {

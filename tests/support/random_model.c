@@ -341,7 +341,7 @@ static void draw_given_pressure(uint64_t seed, ld_model *model)
 // Columns that every launch has, taken in all ways, between instants that every rocket has.
 static void draw_measures(uint64_t *seed, ld_model *model)
 {
-    static const char *const column[] = {"tip.pitch_rate", "rocket.s_dot", "slot.force", "tip.y"};
+    static const char *const column[] = {"tip.pitch_rate", "rocket.s_dot", "lock.force", "tip.y"};
     static const char *const instant[] = {"t_ignition", "t_front", "t_rear"};
     for (int i = choice(seed, 4); i > 0; i--) {
         ld_measure *measure = &model->measure[model->measure_count++];
