@@ -13,7 +13,7 @@ from ._interrupt import Interrupt
 from ._library import GO_ON, ld_column, ld_error, ld_loop_margins, ld_watch, library
 from ._memory import Array, Handle, Held, coded, text_of, texts
 from .errors import UnknownName, check, check_name
-from .result import Column
+from .result import Column, Columns
 
 ComplexArray = npt.NDArray[np.complex128]
 Numbers = Union[float, Sequence[float], Array]
@@ -86,19 +86,20 @@ class Response(Held):
         #: [m/s] the scenario's own speed; 0 without a vehicle
         self.speed = own.value
 
-    def _told(self, tell: Any) -> dict[str, Column]:
+    def _told(self, tell: Any) -> Columns:
         columns = ctypes.POINTER(ld_column)()
         count = tell(self._pointer, ctypes.byref(columns))
-        return {text_of(c.name): Column(text_of(c.name), text_of(c.unit), text_of(c.description))
-                for c in columns[:count]}
+        return Columns((text_of(c.name),
+                        Column(text_of(c.name), text_of(c.unit), text_of(c.description)))
+                       for c in columns[:count])
 
     @property
-    def inputs(self) -> dict[str, Column]:
+    def inputs(self) -> Columns:
         """What may act: "road", "elevation.command", "chassis.force_y", "base.y", ..."""
         return self._told(library.ld_response_inputs)
 
     @property
-    def columns(self) -> dict[str, Column]:
+    def columns(self) -> Columns:
         """What may answer: the columns of the history."""
         return self._told(library.ld_response_columns)
 

@@ -27,6 +27,19 @@ class Column:
     description: str  #: one line, with frame
 
 
+class Columns(dict[str, Column]):
+    """Columns by their names, shown in groups: "tip.{y, z, pitch}"."""
+
+    def __repr__(self) -> str:
+        groups: dict[str, list[str]] = {}
+        for name in self:
+            group, dot, last = name.rpartition(".")
+            groups.setdefault(group + dot, []).append(last)
+        shown = (group + (names[0] if len(names) == 1 else f"{{{', '.join(names)}}}")
+                 for group, names in groups.items() if group)
+        return f"<{len(self)} names: {'; '.join((', '.join(groups.get('', [])), *shown))}>"
+
+
 @dataclass(frozen=True)
 class Quantity:
     """A number of a summary."""
@@ -68,13 +81,13 @@ class History(Mapping[str, Array]):
         self._handle, self._pointer = handle, pointer
 
     @functools.cached_property
-    def columns(self) -> dict[str, Column]:
+    def columns(self) -> Columns:
         """Name, unit and description of each column, in order."""
         count = ctypes.c_size_t()
         columns = library.ld_history_columns(self._pointer, ctypes.byref(count))
         found = (Column(text_of(c.name), text_of(c.unit), text_of(c.description))
                  for c in columns[:count.value])
-        return {column.name: column for column in found}
+        return Columns((column.name, column) for column in found)
 
     def __getitem__(self, name: str) -> Array:
         rows = ctypes.c_size_t()
@@ -208,7 +221,17 @@ class Result:
             raise KeyError(f"rocket {rocket} has not flown")
         return flights[rocket]
 
+    def _check_columns(self, *names: str) -> None:
+        """Raises where a name is a column of a flight alone."""
+        for name in names:
+            if name in self.history.columns:
+                continue
+            for rocket, flight in self.flights.items():
+                if name in flight.columns:
+                    raise UnknownName(f'"{name}" is a column of the flight: flight({rocket})')
+
     def __getitem__(self, name: str) -> Array:
+        self._check_columns(name)
         return self.history[name]
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -221,6 +244,7 @@ class Result:
 
     def plot(self, *names: str, over: str = "t", ax: Any = None, **style: Any) -> Any:
         """Draws columns; see History.plot()."""
+        self._check_columns(over, *names)
         return self.history.plot(*names, over=over, ax=ax, **style)
 
     def close(self) -> None:

@@ -18,7 +18,7 @@ from ._library import (SHARE_TOLD, ld_base_frame, ld_base_wrench, ld_column, ld_
 from ._memory import Array, Handle, Held, coded, coded_path, text_of
 from ._progress import Progress, followed
 from .errors import InputError, Status, check, check_name, failure
-from .result import Column, Quantity, Result, quantities_at
+from .result import Column, Columns, Quantity, Result, quantities_at
 
 PathLike = Union[str, "os.PathLike[str]"]
 #: Simulated time [s] after which a run that is stepped looks whether Ctrl-C was pressed.
@@ -149,7 +149,7 @@ class Simulation:
         self.handle = Handle(pointer.value, library.ld_simulation_free, model)
 
     @property
-    def columns(self) -> dict[str, Column]:
+    def columns(self) -> Columns:
         """Columns of the launch's history, in order."""
         return _columns(library.ld_simulation_columns, self.handle)
 
@@ -208,11 +208,12 @@ class Simulation:
         return f"<launchdyn.Simulation: {len(self.columns)} columns>"
 
 
-def _columns(tell: Any, simulation: Handle) -> dict[str, Column]:
+def _columns(tell: Any, simulation: Handle) -> Columns:
     columns = ctypes.POINTER(ld_column)()
     count = tell(simulation.pointer, ctypes.byref(columns))
-    return {text_of(c.name): Column(text_of(c.name), text_of(c.unit), text_of(c.description))
-            for c in columns[:count]}
+    return Columns((text_of(c.name),
+                    Column(text_of(c.name), text_of(c.unit), text_of(c.description)))
+                   for c in columns[:count])
 
 
 def _is_told(model: Handle) -> bool:
@@ -466,7 +467,7 @@ class VehicleRun(Held):
         self._call(library.ld_vehicle_run_tell_wrench, ctypes.byref(told))
 
     @property
-    def columns(self) -> dict[str, Column]:
+    def columns(self) -> Columns:
         """Columns of a vehicle alone."""
         return _columns(library.ld_vehicle_run_columns, self.simulation.handle)
 

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import signal
 import sys
 import threading
@@ -48,6 +49,38 @@ class TestBits(Case):
         for name in flight:
             np.testing.assert_array_equal(flight[name], expected[name], name)
         self.assertEqual(result.summary["rocket.1.range"], summary["rockets"][0]["flight"]["range"])
+
+    def test_columns_are_shown_in_groups(self):
+        result = ld.Scenario.read(EXAMPLES / "fixed.yaml", {"run.end": "tip"}).run()
+        columns = result.history.columns
+        shown = repr(columns)
+        self.assertRegex(shown, rf"^<{len(columns)} names: t, .*; tip\.{{y, z, .*>$")
+        self.assertLess(len(shown), 3000)
+        # each name stands in it once
+        names = [prefix + last for prefix, several, one in
+                 re.findall(r"(?:; |: |, )((?:[^;{}]*\.)?)(?:{([^}]*)}|([^;{}.>]+))", shown)
+                 for last in (several or one).split(", ")]
+        self.assertEqual(sorted(names), sorted(columns))
+        self.assertEqual(columns["tip.y"].unit, "m")
+        self.assertIsInstance(columns, dict)
+
+    def test_where_a_column_of_the_flight_is(self):
+        result = ld.Scenario.read(EXAMPLES / "reference.yaml", {"run.output_step": "5 ms",
+                                                                "run.lead_in": "0 s"}).run()
+        for ask in (lambda: result["altitude"], lambda: result.plot("altitude"),
+                    lambda: result.plot("tip.y", over="altitude")):
+            with self.assertRaisesRegex(ld.UnknownName,
+                                        r'"altitude" is a column of the flight: flight\(1\)'):
+                ask()
+        with self.assertRaisesRegex(ld.UnknownName, 'did you mean "tip.y"'):
+            result.plot("tip.yy")
+
+    def test_none_takes_away_what_another_base_has(self):
+        with self.assertRaisesRegex(ld.InputError, "base.elevation: does not go with"):
+            ld.Scenario.read(FIXED, {"base.kind": "external"})
+        scenario = ld.Scenario.read(FIXED, {"base": None, "base.kind": "external"})
+        with scenario.begin(ld.BaseFrame((0, 0, 0), (1, 0, 0, 0))) as run:
+            self.assertEqual(len(run.wrench()), 2)
 
     def test_a_flight_alone(self):
         result = ld.Scenario.read(EXAMPLES / "flight.yaml").run()
