@@ -73,10 +73,11 @@ const mrad = (v) => (typeof v === "number" ? 1e3 * v : null);
 const time = (rocket) => (typeof rocket.t_rear === "number" ? rocket.t_rear - (rocket.t_release ?? 0) : null);
 
 function launchRows(rockets, named) {
-  const each = (find) => rockets.map(find);
+  const each = (find) => rockets.map(find), off = finite(each((r) => mrad(r.exit_error?.rates)));
+  const against = `against the launcher${off.length ? `, ± ${Number(Math.max(...off).toPrecision(2))}` : ""}`;
   return [
-    row("Tip-off pitch rate", saidOf(each((r) => mrad(r.tip_off?.pitch_rate_relative)), "mrad/s"), "against the launcher"),
-    row("Tip-off yaw rate", saidOf(each((r) => mrad(r.tip_off?.yaw_rate_relative)), "mrad/s"), "against the launcher"),
+    row("Tip-off pitch rate", saidOf(each((r) => mrad(r.tip_off?.pitch_rate_relative)), "mrad/s"), against),
+    row("Tip-off yaw rate", saidOf(each((r) => mrad(r.tip_off?.yaw_rate_relative)), "mrad/s"), against),
     row("Spin at the exit", saidOf(each((r) => r.spin_rate), "rad/s")),
     row("From release to exit", saidOf(each(time), "s")),
     contact(rockets),

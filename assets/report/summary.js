@@ -38,10 +38,13 @@ function at(object, path) {
   return path.split(".").reduce((part, key) => (part == null ? undefined : part[key]), object);
 }
 
+// " ± error" in the unit of the row; nothing where it is not known.
+const withError = (error, factor) => (typeof error === "number" ? ` ± ${readable(error * factor, 2)}` : "");
+
 // Rows of the list that some of the objects has, with '*' for every key that is there; a function finds the number itself.
 function rowsOf(objects, list) {
   const rows = [];
-  for (const [path, label, unit, factor] of list) {
+  for (const [path, label, unit, factor, error] of list) {
     const find = typeof path === "function" ? path : (o) => at(o, path);
     const [head, star] = typeof path === "function" ? [] : path.split(".*");
     const keys = star === undefined ? [null] : [...new Set(objects.flatMap((o) => Object.keys(at(o, head) ?? {})))];
@@ -50,7 +53,7 @@ function rowsOf(objects, list) {
       const cells = objects.map(read);
       if (cells.every((cell) => typeof cell !== "number")) continue;
       rows.push([label.replace("%s", () => key.replaceAll("_", " ")), unit,
-        cells.map((cell) => (typeof cell === "number" ? readable(cell * factor) : "–"))]);
+        cells.map((cell, i) => (typeof cell === "number" ? readable(cell * factor) + withError(error && at(objects[i], error), factor) : "–"))]);
     }
   }
   return rows;

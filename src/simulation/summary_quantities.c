@@ -170,7 +170,7 @@ static const quantity flight[] = {
     {"max_mach", "", "largest Mach number", ROCKET(flight.max_mach), "flight.max_mach", KEPT, LINE("largest Mach number", "", 1, 4)},
     {"max_dynamic_pressure", "Pa", "largest dynamic pressure", ROCKET(flight.max_dynamic_pressure), "flight.max_dynamic_pressure", KEPT, LINE("dynamic pressure, peak", "kPa", 1e-3, 4)},
     {"t_max_dynamic_pressure", "s", "when that was", ROCKET(flight.t_max_dynamic_pressure), "flight.t_max_dynamic_pressure", KEPT},
-    {"max_acceleration", "m/s2", "largest acceleration of the mass centre against inertial axes, at the ends of the steps", ROCKET(flight.max_acceleration), "flight.max_acceleration", KEPT, LINE("largest acceleration", "m/s2", 1, 3)},
+    {"max_acceleration", "m/s2", "largest acceleration of the mass centre in flight, against inertial axes, at the ends of the steps", ROCKET(flight.max_acceleration), "flight.max_acceleration", KEPT, LINE("acceleration in flight", "m/s2", 1, 3)},
     {"t_max_acceleration", "s", "when that was", ROCKET(flight.t_max_acceleration), "flight.t_max_acceleration", KEPT},
     {"max_angle_of_attack", "rad", "largest angle of attack at the ends of the steps", ROCKET(flight.max_angle_of_attack), "flight.max_angle_of_attack", KEPT, LINE("largest angle of attack", "deg", DEGREES, 3)},
 };

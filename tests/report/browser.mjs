@@ -45,7 +45,7 @@ async function checkAllFigures(page) {
 
 // The table of the rocket has every figure of the exit in the launcher's axes, in mrad, mrad/s, m/s, roll in deg and rad/s.
 async function checkFigures(page, run) {
-  const shown = await page.$$eval("#tables td", (cells) => cells.map((cell) => Number(cell.textContent)));
+  const shown = await page.$$eval("#tables td", (cells) => cells.map((cell) => Number(cell.textContent.split(" ± ")[0])));
   const [{ tip_off: off, since_ignition: since }] = JSON.parse(readFileSync(join(run.out, "summary.json"))).rockets;
   const figures = [since, off].flatMap((of) => Object.entries(of));
   const missing = figures.filter(([name, value]) => {
@@ -53,6 +53,17 @@ async function checkFigures(page, run) {
     return !shown.some((number) => Math.abs(number - wanted) <= 1e-5 * Math.abs(wanted));
   });
   check("all figures against the launcher are in the table", figures.length === 18 && missing.length === 0, missing);
+}
+
+// Rates at the exit, and they alone, are shown with what the errors of the steps leave of them.
+async function checkErrors(page, run) {
+  const shown = await page.$$eval("#tables td", (cells) => cells.map(({ textContent }) => textContent).filter((text) => text.includes("±")));
+  const [{ exit_error: error }] = JSON.parse(readFileSync(join(run.out, "summary.json"))).rockets;
+  const told = shown.map((text) => Number(text.split(" ± ")[1])), twoDigits = (value) => Number((1e3 * value).toPrecision(2));
+  const wanted = [...Array(6).fill(error.rates), error.yaw_rate, error.yaw_rate].map(twoDigits);
+  check("errors of the rates stand beside them in the table", told.length === 8 && told.every((value, i) => value === wanted[i]), shown.join("; "));
+  const answer = await page.$$eval(".answer small", (list) => list.map(({ textContent }) => textContent).filter((text) => text.includes("±")));
+  check("and in the answer", answer.length === 2 && answer.every((text) => Number(text.split("± ")[1]) === twoDigits(error.rates)), answer.join("; "));
 }
 
 // What one reads in ten seconds: replay, drawing and answer in the first window, the rest in 5000 pixels.
@@ -149,6 +160,7 @@ async function checkLaunch(browser) {
   await checkNoneEmpty(page);
   await checkOrigin(page, run);
   await checkFigures(page, run);
+  await checkErrors(page, run);
   await checkCursor(page, run, "#table0-tip .panel", [["tip.y", 1e3], ["tip.z", 1e3]]);
   await checkCursor(page, run, "#table0-contact .panel",
     [["contact.rear.force", 1e-3], ["contact.middle.force", 1e-3], ["contact.front.force", 1e-3]]);

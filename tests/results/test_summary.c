@@ -754,7 +754,7 @@ static const struct {
     {"landing angle", {"rockets.0.flight.impact_angle"}},
     {"largest Mach number", {"rockets.0.flight.max_mach"}},
     {"dynamic pressure, peak", {"rockets.0.flight.max_dynamic_pressure"}},
-    {"largest acceleration", {"rockets.0.flight.max_acceleration"}},
+    {"acceleration in flight", {"rockets.0.flight.max_acceleration"}},
     {"largest angle of attack", {"rockets.0.flight.max_angle_of_attack"}},
     {"energy balance misses", {"energy.residual"}},
     {"steps", {"statistics.steps"}},
