@@ -241,7 +241,8 @@ void exit_error_note(ld_run *run)
             worst = &run->summary.rocket[i];
     if (worst->exit_error.relative > EXIT_ERROR_NOTED)
         simulation_note(&run->summary,
-                        "the rates at the exit of tube %d may be off by %.2g %%: errors of the "
+                        "the rates at the exit of %s %d may be off by %.2g %%: errors of the "
                         "steps grow in its guide; with a smaller run.tolerance they are smaller",
-                        worst->tube, 100 * worst->exit_error.relative);
+                        model_guide_word(run->launch.model), worst->tube,
+                        100 * worst->exit_error.relative);
 }

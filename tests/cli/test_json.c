@@ -154,6 +154,55 @@ static void test_run(void **state)
     expect_complaint("launchdyn run --jsno x", 2, "unknown option --jsno (did you mean --json?)\n");
 }
 
+// A rattling rail at a coarse tolerance and a fine one: the note of a run, and in a study the share
+// of rockets whose rates are off by more than 1 %, against the exported column.
+#define RATTLING                                                                                   \
+    "examples/rail/pad.yaml --set run.end=tip --set rocket.contact.restitution=0.95 "              \
+    "--set rocket.contact.stiffness='1e8 N/m' "
+static void test_exit_errors(void **state)
+{
+    (void)state;
+    double relative, noted, number[4];
+    assert_int_equal(run("launchdyn run --json " RATTLING "--set run.tolerance=1e-3 | "
+                         "jq -r '.rockets[0].exit_error.relative, .notes[0]'"),
+                     0);
+    assert_int_equal(sscanf(shell.out,
+                            "%lf the rates at the exit of rail 1 may be off by %lf %%: errors of "
+                            "the steps grow",
+                            &relative, &noted),
+                     2);
+    CHECK_NEAR("error that the note tells [%]", noted, 100 * relative, 0.06 * noted);
+    expect_in(shell.out, "; with a smaller run.tolerance they are smaller\n");
+    assert_int_equal(run("launchdyn run --json " RATTLING "--set run.tolerance=1e-7 | "
+                         "jq -c '.notes'"),
+                     0);
+    assert_string_equal(shell.out, "[]\n");
+
+    assert_int_equal(run("launchdyn study " RATTLING "-q -o e --set 'sweep={run.tolerance: [1e-3, "
+                         "1e-7]}' --set 'scatter={samples: 4, seed: 1, factors: "
+                         "{rocket.mass_error: {normal: 1 kg}}}'; launchdyn study show e --json | "
+                         "jq -c '[.points[].exit_errors]' >shown; launchdyn study export e --csv "
+                         "e.csv; cat shown"),
+                     0);
+    assert_int_equal(sscanf(shell.out,
+                            "[{\"known\":%lf,\"above\":%lf},{\"known\":%lf,\"above\":%lf}]",
+                            &number[0], &number[1], &number[2], &number[3]),
+                     4);
+    assert_int_equal(run("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i ~ "
+                         "/exit_error.relative/) c = i; next} $c > 0.01 {n++} END {print n}' "
+                         "e.csv"),
+                     0);
+    CHECK_NEAR("rockets off by more than 1 %", number[1], strtod(shell.out, NULL), 0);
+    CHECK_WITHIN("of them", number[1], 1, 4);
+    assert_true(number[0] == 4 && number[2] == 4 && number[3] == 0);
+    char line[128];
+    snprintf(line, sizeof line, "through errors of the steps: %.3g %% of 4 rockets\n",
+             25 * number[1]);
+    assert_int_equal(run("launchdyn study show e | grep 'rates at the exit off by more than 1 %'"),
+                     0);
+    expect_in(shell.out, line);
+}
+
 // More on standard error, or less; what is printed and the exit code are the same.
 static void test_quiet_and_verbose(void **state)
 {
@@ -510,6 +559,7 @@ int main(void)
         cmocka_unit_test(test_check_has_texts),
         cmocka_unit_test(test_check_tells_errors),
         cmocka_unit_test(test_run),
+        cmocka_unit_test(test_exit_errors),
         cmocka_unit_test(test_quiet_and_verbose),
         cmocka_unit_test(test_every_command_is_quiet_or_verbose),
         cmocka_unit_test(test_modes),
