@@ -540,6 +540,13 @@ static double held_by_spring(const problem *the, const double *y, int *worst)
     return the->spring * fabs(off[*worst]);
 }
 
+// Whether Newton's method has found in y a state that the spring need not hold.
+static bool is_at_rest(const problem *the, const double *y, double reached, double accepted)
+{
+    int unused;
+    return reached <= accepted && held_by_spring(the, y, &unused) <= accepted;
+}
+
 // What nothing carries, as in an upright tube, stays on the axis: a spring, which must find nothing
 // to pull, makes Newton's method regular. The rocket is pressed into the breech by `depth`.
 static double try_centred(const problem *the, const double *start, double depth, double *y)
@@ -700,9 +707,11 @@ static double let_go(const problem *the, double accepted, double *y)
     double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], before[SHOE_FREEDOMS] = {0};
     double best = INFINITY, ease = 0.1;
     int unused;
+    // between round surfaces it may turn half round
+    int most = the->self->launcher.launching.surfaces.flat ? 500 : 1000;
     problem held = *the;
     held.spring = 1e7;
-    for (int step = 0; step < 500 && held.spring < hardest; step++) {
+    for (int step = 0; step < most && held.spring < hardest; step++) {
         rocket_place place = place_of(the->self, y);
         held.place = &place;
         double reached = newton_fine(&held, y, accepted, trial);
@@ -725,19 +734,21 @@ static double let_go(const problem *the, double accepted, double *y)
 }
 
 // Equilibrium of a rocket on surfaces, pressed into the breech by `depth`: upright in its centred
-// place, where nothing pulls it off that, or from there to where gravity and the air take it. What
-// the surfaces that it touches do not carry is centred if it also rests there, else it stays where
-// it came to.
-static double find_on_surfaces(problem *the, const double *start, double depth,
-                               carried_directions *carried, double accepted, double *y)
+// place, where nothing pulls it off that, or from there, or from beside it by `nudge` [m, rad], to
+// where gravity and the air take it. What the surfaces that it touches do not carry is centred if
+// it also rests there, else it stays where it came to.
+static double find_beside(problem *the, const double *start, double depth, const double *nudge,
+                          carried_directions *carried, double accepted, double *y)
 {
     const launch_state *self = the->self;
     double found[LD_MAX_STATES];
-    int unused;
     the->rest[0] = self->launcher.launching.surfaces.line_y;
     the->rest[1] = self->launcher.launching.surfaces.line_z;
     *carried = (carried_directions){.scale = {1, 1, 1, 1, 1}};
-    if (is_upright(the, start)) {
+    the->carried = NULL;
+    the->spring = 0;
+    the->h = DIFFERENCE;
+    if (!nudge && is_upright(the, start)) {
         double centred = try_centred(the, start, depth, y);
         if (centred <= accepted)
             return centred;
@@ -746,6 +757,8 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
     tube.count = launching_freedoms(self);
     guess_straight(the, start, found);
     found[self->launcher.launching.layout.x + X_S] -= depth;
+    for (int i = 0; i < SHOE_FREEDOMS && nudge; i++)
+        found[self->launcher.launching.layout.x + X_Y + i] += nudge[i];
     double reached = let_go(&tube, accepted, found);
     if (the->count > tube.count && reached <= accepted)
         reached = let_go(the, accepted, found);
@@ -758,11 +771,34 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
     for (int i = 0; i < 2; i++) {
         reached = newton_fine(the, found, accepted, y);
         reached = fmin(reached, newton(the, y));
-        if (reached <= accepted && held_by_spring(the, y, &unused) <= accepted)
+        if (is_at_rest(the, y, reached, accepted))
             break;
         memcpy(the->rest, found + self->launcher.launching.layout.x + X_Y, sizeof the->rest);
     }
     return reached;
+}
+
+// The same from the centred place and, where that finds nothing, from beside it: centred, Newton's
+// method stands at the kink of surfaces that are touched without play. Where both find nothing,
+// what is left is that of the centred place.
+static double find_on_surfaces(problem *the, const double *start, double depth,
+                               carried_directions *carried, double accepted, double *y)
+{
+    const double aside[SHOE_FREEDOMS] = {1e-4};
+    double reached = find_beside(the, start, depth, NULL, carried, accepted, y);
+    if (is_at_rest(the, y, reached, accepted))
+        return reached;
+    problem again = *the;
+    carried_directions other;
+    double found[LD_MAX_STATES];
+    double next = find_beside(&again, start, depth, aside, &other, accepted, found);
+    if (!is_at_rest(&again, found, next, accepted))
+        return reached;
+    *carried = other;
+    *the = again;
+    the->carried = carried;
+    memcpy(y, found, sizeof found);
+    return next;
 }
 
 // Says so where gravity, or the air with it, pulls the rocket along a direction in which nothing

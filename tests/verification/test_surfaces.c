@@ -288,6 +288,35 @@ static void draw_resting(uint64_t *seed, ld_model *model)
     rocket->lock.holds_roll = (ld_hold)choice(seed, 3);
 }
 
+// A channel whose floor lines touch the rocket in its centred place, with play to its walls and to
+// its roof, where it has one; every other one within 1 deg of upright.
+static void draw_channel(uint64_t *seed, ld_model *model)
+{
+    draw_resting(seed, model);
+    ld_guide *guide = &model->tubes.guide;
+    double floor = -between(seed, 0.03, 0.1), width = between(seed, 0.02, 0.09);
+    double wall = between(seed, floor, -floor), play = between(seed, 0.1e-3, 2e-3);
+    ld_surface_shape shape = chance(seed, 0.5) ? LD_SURFACE_FLAT : LD_SURFACE_ROUND;
+    guide->form = LD_GUIDE_SURFACES;
+    guide->surface_count = chance(seed, 0.8) ? 6 : 4;
+    for (int k = 0; k < 6; k++) {
+        double side = k % 2 ? 1 : -1;
+        guide->surface[k] =
+            k < 2   ? (ld_surface){.at = {floor, side * width}, .normal = 180 * degree}
+            : k < 4 ? (ld_surface){.at = {wall, side * (width + 0.02)},
+                                   .normal = side * 90 * degree,
+                                   .gap = play,
+                                   .shape = shape}
+                    : (ld_surface){.at = {-floor, side * width}, .gap = between(seed, 0, 2e-3)};
+    }
+    if (chance(seed, 0.5))
+        model->base.elevation = (90 - pow(10, between(seed, -3, 0))) * degree;
+    for (int i = 0; i < model->rocket.adaptor_count && chance(seed, 0.8); i++)
+        model->rocket.adaptor[i].clearance = NAN;
+}
+
+typedef void draw_model(uint64_t *seed, ld_model *model);
+
 typedef struct rest_count {
     int found, none, untrue, above;
 } rest_count;
@@ -346,15 +375,16 @@ static double would_sink(const launch_state *launch, const double *y, v3 gravity
 }
 
 // Symmetric to the plane of the weight it may stand at the top of a hill, where nothing pulls it;
-// upright of any hill, else of one not far from where it would come to rest.
+// upright, or almost so with the floor below it, of any hill, else of one not far from where it
+// would come to rest.
 static bool may_stand_on_top(const ld_model *model, double sinks)
 {
-    bool upright = model->base.elevation == 90 * degree && model->rocket.eccentricity[0] == 0;
+    bool upright = model->base.elevation >= 89 * degree && model->rocket.eccentricity[0] == 0;
     bool symmetric = model->base.roll.term[0].amplitude == 0 && model->rocket.eccentricity[1] == 0;
     return symmetric && (upright || sinks < INFINITY);
 }
 
-static void check_random_rest(uint64_t seed, rest_count *count)
+static void check_random_rest(uint64_t seed, draw_model *draw_one, rest_count *count)
 {
     ld_model model;
     fresh_launch launch;
@@ -362,7 +392,7 @@ static void check_random_rest(uint64_t seed, rest_count *count)
     ld_error error;
     double y[LD_MAX_STATES];
     int number = (int)seed;
-    draw_resting(&seed, &model);
+    draw_one(&seed, &model);
     fresh_launch_make(&launch, &model);
     v3 gravity = gravity_in_guide(&model);
     bool locked = model.rocket.lock.present || gravity.x > 0;
@@ -386,21 +416,34 @@ static void check_random_rest(uint64_t seed, rest_count *count)
 }
 
 // Rockets start where a rigid one on a rigid guide has its least energy, as far as one can see from
-// there; those that are refused have no such place at hand.
-static void rests_are_found(void **state)
+// there; those that are refused have no such place at hand. Two more were once refused untruly.
+static void check_random_rests(draw_model *draw_one, const uint64_t refused_once[2])
 {
-    (void)state;
     const char *asked = getenv("LD_RESTS"), *first = getenv("LD_FIRST_REST");
     int count = asked ? atoi(asked) : 12, from = first ? atoi(first) : 1;
     rest_count found = {0};
     for (int n = from; n < from + count; n++)
-        check_random_rest((uint64_t)n, &found);
+        check_random_rest((uint64_t)n, draw_one, &found);
+    for (int i = 0; i < 2; i++)
+        check_random_rest(refused_once[i], draw_one, &found);
     printf("  %d rockets come to rest, %d do not\n", found.found, found.none);
     CHECK_BELOW("refused untruly", found.untrue, 0);
     CHECK_BELOW("that would sink on by 20 um", found.above, 0);
 }
 
-// The same state in the bore and between four rails, of which the lowest is touched.
+static void rests_are_found(void **state)
+{
+    (void)state;
+    // between kinks; half a turn from its centred place in a tower
+    check_random_rests(draw_resting, (uint64_t[]){71, 393});
+}
+
+static void rests_in_channels_are_found(void **state)
+{
+    (void)state;
+    check_random_rests(draw_channel, (uint64_t[]){65, 159});
+}
+
 static void rails_are_the_bore(void **state)
 {
     (void)state;
@@ -499,8 +542,10 @@ int main(void)
         cmocka_unit_test(lips_carry_a_couple),      cmocka_unit_test(rests_on_opposite_lips),
         cmocka_unit_test(rests_beside_the_rail),    cmocka_unit_test(rests_on_unlike_shoes),
         cmocka_unit_test(rests_upright_in_a_tower), cmocka_unit_test(touches_without_play),
-        cmocka_unit_test(rests_are_found),          cmocka_unit_test(rails_are_the_bore),
-        cmocka_unit_test(contact_loses_nothing),
+        cmocka_unit_test(rests_are_found),          cmocka_unit_test(rests_in_channels_are_found),
+        cmocka_unit_test(rails_are_the_bore),       cmocka_unit_test(contact_loses_nothing),
     };
+    if (getenv("TMPF"))
+        cmocka_set_test_filter(getenv("TMPF"));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
