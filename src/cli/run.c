@@ -57,7 +57,11 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
     ld_status written = output ? ld_output_finish(output, summary, &problem) : LD_OK;
     if (output && !written)
         command_step("wrote %s", wishes->folder);
-    if (!written)
+    // of a start that is refused there is nothing to tell but the reason
+    double steps = 0;
+    bool refused =
+        status && !ld_summary_number(summary, "statistics.steps", &steps, NULL) && !(steps > 0);
+    if (!written && !refused)
         written = print_summary(model, summary, wishes->json != 0, &problem);
     if (!written)
         return status;

@@ -128,7 +128,7 @@ static void print_cost(const ld_summary *summary, bool launch, FILE *stream)
 {
     const ld_statistics *statistics = &summary->statistics;
     fputs("\nRun\n", stream);
-    if (launch)
+    if (launch && isfinite(summary->energy.residual))
         fprintf(stream, "  %-22s %12.3e J, %.1e of the largest work\n", "energy balance misses",
                 summary->energy.residual, summary->energy.residual_relative);
     fprintf(stream, "  %-22s %12lld, %lld evaluations\n", "steps", (long long)statistics->steps,
@@ -146,7 +146,8 @@ void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *st
     fprintf(stream, "%s\n", model->title && *model->title ? VISIBLE(model->title) : unnamed);
     if (launch) {
         print_modes(model, summary, stream);
-        fputs("\nEquilibrium at the start\n", stream);
+        if (isfinite(summary->equilibrium.residual))
+            fputs("\nEquilibrium at the start\n", stream);
         print_block(&run_quantities, &things, summary, SHOWN_EQUILIBRIUM, "", stream);
     }
     for (int i = 0; i < summary->rocket_count; i++) {

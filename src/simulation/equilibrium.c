@@ -1,4 +1,5 @@
 // The start of a launch: undeformed, or in static equilibrium found by Newton's method.
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -928,6 +929,15 @@ static const char *held_by_one(const launching_phase *phase, int adaptors)
     return inside < 2 ? "only the rear adaptor is in the tube" : NULL;
 }
 
+// What Newton's method came down to [m/s2], for a message; nothing where it met no finite number.
+static const char *smallest_residual(double best, char text[64])
+{
+    text[0] = 0;
+    if (isfinite(best))
+        snprintf(text, 64, " (smallest residual %.3g m/s2)", best);
+    return text;
+}
+
 static double accepted_residual(const launch_state *self)
 {
     return 1e-6 * (1 + self->model->gravity);
@@ -1056,12 +1066,13 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
     double accepted = accepted_at(&whole, start);
     double best = find_start(self, &whole, &phase, start, &carried, accepted, y);
     free(whole.jacobian);
+    char left[64];
     if (!(best <= accepted))
         return ld_fail(
             error, LD_ERR_NUMERIC,
-            "run.start: no static equilibrium was found (smallest residual %.3g m/s2): is the "
-            "rocket held by gravity on two adaptors? \"run.start: undeformed\" starts without it",
-            best);
+            "run.start: no static equilibrium was found%s: is the rocket held by gravity on two "
+            "adaptors? \"run.start: undeformed\" starts without it",
+            smallest_residual(best, left));
     status = check_carried(&whole, y, accepted, error);
     if (!status)
         status = keep_rest(self, t, y, error);
@@ -1205,11 +1216,12 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     double accepted = accepted_at(&tube, still);
     double best = find_start(self, &tube, &phase, still, &carried, accepted, found);
     free(tube.jacobian);
+    char left[64];
     if (!(best <= accepted))
-        return ld_fail(error, LD_ERR_NUMERIC,
-                       "tube %d finds no static equilibrium when it takes its place at t = %.6g s "
-                       "(smallest residual %.3g m/s2)",
-                       self->model->firing[next].tube, t, best);
+        return ld_fail(
+            error, LD_ERR_NUMERIC,
+            "tube %d finds no static equilibrium when it takes its place at t = %.6g s%s",
+            self->model->firing[next].tube, t, smallest_residual(best, left));
     status = check_carried(&tube, found, accepted, error);
     if (status)
         return status;

@@ -39,6 +39,40 @@ static ld_status find_start(ld_run *run, double *y)
     return simulation_start(self, run->t_start, y, &run->summary.equilibrium, &run->error);
 }
 
+static void no_numbers(double *to, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] = NAN;
+}
+
+// No equilibrium: that of a start which has none, or not yet.
+static void forget_equilibrium(ld_equilibrium_summary *rest)
+{
+    *rest = (ld_equilibrium_summary){
+        .lock_force = NAN, .breech_force = NAN, .slot_force = NAN, .residual = NAN};
+    no_numbers(rest->contact_force, LD_MAX_ADAPTORS);
+    no_numbers(rest->tip_sag, 2);
+    for (int j = 0; j < LD_MAX_WHEELS; j++) {
+        rest->wheel[j].tyre_force = rest->wheel[j].tyre_deflection = NAN;
+        no_numbers(rest->wheel[j].suspension, 3);
+    }
+    rest->chassis.y = rest->chassis.pitch = rest->chassis.roll = NAN;
+    for (int i = 0; i < HINGES; i++)
+        rest->hinge[i].angle = rest->hinge[i].torque = NAN;
+}
+
+// A run that finds no start leaves no number as if computed.
+static void forget_start(ld_summary *summary)
+{
+    ld_energy *energy = &summary->energy;
+    energy->kinetic = energy->potential = energy->elastic = NAN;
+    energy->residual = energy->residual_relative = NAN;
+    no_numbers(energy->work, LD_MAX_WORKS);
+    ld_rocket_summary *rocket = &summary->rocket[0];
+    no_numbers(rocket->max_contact_force, LD_MAX_ADAPTORS);
+    rocket->max_slot_force = rocket->energy_dropped = NAN;
+}
+
 bool launch_is_finished(const ld_run *run)
 {
     const launch_state *self = &run->launch;
@@ -227,11 +261,14 @@ ld_status launch_begin(ld_run *run)
     run->last_row = run->told_at = NAN;
     run->summary.t_end = run->t_start;
     set_up_rocket(run, 0, run->t_start);
+    forget_equilibrium(&run->summary.equilibrium);
     ld_status status = launch_check_base(run, run->t_start);
     if (!status)
         status = launch_begin_base(run);
     if (!status)
         status = find_start(run, y);
+    if (status)
+        forget_start(&run->summary);
     if (!status)
         status = launch_open_output(run);
     if (status)

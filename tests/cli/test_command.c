@@ -202,6 +202,21 @@ static void test_set_overrides(void **state)
     "{ echo 'include: examples/fixed.yaml'; "                                                      \
     "echo 'sweep: {rocket.empty.mass: [30 kg, " mass " kg]}'; } >sweep.yaml; "
 
+// A start that is refused leaves no number as if computed, and its reason stands once.
+static void test_refused_start(void **state)
+{
+    (void)state;
+    expect_complaint("launchdyn run examples/fixed.yaml --set rocket.start_at=2m --out refused", 1,
+                     "rocket.start_at: no static equilibrium");
+    assert_string_equal(shell.out, "");
+    assert_int_equal(run("grep -q '\"slot_force\": null' refused/summary.json && "
+                         "grep -q '\"max_slot_force\": null' refused/summary.json && "
+                         "grep -q '\"thrust\": null' refused/summary.json"),
+                     0);
+    assert_int_equal(run("launchdyn run examples/fixed.yaml --set run.start=undeformed"), 0);
+    assert_null(strstr(shell.out, "Equilibrium at the start"));
+}
+
 static void test_check_of_a_sweep(void **state)
 {
     (void)state;
@@ -750,6 +765,7 @@ int main(void)
         TEST(test_report),
         TEST(test_table_alone_writes_nothing),
         TEST(test_set_overrides),
+        TEST(test_refused_start),
         TEST(test_check_of_a_sweep),
         TEST(test_bad_input_leaves_nothing),
         TEST(test_places_that_cannot_be_written),
