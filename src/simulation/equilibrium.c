@@ -771,7 +771,8 @@ static double find_beside(problem *the, const double *start, double depth, const
     find_carried(the, found, carried);
     for (int i = 0; i < 2; i++) {
         reached = newton_fine(the, found, accepted, y);
-        reached = fmin(reached, newton(the, y));
+        for (int again = 0; again < 3; again++) // each ends at the first small gain
+            reached = fmin(reached, newton(the, y));
         if (is_at_rest(the, y, reached, accepted))
             break;
         memcpy(the->rest, found + self->launcher.launching.layout.x + X_Y, sizeof the->rest);
