@@ -803,6 +803,37 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
     return next;
 }
 
+// Whether a rocket that leans in an upright guide would also rest on its other side: started there,
+// mirrored at the guide line, it stays away from where it rests in y.
+static void look_elsewhere(const problem *the, const double *start, double accepted,
+                           const double *y, ld_equilibrium_summary *summary)
+{
+    enum { PLACES = sizeof summary->taken / sizeof *summary->taken };
+    const double apart = 1e-5; // [m, rad]
+    const launch_state *self = the->self;
+    const launching_system *launching = &self->launcher.launching;
+    const double *x = y + launching->layout.x,
+                 line[SHOE_FREEDOMS] = {launching->surfaces.line_y, launching->surfaces.line_z};
+    double mirror[SHOE_FREEDOMS] = {0}, found[LD_MAX_STATES], off = 0;
+    for (int i = 0; i < PLACES; i++) {
+        mirror[i] = line[i] - x[X_Y + i];
+        off = fmax(off, fabs(mirror[i]));
+    }
+    if (!launching->surfaces.count || !is_upright(the, start) || off < apart)
+        return;
+    problem other = *the;
+    carried_directions carried;
+    double depth = self->rocket->start_at - x[X_S];
+    double reached = find_beside(&other, start, depth, mirror, &carried, accepted, found);
+    if (!is_at_rest(&other, found, reached, accepted))
+        return;
+    for (int i = 0; i < PLACES; i++) {
+        summary->taken[i] = x[X_Y + i] - line[i];
+        summary->other[i] = found[launching->layout.x + X_Y + i] - line[i];
+        summary->rests_elsewhere |= fabs(summary->other[i] - summary->taken[i]) > apart;
+    }
+}
+
 // Says so where gravity, or the air with it, pulls the rocket along a direction in which nothing
 // carries it.
 static ld_status check_carried(const problem *the, const double *y, double accepted,
@@ -1066,21 +1097,23 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
     carried_directions carried;
     double accepted = accepted_at(&whole, start);
     double best = find_start(self, &whole, &phase, start, &carried, accepted, y);
-    free(whole.jacobian);
     char left[64];
     if (!(best <= accepted))
-        return ld_fail(
+        status = ld_fail(
             error, LD_ERR_NUMERIC,
             "run.start: no static equilibrium was found%s: is the rocket held by gravity on two "
             "adaptors? \"run.start: undeformed\" starts without it",
             smallest_residual(best, left));
-    status = check_carried(&whole, y, accepted, error);
+    if (!status)
+        status = check_carried(&whole, y, accepted, error);
     if (!status)
         status = keep_rest(self, t, y, error);
-    if (status)
-        return status;
-    report(&whole, y, summary);
-    return LD_OK;
+    if (!status) {
+        report(&whole, y, summary);
+        look_elsewhere(&whole, start, accepted, y, summary);
+    }
+    free(whole.jacobian);
+    return status;
 }
 
 ld_status simulation_equilibrium(launch_state *self, double t, double *y,

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/printed.h"
 #include "math/functions.h"
 #include "simulation/launch_run.h"
 
@@ -216,6 +217,25 @@ static void note_formulation(const launch_state *self, ld_summary *summary)
 }
 
 // Of a launch that came to its end, the first measure that has no value.
+// [mm, mrad]
+static double printed_milli(double value)
+{
+    return printed_fixed(1e3 * value, 3);
+}
+
+static void note_rests(ld_summary *summary)
+{
+    const double *taken = summary->equilibrium.taken, *other = summary->equilibrium.other;
+    if (summary->equilibrium.rests_elsewhere)
+        simulation_note(summary,
+                        "the rocket has two rests in its guide: the run begins with its rear at "
+                        "y, z = %.3f, %.3f mm, turned by psi, theta = %.3f, %.3f mrad; the other "
+                        "is %.3f, %.3f mm, %.3f, %.3f mrad",
+                        printed_milli(taken[0]), printed_milli(taken[1]), printed_milli(taken[2]),
+                        printed_milli(taken[3]), printed_milli(other[0]), printed_milli(other[1]),
+                        printed_milli(other[2]), printed_milli(other[3]));
+}
+
 static void note_measures(ld_run *run)
 {
     const ld_model *model = run->launch.model;
@@ -274,6 +294,7 @@ void launch_summarise(ld_run *run)
     note_vertical(summary);
     note_measures(run);
     exit_error_note(run);
+    note_rests(summary);
     if (self->system->growing.real > 0)
         simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
                         self->system->growing.real, self->system->growing.shape);

@@ -195,6 +195,8 @@ typedef struct ld_equilibrium_summary {
     double contact_force[LD_MAX_ADAPTORS]; ///< [N] normal
     double tip_sag[2];                     ///< [m] y, z of the tip, undeformed tube axes
     double residual;                       ///< [m/s2, rad/s2] largest acceleration at rest
+    bool rests_elsewhere;                  ///< the rocket has another rest in its guide
+    double taken[4], other[4];             ///< [m, rad] y_S, z_S, psi, theta of both
     int wheel_count;                       ///< 0: the base is no vehicle
     struct {
         double tyre_force;      ///< [N] vertical
