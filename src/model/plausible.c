@@ -233,39 +233,76 @@ void plausible_look(const ld_model *model, plausible_report *report, void *self)
 
 // ---- the document
 
-static void write_bound(FILE *stream, const char *word, double bound, const plausible_rule *rule)
+static const char azimuth[] = "platform.azimuth", elevation[] = "platform.elevation";
+
+static bool is_of_elevation(const plausible_rule *rule)
+{
+    return strncmp(rule->path, elevation, strlen(elevation)) == 0;
+}
+
+// Whether it is a rule of the azimuth's hinge that the elevation's has, too.
+static bool is_of_both(const plausible_rule *rule)
+{
+    if (strncmp(rule->path, azimuth, strlen(azimuth)) != 0)
+        return false;
+    for (int i = 0; i < TABLES; i++)
+        for (const plausible_rule *r = tables[i]; r->path; r++)
+            if (is_of_elevation(r) &&
+                strcmp(r->path + strlen(elevation), rule->path + strlen(azimuth)) == 0 &&
+                strcmp(r->what ? r->what : "", rule->what ? rule->what : "") == 0)
+                return true;
+    return false;
+}
+
+// A key's path with N for the entries of lists, both hinges of the platform as one; or words.
+static void write_path(FILE *stream, const plausible_rule *rule, const char *path)
+{
+    char text[LD_MAX_PATH];
+    put_entry(text, path, "N");
+    if (strchr(text, ' '))
+        fprintf(stream, "%s", text);
+    else if (is_of_both(rule) && strncmp(text, azimuth, strlen(azimuth)) == 0)
+        fprintf(stream, "`%s, elevation%s`", azimuth, text + strlen(azimuth));
+    else
+        fprintf(stream, "`%s`", text);
+}
+
+static void write_bounds(FILE *stream, const plausible_rule *rule)
 {
     bool angle = strcmp(rule->unit, "rad") == 0 && !rule->other;
-    fprintf(stream, "%s %.5g", word, angle ? bound * 180 / 3.14159265358979323846 : bound);
-    if (rule->other)
-        fprintf(stream, " times");
+    double scale = angle ? 180 / 3.14159265358979323846 : 1;
+    bool low = isfinite(rule->low), high = isfinite(rule->high);
+    if (low && high)
+        fprintf(stream, "%.5g to ", rule->low * scale);
     else
+        fprintf(stream, low ? "at least " : "at most ");
+    double last = high ? rule->high : rule->low;
+    bool once = rule->other && last == 1 && !(low && high);
+    if (!once)
+        fprintf(stream, "%.5g", last * scale);
+    if (rule->other) {
+        fprintf(stream, once ? "" : " times ");
+        write_path(stream, rule, rule->other);
+    } else {
         fprintf(stream, "%s%s", rule->unit[0] ? " " : "", angle ? "deg" : rule->unit);
+    }
 }
 
 static void write_rule(FILE *stream, const plausible_rule *rule)
 {
-    char path[LD_MAX_PATH], other[LD_MAX_PATH] = "";
-    bool words = rule->other && strchr(rule->other, ' ');
-    put_entry(path, rule->path, "N");
-    if (rule->other)
-        put_entry(other, rule->other, "N");
-    fprintf(stream, "| `%s`%s%s | ", path, rule->what ? ": " : "", rule->what ? rule->what : "");
-    if (isfinite(rule->low))
-        write_bound(stream, "below", rule->low, rule);
-    fprintf(stream, isfinite(rule->low) && isfinite(rule->high) ? ", " : "");
-    if (isfinite(rule->high))
-        write_bound(stream, "above", rule->high, rule);
-    if (rule->other)
-        fprintf(stream, words ? " %s" : " `%s`", other);
+    fprintf(stream, "| ");
+    write_path(stream, rule, rule->path);
+    fprintf(stream, "%s%s | ", rule->what ? ": " : "", rule->what ? rule->what : "");
+    write_bounds(stream, rule);
     fprintf(stream, " | %s |\n", rule->why);
 }
 
 void plausible_write_markdown(FILE *stream)
 {
-    fprintf(stream, "\n| key | noted | why |\n| --- | --- | --- |\n");
+    fprintf(stream, "\n| key | expected | why |\n| --- | --- | --- |\n");
     for (int i = 0; i < TABLES; i++)
         for (const plausible_rule *rule = tables[i]; rule->path; rule++)
-            write_rule(stream, rule);
+            if (!is_of_elevation(rule))
+                write_rule(stream, rule);
     fprintf(stream, "\n");
 }

@@ -82,7 +82,7 @@ OF_LOOP(backlash, loop->given->gear.backlash, loop->given->torque_limit / loop->
      .why = "an actuator as slow as its loop swings"},                                             \
     {STABILISER(name) ".slew", "the time in which the torque reaches its limit", .unit = "s",      \
      NO_LOW, .high = 0.3, .find = name##_slew_time,                                                \
-     .why = "large motions then swing ever farther, which no check before the run tells"},         \
+     .why = "large motions then grow; no check before the run detects it"},         \
     {STABILISER(name) ".sample", RATE_TIME, NO_LOW, .high = 2, .find = name##_sample,              \
      .why = "the loop swings from sample to sample"},                                  \
     {STABILISER(name) ".sample", .unit = "s", .other = "run.max_step", .low = 0.1, NO_HIGH,        \

@@ -324,7 +324,7 @@ OF_PLATFORM(elevation, 2)
          .low = 0.005,                                                                             \
          .high = 1,                                                                                \
          .find = name##_gyration,                                                                  \
-         .why = "the platform is on the vehicle, and no point"},                                   \
+         .why = "the platform is on the vehicle and has a size"},                                  \
         {"platform." #name ".stabiliser.kp",                                                       \
          "the frequency of the hinge",                                                             \
          .unit = "Hz",                                                                             \
@@ -379,9 +379,8 @@ OF_PLATFORM(elevation, 2)
          .high = 0.5,                                                                              \
          .why = "friction takes most of the torque"},                                              \
     {                                                                                              \
-        "platform." #name ".friction.rate",                                                        \
-            .unit = "rad/s", NO_LOW, .high = 0.1,                                                  \
-            .why = "it is there to make friction smooth about rest"                                \
+        "platform." #name ".friction.rate", .unit = "rad/s", NO_LOW, .high = 0.1,                  \
+                                            .why = "it only smooths friction about rest"           \
     }
 
 const plausible_rule plausible_of_vehicle[] = {
@@ -426,7 +425,7 @@ const plausible_rule plausible_of_vehicle[] = {
     {"base.road.sines.#.amplitude", .unit = "m", .other = "base.road.sines.#.wavelength",
      .low = -0.2, .high = 0.2, .why = "that is steeper than any road"},
     {"base.road.bumps.#.height", .unit = "m", .other = "base.road.bumps.#.length", .low = -0.5,
-     .high = 0.5, .why = "that is a wall"},
+     .high = 0.5, .why = "a bump so steep is a wall"},
     {"base.road.wavelengths.y", .unit = "m", .other = "base.tyre.radius", .low = 0.02, NO_HIGH,
      .why = "a tyre swallows what is so short"},
     {"platform.chassis.mass", .unit = "kg",

@@ -546,8 +546,8 @@ static const field_row base_fields[] = {
      .doc = "between each wheel and the road"},
     {"extrapolation", CHOICE(ld_base, extrapolation, extrapolation_words),
      DEFAULT(LD_EXTRAPOLATION_ACCELERATION), .forms = EXTERNAL,
-     .doc = "how it goes on between two instants at which it is told: with the acceleration of its "
-            "last two velocities, or with the last velocity"},
+     .doc = "motion between two reports: with the acceleration of the last two velocities, or with "
+            "the last velocity"},
     {"digest", .kind = FIELD_TEXT, .offset = offsetof(ld_base, fmu.digest), .forms = FMU,
      .initial_doc = "that of the file",
      .doc = "of the FMU's file, as results have it: another file is refused"},
@@ -557,15 +557,15 @@ static const field_row base_fields[] = {
     {"step", NUMBER(ld_base, fmu.step, "s"), ABOVE_TO(0, 1), REQUIRED, .forms = FMU,
      .doc = "time between two exchanges of pose and wrench, counted from the run's start"},
     {"inputs", CHOICE(ld_base, fmu.inputs, inputs_words), DEFAULT(LD_FMU_HELD), .forms = FMU,
-     .doc = "what it does with them between: `held`, then it is given the mean over the step to "
-            "come as the last two wrenches tell it; `extrapolated` by itself, then the wrench"},
+     .doc =
+         "how the FMU uses them during a step: `held`, and it receives the mean wrench "
+         "extrapolated over the step; `extrapolated` by the FMU, and it receives the last wrench"},
     {"connect", SAME_STRUCT(connect_block), .forms = FMU, .initial_doc = "as below",
      .doc = "names of the FMU's variables, with blanks between"},
     {"rate_axes", CHOICE(ld_base, fmu.rate_axes, axes_words), DEFAULT(LD_FMU_AXES_OF_I),
-     .forms = FMU, .doc = "in which it tells its angular velocity: those of I, or its own"},
+     .forms = FMU, .doc = "axes of the angular velocity that it reports: those of I, or its own"},
     {"at", VECTOR(ld_base, at, "m", 3), ANY, DEFAULT(0), .forms = FORM(LD_BASE_PRESCRIBED) | FMU,
-     .doc = "rear end of the undeformed tube in the frame that moves as said, or that the FMU "
-            "tells"},
+     .doc = "rear end of the undeformed tube in the frame of the prescribed motion or of the FMU"},
     {"parameters",
      LIST(ld_base, fmu.parameter, fmu.parameter_count, fmu_parameter_block, 0,
           LD_MAX_FMU_PARAMETERS),
@@ -577,7 +577,7 @@ static const field_row base_fields[] = {
      .forms = FMU, .doc = "longest that one call of it may take"},
     {"looks", CHOICE(ld_base, looks, looks_words), DEFAULT(LD_LOOKS_PLAIN),
      .forms = FIXED_OR_PRESCRIBED | EXTERNAL | FMU,
-     .doc = "what the replay draws it as: a plate with posts, a ship, an aircraft; no mechanics"},
+     .doc = "appearance in the replay: a plate with posts, a ship, an aircraft"},
     {0}};
 static const field_block base_block = {.fields = base_fields,
                                        .form = base_words,
@@ -829,7 +829,7 @@ static const field_row modes_fields[] = {
     {"elements", INTEGER(ld_modes, elements, 2, 400), DEFAULT(60),
      .doc = "finite elements along the tube, at least (section steps add nodes)"},
     {"span", CHOICE(ld_modes, span, span_words), DEFAULT(LD_SPAN_SUPPORTED),
-     .doc = "what the modes are the modes of: tube and tail on the support springs, clamped at "
+     .doc = "boundary conditions of the modes: tube and tail on the support springs, clamped at "
             "the rear end, or free"},
     {"damping", NUMBER(ld_modes, damping, ""), FROM_TO(0, 1), DEFAULT(0),
      .doc = "damping ratio of the clamped modes of the bare tube"},
@@ -1022,7 +1022,7 @@ static const field_row tubes_fields[] = {
      .required = true, .doc = "stretches of constant section, the first from 0 m"},
     {"point_masses",
      LIST(ld_tubes, point_mass, point_mass_count, point_mass_block, 0, LD_MAX_POINT_MASSES),
-     .initial_doc = "none", .doc = "guide rings and the like"},
+     .initial_doc = "none", .doc = "guide rings and other small masses"},
     {"material", BLOCK(ld_tubes, material, material_block), .initial_doc = "none",
      .doc = "for sections given by radii or by area"},
     {"modes", BLOCK(ld_tubes, modes, modes_block), .initial_doc = "as below",
@@ -1033,8 +1033,8 @@ static const field_row tubes_fields[] = {
      .required = true, .doc = "spring-dampers between tube and base"},
     {"loads", LIST(ld_tubes, station, station_count, station_block, 0, LD_MAX_STATIONS),
      .silent = true, .initial_doc = "none",
-     .doc = "stations at which forces, moments and stress that the tube carries are told, and with "
-            "them what each support puts on it"},
+     .doc = "stations whose section forces, moments and stress are output, and the forces of each "
+            "support"},
     {"slot", BLOCK(ld_tubes, slot, slot_block), .required = true,
      SWITCH(ld_tubes, slot.kind, slot_words),
      .doc = "slot that the rocket's knob follows; `none`: smooth bore"},
@@ -1115,10 +1115,10 @@ static const field_word hold_words[] = {
     {"by-guide", LD_HOLD_BY_GUIDE}, {"yes", LD_HOLD_YES}, {"no", LD_HOLD_NO}, {NULL, 0}};
 static const field_row lock_fields[] = {
     {"release_force", NUMBER(ld_lock, release_force, "N"), POSITIVE, REQUIRED,
-     .doc = "carried force at which it lets go"},
+     .doc = "carried force at which it releases"},
     {"hold_down", NUMBER(ld_lock, hold_down, "s"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "from ignition, before which it lets go under no force; 0 s: under the release force "
-            "at any time"},
+     .doc = "time from ignition before which it never releases; 0 s: it releases at the release "
+            "force at any time"},
     {"at", SAME_STRUCT(lock_at_block), .initial_doc = "the rear adaptor's centre",
      .doc = "point of the rocket that it holds along the tube"},
     {"holds_roll", CHOICE(ld_lock, holds_roll, hold_words), DEFAULT(LD_HOLD_BY_GUIDE),
@@ -1154,8 +1154,7 @@ static const field_row motor_fields[] = {
     {"time_scale", NUMBER(ld_motor, time_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
      .doc = "factor on the times of the table"},
     {"jet_damping", CHOICE(ld_motor, jet_damping, jet_damping_words), DEFAULT(LD_JET_DAMPING_NO),
-     .doc = "in free flight, what the gas that flows takes along of the rocket's turning, and the "
-            "rates of mass, centre and inertia"},
+     .doc = "in free flight, jet damping and the rates of mass, centre and inertia"},
     {"exit_radius", NUMBER(ld_motor, exit_radius, "m"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "of the nozzle, for jet damping"},
     {"masses", TABLE(ld_motor, masses, masses_table), .initial_doc = "none",
@@ -1590,7 +1589,7 @@ static const field_block output_step_block = {.fields = output_step_fields, .sha
 
 static const field_row coupling_fields[] = {
     {"step", NUMBER(ld_run_settings, coupling_step, "s"), FROM_TO(0, 0.01), .required = true,
-     .doc = "between the instants at which they exchange; 0 s: integrated together"},
+     .doc = "between exchanges; 0 s: monolithic integration"},
     {0}};
 static const field_block coupling_block = {.fields = coupling_fields};
 
@@ -1617,8 +1616,8 @@ static const field_row run_fields[] = {
      .doc = "time before t = 0"},
     {"lead_in_method", CHOICE(ld_run_settings, lead_in_method, lead_in_words),
      DEFAULT(LD_LEAD_IN_EXPONENTIAL),
-     .doc = "steps while no rocket is driven through its tube: those of the tube, or long ones by "
-            "the linearised equations"},
+     .doc = "steps while no rocket moves in its tube: as in the tube, or long ones by the "
+            "linearised equations"},
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
      .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
      .doc =
@@ -1629,17 +1628,17 @@ static const field_row run_fields[] = {
      .doc = "relative tolerance of the integrator"},
     {"max_step", NUMBER(ld_run_settings, max_step, "s"), FROM_TO(1e-7, 1),
      NO_DEFAULT("0.2 ms, times (tolerance/1e-5)^(1/5) above 1e-5"),
-     .doc = "longest step in the tube; a longer one may pass over a touch"},
+     .doc = "longest step in the tube; a longer one can miss a short contact"},
     {"exit_error", CHOICE(ld_run_settings, exit_error, exit_error_words),
      DEFAULT(LD_EXIT_ERROR_YES),
-     .doc = "whether a run estimates how far its steps leave the rates at the exit off"},
+     .doc = "whether a run estimates the integration error of the exit rates"},
     {"output_step", SAME_STRUCT(output_step_block), .initial_doc = "as below",
      .doc = "time between rows of the history; one value for all, or one each"},
     {"stuck_time", NUMBER(ld_run_settings, stuck_time, "s"), ABOVE_TO(0, 10000),
      NO_DEFAULT("end of the thrust table + 1 s"),
      .doc = "after ignition, when a rocket still in the tube is given up"},
     {"coupling", SAME_STRUCT(coupling_block), .initial_doc = "none",
-     .doc = "the subsystems of a vehicle integrated apart"},
+     .doc = "partitioned integration of the subsystems of a vehicle"},
     {"flight_limit", NUMBER(ld_run_settings, flight_limit, "s"), ABOVE_TO(0, 1e5), DEFAULT(600),
      .doc = "longest free flight"},
     {"flight_tolerance", NUMBER(ld_run_settings, flight_tolerance, ""), FROM_TO(1e-14, 1e-2),
@@ -1717,7 +1716,7 @@ static const field_row scenario_fields[] = {
     {"title", .kind = FIELD_TEXT, .offset = offsetof(ld_model, title), .initial_doc = "none",
      .doc = "one line that names the scenario"},
     {"environment", SAME_STRUCT(environment_block), .initial_doc = "as below",
-     .doc = "gravity and the like"},
+     .doc = "gravity, Earth, air and wind"},
     {"base", BLOCK(ld_model, base, base_block), .required = true, IN_TUBE,
      .doc = "what carries the tube"},
     {"platform", BLOCK(ld_model, platform, platform_block), .required = true, .forms = VEHICLE,
@@ -1727,9 +1726,9 @@ static const field_row scenario_fields[] = {
     {"rocket", SAME_STRUCT(rocket_block), .required = true, .doc = "the rocket"},
     {"firing", LIST(ld_model, firing, firing_count, firing_block, 1, LD_MAX_FIRINGS),
      .alternative = &firing_order, IN_TUBE, .initial_doc = "tube 1 at 0 s",
-     .doc = "which tube fires when, one after the other"},
+     .doc = "tubes and their ignition times"},
     {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
-     .doc = "how it is simulated"},
+     .doc = "start, end, tolerances, output"},
     {"measures", LIST(ld_model, measure, measure_count, measure_block, 0, LD_MAX_MEASURES),
      .silent = true, .initial_doc = "none",
      .doc = "results besides those that every run has (Measures, above)"},

@@ -54,7 +54,7 @@ static void test_document_matches_tables(void **state)
 static void test_document_has_all_notes(void **state)
 {
     (void)state;
-    check_part("notes", plausible_write_markdown);
+    check_part("warnings", plausible_write_markdown);
 }
 
 static int check_block(const field_block *block)
