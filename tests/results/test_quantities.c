@@ -317,18 +317,21 @@ static void write_document(FILE *stream)
 {
     fputs(
         "# Quantities\n\n"
-        "What a run tells, as the program's tables have it: `ctest -R results.quantities` holds "
-        "this document to them.\n"
-        "All is in SI and radians. Frames and signs are those of [model.md](model.md): I inertial, "
-        "T the undeformed tube on its base\n"
-        "([results.md](results.md#against-the-launcher)), R the floating frame of the tube, S its "
-        "section at the rear adaptor, B the rocket.\n"
-        "NAME: of each adaptor or shoe, wheel, hinge (`azimuth`, `elevation`), parachute, modal "
-        "coordinate or [measure](scenario.md#measures), or the\n"
-        "number of a station, support or slide. Instants count from the rocket's ignition where "
-        "nothing else is said; what did not happen is\n"
-        "`null` or NaN. In `summary.json` a quantity stands under its name, where no other is "
-        "given; `study`: [studies](study.md) keep it.\n",
+        "Which numbers and columns does a run give? These tables are generated from the program's "
+        "own\n"
+        "(`ctest -R results.quantities`). All values are in SI and radians.\n\n"
+        "- Frames ([model.md](model.md)): I inertial, T the undeformed tube on its base\n"
+        "  ([results.md](results.md#against-the-launcher)), R the floating frame of the tube, S "
+        "its "
+        "section at the rear\n  adaptor, B the rocket.\n"
+        "- NAME is an adaptor or shoe, wheel, hinge (`azimuth`, `elevation`), parachute, modal "
+        "coordinate or\n  [measure](scenario.md#measures), or the number of a station, support or "
+        "slide.\n"
+        "- Instants count from the rocket's ignition unless stated; what did not happen is `null` "
+        "or "
+        "NaN.\n"
+        "- In `summary.json` a quantity has its own name unless another path is given. `study`: "
+        "[studies](study.md) keep it.\n",
         stream);
     write_table(stream, "Of a rocket (`rockets` of summary.json)", &rocket_quantities, true);
     write_table(stream, "Of the run", &run_quantities, true);
