@@ -294,12 +294,12 @@ static void write_rule(FILE *stream, const plausible_rule *rule)
     write_path(stream, rule, rule->path);
     fprintf(stream, "%s%s | ", rule->what ? ": " : "", rule->what ? rule->what : "");
     write_bounds(stream, rule);
-    fprintf(stream, " | %s |\n", rule->why);
+    fprintf(stream, " |\n");
 }
 
 void plausible_write_markdown(FILE *stream)
 {
-    fprintf(stream, "\n| key | expected | why |\n| --- | --- | --- |\n");
+    fprintf(stream, "\n| key | expected |\n| --- | --- |\n");
     for (int i = 0; i < TABLES; i++)
         for (const plausible_rule *rule = tables[i]; rule->path; rule++)
             if (!is_of_elevation(rule))
