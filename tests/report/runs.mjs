@@ -29,6 +29,7 @@ function valueAt(column, name, time) {
 async function checkCursor(page, runs) {
   const over = page.locator("#launch-tip .u-over").first(), values = "#launch-tip .panel:first-child .u-value";
   const box = await over.boundingBox();
+  await over.hover(); // what follows are moves within
   for (const share of [0.2, 0.5, 0.8]) {
     await over.hover({ position: { x: share * box.width, y: box.height / 2 } });
     await page.waitForFunction((cells) => document.querySelector(cells).textContent !== "–", values);
