@@ -47,7 +47,7 @@ static const command commands[] = {
                  "launchdyn study show out --what muzzle_speed,pitch_rate|Statistics of two "
                  "results\n"
                  "launchdyn study export out --csv all.csv|All rockets as a table\n"
-                 "launchdyn study export out --footprint safety.kml|Where landings lie, on a map",
+                 "launchdyn study export out --footprint safety.csv|Where 95, 99 and 99.9 % land",
      .run = command_study,
      .apart = true},
     {.name = "check",
