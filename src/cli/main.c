@@ -46,8 +46,7 @@ static const command commands[] = {
      .examples = "launchdyn study scenario.yaml --out out -j 4|Run or go on, four at a time\n"
                  "launchdyn study show out --what muzzle_speed,pitch_rate|Statistics of two "
                  "results\n"
-                 "launchdyn study export out --csv all.csv|All rockets as a table\n"
-                 "launchdyn study export out --footprint safety.csv|Where 95, 99 and 99.9 % land",
+                 "launchdyn study export out --csv all.csv|All rockets as a table",
      .run = command_study,
      .apart = true},
     {.name = "check",

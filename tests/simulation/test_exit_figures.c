@@ -349,7 +349,7 @@ static void test_same_launch_wherever_it_points(void **state)
     reference_model(&model);
     model.gravity = 0;
     model.run.start = LD_START_UNDEFORMED;
-    model.run.tolerance = 5e-9;
+    model.run.tolerance = 2e-9;
     model.rocket.eccentricity[0] = 1e-3;
     ld_summary first = summary_of_run(&model);
     for (size_t i = 0; i < sizeof pose / sizeof *pose; i++) {
