@@ -43,7 +43,7 @@ class TestLeaks(Case):
         for _ in range(repeats):
             work()
             used.append(in_use())
-        grown = np.median(np.diff(used[-10:]))
+        grown = np.median(np.diff(used[-2 * repeats // 3:]))
         print(f"{self.id().rpartition('.')[2]}: {grown:.0f} bytes a repeat")
         return grown
 
@@ -55,7 +55,7 @@ class TestLeaks(Case):
             result = read.run()
             str(result), read.to_yaml()
             return result["tip.y"].sum() + result.summary["rocket.1.muzzle_speed"]
-        self.assertLess(self.grows(work), 100)
+        self.assertLess(self.grows(work, 60), 100)
 
     def test_steps(self):
         moved = external()
